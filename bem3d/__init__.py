@@ -1,0 +1,24 @@
+"""Boundary elements for the frictionless contact of a rough elastic half-space in three dimensions.
+
+All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
+"""
+
+from bem3d.contact import Contact, ConvergenceError, Status
+from bem3d.frozen import FrozenContact, press_frozen
+from bem3d.halfspace import HalfSpace
+from bem3d.kernel import corner, love
+from bem3d.solver import solve
+from bem3d.surface import rough_surface
+
+__all__ = [
+    "Contact",
+    "ConvergenceError",
+    "FrozenContact",
+    "HalfSpace",
+    "Status",
+    "corner",
+    "love",
+    "press_frozen",
+    "rough_surface",
+    "solve",
+]

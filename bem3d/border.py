@@ -1,0 +1,100 @@
+"""What is checked where values enter: one clear sentence, or a value that can be trusted."""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+Spectrum = Callable[[FloatArray], FloatArray]
+
+
+def finite(name: str, value: object) -> float:
+    """A finite real number, or TypeError / ValueError."""
+    if isinstance(value, (bool, str, bytes)):
+        raise TypeError(f"{name} must be a real number, got {value!r}")
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be a real number, got {value!r}") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{name} must be finite, got {number}")
+    return number
+
+
+def positive(name: str, value: object) -> float:
+    """A finite number above zero."""
+    number = finite(name, value)
+    if number <= 0:
+        raise ValueError(f"{name} must be positive, got {number}")
+    return number
+
+
+def not_negative(name: str, value: object) -> float:
+    """A finite number, zero allowed."""
+    number = finite(name, value)
+    if number < 0:
+        raise ValueError(f"{name} must be zero or positive, got {number}")
+    return number
+
+
+def fraction(name: str, value: object) -> float:
+    """A number strictly between zero and one."""
+    number = finite(name, value)
+    if not 0 < number < 1:
+        raise ValueError(f"{name} must lie between 0 and 1, got {number}")
+    return number
+
+
+def count(name: str, value: object, *, least: int = 1) -> int:
+    """A whole number of at least ``least``."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"{name} must be a whole number, got {value!r}")
+    if value < least:
+        raise ValueError(f"{name} must be at least {least}, got {value}")
+    return int(value)
+
+
+def grid_shape(shape: object) -> tuple[int, int]:
+    """Cells along both axes."""
+    if not isinstance(shape, (Sequence, np.ndarray)) or isinstance(shape, str) or len(shape) != 2:
+        raise ValueError(f"shape must be two whole numbers (nx, ny), got {shape!r}")
+    return count("shape[0]", shape[0]), count("shape[1]", shape[1])
+
+
+def grid_spacing(spacing: object) -> tuple[float, float]:
+    """Cell sides (dx, dy) from one number or two."""
+    if not isinstance(spacing, (Sequence, np.ndarray)) or isinstance(spacing, str) or np.ndim(spacing) == 0:
+        side = positive("spacing", spacing)
+        return side, side
+    if len(spacing) != 2:
+        raise ValueError(f"spacing must be one number or two (dx, dy), got {spacing!r}")
+    return positive("spacing[0]", spacing[0]), positive("spacing[1]", spacing[1])
+
+
+def field(name: str, values: ArrayLike, shape: tuple[int, int]) -> FloatArray:
+    """Finite real values on the cells of a grid."""
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        raise ValueError(f"{name} must have shape {shape}, got rows of different length") from None
+    if given.dtype.kind not in "fiu":
+        raise TypeError(f"{name} must hold real numbers, got dtype {given.dtype}")
+    if given.shape != shape:
+        raise ValueError(f"{name} must have shape {shape}, got {given.shape}")
+    array = np.asarray(given, dtype=np.float64)
+    if not np.isfinite(array).all():
+        broken = np.count_nonzero(~np.isfinite(array))
+        raise ValueError(f"{name} must be finite, got {broken} NaN or infinite values out of {array.size}")
+    return array
+
+
+def density(name: str, values: ArrayLike, shape: tuple[int, ...]) -> FloatArray:
+    """Values of a power spectral density: one a wavenumber, finite, nowhere negative."""
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != shape:
+        raise ValueError(f"{name} must return one value a wavenumber, got shape {array.shape} for {shape}")
+    if not (np.isfinite(array) & (array >= 0)).all():
+        raise ValueError(f"{name} must be finite and nowhere negative, got {array.min()} to {array.max()}")
+    return array

@@ -1,0 +1,111 @@
+"""The answer to a contact problem, with the problem it answers; its residual; what happens when there is none."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from bem3d.border import FloatArray
+from bem3d.frozen import press_frozen
+from bem3d.problem import Problem
+
+
+class Status(StrEnum):
+    """How a solve ended. Only CONVERGED is a solution."""
+
+    CONVERGED = "converged"
+    ITERATION_LIMIT = "iteration limit"
+    BREAKDOWN = "breakdown"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Contact:
+    """Pressure between a rigid indenter and a half-space, with the problem it answers and the tolerance asked for.
+
+    pressure: never negative, shape of the half-space [Pa]; approach: [m];
+    history: residual at the start and after each iteration, each from a fresh operator application;
+    operator_applications: all of them, start included; status: see `Status`.
+    """
+
+    problem: Problem
+    tolerance: float
+    pressure: FloatArray
+    approach: float
+    history: tuple[float, ...]
+    operator_applications: int
+    status: Status
+
+    @property
+    def force(self) -> float:
+        """F = sum(p) dx dy [N]."""
+        return float(self.pressure.sum()) * self.problem.half_space.cell_area
+
+    @property
+    def area(self) -> float:
+        """Cells under pressure times dx dy [m^2]."""
+        return int(np.count_nonzero(self.pressure)) * self.problem.half_space.cell_area
+
+    @property
+    def residual(self) -> float:
+        """The last entry of the history, dimensionless."""
+        return self.history[-1]
+
+    @property
+    def iterations(self) -> int:
+        """Iterations taken."""
+        return len(self.history) - 1
+
+    @property
+    def converged(self) -> bool:
+        """Whether this is a solution."""
+        return self.status is Status.CONVERGED
+
+    def stiffness(self, *, tolerance: float = 1e-8) -> float:
+        """k = dF/dd of the discrete problem: the frozen contact pressed by a unit approach [N/m].
+
+        tolerance: relative residual of the linear solve. Zero where there is no contact; infinite for a periodic
+        half-space in full contact. Raises ConvergenceError if this contact is no solution, or the linear solve fails.
+        """
+        if not self.converged:
+            raise ConvergenceError(f"no stiffness of a contact that ended with status {self.status}", self)
+        frozen = press_frozen(self.problem.half_space, self.pressure > 0, tolerance=tolerance)
+        if not frozen.converged:
+            raise ConvergenceError(
+                f"frozen-contact solve reached a residual of {frozen.residual:.3g}, not {tolerance:g}, "
+                f"in {frozen.iterations} iterations",
+                self,
+                frozen.history,
+            )
+        return frozen.stiffness
+
+
+class ConvergenceError(RuntimeError):
+    """A solve that did not reach its tolerance.
+
+    contact: the last that was reached, not a solution; history: the residual of each iteration.
+    """
+
+    def __init__(self, message: str, contact: Contact, history: tuple[float, ...] | None = None):
+        super().__init__(message)
+        self.contact = contact
+        self.history = contact.history if history is None else history
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return ConvergenceError, (str(self), self.contact, self.history)
+
+
+def residual(problem: Problem, pressure: FloatArray, separation: FloatArray, approach: float) -> float:
+    """How far a pressure is from solving the contact problem, dimensionless.
+
+    With w = gap + u - approach and s = approach - min(gap), the deepest geometric overlap: the larger of
+    sum(p |w|) / (s sum(p)), a gap under pressure, and max(-w) / s, a penetration.
+    Without overlap, s <= 0, only p = 0 is a solution (residual 0), anything else is none (infinite).
+
+    pressure: [Pa]; separation: gap + u, with u from a fresh operator application on that pressure [m].
+    """
+    total, overlap = float(pressure.sum()), approach - problem.first_touch
+    if overlap <= 0:
+        return 0.0 if total == 0 else float("inf")
+    w = separation - approach
+    open_under_pressure = float((pressure * np.abs(w)).sum()) / total if total > 0 else 0.0
+    return max(open_under_pressure, -float(w.min()), 0.0) / overlap

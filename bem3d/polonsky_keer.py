@@ -1,0 +1,76 @@
+"""The textbook constrained conjugate gradient of Polonsky and Keer: the plain baseline of every speed chart."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem3d.border import FloatArray
+from bem3d.contact import residual
+from bem3d.problem import Problem
+
+
+@dataclass(frozen=True, eq=False)
+class Iterate:
+    """Pressure [Pa], approach [m], residual from a fresh operator application, and all applications so far."""
+
+    pressure: FloatArray
+    approach: float
+    residual: float
+    operator_applications: int
+
+
+def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator[Iterate]:
+    """Iterate towards p >= 0, w = gap + u - approach >= 0, p w = 0; the caller decides when to stop.
+
+    Conjugate directions t on the current contact p > 0, exact line search, truncation at p = 0; cells that overlap
+    without pressure join the contact, and the directions start anew. At prescribed force the approach is the mean of
+    gap + u over the contact, and the pressure is scaled to its sum after each step.
+
+    problem: a touching one; start: a pressure with some contact, see `first_pressure` for what is used otherwise.
+    Source: Polonsky and Keer, Wear 231 (1999) 206.
+    """
+    half_space, force = problem.half_space, problem.force
+    pressure = first_pressure(problem) if start is None else _loaded(problem, start)
+    direction = np.zeros(half_space.shape)
+    conjugacy, square_before = 0.0, 1.0
+    applications = 0
+    while True:
+        separation = problem.gap + half_space.displacement(pressure)
+        contact = pressure > 0
+        approach = float(separation[contact].mean()) if problem.approach is None else problem.approach
+        applications += 1
+        yield Iterate(pressure, approach, residual(problem, pressure, separation, approach), applications)
+
+        w = separation - approach
+        square = float((w[contact] ** 2).sum())
+        direction = np.where(contact, w + conjugacy * square / square_before * direction, 0.0)
+        yielding = half_space.displacement(direction)
+        applications += 1
+        if force is not None:
+            yielding -= yielding[contact].mean()
+        along, curvature = float((w * direction).sum()), float((yielding * direction).sum())
+        # a single cell, or an exact solution on the contact, leaves no direction: a cell's own compliance sets the step
+        step = along / curvature if curvature > 0 else 1 / half_space.self_compliance
+        pressure = np.maximum(pressure - step * direction, 0.0)
+        overlapping = (pressure == 0) & (w < 0)
+        pressure[overlapping] -= step * w[overlapping]
+        if force is not None:
+            pressure = _loaded(problem, pressure)
+        conjugacy = 0.0 if overlapping.any() else 1.0
+        square_before = square
+
+
+def first_pressure(problem: Problem) -> FloatArray:
+    """A pressure to begin with: uniform at prescribed force, proportional to the geometric overlap otherwise."""
+    if problem.approach is None:
+        return _loaded(problem, np.ones(problem.half_space.shape))
+    overlap = np.maximum(problem.approach - problem.gap, 0.0)
+    return overlap / (problem.half_space.self_compliance * np.sqrt(overlap.size))
+
+
+def _loaded(problem: Problem, pressure: FloatArray) -> FloatArray:
+    """The pressure, scaled to the prescribed force if there is one."""
+    if problem.force is None:
+        return pressure
+    return pressure * (problem.force / (float(pressure.sum()) * problem.half_space.cell_area))

@@ -1,0 +1,116 @@
+"""Rough surfaces drawn from an isotropic spectrum."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from bem3d.border import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
+
+ComplexArray = NDArray[np.complex128]
+BoolArray = NDArray[np.bool_]
+
+
+def rough_surface(
+    c2d: Spectrum,
+    *,
+    shape: tuple[int, int],
+    spacing: float | tuple[float, float],
+    rng: np.random.Generator,
+    rms: float | None = None,
+    amplitudes: Literal["fixed", "gaussian"] = "fixed",
+) -> FloatArray:
+    """A periodic rough surface with a given isotropic spectrum.
+
+    h(x) = sum_q B(q) exp(i (q.x + phi(q))),  B(q) = 2 pi sqrt(C_2D(|q|) / (Lx Ly)),  x at the cell centres,
+    over the waves q = 2 pi (i/Lx, j/Ly) of the grid, phi uniform in [0, 2 pi), phi(-q) = -phi(q), mean zero.
+
+    c2d: callable of |q|, zero beyond the Nyquist wavenumber of the coarser axis [m^4]; shape: cells (nx, ny);
+    spacing: one number or (dx, dy) [m]; rng: the source of the phases. Waves take their random numbers in rings
+    from the longest to the shortest, so that the same generator on a finer grid draws the same surface.
+    amplitudes: "fixed", where every draw has the same mean square, sum_q (2 pi)^2 C_2D / (Lx Ly), exactly (the sum
+    over the waves of the grid, which exceeds int C_2D d^2q when the band begins at 2 pi / L); or "gaussian", where
+    only its expectation has.
+    rms: where given, all amplitudes are scaled by one constant that makes this root mean square exact (fixed) or
+    expected (gaussian) [m].
+    Returns height, shape (nx, ny), positive towards the other body [m].
+    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the grid can carry.
+    Source: (14.8) in two dimensions, B_2D of SCIENCE.md section 2.
+    """
+    shape, steps = grid_shape(shape), grid_spacing(spacing)
+    if not isinstance(rng, np.random.Generator):
+        raise TypeError(f"rng must be a numpy.random.Generator, got {type(rng).__name__}")
+    if amplitudes not in ("fixed", "gaussian"):
+        raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
+    i = np.rint(fft.fftfreq(shape[0]) * shape[0])[:, np.newaxis]
+    j = np.arange(shape[1] // 2 + 1.0)[np.newaxis, :]
+    lengths = shape[0] * steps[0], shape[1] * steps[1]
+    q = 2 * np.pi * np.hypot(i / lengths[0], j / lengths[1])
+    variance = (2 * np.pi) ** 2 / (lengths[0] * lengths[1]) * _resolved(c2d, q, steps)
+    # the half spectrum shows each wave once, but those of its first and Nyquist column with their mirror images
+    twice = np.where((j == 0) | (2 * j == shape[1]), 1, 2)
+    total = np.sum(twice * variance)
+    if total == 0:
+        raise ValueError("c2d has no power at any wave that shape and spacing can carry")
+    scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
+    spectrum = scale * np.sqrt(variance) * _random_waves(i, j, shape, amplitudes, rng)
+    spectrum *= _half_a_cell(i, shape[0]) * _half_a_cell(j, shape[1])
+    height: FloatArray = fft.irfft2(spectrum, shape, norm="forward")
+    return height
+
+
+def _resolved(c2d: Spectrum, q: FloatArray, steps: tuple[float, float]) -> FloatArray:
+    """c2d at the waves of the grid, zero mode left out; refused where its curvature spectrum goes on beyond Nyquist."""
+    if not callable(c2d):
+        raise TypeError(f"c2d must be a callable c2d(q), got {type(c2d).__name__}")
+    values = np.zeros(q.shape)
+    waves = q > 0
+    values[waves] = density("c2d", c2d(q[waves]), (np.count_nonzero(waves),))
+    nyquist = np.pi / max(steps)
+    beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 256)
+    if np.max(beyond**5 * density("c2d", c2d(beyond), beyond.shape)) > 1e-9 * np.max(q**5 * values):
+        raise ValueError(
+            f"c2d must vanish beyond the Nyquist wavenumber of the grid, {nyquist:.6g} rad/m, "
+            "got power there: lower q_max or refine the grid"
+        )
+    return values
+
+
+def _random_waves(
+    i: FloatArray,
+    j: FloatArray,
+    shape: tuple[int, int],
+    amplitudes: Literal["fixed", "gaussian"],
+    rng: np.random.Generator,
+) -> ComplexArray:
+    """Complex factors of mean square one on the half spectrum of a real field."""
+    ring = np.maximum(np.abs(i), j)
+    order = np.lexsort(((i + 0 * j).ravel(), (j + 0 * i).ravel(), ring.ravel()))
+    wave = np.empty(ring.size, dtype=np.complex128)
+    if amplitudes == "fixed":
+        wave[order] = np.exp(2j * np.pi * rng.random(ring.size))
+    else:
+        pair = rng.standard_normal((ring.size, 2))
+        wave[order] = (pair[:, 0] + 1j * pair[:, 1]) / np.sqrt(2)
+    wave = wave.reshape(ring.shape)
+    for column in {0, shape[1] // 2} if shape[1] % 2 == 0 else {0}:
+        wave[:, column] = _hermitian(wave[:, column], amplitudes)
+    return wave
+
+
+def _hermitian(wave: ComplexArray, amplitudes: Literal["fixed", "gaussian"]) -> ComplexArray:
+    """The column with wave(-i) = conj(wave(i)): positive rows keep their value, mirror images follow."""
+    mirrored = wave.copy()
+    points = wave.size
+    positive_rows = np.arange(1, (points + 1) // 2)
+    mirrored[-positive_rows] = np.conj(wave[positive_rows])
+    own_mirror = [0, points // 2] if points % 2 == 0 else [0]
+    real = np.sqrt(2) * wave[own_mirror].real
+    mirrored[own_mirror] = np.where(real < 0, -1, 1) if amplitudes == "fixed" else real
+    return mirrored
+
+
+def _half_a_cell(mode: FloatArray, points: int) -> ComplexArray:
+    """Phase from the corner of a cell to its centre; the Nyquist wave is left where it is."""
+    return np.where(2 * np.abs(mode) == points, 1.0, np.exp(1j * np.pi * mode / points))

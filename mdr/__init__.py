@@ -1,0 +1,28 @@
+"""The method of dimensionality reduction: contact as a one-dimensional foundation of independent springs.
+
+All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
+"""
+
+from mdr.foundation import (
+    LoadCurve,
+    LoadPoint,
+    SphereContact,
+    load_curve,
+    press_sphere,
+)
+from mdr.profile import rough_profile, sphere_profile
+from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
+
+__all__ = [
+    "LoadCurve",
+    "LoadPoint",
+    "SelfAffine",
+    "SphereContact",
+    "geike",
+    "inverse_geike",
+    "line_trace",
+    "load_curve",
+    "press_sphere",
+    "rough_profile",
+    "sphere_profile",
+]

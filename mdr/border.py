@@ -1,0 +1,73 @@
+"""What is checked where values enter: one clear sentence, or a value that can be trusted."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+Spectrum = Callable[[FloatArray], FloatArray]
+
+
+def finite(name: str, value: object) -> float:
+    """A finite real number, or TypeError / ValueError."""
+    if isinstance(value, (bool, str, bytes)):
+        raise TypeError(f"{name} must be a real number, got {value!r}")
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} must be a real number, got {value!r}") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{name} must be finite, got {number}")
+    return number
+
+
+def positive(name: str, value: object) -> float:
+    """A finite number above zero."""
+    number = finite(name, value)
+    if number <= 0:
+        raise ValueError(f"{name} must be positive, got {number}")
+    return number
+
+
+def not_negative(name: str, value: object) -> float:
+    """A finite number, zero allowed."""
+    number = finite(name, value)
+    if number < 0:
+        raise ValueError(f"{name} must be zero or positive, got {number}")
+    return number
+
+
+def count(name: str, value: object, *, least: int) -> int:
+    """A whole number of at least ``least``."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"{name} must be a whole number, got {value!r}")
+    if value < least:
+        raise ValueError(f"{name} must be at least {least}, got {value}")
+    return int(value)
+
+
+def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None) -> FloatArray:
+    """Finite real numbers, of ``ndim`` axes and not empty where ``ndim`` is given."""
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        raise ValueError(f"{name} must be a regular array of numbers, got rows of different length") from None
+    if given.dtype.kind not in "fiu":
+        raise TypeError(f"{name} must hold real numbers, got dtype {given.dtype}")
+    array = given.astype(np.float64)
+    if ndim is not None and (array.ndim != ndim or array.size == 0):
+        raise ValueError(f"{name} must have {ndim} axis and at least one value, got shape {array.shape}")
+    broken = np.count_nonzero(~np.isfinite(array))
+    if broken:
+        raise ValueError(f"{name} must be finite, got {broken} NaN or infinite values out of {array.size}")
+    return array
+
+
+def density(name: str, values: ArrayLike) -> FloatArray:
+    """Values of a power spectral density: finite and nowhere negative."""
+    array = finite_array(name, values)
+    if (array < 0).any():
+        raise ValueError(f"{name} must be nowhere negative, got {array.min()}")
+    return array

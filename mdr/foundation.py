@@ -1,0 +1,121 @@
+"""The foundation of independent springs: each has stiffness E* dx and knows nothing of its neighbours."""
+
+import math
+from dataclasses import dataclass
+from typing import Generic, TypeVar, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.border import FloatArray, finite, finite_array, not_negative, positive
+
+Value = TypeVar("Value", float, FloatArray)
+
+
+@dataclass(frozen=True)
+class LoadPoint(Generic[Value]):
+    """One state of a load curve (or an array of states): approach [m], force [N], stiffness dF/dd [N/m]."""
+
+    approach: Value
+    force: Value
+    stiffness: Value
+
+
+@dataclass(frozen=True, eq=False)
+class LoadCurve:
+    """Force of a rigid rough profile on the spring foundation, exact at every approach.
+
+    F(d) = E* dx sum_i max(d + h_i, 0): linear between the breakpoints d = -h_i, where one more spring is met.
+    approach, force, stiffness: at the breakpoints, ascending, shape (points,) [m, N, N/m]; stiffness counts the
+    springs that carry load, so entry i has i of them and the first entry is the first touch.
+    """
+
+    approach: FloatArray
+    force: FloatArray
+    stiffness: FloatArray
+    spring: float
+
+    @overload
+    def at_approach(self, approach: float) -> LoadPoint[float]: ...
+    @overload
+    def at_approach(self, approach: FloatArray) -> LoadPoint[FloatArray]: ...
+    def at_approach(self, approach: float | FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:
+        """The state at a rigid approach [m], a number or an array; zero force before the first touch."""
+        d = finite_array("approach", approach)
+        pressed = np.searchsorted(self.approach, d, side="left")
+        last = np.maximum(pressed - 1, 0)
+        stiffness = pressed * self.spring
+        return _point(d, self.force[last] + stiffness * (d - self.approach[last]), stiffness)
+
+    @overload
+    def at_force(self, force: float) -> LoadPoint[float]: ...
+    @overload
+    def at_force(self, force: FloatArray) -> LoadPoint[FloatArray]: ...
+    def at_force(self, force: float | FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:
+        """The state under a normal force >= 0 [N], a number or an array; zero force is the first touch."""
+        given = finite_array("force", force)
+        if (given < 0).any():
+            raise ValueError(f"force must be zero or positive, got {given.min()}")
+        pressed = np.searchsorted(self.force, given, side="left")
+        last = np.maximum(pressed - 1, 0)
+        stiffness = pressed * self.spring
+        beyond = (given - self.force[last]) / np.maximum(stiffness, self.spring)
+        return _point(self.approach[last] + beyond, given, stiffness)
+
+
+def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve:
+    """The whole load curve of a rough profile from one sort.
+
+    With i springs in contact k = i E* dx, dx = length / points; F grows by k from breakpoint to breakpoint.
+
+    height: shape (points,), positive towards the other body [m]; length: of the profile [m]; modulus: E* [Pa].
+    The approach is zero where the plane height = 0 is met, so the first touch is at -max(height).
+    Raises ValueError for an empty or non-finite profile, a length or modulus that is not positive.
+    Source: SCIENCE.md section 4.
+    """
+    heights = finite_array("height", height, ndim=1)
+    spring = positive("modulus", modulus) * positive("length", length) / heights.size
+    approach = np.sort(-heights)
+    stiffness = spring * np.searchsorted(approach, approach, side="left")
+    steps = spring * np.arange(1, heights.size) * np.diff(approach)
+    force = np.concatenate([[0.0], np.cumsum(steps)])
+    return LoadCurve(approach, force, stiffness, spring)
+
+
+@dataclass(frozen=True)
+class SphereContact:
+    """A smooth sphere on the foundation: approach [m], force [N], stiffness [N/m], contact_radius [m]."""
+
+    approach: float
+    force: float
+    stiffness: float
+    contact_radius: float
+
+
+def press_sphere(
+    *, radius: float, modulus: float, approach: float | None = None, force: float | None = None
+) -> SphereContact:
+    """A smooth sphere on the continuous foundation, by approach or by force.
+
+    F = E* int_{-a}^{a} (d - x^2/R) dx = 4/3 E* sqrt(R) d^(3/2),  a = sqrt(R d),  k = 2 E* a.
+
+    radius: R [m]; modulus: E* [Pa]; exactly one of approach (zero or less: no contact) [m] and force (>= 0) [N].
+    Raises ValueError if both or neither are given, or one is out of range.
+    Source: (14.2) and SCIENCE.md section 4; equal to Hertz.
+    """
+    radius, modulus = positive("radius", radius), positive("modulus", modulus)
+    if (approach is None) == (force is None):
+        raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
+    if approach is None:
+        ratio = 0.75 * not_negative("force", force) / modulus
+        d = math.cbrt(ratio) ** 2 / math.cbrt(radius)
+    else:
+        d = finite("approach", approach)
+    a = math.sqrt(radius * max(d, 0.0))
+    return SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
+
+
+def _point(approach: FloatArray, force: FloatArray, stiffness: FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:
+    if approach.ndim:
+        return LoadPoint(approach, force, stiffness)
+    return LoadPoint(float(approach), float(force), float(stiffness))

@@ -1,0 +1,88 @@
+"""Rough profiles drawn from a spectrum; the wheel's parabola."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.border import FloatArray, Spectrum, count, density, finite_array, positive
+
+
+def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
+    """The one-dimensional profile that stands for a sphere of the given radius: x^2 / R, not x^2 / 2R.
+
+    x: distance from the centre of the contact [m]; radius: of the sphere, positive [m]. Returns [m].
+    Source: (14.2).
+    """
+    profile: FloatArray = finite_array("x", x) ** 2 / positive("radius", radius)
+    return profile
+
+
+def rough_profile(
+    c1d: Spectrum,
+    *,
+    length: float,
+    points: int,
+    rng: np.random.Generator,
+    rms: float | None = None,
+    amplitudes: Literal["fixed", "gaussian"] = "fixed",
+) -> FloatArray:
+    """A periodic rough profile with a given spectrum.
+
+    h(x_i) = sum_q B(q) exp(i (q x_i + phi(q))),  B(q) = sqrt(2 pi C_1D(q) / L),  x_i = (i + 1/2) L / points,
+    over the waves q = 2 pi j / L that the points can carry, phi uniform in [0, 2 pi), phi(-q) = -phi(q), mean zero.
+
+    c1d: callable, two-sided density, zero beyond the Nyquist wavenumber pi points / L [m^3]; length: period L [m];
+    rng: the source of the phases. Waves take their random numbers in order of q, so that the same generator on
+    more points draws the same profile.
+    amplitudes: "fixed", where every draw has the same mean square, sum_q 2 pi C_1D(q) / L, exactly (the sum over
+    the waves of the period, which exceeds int C_1D dq when the band begins at 2 pi / L); or "gaussian", where
+    only its expectation has.
+    rms: where given, all amplitudes are scaled by one constant that makes this root mean square exact (fixed) or
+    expected (gaussian) [m].
+    Returns height, shape (points,), positive towards the other body [m].
+    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry.
+    Source: (14.8), and (14.9) with the root over all of it.
+    """
+    length, points = positive("length", length), count("points", points, least=2)
+    if not isinstance(rng, np.random.Generator):
+        raise TypeError(f"rng must be a numpy.random.Generator, got {type(rng).__name__}")
+    if amplitudes not in ("fixed", "gaussian"):
+        raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
+    mode = np.arange(1, points // 2 + 1)
+    variance = 2 * np.pi / length * _resolved(c1d, 2 * np.pi / length * mode, np.pi * points / length)
+    own_mirror = 2 * mode == points
+    total = np.sum(np.where(own_mirror, 1, 2) * variance)
+    if total == 0:
+        raise ValueError("c1d has no power at any wave that length and points can carry")
+    scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
+    wave = scale * np.sqrt(variance) * _random_waves(mode.size, own_mirror, amplitudes, rng)
+    half_a_cell = np.where(own_mirror, 1.0, np.exp(1j * np.pi * mode / points))
+    return np.fft.irfft(np.concatenate([[0.0], wave * half_a_cell]), points, norm="forward")
+
+
+def _random_waves(
+    modes: int, own_mirror: np.ndarray, amplitudes: Literal["fixed", "gaussian"], rng: np.random.Generator
+) -> np.ndarray:
+    """Complex factors of mean square one; real where a wave is its own mirror image."""
+    if amplitudes == "fixed":
+        turn = np.exp(2j * np.pi * rng.random(modes))
+        return np.where(own_mirror, np.where(turn.real < 0, -1, 1), turn)
+    pair = rng.standard_normal((modes, 2))
+    return np.where(own_mirror, pair[:, 0], (pair[:, 0] + 1j * pair[:, 1]) / np.sqrt(2))
+
+
+def _resolved(c1d: Spectrum, q: FloatArray, nyquist: float) -> FloatArray:
+    """c1d at the waves of the grid; refused where its curvature spectrum goes on beyond the Nyquist wavenumber."""
+    if not callable(c1d):
+        raise TypeError(f"c1d must be a callable c1d(q), got {type(c1d).__name__}")
+    values = density("c1d", c1d(q))
+    if values.shape != q.shape:
+        raise ValueError(f"c1d must return one value a wavenumber, got shape {values.shape} for {q.shape}")
+    beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 256)
+    if np.max(beyond**4 * density("c1d", c1d(beyond))) > 1e-9 * np.max(q**4 * values):
+        raise ValueError(
+            f"c1d must vanish beyond the Nyquist wavenumber of the points, {nyquist:.6g} rad/m, "
+            "got power there: lower q_max or take more points"
+        )
+    return values

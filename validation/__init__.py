@@ -1,0 +1,1 @@
+"""What compares the two methods: closed forms, cases, ensembles, evidence and the report."""

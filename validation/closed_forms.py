@@ -1,0 +1,109 @@
+"""Exact answers of linear elasticity. They import neither method.
+
+Lengths in metres, forces in newtons, pressures in pascals; ``modulus`` is the contact modulus E*.
+All arguments with a unit must be finite and positive unless said otherwise; ValueError names the one that is not.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+# pi times the capacitance of the unit square, 0.36679: SCIENCE.md section 6
+SQUARE_PUNCH = 1.1523
+
+
+def hertz_force(*, radius: float, modulus: float, approach: float) -> float:
+    """F = 4/3 E* sqrt(R) d^(3/2) [N]. Source: Hertz; Johnson, Contact Mechanics, (4.23)."""
+    _positive(radius=radius, modulus=modulus, approach=approach)
+    return 4 / 3 * modulus * math.sqrt(radius) * approach**1.5
+
+
+def hertz_approach(*, radius: float, modulus: float, force: float) -> float:
+    """d = (9 F^2 / (16 R E*^2))^(1/3) [m]. Source: Hertz; Johnson, (4.23)."""
+    _positive(radius=radius, modulus=modulus, force=force)
+    return math.cbrt(9 / 16 / radius) * math.cbrt(force / modulus) ** 2
+
+
+def hertz_contact_radius(*, radius: float, approach: float) -> float:
+    """a = sqrt(R d) [m]. Source: Hertz; Johnson, (4.22), (4.23)."""
+    _positive(radius=radius, approach=approach)
+    return math.sqrt(radius * approach)
+
+
+def hertz_pressure(r: ArrayLike, *, radius: float, modulus: float, approach: float) -> FloatArray:
+    """p(r) = (2 E* / pi) sqrt((a^2 - r^2)) / R inside the contact, zero outside [Pa]. r: from the centre, any shape [m].
+
+    Source: Hertz; Johnson, (3.39), (4.24).
+    """
+    _positive(radius=radius, modulus=modulus, approach=approach)
+    inside = np.maximum(radius * approach - np.asarray(r, dtype=np.float64) ** 2, 0.0)
+    pressure: FloatArray = 2 * modulus / (np.pi * radius) * np.sqrt(inside)
+    return pressure
+
+
+def circular_punch_stiffness(*, radius: float, modulus: float) -> float:
+    """k = 2 E* a of a flat circular punch of radius a, and of any Hertz contact of that radius [N/m].
+
+    Source: Boussinesq; Johnson, (3.36).
+    """
+    _positive(radius=radius, modulus=modulus)
+    return 2 * modulus * radius
+
+
+def square_punch_stiffness(*, side: float, modulus: float) -> float:
+    """k = 1.1523 E* L of a flat square punch [N/m]; the factor is pi times the capacitance of the unit square."""
+    _positive(side=side, modulus=modulus)
+    return SQUARE_PUNCH * modulus * side
+
+
+def westergaard_full_pressure(*, amplitude: float, wavelength: float, modulus: float) -> float:
+    """p* = pi E* h / lambda, the mean pressure that just closes a wave h cos(2 pi x / lambda) [Pa].
+
+    Source: Westergaard, J. Appl. Mech. 6 (1939); Johnson, (13.6).
+    """
+    _positive(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
+    return math.pi * modulus * amplitude / wavelength
+
+
+def westergaard_half_width(*, mean_pressure: float, amplitude: float, wavelength: float, modulus: float) -> float:
+    """a from mean(p) / p* = sin^2(pi a / lambda), for 0 < mean(p) <= p* [m]. Source: Johnson, (13.9)."""
+    full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
+    _positive(mean_pressure=mean_pressure)
+    if mean_pressure > full:
+        raise ValueError(f"mean_pressure must not exceed the pressure of full contact, {full:.6g}, got {mean_pressure}")
+    return wavelength / math.pi * math.asin(math.sqrt(mean_pressure / full))
+
+
+def westergaard_pressure(
+    x: ArrayLike, *, mean_pressure: float, amplitude: float, wavelength: float, modulus: float
+) -> FloatArray:
+    """p(x) = 2 p* cos(pi x / lambda) sqrt(sin^2(pi a / lambda) - sin^2(pi x / lambda)) in |x| < a, else zero [Pa].
+
+    x: from the crest of the wave, periodic, any shape [m]. Source: Westergaard; Johnson, (13.8), with (13.9).
+    """
+    full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
+    a = westergaard_half_width(
+        mean_pressure=mean_pressure, amplitude=amplitude, wavelength=wavelength, modulus=modulus
+    )
+    phase = np.pi * np.asarray(x, dtype=np.float64) / wavelength
+    inside = np.maximum(math.sin(math.pi * a / wavelength) ** 2 - np.sin(phase) ** 2, 0.0)
+    pressure: FloatArray = 2 * full * np.abs(np.cos(phase)) * np.sqrt(inside)
+    return pressure
+
+
+def line_trace_ratio(hurst: float) -> float:
+    """C_line / C_Geike = Gamma(H + 1/2) / (sqrt(pi) Gamma(H + 1)) of an unbounded power law, H > 0 [-].
+
+    Source: SCIENCE.md section 3; the ratio of the spectrum along a line to Geike's.
+    """
+    _positive(hurst=hurst)
+    return math.gamma(hurst + 0.5) / (math.sqrt(math.pi) * math.gamma(hurst + 1))
+
+
+def _positive(**values: float) -> None:
+    for name, value in values.items():
+        if not (math.isfinite(value) and value > 0):
+            raise ValueError(f"{name} must be finite and positive, got {value}")
