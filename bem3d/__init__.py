@@ -3,7 +3,8 @@
 All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
 """
 
-from bem3d.contact import Contact, ConvergenceError, Status
+from bem3d.contact import Contact, Status
+from bem3d.convergence import ConvergenceError
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.halfspace import HalfSpace
 from bem3d.kernel import corner, love

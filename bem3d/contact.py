@@ -1,4 +1,4 @@
-"""The answer to a contact problem, with the problem it answers; its residual; what happens when there is none."""
+"""The answer to a contact problem, with the problem it answers, and its residual."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -6,6 +6,7 @@ from enum import StrEnum
 import numpy as np
 
 from bem3d.border import FloatArray
+from bem3d.convergence import ConvergenceError
 from bem3d.frozen import press_frozen
 from bem3d.problem import Problem
 
@@ -67,31 +68,8 @@ class Contact:
         half-space in full contact. Raises ConvergenceError if this contact is no solution, or the linear solve fails.
         """
         if not self.converged:
-            raise ConvergenceError(f"no stiffness of a contact that ended with status {self.status}", self)
-        frozen = press_frozen(self.problem.half_space, self.pressure > 0, tolerance=tolerance)
-        if not frozen.converged:
-            raise ConvergenceError(
-                f"frozen-contact solve reached a residual of {frozen.residual:.3g}, not {tolerance:g}, "
-                f"in {frozen.iterations} iterations",
-                self,
-                frozen.history,
-            )
-        return frozen.stiffness
-
-
-class ConvergenceError(RuntimeError):
-    """A solve that did not reach its tolerance.
-
-    contact: the last that was reached, not a solution; history: the residual of each iteration.
-    """
-
-    def __init__(self, message: str, contact: Contact, history: tuple[float, ...] | None = None):
-        super().__init__(message)
-        self.contact = contact
-        self.history = contact.history if history is None else history
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return ConvergenceError, (str(self), self.contact, self.history)
+            raise ConvergenceError(f"no stiffness of a contact that ended with: {self.status}", self.history, self)
+        return press_frozen(self.problem.half_space, self.pressure > 0, tolerance=tolerance).stiffness
 
 
 def residual(problem: Problem, pressure: FloatArray, separation: FloatArray, approach: float) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem3d.border import FloatArray, count, fraction
+from bem3d.convergence import ConvergenceError
 from bem3d.halfspace import HalfSpace
 
 
@@ -34,17 +35,23 @@ class FrozenContact:
 
 
 def press_frozen(
-    half_space: HalfSpace, contact: NDArray[np.bool_], *, tolerance: float = 1e-8, max_iterations: int = 2000
+    half_space: HalfSpace,
+    contact: NDArray[np.bool_],
+    *,
+    tolerance: float = 1e-8,
+    max_iterations: int = 2000,
+    raise_on_failure: bool = True,
 ) -> FrozenContact:
     """Press a fixed set of cells by a unit approach: K p = 1 on the contact, p = 0 elsewhere; k = sum(p) dx dy.
 
     For the discrete frictionless problem this is the incremental stiffness dF/dd exactly, as long as no cell is
     about to enter or leave the contact.
 
-    contact: boolean, shape of the half-space; tolerance: relative residual; max_iterations: of conjugate gradients.
+    contact: boolean, shape of the half-space; tolerance: relative residual; max_iterations: of conjugate gradients;
+    raise_on_failure: False returns an unconverged result, which says so.
     Empty contact: zero stiffness. Full contact of a periodic half-space: infinite stiffness, since its mean plane
-    cannot yield. Not converged within max_iterations: `converged` is False.
-    Raises ValueError for a contact of another shape or type.
+    cannot yield.
+    Raises ValueError for a contact of another shape or type, ConvergenceError with the history if not converged.
     """
     contact = np.asarray(contact)
     if contact.dtype != np.bool_ or contact.shape != half_space.shape:
@@ -70,10 +77,18 @@ def press_frozen(
         before, square = square, float((remainder**2).sum())
         direction = remainder + square / before * direction
         history.append(float(np.sqrt(square / start)))
-    return FrozenContact(
+    result = FrozenContact(
         pressure=pressure,
         stiffness=float(pressure.sum()) * half_space.cell_area,
         history=tuple(history),
         operator_applications=len(history) - 1,
         converged=history[-1] <= tolerance,
     )
+    if raise_on_failure and not result.converged:
+        raise ConvergenceError(
+            f"frozen-contact residual {result.residual:.3g} after {result.iterations} iterations, "
+            f"asked for {tolerance:g}",
+            result.history,
+            result,
+        )
+    return result

@@ -22,7 +22,7 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> FloatArray:
     u(x, y) = p love(x, y, dx, dy) / (pi E*) is the displacement by a uniform pressure p on the cell.
 
     x, y: broadcastable [m]; dx, dy: sides of the cell [m]; returns [m].
-    Source: Love, Phil. Trans. R. Soc. A 228 (1929); Johnson, Contact Mechanics, (3.25).
+    Source: Love, Phil. Trans. R. Soc. A 228 (1929); Johnson, Contact Mechanics, chapter 3.
     """
     x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
     left, right, down, up = x - dx / 2, x + dx / 2, y - dy / 2, y + dy / 2

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bem3d.border import FloatArray, count, field, fraction
-from bem3d.contact import Contact, ConvergenceError, Status
+from bem3d.contact import Contact, Status
+from bem3d.convergence import ConvergenceError
 from bem3d.halfspace import HalfSpace
 from bem3d.polonsky_keer import Iterate, polonsky_keer
 from bem3d.problem import Problem
@@ -53,6 +54,7 @@ def solve(
         raise ConvergenceError(
             f"residual {result.residual:.3g} after {result.iterations} iterations ({result.status}), "
             f"asked for {tolerance:g}",
+            result.history,
             result,
         )
     return result

@@ -16,19 +16,19 @@ SQUARE_PUNCH = 1.1523
 
 
 def hertz_force(*, radius: float, modulus: float, approach: float) -> float:
-    """F = 4/3 E* sqrt(R) d^(3/2) [N]. Source: Hertz; Johnson, Contact Mechanics, (4.23)."""
+    """F = 4/3 E* sqrt(R) d^(3/2) [N]. Source: Hertz; Johnson, Contact Mechanics, chapter 4."""
     _positive(radius=radius, modulus=modulus, approach=approach)
     return 4 / 3 * modulus * math.sqrt(radius) * approach**1.5
 
 
 def hertz_approach(*, radius: float, modulus: float, force: float) -> float:
-    """d = (9 F^2 / (16 R E*^2))^(1/3) [m]. Source: Hertz; Johnson, (4.23)."""
+    """d = (9 F^2 / (16 R E*^2))^(1/3) [m]. Source: Hertz; Johnson, chapter 4."""
     _positive(radius=radius, modulus=modulus, force=force)
     return math.cbrt(9 / 16 / radius) * math.cbrt(force / modulus) ** 2
 
 
 def hertz_contact_radius(*, radius: float, approach: float) -> float:
-    """a = sqrt(R d) [m]. Source: Hertz; Johnson, (4.22), (4.23)."""
+    """a = sqrt(R d) [m]. Source: Hertz; Johnson, chapter 4."""
     _positive(radius=radius, approach=approach)
     return math.sqrt(radius * approach)
 
@@ -36,7 +36,7 @@ def hertz_contact_radius(*, radius: float, approach: float) -> float:
 def hertz_pressure(r: ArrayLike, *, radius: float, modulus: float, approach: float) -> FloatArray:
     """p(r) = (2 E* / pi) sqrt((a^2 - r^2)) / R inside the contact, zero outside [Pa]. r: from the centre, any shape [m].
 
-    Source: Hertz; Johnson, (3.39), (4.24).
+    Source: Hertz; Johnson, chapter 4.
     """
     _positive(radius=radius, modulus=modulus, approach=approach)
     inside = np.maximum(radius * approach - np.asarray(r, dtype=np.float64) ** 2, 0.0)
@@ -47,7 +47,7 @@ def hertz_pressure(r: ArrayLike, *, radius: float, modulus: float, approach: flo
 def circular_punch_stiffness(*, radius: float, modulus: float) -> float:
     """k = 2 E* a of a flat circular punch of radius a, and of any Hertz contact of that radius [N/m].
 
-    Source: Boussinesq; Johnson, (3.36).
+    Source: Boussinesq; Johnson, chapter 3.
     """
     _positive(radius=radius, modulus=modulus)
     return 2 * modulus * radius
@@ -62,14 +62,14 @@ def square_punch_stiffness(*, side: float, modulus: float) -> float:
 def westergaard_full_pressure(*, amplitude: float, wavelength: float, modulus: float) -> float:
     """p* = pi E* h / lambda, the mean pressure that just closes a wave h cos(2 pi x / lambda) [Pa].
 
-    Source: Westergaard, J. Appl. Mech. 6 (1939); Johnson, (13.6).
+    Source: Westergaard, J. Appl. Mech. 6 (1939); Johnson, chapter 13.
     """
     _positive(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
     return math.pi * modulus * amplitude / wavelength
 
 
 def westergaard_half_width(*, mean_pressure: float, amplitude: float, wavelength: float, modulus: float) -> float:
-    """a from mean(p) / p* = sin^2(pi a / lambda), for 0 < mean(p) <= p* [m]. Source: Johnson, (13.9)."""
+    """a from mean(p) / p* = sin^2(pi a / lambda), for 0 < mean(p) <= p* [m]. Source: Johnson, chapter 13."""
     full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
     _positive(mean_pressure=mean_pressure)
     if mean_pressure > full:
@@ -82,7 +82,7 @@ def westergaard_pressure(
 ) -> FloatArray:
     """p(x) = 2 p* cos(pi x / lambda) sqrt(sin^2(pi a / lambda) - sin^2(pi x / lambda)) in |x| < a, else zero [Pa].
 
-    x: from the crest of the wave, periodic, any shape [m]. Source: Westergaard; Johnson, (13.8), with (13.9).
+    x: from the crest of the wave, periodic, any shape [m]. Source: Westergaard; Johnson, chapter 13.
     """
     full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
     a = westergaard_half_width(

@@ -1,0 +1,112 @@
+"""The command line."""
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from enum import IntEnum
+from pathlib import Path
+
+from validation.cases import CASES
+from validation.evidence import Verdict
+from validation.report.build import Section, build
+
+
+class Exit(IntEnum):
+    """What the status of the command says."""
+
+    MET = 0
+    CRITERION_FAILED = 1
+    BAD_INPUT = 2
+    NOT_CONVERGED = 3
+    INTERRUPTED = 130
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run one command, return its exit status."""
+    arguments = _parser().parse_args(words)
+    try:
+        return int(arguments.command(arguments))
+    except ValueError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return Exit.BAD_INPUT
+    except KeyboardInterrupt:
+        print("interrupted; finished solves are kept, the same command goes on from there", file=sys.stderr)
+        return Exit.INTERRUPTED
+
+
+def report(arguments: argparse.Namespace) -> Exit:
+    """Run cases and write their report."""
+    out = arguments.out or Path("reports") / arguments.profile
+    sections = build(
+        arguments.only or list(CASES),
+        profile=arguments.profile,
+        out=out,
+        workers=arguments.workers,
+        seed=arguments.seed,
+    )
+    for section in sections:
+        print(_line(section))
+        for number in section.missed:
+            print(f"    missed: {number.label} = {number.value:.6g}, {number.verdict} with {number.reference:.6g}")
+        for solve in section.unconverged:
+            print(f"    not converged: {solve}")
+    print(f"report: {out / 'index.html'}")
+    if any(section.unconverged for section in sections):
+        return Exit.NOT_CONVERGED
+    return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
+
+
+def cases(arguments: argparse.Namespace) -> Exit:
+    """List what there is."""
+    for name, entry in CASES.items():
+        print(f"{name:15s} {entry.answers}")
+    return Exit.MET
+
+
+def _line(section: Section) -> str:
+    if section.failure:
+        return f"{section.name:15s} no result"
+    found = ", ".join(f"{section.findings(v)} {v}" for v in Verdict if section.findings(v))
+    met = section.criteria - len(section.missed)
+    return f"{section.name:15s} criteria met {met} of {section.criteria}" + (f"; findings: {found}" if found else "")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="mdr-validation",
+        description="Reduced contact models beside three-dimensional boundary elements.",
+        epilog="Exit status: 0 all criteria met; 1 a criterion failed; 2 bad usage or input; "
+        "3 something did not converge; 130 interrupted.",
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    making = commands.add_parser("report", help="run cases and write a report folder")
+    making.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
+    making.add_argument("--only", nargs="+", choices=list(CASES), metavar="CASE", help="these cases alone; see `cases`")
+    making.add_argument("--out", type=Path, metavar="DIR", help="folder of the report (default: reports/PROFILE)")
+    making.add_argument("--workers", type=_at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
+    making.add_argument("--seed", type=_at_least(0), metavar="S", help="for every case that draws at random")
+    making.set_defaults(command=report)
+    listing = commands.add_parser("cases", help="what there is, and which figure or claim each one answers")
+    listing.set_defaults(command=cases)
+    return parser
+
+
+class _at_least:
+    """Whole numbers from a least one on."""
+
+    def __init__(self, least: int):
+        self.least = least
+
+    def __call__(self, word: str) -> int:
+        try:
+            value = int(word)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"must be a whole number, got {word!r}") from None
+        if value < self.least:
+            raise argparse.ArgumentTypeError(f"must be at least {self.least}, got {value}")
+        return value
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,66 @@
+"""One file per piece of evidence; this is the list of them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from validation.cases import fractal_punch, geike, hertz, square_punch, westergaard
+from validation.ensemble import Engine
+from validation.evidence import Evidence
+
+Profile = Literal["quick", "full"]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A case in the list: which figure or claim it answers, its two sizes, and how to run and read it."""
+
+    answers: str
+    quick: Any
+    full: Any
+    run: Callable[[Any, Engine], Any]
+    evidence: Callable[[Any], Evidence]
+
+    def case(self, profile: Profile, seed: int | None) -> Any:
+        """The case of that size, with the seed where it draws anything."""
+        case = self.quick if profile == "quick" else self.full
+        return replace(case, seed=seed) if seed is not None and hasattr(case, "seed") else case
+
+
+CASES = {
+    "hertz": Entry(
+        "Smooth sphere: both methods against Hertz",
+        hertz.Hertz(),
+        hertz.Hertz(cells_per_radius=(8, 16, 32, 64, 128)),
+        hertz.run,
+        hertz.evidence,
+    ),
+    "square_punch": Entry(
+        "Flat punches: the stiffness at which every load curve ends, and the length of the 1D model",
+        square_punch.SquarePunch(),
+        square_punch.SquarePunch(cells=(16, 32, 64, 128, 256)),
+        square_punch.run,
+        square_punch.evidence,
+    ),
+    "westergaard": Entry(
+        "Periodic wave: the periodic half-space against Westergaard",
+        westergaard.Westergaard(),
+        westergaard.Westergaard(cells=(64, 128, 256, 512, 1024)),
+        westergaard.run,
+        westergaard.evidence,
+    ),
+    "geike": Entry(
+        "Geike's rule (10.12): what it keeps, and why it is not the spectrum of a line",
+        geike.Geike(),
+        geike.Geike(cells=1024, surfaces=12),
+        geike.run,
+        geike.evidence,
+    ),
+    "fractal_punch": Entry(
+        "Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
+        fractal_punch.FractalPunch(),
+        fractal_punch.FractalPunch(cells=256, surfaces=60, profiles=500, decades=(-3, 1), refined=8),
+        fractal_punch.run,
+        fractal_punch.evidence,
+    ),
+}

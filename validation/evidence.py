@@ -1,0 +1,118 @@
+"""Evidence: numbers with a reference, a tolerance, an error bar and a verdict; tables behind figures; conclusions."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+
+class Verdict(StrEnum):
+    """What a number says about its reference."""
+
+    AGREE = "agree"
+    DIFFER = "differ"
+    UNDECIDED = "undecided"
+
+
+class Role(StrEnum):
+    """A criterion must agree, or the run has failed; a finding is an answer whichever way it comes out."""
+
+    CRITERION = "criterion"
+    FINDING = "finding"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Number:
+    """One number beside its reference.
+
+    value, reference, tolerance: in the same unit; grid, sample: half-widths of the 95 % intervals that the grid and
+    the number of realisations leave open, in the same unit. What is left of value - reference is the model's.
+    """
+
+    label: str
+    value: float
+    reference: float
+    source: str
+    tolerance: float
+    reason: str
+    unit: str = "-"
+    grid: float = 0.0
+    sample: float = 0.0
+    role: Role = Role.CRITERION
+
+    def __post_init__(self) -> None:
+        for name in ("value", "reference", "tolerance", "grid", "sample"):
+            if not np.isfinite(getattr(self, name)):
+                raise ValueError(f"{name} of {self.label!r} must be finite, got {getattr(self, name)}")
+        for name in ("tolerance", "grid", "sample"):
+            if getattr(self, name) < 0:
+                raise ValueError(f"{name} of {self.label!r} must not be negative, got {getattr(self, name)}")
+
+    @property
+    def difference(self) -> float:
+        """value - reference."""
+        return self.value - self.reference
+
+    @property
+    def uncertainty(self) -> float:
+        """The two half-widths together, added as if they went the same way."""
+        return self.grid + self.sample
+
+    @property
+    def verdict(self) -> Verdict:
+        """agree or differ where the whole interval lies inside or outside the tolerance, else undecided."""
+        if abs(self.difference) + self.uncertainty <= self.tolerance:
+            return Verdict.AGREE
+        if abs(self.difference) - self.uncertainty > self.tolerance:
+            return Verdict.DIFFER
+        return Verdict.UNDECIDED
+
+    @property
+    def met(self) -> bool:
+        """False for a criterion that does not agree."""
+        return self.role is Role.FINDING or self.verdict is Verdict.AGREE
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns of equal length: the data behind a figure. A name carries its unit, as in "approach [m]"."""
+
+    name: str
+    columns: Mapping[str, Sequence[object]]
+
+    def __post_init__(self) -> None:
+        lengths = {name: len(column) for name, column in self.columns.items()}
+        if len(set(lengths.values())) != 1:
+            raise ValueError(f"columns of table {self.name!r} must have one length, got {lengths}")
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        return np.asarray(self.columns[column])
+
+    def where(self, **equal: object) -> "Table":
+        """The rows whose columns have the given values."""
+        keep = np.logical_and.reduce([self[name] == value for name, value in equal.items()])
+        return Table(self.name, {name: self[name][keep].tolist() for name in self.columns})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """What a case shows: how it was compared, its numbers, the tables behind its figure, what follows from them."""
+
+    title: str
+    compared: str
+    numbers: tuple[Number, ...]
+    tables: tuple[Table, ...]
+    conclusions: tuple[str, ...]
+    caption: str
+    unconverged: tuple[str, ...] = field(default=())
+
+    def table(self, name: str) -> Table:
+        """The table of that name."""
+        return next(table for table in self.tables if table.name == name)
+
+
+def columns(**arrays: ArrayLike) -> dict[str, Sequence[object]]:
+    """Plain Python values of arrays, one list a column."""
+    return {name: np.asarray(array).tolist() for name, array in arrays.items()}

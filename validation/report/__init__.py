@@ -1,0 +1,1 @@
+"""Evidence on paper: figures, tables, numbers and the page that holds them."""

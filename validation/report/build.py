@@ -1,0 +1,140 @@
+"""From cases to a report folder."""
+
+import base64
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import jinja2
+
+from bem3d import ConvergenceError
+from validation.cases import CASES, Profile
+from validation.ensemble import Engine
+from validation.evidence import Evidence, Number, Role, Verdict
+from validation.report.figures import DRAW
+from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
+from validation.report.provenance import provenance
+from validation.report.style import pdf, svg
+
+
+@dataclass(frozen=True)
+class Section:
+    """One case in the report: its settings and its evidence, or why there is none."""
+
+    name: str
+    answers: str
+    settings: dict[str, object]
+    evidence: Evidence | None
+    failure: str = ""
+
+    @property
+    def numbers(self) -> tuple[Number, ...]:
+        """All of them, none where the case failed."""
+        return self.evidence.numbers if self.evidence else ()
+
+    @property
+    def unconverged(self) -> tuple[str, ...]:
+        """Whatever did not converge in it."""
+        if self.failure:
+            return (self.failure,)
+        return self.evidence.unconverged if self.evidence else ()
+
+    @property
+    def missed(self) -> tuple[Number, ...]:
+        """Criteria that are not met."""
+        return tuple(number for number in self.numbers if not number.met)
+
+    @property
+    def criteria(self) -> int:
+        """How many there are."""
+        return sum(number.role is Role.CRITERION for number in self.numbers)
+
+    def findings(self, verdict: Verdict) -> int:
+        """How many came out that way."""
+        return sum(number.role is Role.FINDING and number.verdict is verdict for number in self.numbers)
+
+
+def build(
+    names: Sequence[str], *, profile: Profile, out: Path, workers: int, seed: int | None, progress: bool = True
+) -> list[Section]:
+    """Run the cases, write the report folder, return what it holds.
+
+    names: of cases in `CASES`; profile: "quick" or "full"; out: a new folder or an earlier report;
+    workers: processes; seed: for every case that draws, None for the seed of each case.
+    Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
+    Raises ValueError for a folder that holds something else.
+    """
+    folder = Folder(out)
+    engine = Engine(workers=workers, store=out / REALISATIONS, progress=progress)
+    sections, seconds = [], {}
+    for name in names:
+        start = time.perf_counter()
+        sections.append(_section(name, profile, seed, engine))
+        seconds[name] = time.perf_counter() - start
+    pictures = {}
+    for section in sections:
+        if section.evidence is None:
+            continue
+        figure = DRAW[section.name](section.evidence)
+        pictures[section.name] = svg(figure)
+        folder.write(f"figures/{section.name}.svg", pictures[section.name])
+        folder.write(f"figures/{section.name}.pdf", pdf(figure))
+        for table in section.evidence.tables:
+            folder.write(f"data/{section.name}-{table.name}.csv", as_csv(table))
+    about = provenance(profile, seed, workers, seconds)
+    folder.write("provenance.json", as_json(about))
+    folder.write(RESULTS, as_json(_results(sections, profile)))
+    folder.write("index.html", _page(sections, profile, pictures, about))
+    folder.clear_old()
+    return sections
+
+
+def _section(name: str, profile: Profile, seed: int | None, engine: Engine) -> Section:
+    entry = CASES[name]
+    case = entry.case(profile, seed)
+    try:
+        evidence = entry.evidence(entry.run(case, engine))
+    except ConvergenceError as error:
+        return Section(name, entry.answers, asdict(case), None, f"{name}: {error}")
+    return Section(name, entry.answers, asdict(case), evidence)
+
+
+def _results(sections: Sequence[Section], profile: Profile) -> dict[str, object]:
+    return {"profile": profile, "cases": {section.name: _case_results(section) for section in sections}}
+
+
+def _case_results(section: Section) -> dict[str, object]:
+    return {
+        "answers": section.answers,
+        "settings": section.settings,
+        "numbers": [
+            {**asdict(number), "difference": number.difference, "verdict": number.verdict, "met": number.met}
+            for number in section.numbers
+        ],
+        "conclusions": list(section.evidence.conclusions) if section.evidence else [],
+        "unconverged": list(section.unconverged),
+    }
+
+
+def _page(
+    sections: Sequence[Section], profile: Profile, pictures: dict[str, bytes], about: dict[str, object]
+) -> bytes:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["figure"] = lambda value: f"{value:.6g}"
+    environment.filters["small"] = lambda value: f"{value:.2g}"
+    page = environment.get_template("page.html").render(
+        sections=sections,
+        profile=profile,
+        pictures={name: base64.b64encode(picture).decode() for name, picture in pictures.items()},
+        about=about,
+        verdicts=list(Verdict),
+        symbol={"agree": "✓", "differ": "≠", "undecided": "?"},
+    )
+    return (page + "\n").encode()

@@ -1,0 +1,42 @@
+"""Figure of the smooth sphere."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from validation.evidence import Evidence
+from validation.report.style import BEM, EXACT, GUIDE, MDR, panels
+
+
+def draw(evidence: Evidence) -> Figure:
+    """Load curve, pressure, and error of the force against the cells."""
+    figure, (load_axis, pressure_axis, error_axis) = panels(1, 3)
+
+    load = evidence.table("load")
+    micrometres = 1e6 * load["approach [m]"]
+    load_axis.plot(micrometres, load["hertz force [N]"], label="Hertz", **EXACT)
+    load_axis.plot(micrometres, load["bem3d force [N]"], label="boundary elements", **BEM)
+    load_axis.plot(micrometres, load["mdr force [N]"], label="MDR", **{**MDR, "markersize": 8})
+    load_axis.set(xlabel="approach d [µm]", ylabel="force F [N]")
+    load_axis.legend()
+
+    pressure = evidence.table("pressure")
+    millimetres = 1e3 * pressure["x [m]"]
+    pressure_axis.plot(millimetres, 1e-6 * pressure["hertz pressure [Pa]"], label="Hertz", **EXACT)
+    pressure_axis.plot(millimetres, 1e-6 * pressure["bem3d pressure [Pa]"], label="boundary elements", **BEM)
+    pressure_axis.set(xlabel="distance from the centre [mm]", ylabel="pressure p [MPa]")
+    pressure_axis.legend()
+
+    refinement = evidence.table("refinement")
+    n = refinement["cells per contact radius"]
+    for column, label, style in (
+        ("bem3d force error", "boundary elements", BEM),
+        ("mdr force error", "MDR", MDR),
+    ):
+        error_axis.loglog(n, np.abs(refinement[column]), label=label, **style)
+    start = np.abs(refinement["bem3d force error"][0])
+    error_axis.loglog(n, start * (n / n[0]) ** -2.0, label="second order", **GUIDE)
+    error_axis.set(xlabel="cells per contact radius", ylabel="|F / F(Hertz) - 1|")
+    error_axis.set_xticks(n, [str(value) for value in n])
+    error_axis.minorticks_off()
+    error_axis.legend()
+    return figure

@@ -1,0 +1,66 @@
+"""The report folder: files that appear whole or not at all."""
+
+import csv
+import io
+import json
+import math
+import os
+import tempfile
+from pathlib import Path
+
+from validation.evidence import Table
+
+REALISATIONS = "realisations"
+RESULTS = "results.json"
+
+
+class Folder:
+    """A folder that holds a report, or nothing yet.
+
+    Raises ValueError for a path that is a file, or a folder with something else in it.
+    """
+
+    def __init__(self, path: Path):
+        if path.exists() and not path.is_dir():
+            raise ValueError(f"--out must be a folder, got the file {path}")
+        if path.exists() and any(path.iterdir()) and not ((path / RESULTS).exists() or (path / REALISATIONS).exists()):
+            raise ValueError(f"--out must be a new or empty folder or an earlier report, got {path} with other files")
+        self.path = path
+        self._written: set[Path] = set()
+
+    def write(self, name: str, contents: bytes) -> None:
+        """Write beside the place and rename."""
+        place = self.path / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=place.parent, suffix=".part")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(contents)
+            os.chmod(temporary, 0o644)
+            os.replace(temporary, place)
+        except BaseException:
+            Path(temporary).unlink(missing_ok=True)
+            raise
+        self._written.add(place)
+
+    def clear_old(self) -> None:
+        """Remove figures and data that an earlier report left and this one has not written."""
+        for room in ("figures", "data"):
+            for file in (self.path / room).glob("*.*"):
+                if file not in self._written:
+                    file.unlink()
+
+
+def as_json(value: object) -> bytes:
+    """Readable, sorted, strict: no NaN, no infinity."""
+    return (json.dumps(value, indent=1, sort_keys=True, allow_nan=False, ensure_ascii=False) + "\n").encode()
+
+
+def as_csv(table: Table) -> bytes:
+    """Numbers to their last digit; what is not finite is left empty."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(table.columns)
+    for row in zip(*table.columns.values(), strict=True):
+        writer.writerow("" if isinstance(value, float) and not math.isfinite(value) else value for value in row)
+    return text.getvalue().encode()

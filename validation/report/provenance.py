@@ -1,0 +1,41 @@
+"""What produced a report: versions, settings, commit, time. Never whose machine."""
+
+import importlib.metadata
+import os
+import platform
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+LIBRARIES = ("numpy", "scipy", "pyfftw", "matplotlib", "joblib")
+
+
+def provenance(profile: str, seed: int | None, workers: int, seconds: dict[str, float]) -> dict[str, object]:
+    """Plain values for provenance.json: everything about a run that is no result."""
+    return {
+        "profile": profile,
+        "seed": "default of each case" if seed is None else seed,
+        "workers": workers,
+        "seconds": {name: round(value, 2) for name, value in seconds.items()},
+        "commit": _commit(),
+        "python": platform.python_version(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "cores": os.cpu_count(),
+        "libraries": {name: importlib.metadata.version(name) for name in LIBRARIES},
+    }
+
+
+def _commit() -> str:
+    """Commit of the source, with a mark where it has been changed since; "unknown" outside a checkout."""
+    if not (ROOT / ".git").exists():
+        return "unknown"
+    try:
+        revision = _git("rev-parse", "--short", "HEAD")
+        return revision + (", changed since" if _git("status", "--porcelain", "--untracked-files=no") else "")
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+def _git(*words: str) -> str:
+    finished = subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True)
+    return finished.stdout.strip()
