@@ -57,7 +57,7 @@ def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulu
     qy = 2 * np.pi * fft.rfftfreq(shape[1], spacing[1])
     q = np.hypot(qx[:, np.newaxis], qy[np.newaxis, :])
     q[0, 0] = np.inf
-    return 2 / (modulus * q)
+    return np.asarray(2 / (modulus * q))
 
 
 def _half(x: FloatArray, y: FloatArray) -> FloatArray:

@@ -66,7 +66,7 @@ def first_pressure(problem: Problem) -> FloatArray:
     if problem.approach is None:
         return _loaded(problem, np.ones(problem.half_space.shape))
     overlap = np.maximum(problem.approach - problem.gap, 0.0)
-    return overlap / (problem.half_space.self_compliance * np.sqrt(overlap.size))
+    return np.asarray(overlap / (problem.half_space.self_compliance * np.sqrt(overlap.size)))
 
 
 def _loaded(problem: Problem, pressure: FloatArray) -> FloatArray:

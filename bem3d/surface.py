@@ -66,7 +66,7 @@ def _resolved(c2d: Spectrum, q: FloatArray, steps: tuple[float, float]) -> Float
         raise TypeError(f"c2d must be a callable c2d(q), got {type(c2d).__name__}")
     values = np.zeros(q.shape)
     waves = q > 0
-    values[waves] = density("c2d", c2d(q[waves]), (np.count_nonzero(waves),))
+    values[waves] = density("c2d", c2d(q[waves]), q[waves].shape)
     nyquist = np.pi / max(steps)
     beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 256)
     if np.max(beyond**5 * density("c2d", c2d(beyond), beyond.shape)) > 1e-9 * np.max(q**5 * values):
@@ -93,10 +93,10 @@ def _random_waves(
     else:
         pair = rng.standard_normal((ring.size, 2))
         wave[order] = (pair[:, 0] + 1j * pair[:, 1]) / np.sqrt(2)
-    wave = wave.reshape(ring.shape)
+    spectrum = wave.reshape(ring.shape)
     for column in {0, shape[1] // 2} if shape[1] % 2 == 0 else {0}:
-        wave[:, column] = _hermitian(wave[:, column], amplitudes)
-    return wave
+        spectrum[:, column] = _hermitian(spectrum[:, column], amplitudes)
+    return spectrum
 
 
 def _hermitian(wave: ComplexArray, amplitudes: Literal["fixed", "gaussian"]) -> ComplexArray:

@@ -44,7 +44,7 @@ class LoadCurve:
         d = finite_array("approach", approach)
         pressed = np.searchsorted(self.approach, d, side="left")
         last = np.maximum(pressed - 1, 0)
-        stiffness = pressed * self.spring
+        stiffness = self.spring * pressed.astype(np.float64)
         return _point(d, self.force[last] + stiffness * (d - self.approach[last]), stiffness)
 
     @overload
@@ -58,7 +58,7 @@ class LoadCurve:
             raise ValueError(f"force must be zero or positive, got {given.min()}")
         pressed = np.searchsorted(self.force, given, side="left")
         last = np.maximum(pressed - 1, 0)
-        stiffness = pressed * self.spring
+        stiffness = self.spring * pressed.astype(np.float64)
         beyond = (given - self.force[last]) / np.maximum(stiffness, self.spring)
         return _point(self.approach[last] + beyond, given, stiffness)
 
@@ -76,7 +76,7 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     heights = finite_array("height", height, ndim=1)
     spring = positive("modulus", modulus) * positive("length", length) / heights.size
     approach = np.sort(-heights)
-    stiffness = spring * np.searchsorted(approach, approach, side="left")
+    stiffness = spring * np.searchsorted(approach, approach, side="left").astype(np.float64)
     steps = spring * np.arange(1, heights.size) * np.diff(approach)
     force = np.concatenate([[0.0], np.cumsum(steps)])
     return LoadCurve(approach, force, stiffness, spring)

@@ -50,7 +50,12 @@ def rough_profile(
     if amplitudes not in ("fixed", "gaussian"):
         raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
     mode = np.arange(1, points // 2 + 1)
-    variance = 2 * np.pi / length * _resolved(c1d, 2 * np.pi / length * mode, np.pi * points / length)
+    variance = (
+        2
+        * np.pi
+        / length
+        * _resolved(c1d, np.asarray(2 * np.pi / length * mode, dtype=np.float64), np.pi * points / length)
+    )
     own_mirror = 2 * mode == points
     total = np.sum(np.where(own_mirror, 1, 2) * variance)
     if total == 0:

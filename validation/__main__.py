@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from enum import IntEnum
 from pathlib import Path
 
@@ -44,13 +44,8 @@ def report(arguments: argparse.Namespace) -> Exit:
         out=out,
         workers=arguments.workers,
         seed=arguments.seed,
+        tell=_tell,
     )
-    for section in sections:
-        print(_line(section))
-        for number in section.missed:
-            print(f"    missed: {number.label} = {number.value:.6g}, {number.verdict} with {number.reference:.6g}")
-        for solve in section.unconverged:
-            print(f"    not converged: {solve}")
     print(f"report: {out / 'index.html'}")
     if any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED
@@ -64,12 +59,15 @@ def cases(arguments: argparse.Namespace) -> Exit:
     return Exit.MET
 
 
-def _line(section: Section) -> str:
-    if section.failure:
-        return f"{section.name:15s} no result"
+def _tell(section: Section) -> None:
+    """A line for a case that is finished, and one for each thing in it that is amiss."""
+    met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
     found = ", ".join(f"{section.findings(v)} {v}" for v in Verdict if section.findings(v))
-    met = section.criteria - len(section.missed)
-    return f"{section.name:15s} criteria met {met} of {section.criteria}" + (f"; findings: {found}" if found else "")
+    print(f"{section.name:15s} {'no result' if section.failure else met}" + (f"; findings: {found}" if found else ""))
+    for number in section.missed:
+        print(f"    missed: {number.label} = {number.value:.6g}, {number.verdict} with {number.reference:.6g}")
+    for solve in section.unconverged:
+        print(f"    not converged: {solve}", flush=True)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -92,21 +90,25 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-class _at_least:
+def _at_least(least: int) -> Callable[[str], int]:
     """Whole numbers from a least one on."""
 
-    def __init__(self, least: int):
-        self.least = least
-
-    def __call__(self, word: str) -> int:
+    def number(word: str) -> int:
         try:
             value = int(word)
         except ValueError:
             raise argparse.ArgumentTypeError(f"must be a whole number, got {word!r}") from None
-        if value < self.least:
-            raise argparse.ArgumentTypeError(f"must be at least {self.least}, got {value}")
+        if value < least:
+            raise argparse.ArgumentTypeError(f"must be at least {least}, got {value}")
         return value
+
+    return number
+
+
+def run() -> None:
+    """The installed command."""
+    sys.exit(main())
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run()

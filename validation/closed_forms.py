@@ -18,7 +18,7 @@ SQUARE_PUNCH = 1.1523
 def hertz_force(*, radius: float, modulus: float, approach: float) -> float:
     """F = 4/3 E* sqrt(R) d^(3/2) [N]. Source: Hertz; Johnson, Contact Mechanics, chapter 4."""
     _positive(radius=radius, modulus=modulus, approach=approach)
-    return 4 / 3 * modulus * math.sqrt(radius) * approach**1.5
+    return 4 / 3 * modulus * math.sqrt(radius) * math.pow(approach, 1.5)
 
 
 def hertz_approach(*, radius: float, modulus: float, force: float) -> float:
@@ -34,9 +34,9 @@ def hertz_contact_radius(*, radius: float, approach: float) -> float:
 
 
 def hertz_pressure(r: ArrayLike, *, radius: float, modulus: float, approach: float) -> FloatArray:
-    """p(r) = (2 E* / pi) sqrt((a^2 - r^2)) / R inside the contact, zero outside [Pa]. r: from the centre, any shape [m].
+    """p(r) = (2 E* / pi) sqrt(a^2 - r^2) / R inside the contact, zero outside [Pa].
 
-    Source: Hertz; Johnson, chapter 4.
+    r: distance from the centre, any shape [m]. Source: Hertz; Johnson, chapter 4.
     """
     _positive(radius=radius, modulus=modulus, approach=approach)
     inside = np.maximum(radius * approach - np.asarray(r, dtype=np.float64) ** 2, 0.0)
@@ -85,9 +85,7 @@ def westergaard_pressure(
     x: from the crest of the wave, periodic, any shape [m]. Source: Westergaard; Johnson, chapter 13.
     """
     full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
-    a = westergaard_half_width(
-        mean_pressure=mean_pressure, amplitude=amplitude, wavelength=wavelength, modulus=modulus
-    )
+    a = westergaard_half_width(mean_pressure=mean_pressure, amplitude=amplitude, wavelength=wavelength, modulus=modulus)
     phase = np.pi * np.asarray(x, dtype=np.float64) / wavelength
     inside = np.maximum(math.sin(math.pi * a / wavelength) ** 2 - np.sin(phase) ** 2, 0.0)
     pressure: FloatArray = 2 * full * np.abs(np.cos(phase)) * np.sqrt(inside)

@@ -2,9 +2,9 @@
 
 import hashlib
 import importlib.metadata
+import io
 import json
-import os
-import tempfile
+import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -16,6 +16,8 @@ import joblib
 import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
+
+from validation.files import write_whole
 
 Outcome = dict[str, NDArray[np.float64]]
 P = TypeVar("P")
@@ -64,7 +66,8 @@ def _solve_or_load(solve: Callable[[P], Outcome], problem: P, store: Path | None
     if store is None:
         return solve(problem)
     key = f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_numerics()}"
-    path = store / f"{solve.__name__}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
+    case, digest = solve.__module__.rpartition(".")[2], hashlib.sha256(key.encode()).hexdigest()
+    path = store / f"{case}-{solve.__name__}-{digest[:24]}.npz"
     stored = _load(path, key)
     if stored is not None:
         return stored
@@ -78,7 +81,7 @@ def _load(path: Path, key: str) -> Outcome | None:
     try:
         with np.load(path, allow_pickle=False) as archive:
             contents = {name: archive[name] for name in archive.files}
-    except (OSError, ValueError, BadZipFile, EOFError):
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile, zlib.error):
         return None
     if str(contents.pop("key", "")) != key:
         return None
@@ -86,16 +89,9 @@ def _load(path: Path, key: str) -> Outcome | None:
 
 
 def _save(path: Path, key: str, outcome: Outcome) -> None:
-    """Write beside the path and rename: the file appears whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, key=np.array(key), **{name: np.asarray(value) for name, value in outcome.items()})
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    archive = io.BytesIO()
+    np.savez(archive, **{"key": np.array(key), **outcome})  # type: ignore[arg-type]  # stubs take a name for a flag
+    write_whole(path, archive.getvalue())
 
 
 @cache

@@ -38,12 +38,12 @@ class Estimate:
 
 def log_mean(samples: FloatArray, axis: int = -1) -> FloatArray:
     """ln of the mean."""
-    return np.log(samples.mean(axis=axis))
+    return np.asarray(np.log(samples.mean(axis=axis)))
 
 
 def log_relative_deviation(samples: FloatArray, axis: int = -1) -> FloatArray:
     """ln of the standard deviation (n - 1) over the mean."""
-    return np.log(samples.std(axis=axis, ddof=1) / samples.mean(axis=axis))
+    return np.asarray(np.log(samples.std(axis=axis, ddof=1) / samples.mean(axis=axis)))
 
 
 def estimate(samples: FloatArray, statistic: Statistic, rng: np.random.Generator) -> Estimate:

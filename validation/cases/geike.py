@@ -142,7 +142,8 @@ def evidence(result: GeikeResult) -> Evidence:
                 reference=1.0,
                 source="(14.8), (14.9)",
                 tolerance=_edge_share(spectrum, n, 2 * np.pi / case.length),
-                reason="a sum over waves in place of an integral: each edge of the band counts up to half a step too much or too little",
+                reason="a sum over waves in place of an integral: each edge of the band counts up to half a step too "
+                "much or too little",
             )
             for n in KEPT
         ]
@@ -195,7 +196,7 @@ def evidence(result: GeikeResult) -> Evidence:
         compared=(
             f"Self-affine roughness, H = {case.hurst:g}, waves from L/{case.longest} to L/{case.cells // 4}: moments "
             f"of the spectra by quadrature, and of {case.surfaces} profiles of {case.cells} points and "
-            f"{case.surfaces} surfaces of {case.cells}^2 cells drawn from them, fixed amplitudes, random phases."
+            f"{case.surfaces} surfaces of {case.cells}² cells drawn from them, fixed amplitudes, random phases."
         ),
         numbers=tuple(numbers),
         tables=(
@@ -251,8 +252,8 @@ def _edge_share(spectrum: mdr.SelfAffine, n: int, step: float) -> float:
     """Share of the n-th moment within half a step of both edges, each at the larger of its two sides."""
 
     def density(q: float) -> float:
-        return q ** (n - 2 * spectrum.hurst - 1)
+        return math.pow(q, n - 2 * spectrum.hurst - 1)
 
     edges = [max(density(q - step / 2), density(q + step / 2)) for q in (spectrum.q_min, spectrum.q_max)]
-    level = float(spectrum.c1d(spectrum.q_min)) / spectrum.q_min ** (-2 * spectrum.hurst - 1)
+    level = float(spectrum.c1d(spectrum.q_min)) / math.pow(spectrum.q_min, -2 * spectrum.hurst - 1)
     return level * sum(edges) * step / _isotropic_moment(spectrum, n)

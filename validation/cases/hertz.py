@@ -188,9 +188,10 @@ def evidence(result: HertzResult) -> Evidence:
         title="Smooth sphere",
         compared=(
             f"A rigid sphere, R = {case.radius:g} m, on a half-space of E* = {case.modulus / 1e9:g} GPa, pressed by "
-            f"{case.approach * 1e6:g} um (Hertz: {case.force:.1f} N, a = {case.contact_radius * 1e3:.4f} mm). "
-            f"MDR: the parabola x^2/R on springs. Boundary elements: x^2/2R + y^2/2R on cells of the same width, "
-            f"{n[0]} to {n[-1]} of them in the contact radius, residual {case.tolerance:g}."
+            f"{case.approach * 1e6:g} µm (Hertz: {case.force:.1f} N, a = {case.contact_radius * 1e3:.4f} mm). "
+            f"MDR: the parabola x²/R on springs. Boundary elements: (x² + y²)/2R on cells of the same width, "
+            f"{n[0]} to {n[-1]} of them in the contact radius (whole numbers, which suits the springs), "
+            f"residual {case.tolerance:g}."
         ),
         numbers=tuple(numbers),
         tables=(_load_table(result), _pressure_table(result), _refinement_table(result)),
@@ -220,9 +221,7 @@ def _order(n: np.ndarray, error: np.ndarray) -> float:
 
 def _load_table(result: HertzResult) -> Table:
     case = result.case
-    hertz = [
-        closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=d) for d in result.approaches
-    ]
+    hertz = [closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=d) for d in result.approaches]
     return Table(
         "load",
         {

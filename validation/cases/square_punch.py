@@ -124,8 +124,8 @@ def evidence(result: SquarePunchResult) -> Evidence:
     return Evidence(
         title="Flat punches",
         compared=(
-            f"A flat square of side L and a flat circle of diameter L, pressed by boundary elements on {n[0]}^2 to "
-            f"{n[-1]}^2 cells that just hold the square; a flat profile on springs, of length L and of 1.1523 L."
+            f"A flat square of side L and a flat circle of diameter L, pressed by boundary elements on {n[0]}² to "
+            f"{n[-1]}² cells that just hold the square; a flat profile on springs, of length L and of 1.1523 L."
         ),
         numbers=numbers,
         tables=(

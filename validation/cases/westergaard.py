@@ -117,7 +117,7 @@ def evidence(result: WestergaardResult) -> Evidence:
     return Evidence(
         title="Periodic wave",
         compared=(
-            f"A rigid wave of amplitude {case.amplitude * 1e6:g} um and wavelength {case.wavelength * 1e3:g} mm "
+            f"A rigid wave of amplitude {case.amplitude * 1e6:g} µm and wavelength {case.wavelength * 1e3:g} mm "
             f"pressed against a half-space of E* = {case.modulus / 1e9:g} GPa at prescribed mean pressure, on one row "
             f"of {n[0]} to {n[-1]} cells. MDR has no part in it: a line contact that repeats itself has no "
             "one-dimensional image of independent springs."

@@ -1,8 +1,9 @@
 """From cases to a report folder."""
 
 import base64
+import math
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from validation.evidence import Evidence, Number, Role, Verdict
 from validation.report.figures import DRAW
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
-from validation.report.style import pdf, svg
+from validation.report.style import drawn, pdf, svg
 
 
 @dataclass(frozen=True)
@@ -56,12 +57,20 @@ class Section:
 
 
 def build(
-    names: Sequence[str], *, profile: Profile, out: Path, workers: int, seed: int | None, progress: bool = True
+    names: Sequence[str],
+    *,
+    profile: Profile,
+    out: Path,
+    workers: int,
+    seed: int | None,
+    progress: bool = True,
+    tell: Callable[[Section], None] = lambda section: None,
 ) -> list[Section]:
     """Run the cases, write the report folder, return what it holds.
 
     names: of cases in `CASES`; profile: "quick" or "full"; out: a new folder or an earlier report;
-    workers: processes; seed: for every case that draws, None for the seed of each case.
+    workers: processes; seed: for every case that draws, None for the seed of each case;
+    progress: bars, on a terminal only; tell: called with each case as it is finished.
     Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
     Raises ValueError for a folder that holds something else.
     """
@@ -72,11 +81,12 @@ def build(
         start = time.perf_counter()
         sections.append(_section(name, profile, seed, engine))
         seconds[name] = time.perf_counter() - start
+        tell(sections[-1])
     pictures = {}
     for section in sections:
         if section.evidence is None:
             continue
-        figure = DRAW[section.name](section.evidence)
+        figure = drawn(DRAW[section.name], section.evidence)
         pictures[section.name] = svg(figure)
         folder.write(f"figures/{section.name}.svg", pictures[section.name])
         folder.write(f"figures/{section.name}.pdf", pdf(figure))
@@ -117,9 +127,13 @@ def _case_results(section: Section) -> dict[str, object]:
     }
 
 
-def _page(
-    sections: Sequence[Section], profile: Profile, pictures: dict[str, bytes], about: dict[str, object]
-) -> bytes:
+def _resolved(value: float, tolerance: float) -> str:
+    """A value with two digits more than its tolerance has."""
+    digits = max(0, 2 - math.floor(math.log10(tolerance))) if tolerance > 0 else 6
+    return f"{value:.{digits}f}" if digits < 12 else f"{value:.6g}"
+
+
+def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, bytes], about: dict[str, object]) -> bytes:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=True,
@@ -127,7 +141,7 @@ def _page(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["figure"] = lambda value: f"{value:.6g}"
+    environment.filters["resolved"] = _resolved
     environment.filters["small"] = lambda value: f"{value:.2g}"
     page = environment.get_template("page.html").render(
         sections=sections,

@@ -1,14 +1,13 @@
-"""The report folder: files that appear whole or not at all."""
+"""The report folder, and how values are written in it."""
 
 import csv
 import io
 import json
 import math
-import os
-import tempfile
 from pathlib import Path
 
 from validation.evidence import Table
+from validation.files import write_whole
 
 REALISATIONS = "realisations"
 RESULTS = "results.json"
@@ -29,19 +28,9 @@ class Folder:
         self._written: set[Path] = set()
 
     def write(self, name: str, contents: bytes) -> None:
-        """Write beside the place and rename."""
-        place = self.path / name
-        place.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=place.parent, suffix=".part")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(contents)
-            os.chmod(temporary, 0o644)
-            os.replace(temporary, place)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
-        self._written.add(place)
+        """A file of the report, whole or not at all."""
+        write_whole(self.path / name, contents)
+        self._written.add(self.path / name)
 
     def clear_old(self) -> None:
         """Remove figures and data that an earlier report left and this one has not written."""

@@ -1,7 +1,8 @@
 """How figures look: read without colour, and drawn to the same bytes every time."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Callable
+from typing import Any, Literal
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -9,15 +10,19 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-# Okabe and Ito: apart for colour-blind readers; each with a marker and a dash of its own for print without colour
-EXACT = {"color": "#000000", "linestyle": "-", "linewidth": 1.0}
-BEM = {"color": "#0072B2", "marker": "o", "markersize": 4, "linestyle": "none"}
-MDR = {"color": "#D55E00", "marker": "s", "markersize": 4, "markerfacecolor": "none", "linestyle": "none"}
-MDR_LINE = {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4}
-MDR_OTHER = {"color": "#009E73", "linestyle": "--", "linewidth": 1.4}
-GUIDE = {"color": "#999999", "linestyle": ":", "linewidth": 1.0}
+from validation.evidence import Evidence
 
-SETTINGS = {
+Style = dict[str, Any]
+
+# Okabe and Ito: apart for colour-blind readers; each with a marker and a dash of its own for print without colour
+EXACT: Style = {"color": "#000000", "linestyle": "-", "linewidth": 1.0}
+BEM: Style = {"color": "#0072B2", "marker": "o", "markersize": 4, "linestyle": "none"}
+MDR: Style = {"color": "#D55E00", "marker": "s", "markersize": 4, "markerfacecolor": "none", "linestyle": "none"}
+MDR_LINE: Style = {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4}
+MDR_OTHER: Style = {"color": "#009E73", "linestyle": "--", "linewidth": 1.4}
+GUIDE: Style = {"color": "#999999", "linestyle": ":", "linewidth": 1.0}
+
+SETTINGS: Any = {
     "svg.hashsalt": "validation",
     "svg.fonttype": "path",
     "pdf.fonttype": 42,
@@ -31,21 +36,34 @@ SETTINGS = {
 }
 
 
-def panels(rows: int, columns: int, *, width: float = 9.0, height: float = 3.4, **share: bool | str) -> tuple[Figure, list[Axes]]:
+def panels(
+    rows: int,
+    columns: int,
+    *,
+    width: float = 9.0,
+    height: float = 3.4,
+    sharex: bool = False,
+    sharey: Literal["none", "row"] = "none",
+) -> tuple[Figure, list[Axes]]:
     """A figure of lettered panels, row by row."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False, sharex=sharex, sharey=sharey).flat)
+    for letter, axis in zip("abcdefghijkl", axes, strict=False):
+        axis.set_title(f"({letter})", loc="left")
+    return figure, axes
+
+
+def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence) -> Figure:
+    """A case's figure in this style."""
     with matplotlib.rc_context(SETTINGS):
-        figure = Figure(figsize=(width, height), layout="constrained")
-        axes: Sequence[Axes] = figure.subplots(rows, columns, squeeze=False, **share).ravel()
-        for letter, axis in zip("abcdefghijkl", axes, strict=False):
-            axis.set_title(f"({letter})", loc="left")
-        return figure, list(axes)
+        return draw(evidence)
 
 
 def svg(figure: Figure) -> bytes:
     """The same bytes for the same figure."""
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
-        FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})
+        FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
     return buffer.getvalue()
 
 
@@ -53,5 +71,7 @@ def pdf(figure: Figure) -> bytes:
     """The same bytes for the same figure."""
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
-        FigureCanvasPdf(figure).print_pdf(buffer, metadata={"CreationDate": None})
+        FigureCanvasPdf(figure).print_pdf(  # type: ignore[no-untyped-call]
+            buffer, metadata={"CreationDate": None}
+        )
     return buffer.getvalue()

@@ -22,7 +22,7 @@ def draw(evidence: Evidence) -> Figure:
         below.set_xlabel("force F / (E* h L)")
     axes[0].set_ylabel("mean stiffness k / (E* L)")
     axes[len(hursts)].set(ylabel="relative standard deviation of k", ylim=(1e-3, 1))
-    axes[0].legend()
+    axes[0].legend(loc="lower right")
     return figure
 
 

@@ -17,14 +17,14 @@ def draw(evidence: Evidence) -> Figure:
     load_axis.plot(micrometres, load["bem3d force [N]"], label="boundary elements", **BEM)
     load_axis.plot(micrometres, load["mdr force [N]"], label="MDR", **{**MDR, "markersize": 8})
     load_axis.set(xlabel="approach d [µm]", ylabel="force F [N]")
-    load_axis.legend()
+    load_axis.legend(loc="lower right")
 
     pressure = evidence.table("pressure")
     millimetres = 1e3 * pressure["x [m]"]
     pressure_axis.plot(millimetres, 1e-6 * pressure["hertz pressure [Pa]"], label="Hertz", **EXACT)
     pressure_axis.plot(millimetres, 1e-6 * pressure["bem3d pressure [Pa]"], label="boundary elements", **BEM)
     pressure_axis.set(xlabel="distance from the centre [mm]", ylabel="pressure p [MPa]")
-    pressure_axis.legend()
+    pressure_axis.legend(loc="upper right")
 
     refinement = evidence.table("refinement")
     n = refinement["cells per contact radius"]

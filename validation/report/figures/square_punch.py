@@ -27,7 +27,9 @@ def draw(evidence: Evidence) -> Figure:
     stiffness_axis.legend()
 
     pressure = evidence.table("pressure")
-    pressure_axis.semilogy(pressure["x / L"], pressure["p / mean p"], label="boundary elements", **{**BEM, "markersize": 2})
+    pressure_axis.semilogy(
+        pressure["x / L"], pressure["p / mean p"], label="boundary elements", **{**BEM, "markersize": 2}
+    )
     pressure_axis.set(xlabel="x / L, along the middle", ylabel="pressure p / mean(p)")
     pressure_axis.legend()
     return figure

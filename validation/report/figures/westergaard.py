@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from validation.evidence import Evidence
-from validation.report.style import EXACT, GUIDE, panels
+from validation.report.style import EXACT, GUIDE, Style, panels
 
 MARKS = ("o", "s", "^", "D", "v", "P")
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -15,7 +15,13 @@ def draw(evidence: Evidence) -> Figure:
     figure, (pressure_axis, error_axis) = panels(1, 2)
     pressure, refinement = evidence.table("pressure"), evidence.table("refinement")
     for load, mark, colour in zip(np.unique(pressure["mean p / p*"]), MARKS, COLOURS, strict=False):
-        style = {"marker": mark, "color": colour, "linestyle": "none", "markersize": 4, "markerfacecolor": "none"}
+        style: Style = {
+            "marker": mark,
+            "color": colour,
+            "linestyle": "none",
+            "markersize": 4,
+            "markerfacecolor": "none",
+        }
         rows = pressure["mean p / p*"] == load
         x, exact = pressure["x / wavelength"][rows], pressure["westergaard p / p*"][rows]
         computed = pressure["bem3d p / p*"][rows]
@@ -28,10 +34,10 @@ def draw(evidence: Evidence) -> Figure:
         if load == 0.5:
             error_axis.loglog(cells, error[0] * cells[0] / cells, label="first order", **GUIDE)
     pressure_axis.plot([], [], label="Westergaard", **EXACT)
-    pressure_axis.set(xlabel="x / wavelength", ylabel="pressure p / p*")
-    pressure_axis.legend()
-    error_axis.set(xlabel="cells per wavelength", ylabel="relative L2 error of the pressure")
+    pressure_axis.set(xlabel="x / wavelength", ylabel="pressure p / p*", xlim=(-0.5, 0.85))
+    pressure_axis.legend(loc="center right")
+    error_axis.set(xlabel="cells per wavelength", ylabel="relative L2 error of the pressure", ylim=(2e-5, None))
     error_axis.set_xticks(cells, [str(n) for n in cells])
     error_axis.minorticks_off()
-    error_axis.legend()
+    error_axis.legend(loc="lower left", ncols=2)
     return figure
