@@ -72,18 +72,17 @@ class Contact:
         return press_frozen(self.problem.half_space, self.pressure > 0, tolerance=tolerance).stiffness
 
 
-def residual(problem: Problem, pressure: FloatArray, separation: FloatArray, approach: float) -> float:
+def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
     """How far a pressure is from solving the contact problem, dimensionless.
 
-    With w = gap + u - approach and s = approach - min(gap), the deepest geometric overlap: the larger of
-    sum(p |w|) / (s sum(p)), a gap under pressure, and max(-w) / s, a penetration.
+    With s = approach - min(gap), the deepest geometric overlap: the larger of sum(p |w|) / (s sum(p)), a gap under
+    pressure, and max(-w) / s, a penetration.
     Without overlap, s <= 0, only p = 0 is a solution (residual 0), anything else is none (infinite).
 
-    pressure: [Pa]; separation: gap + u, with u from a fresh operator application on that pressure [m].
+    pressure: [Pa]; w: gap + u - approach, with u from a fresh operator application on that pressure [m]; overlap: s [m].
     """
-    total, overlap = float(pressure.sum()), approach - problem.first_touch
+    total = float(pressure.sum())
     if overlap <= 0:
         return 0.0 if total == 0 else float("inf")
-    w = separation - approach
     open_under_pressure = float((pressure * np.abs(w)).sum()) / total if total > 0 else 0.0
     return max(open_under_pressure, -float(w.min()), 0.0) / overlap

@@ -31,20 +31,23 @@ def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator
     Source: Polonsky and Keer, Wear 231 (1999) 206.
     """
     half_space, force = problem.half_space, problem.force
+    # heights count from the first touch: a gap far from zero would cost digits
+    gap, depth = problem.gap - problem.first_touch, problem.depth
     pressure = first_pressure(problem) if start is None else _loaded(problem, start)
     direction = np.zeros(half_space.shape)
-    conjugacy, square_before = 0.0, 1.0
+    restart, square_before = True, 1.0
     applications = 0
     while True:
-        separation = problem.gap + half_space.displacement(pressure)
+        separation = gap + half_space.displacement(pressure)
         contact = pressure > 0
-        approach = float(separation[contact].mean()) if problem.approach is None else problem.approach
+        s = float(separation[contact].mean()) if depth is None else depth
+        w = separation - s
         applications += 1
-        yield Iterate(pressure, approach, residual(problem, pressure, separation, approach), applications)
+        yield Iterate(pressure, problem.first_touch + s, residual(pressure, w, s), applications)
 
-        w = separation - approach
         square = float((w[contact] ** 2).sum())
-        direction = np.where(contact, w + conjugacy * square / square_before * direction, 0.0)
+        conjugacy = 0.0 if restart else square / square_before
+        direction = np.where(contact, w + conjugacy * direction, 0.0)
         yielding = half_space.displacement(direction)
         applications += 1
         if force is not None:
@@ -57,15 +60,14 @@ def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator
         pressure[overlapping] -= step * w[overlapping]
         if force is not None:
             pressure = _loaded(problem, pressure)
-        conjugacy = 0.0 if overlapping.any() else 1.0
-        square_before = square
+        restart, square_before = bool(overlapping.any()) or square == 0, square
 
 
 def first_pressure(problem: Problem) -> FloatArray:
     """A pressure to begin with: uniform at prescribed force, proportional to the geometric overlap otherwise."""
-    if problem.approach is None:
+    if problem.depth is None:
         return _loaded(problem, np.ones(problem.half_space.shape))
-    overlap = np.maximum(problem.approach - problem.gap, 0.0)
+    overlap = np.maximum(problem.depth - (problem.gap - problem.first_touch), 0.0)
     return np.asarray(overlap / (problem.half_space.self_compliance * np.sqrt(overlap.size)))
 
 

@@ -46,6 +46,11 @@ class Problem:
         return float(self.gap.min())
 
     @property
+    def depth(self) -> float | None:
+        """Prescribed approach beyond the first touch, the deepest geometric overlap [m]; None where force is given."""
+        return None if self.approach is None else self.approach - self.first_touch
+
+    @property
     def touching(self) -> bool:
         """Whether there is any contact: an approach beyond the first touch, or a force above zero."""
-        return self.approach > self.first_touch if self.approach is not None else self.force != 0
+        return self.depth > 0 if self.depth is not None else self.force != 0

@@ -39,10 +39,9 @@ def solve(
     problem = Problem(half_space=half_space, gap=cast(FloatArray, gap), approach=approach, force=force)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     pressure = _start(start, half_space)
-    if not problem.touching:
-        d = problem.first_touch if problem.approach is None else problem.approach
-        nothing = Iterate(np.zeros(half_space.shape), d, 0.0, 0)
-        return _contact(problem, tolerance, nothing, [0.0], Status.CONVERGED)
+    known = _known_at_once(problem)
+    if known is not None:
+        return _contact(problem, tolerance, known, [known.residual], Status.CONVERGED)
     history: list[float] = []
     for iterate in polonsky_keer(problem, pressure):
         history.append(iterate.residual)
@@ -58,6 +57,16 @@ def solve(
             result,
         )
     return result
+
+
+def _known_at_once(problem: Problem) -> Iterate | None:
+    """No contact; or a flat gap on a periodic half-space, whose uniform pressure leaves no overlap to scale by."""
+    flat = problem.half_space.periodic and float(problem.gap.max()) == problem.first_touch
+    if problem.touching and not flat:
+        return None
+    mean = (problem.force or 0.0) / (problem.gap.size * problem.half_space.cell_area)
+    d = problem.first_touch if problem.approach is None else problem.approach
+    return Iterate(np.full(problem.half_space.shape, mean), d, 0.0, 0)
 
 
 def _status(history: list[float], tolerance: float, max_iterations: int) -> Status | None:

@@ -5,12 +5,13 @@ Power spectral densities are two-sided: <h^2> = int_{-inf}^{inf} C_1D dq = 2 pi 
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
-from mdr.border import FloatArray, Spectrum, density, finite, finite_array, positive
+from mdr.border import FloatArray, Spectrum, count, density, finite, finite_array, positive
 
 # The wave at q_min = 2 pi / L carries most of the height; rounding must not push it out of the band.
 EDGE = 1e-9
@@ -48,7 +49,7 @@ def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
     return _values("c1d", c1d, wavenumber) / (np.pi * wavenumber)
 
 
-def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 2000) -> FloatArray:
+def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -> FloatArray:
     """The spectrum along a straight line cut through an isotropic surface.
 
     C_line(q) = int C_2D(sqrt(q^2 + k^2)) dk = 2 int_q^inf C_2D(s) s / sqrt(s^2 - q^2) ds,
@@ -61,7 +62,7 @@ def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 2000) 
     """
     wavenumber = np.abs(finite_array("q", q))
     reach = np.sqrt(np.maximum(positive("q_max", q_max) ** 2 - wavenumber**2, 0.0))
-    node, weight = np.polynomial.legendre.leggauss(nodes)
+    node, weight = _gauss_legendre(count("nodes", nodes, least=2))
     across = reach[..., np.newaxis] * (node + 1) / 2
     total = np.hypot(wavenumber[..., np.newaxis], across)
     integral: FloatArray = np.sum(_values("c2d", c2d, total) * weight, axis=-1) * reach
@@ -129,6 +130,12 @@ class SelfAffine:
     def _in_band(self, q: ArrayLike) -> tuple[FloatArray, NDArray[np.bool_]]:
         wavenumber = np.abs(finite_array("q", q))
         return wavenumber, (wavenumber >= self.q_min * (1 - EDGE)) & (wavenumber <= self.q_max * (1 + EDGE))
+
+
+@cache
+def _gauss_legendre(nodes: int) -> tuple[FloatArray, FloatArray]:
+    """Nodes and weights on [-1, 1]."""
+    return np.polynomial.legendre.leggauss(nodes)
 
 
 def _values(name: str, given: ArrayLike | Spectrum, q: FloatArray) -> FloatArray:

@@ -1,0 +1,115 @@
+"""Slow, dense, independent answers. Nothing here shares code with what it checks."""
+
+import functools
+import math
+
+import numpy as np
+from scipy import linalg, optimize
+
+
+def love_by_logarithms(x, y, dx, dy):
+    """int dA / r over a cell by the four logarithms of the textbook, one cell at a time."""
+    a, b = dx / 2, dy / 2
+    total = 0.0
+    for this, that, half_this, half_that in ((x, y, a, b), (y, x, b, a)):
+        for sign in (1, -1):
+            arm = this + sign * half_this
+            above = (that + half_that) + math.hypot(that + half_that, arm)
+            below = (that - half_that) + math.hypot(that - half_that, arm)
+            total += sign * arm * math.log(above / below)
+    return total
+
+
+def dense_operator(half_space):
+    """K as a matrix over all cells, row by row."""
+    (nx, ny), (dx, dy) = half_space.shape, half_space.steps
+    cells = [(i, j) for i in range(nx) for j in range(ny)]
+    if half_space.periodic:
+        return np.array(
+            [[_periodic_green(i - k, j - m, (nx, ny), (dx, dy)) / half_space.modulus for k, m in cells] for i, j in cells]
+        )
+    factor = 1 / (math.pi * half_space.modulus)
+    return np.array(
+        [[factor * love_by_logarithms((i - k) * dx, (j - m) * dy, dx, dy) for k, m in cells] for i, j in cells]
+    )
+
+
+def _periodic_green(i, j, shape, spacing):
+    """sum over the waves of the grid of 2 cos(q.x) / (|q| number of cells), zero mode left out; E* = 1."""
+    nx, ny = shape
+    total = 0.0
+    for k in range(nx):
+        for m in range(ny):
+            wave_x = (k if 2 * k <= nx else k - nx) / (nx * spacing[0])
+            wave_y = (m if 2 * m <= ny else m - ny) / (ny * spacing[1])
+            q = 2 * math.pi * math.hypot(wave_x, wave_y)
+            if q > 0:
+                total += 2 / q * math.cos(2 * math.pi * (k * i / nx + m * j / ny))
+    return total / (nx * ny)
+
+
+def contact_by_least_squares(half_space, gap, approach):
+    """Pressure of min 1/2 p K p - (approach - gap) p over p >= 0, as a non-negative least-squares problem."""
+    root = linalg.cholesky(dense_operator(half_space))
+    target = linalg.solve_triangular(root, (approach - gap).ravel(), trans="T")
+    pressure, _ = optimize.nnls(root, target, maxiter=100 * target.size)
+    return pressure.reshape(half_space.shape)
+
+
+def approach_by_least_squares(half_space, gap, force):
+    """The approach at which the dense solution carries a force."""
+
+    def excess(approach):
+        return contact_by_least_squares(half_space, gap, approach).sum() * half_space.cell_area - force
+
+    low = float(gap.min())
+    high = low + 1.0
+    while excess(high) < 0:
+        high = low + 2 * (high - low)
+    return optimize.brentq(excess, low, high, xtol=1e-13, rtol=1e-13)
+
+
+def spring_sum(height, length, modulus, approach):
+    """Force and stiffness of the foundation, spring by spring."""
+    spring = modulus * length / len(height)
+    compressions = [approach + h for h in height]
+    force = math.fsum(spring * c for c in compressions if c > 0)
+    return force, spring * sum(c > 0 for c in compressions)
+
+
+def moment_1d(c1d, n, low, high, *, nodes=400):
+    """int |q|^n C_1D dq over both signs, Gauss-Legendre in ln q."""
+    return _log_quadrature(lambda q: 2 * q**n * c1d(q), low, high, nodes)
+
+
+def moment_2d(c2d, n, low, high, *, nodes=400):
+    """int |q|^n C_2D d^2q, Gauss-Legendre in ln q."""
+    return _log_quadrature(lambda q: 2 * math.pi * q ** (n + 1) * c2d(q), low, high, nodes)
+
+
+@functools.cache
+def gauss_legendre(nodes):
+    """Nodes and weights on [-1, 1]."""
+    return np.polynomial.legendre.leggauss(nodes)
+
+
+def _log_quadrature(f, low, high, nodes):
+    node, weight = gauss_legendre(nodes)
+    half = math.log(high / low) / 2
+    q = low * np.exp(half * (node + 1))
+    return float(np.sum(weight * f(q) * q) * half)
+
+
+def flat_square_by_graded_cells(cells):
+    """k / (E* L) of a flat square punch on dense rectangles that grow finer towards the edges."""
+    edges = 0.5 - 0.5 * np.cos(np.linspace(0, math.pi, cells + 1))
+    middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+    x, y = (g.ravel() for g in np.meshgrid(middle, middle, indexing="ij"))
+    dx, dy = (g.ravel() for g in np.meshgrid(width, width, indexing="ij"))
+    matrix = np.array(
+        [
+            [love_by_logarithms(x[i] - x[j], y[i] - y[j], dx[j], dy[j]) / math.pi for j in range(x.size)]
+            for i in range(x.size)
+        ]
+    )
+    return float(np.sum(linalg.solve(matrix, np.ones(x.size)) * dx * dy))

@@ -1,0 +1,231 @@
+"""What every frictionless contact obeys, whatever the gap: Hypothesis draws them."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import bem3d
+from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
+from tests.strategies import pressed, scales
+
+TIGHT = 1e-12
+
+
+def moved(contact, step):
+    """The same gap, pressed by a little more or less."""
+    problem = contact.problem
+    return bem3d.solve(
+        problem.half_space, problem.gap, approach=contact.approach + step, start=contact, tolerance=contact.tolerance
+    )
+
+
+@given(problem=pressed())
+def test_complementarity(problem):
+    """p >= 0, no penetration, no gap under pressure: within the tolerance, by an operator that the solver never saw."""
+    contact = problem.solve(tolerance=1e-9)
+    half_space, gap = problem.half_space, problem.gap
+    u = (dense_operator(half_space) @ contact.pressure.ravel()).reshape(gap.shape)
+    w = gap + u - contact.approach
+    overlap = max(contact.approach - gap.min(), 1e-12)
+    assert (contact.pressure >= 0).all()
+    assert -w.min() <= 1.001e-9 * overlap + 1e-13
+    assert np.sum(contact.pressure * np.abs(w)) <= (1.001e-9 * overlap + 1e-13) * contact.pressure.sum()
+
+
+@given(problem=pressed(periodic=False, by=("approach",)))
+def test_pressure_is_that_of_the_dense_least_squares_solution(problem):
+    contact = problem.solve(tolerance=TIGHT)
+    dense = contact_by_least_squares(problem.half_space, problem.gap, contact.approach)
+    np.testing.assert_allclose(contact.pressure, dense, atol=1e-9 * dense.max(initial=1e-300))
+
+
+@given(problem=pressed(periodic=False, by=("force",), most=7))
+def test_approach_is_that_of_the_dense_solution_under_the_same_force(problem):
+    contact = problem.solve(tolerance=TIGHT)
+    dense = approach_by_least_squares(problem.half_space, problem.gap, problem.prescribed["force"])
+    assert contact.force == pytest.approx(problem.prescribed["force"], rel=1e-12)
+    assert contact.approach == pytest.approx(dense, abs=1e-8 * (dense - problem.gap.min()))
+
+
+@given(problem=pressed(periodic=False), scale=scales, modulus=scales)
+def test_scaling_with_lengths_and_modulus(problem, scale, modulus):
+    """All lengths times s, E* times m: approach ~ s, pressure ~ m, force ~ m s^2, stiffness ~ m s."""
+    one = problem.solve(tolerance=TIGHT)
+    old = problem.half_space
+    half_space = bem3d.HalfSpace(
+        shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus
+    )
+    factor = {"approach": scale, "force": modulus * scale**2}
+    prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
+    other = bem3d.solve(half_space, scale * problem.gap, **prescribed, tolerance=TIGHT)
+    assert other.force == pytest.approx(one.force * modulus * scale**2, rel=1e-12)
+    overlap = one.approach - problem.gap.min()
+    assert other.approach / scale == pytest.approx(one.approach, abs=1e-12 * overlap)
+    if np.array_equal(one.pressure > 0, other.pressure > 0):
+        k = [contact.stiffness(tolerance=1e-12) for contact in (one, other)]
+        assert k[1] == pytest.approx(k[0] * modulus * scale, rel=1e-11)
+
+
+@given(problem=pressed(periodic=False), exponent=st.integers(-30, 30), other=st.integers(-30, 30))
+def test_scaling_by_powers_of_two_is_exact(problem, exponent, other):
+    """No absolute number hides anywhere: the same bits come out."""
+    scale, modulus = 2.0**exponent, 2.0**other
+    old = problem.half_space
+    half_space = bem3d.HalfSpace(
+        shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus
+    )
+    factor = {"approach": scale, "force": modulus * scale**2}
+    prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
+    contact = bem3d.solve(half_space, scale * problem.gap, **prescribed)
+    np.testing.assert_array_equal(contact.pressure, modulus * problem.solve().pressure)
+
+
+@given(problem=pressed(by=("approach",)), step=st.floats(1e-3, 1))
+def test_force_grows_with_approach(problem, step):
+    contact = problem.solve(tolerance=TIGHT)
+    if problem.half_space.periodic:
+        step *= 0.5 * (problem.gap.mean() - contact.approach)
+    further = moved(contact, step)
+    assert further.force >= contact.force * (1 - 1e-10)
+    assert further.area >= contact.area or further.force > contact.force
+
+
+@given(problem=pressed())
+def test_mirror_and_transpose(problem):
+    one = problem.solve(tolerance=TIGHT)
+    half_space = problem.half_space
+    turned = bem3d.HalfSpace(
+        shape=half_space.shape[::-1], spacing=half_space.steps[::-1], modulus=1.0, periodic=half_space.periodic
+    )
+    other = bem3d.solve(turned, problem.gap[::-1].T, **problem.prescribed, tolerance=TIGHT)
+    np.testing.assert_allclose(other.pressure.T[::-1], one.pressure, atol=1e-8 * one.pressure.max())
+
+
+@given(problem=pressed(periodic=False))
+def test_stiffness_is_the_finite_difference(problem):
+    """F(d) is linear while no cell enters or leaves: then the difference quotient is the stiffness, to the residual."""
+    contact = problem.solve(tolerance=TIGHT)
+    step = 1e-5 * (contact.approach - problem.gap.min())
+    low, high = moved(contact, -step), moved(contact, step)
+    assume(np.array_equal(low.pressure > 0, high.pressure > 0))
+    assert (high.force - low.force) / (2 * step) == pytest.approx(contact.stiffness(), rel=1e-5)
+
+
+@given(problem=pressed(periodic=False, most=6, by=("approach",)))
+def test_stiffness_is_that_of_the_dense_contact(problem):
+    contact = problem.solve(tolerance=TIGHT)
+    cells = np.flatnonzero(contact.pressure)
+    block = dense_operator(problem.half_space)[np.ix_(cells, cells)]
+    expected = np.linalg.solve(block, np.ones(cells.size)).sum() * problem.half_space.cell_area
+    assert contact.stiffness(tolerance=1e-12) == pytest.approx(expected, rel=1e-10)
+
+
+@given(problem=pressed(periodic=False, most=6, by=("approach",)))
+def test_energy_is_the_integral_of_the_force(problem):
+    """1/2 sum(p u) dx dy = int F dd: F is piecewise linear, so the trapezium error is of second order in the steps.
+
+    It is at most (largest change of the stiffness on a step) (step)^2 / 8 for each step.
+    """
+    half_space, gap = problem.half_space, problem.gap
+    approaches = np.linspace(gap.min(), problem.prescribed["approach"], 41)
+    path = [bem3d.solve(half_space, gap, approach=d, tolerance=1e-11) for d in approaches]
+    last = path[-1]
+    energy = 0.5 * np.sum(last.pressure * half_space.displacement(last.pressure)) * half_space.cell_area
+    work = np.trapezoid([contact.force for contact in path], approaches)
+    bound = last.stiffness() * (approaches[1] - approaches[0]) ** 2 / 8
+    assert -1e-9 * energy <= work - energy <= bound + 1e-9 * energy
+
+
+@given(problem=pressed())
+def test_a_start_does_not_change_the_answer(problem):
+    cold = problem.solve(tolerance=TIGHT)
+    rough_start = np.random.default_rng(0).random(problem.gap.shape)
+    for start in (cold, rough_start, np.zeros(problem.gap.shape)):
+        warm = problem.solve(tolerance=TIGHT, start=start)
+        np.testing.assert_allclose(warm.pressure, cold.pressure, atol=1e-8 * cold.pressure.max())
+    assert problem.solve(tolerance=1e-9, start=cold).iterations <= 1
+
+
+@given(problem=pressed(by=("force",)))
+def test_force_and_approach_are_two_ways_to_one_contact(problem):
+    by_force = problem.solve(tolerance=TIGHT)
+    assume(not (problem.half_space.periodic and by_force.approach >= problem.gap.mean() - 1e-9))
+    by_approach = bem3d.solve(
+        problem.half_space, problem.gap, approach=by_force.approach, start=by_force, tolerance=TIGHT
+    )
+    assert by_approach.force == pytest.approx(by_force.force, rel=1e-6)
+
+
+def test_no_contact():
+    half_space = bem3d.HalfSpace(shape=(4, 5), spacing=1.0, modulus=1.0)
+    gap = np.full((4, 5), 0.5)
+    for prescribed in ({"force": 0.0}, {"approach": 0.5}, {"approach": -1.0}):
+        contact = bem3d.solve(half_space, gap, **prescribed)
+        assert (contact.force, contact.area, contact.residual, contact.stiffness()) == (0, 0, 0, 0)
+        assert contact.approach == prescribed.get("approach", 0.5)
+        assert contact.status == "converged"
+
+
+def test_full_contact_of_a_periodic_half_space():
+    """A wave under more than p*: the pressure is mean plus E* q h / 2 cos(q x), and the mean plane cannot yield."""
+    half_space = bem3d.HalfSpace(shape=(16, 1), spacing=1.0, modulus=2.0, periodic=True)
+    q = 2 * np.pi / 16
+    wave = 0.1 * np.cos(q * np.arange(16.0))[:, np.newaxis]
+    mean = 3 * 0.1 * q
+    contact = bem3d.solve(half_space, -wave, force=mean * 16, tolerance=1e-12)
+    np.testing.assert_allclose(contact.pressure, mean + q * wave, rtol=1e-10)
+    assert contact.stiffness() == np.inf
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (3, 4)])
+def test_flat_periodic_half_space_takes_a_uniform_pressure(shape):
+    half_space = bem3d.HalfSpace(shape=shape, spacing=1.0, modulus=1.0, periodic=True)
+    contact = bem3d.solve(half_space, np.full(shape, 0.3), force=2.0)
+    np.testing.assert_allclose(contact.pressure, 2.0 / (shape[0] * shape[1]))
+    assert contact.approach == 0.3
+
+
+def test_result_carries_its_problem_and_its_costs():
+    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
+    calls = []
+
+    class Counting(bem3d.HalfSpace):
+        def displacement(self, pressure):
+            calls.append(1)
+            return super().displacement(pressure)
+
+    counting = Counting(shape=(8, 8), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(0).random((8, 8))
+    half_space.self_compliance, counting.self_compliance  # noqa: B018
+    calls.clear()
+    contact = bem3d.solve(counting, gap, approach=0.7)
+    assert contact.operator_applications == len(calls)
+    assert contact.iterations + 1 == len(contact.history)
+    assert contact.residual == contact.history[-1] <= contact.tolerance
+    np.testing.assert_array_equal(contact.problem.gap, gap)
+
+
+@pytest.mark.parametrize("prescribed", [{"approach": 0.7}, {"force": 3.0}])
+def test_not_converged_is_never_success(prescribed):
+    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(0).random((8, 8))
+    with pytest.raises(bem3d.ConvergenceError, match="after 2 iterations") as caught:
+        bem3d.solve(half_space, gap, **prescribed, tolerance=1e-10, max_iterations=2)
+    assert len(caught.value.history) == 3
+    result = bem3d.solve(half_space, gap, **prescribed, tolerance=1e-10, max_iterations=2, raise_on_failure=False)
+    assert result.status == "iteration limit"
+    assert not result.converged
+    with pytest.raises(bem3d.ConvergenceError, match="no stiffness"):
+        result.stiffness()
+    with pytest.raises(bem3d.ConvergenceError, match="frozen-contact"):
+        bem3d.press_frozen(half_space, gap < 0.5, tolerance=1e-10, max_iterations=2)
+    frozen = bem3d.press_frozen(half_space, gap < 0.5, max_iterations=2, raise_on_failure=False)
+    assert not frozen.converged
+
+
+def test_unreachable_tolerance_is_an_honest_failure():
+    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(0).random((8, 8))
+    with pytest.raises(bem3d.ConvergenceError):
+        bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-30, max_iterations=200)

@@ -1,0 +1,153 @@
+"""Profiles and surfaces drawn from a spectrum, measured back: moments, spectra, symmetry, Geike's rule between them."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import bem3d
+import mdr
+from tests.strategies import hursts, scales
+
+seeds = st.integers(0, 2**63)
+lengths = st.integers(8, 65)
+
+
+def rng(seed):
+    return np.random.default_rng(seed)
+
+
+def band(hurst, waves, length=1.0, rms=1.0):
+    """Self-affine between the first and the given wave of a period."""
+    step = 2 * np.pi / length
+    return mdr.SelfAffine(hurst=hurst, q_min=step, q_max=waves * step, rms=rms)
+
+
+def profile_moment(height, n, length):
+    q = 2 * np.pi * np.fft.fftfreq(height.size, length / height.size)
+    return np.sum(np.abs(q) ** n * np.abs(np.fft.fft(height, norm="forward")) ** 2)
+
+
+def surface_moment(height, n, spacing):
+    qx, qy = (2 * np.pi * np.fft.fftfreq(cells, step) for cells, step in zip(height.shape, spacing, strict=True))
+    return np.sum(np.hypot(qx[:, None], qy) ** n * np.abs(np.fft.fft2(height, norm="forward")) ** 2)
+
+
+@given(hurst=hursts, points=lengths, seed=seeds, length=scales, rms=scales)
+def test_profile_moments_are_the_sums_over_its_waves(hurst, points, seed, length, rms):
+    """sum |q|^n 2 pi C_1D(q) / L over every wave the points carry, the Nyquist wave of an even number among them."""
+    spectrum = band(hurst, points // 2, length, rms)
+    height = mdr.rough_profile(spectrum.c1d, length=length, points=points, rng=rng(seed))
+    q = 2 * np.pi * np.fft.fftfreq(points, length / points)
+    for n in (0, 2, 4):
+        expected = np.sum(np.abs(q) ** n * spectrum.c1d(q)) * 2 * np.pi / length
+        assert profile_moment(height, n, length) == pytest.approx(expected, rel=1e-10)
+    assert abs(height.mean()) < 1e-13 * height.std()
+
+
+@given(hurst=hursts, shape=st.tuples(lengths, lengths), stretch=st.floats(0.5, 2), seed=seeds, rms=scales)
+def test_surface_moments_are_the_sums_over_its_waves(hurst, shape, stretch, seed, rms):
+    """sum |q|^n (2 pi)^2 C_2D / (Lx Ly); odd, even and non-square grids, cells that are no squares."""
+    spacing = (1.0, stretch)
+    q_max = np.pi / max(spacing)
+    spectrum = mdr.SelfAffine(hurst=hurst, q_min=q_max / 4, q_max=q_max, rms=rms)
+    height = bem3d.rough_surface(spectrum.c2d, shape=shape, spacing=spacing, rng=rng(seed))
+    qx, qy = (2 * np.pi * np.fft.fftfreq(cells, step) for cells, step in zip(shape, spacing, strict=True))
+    q = np.hypot(qx[:, None], qy)
+    area = shape[0] * shape[1] * stretch
+    for n in (0, 2, 4):
+        expected = np.sum(q**n * spectrum.c2d(q)) * (2 * np.pi) ** 2 / area
+        assert surface_moment(height, n, spacing) == pytest.approx(expected, rel=1e-10)
+    assert height.shape == shape
+    assert abs(height.mean()) < 1e-13 * height.std()
+
+
+@given(hurst=hursts, points=lengths, shape=st.tuples(lengths, lengths), seed=seeds, rms=scales)
+def test_rms_is_exact_where_it_is_asked_for(hurst, points, shape, seed, rms):
+    profile = mdr.rough_profile(band(hurst, points // 2).c1d, length=1.0, points=points, rng=rng(seed), rms=rms)
+    surface = bem3d.rough_surface(
+        band(hurst, min(shape) // 2, min(shape)).c2d, shape=shape, spacing=1.0, rng=rng(seed), rms=rms
+    )
+    assert np.sqrt(np.mean(profile**2)) == pytest.approx(rms, rel=1e-12)
+    assert np.sqrt(np.mean(surface**2)) == pytest.approx(rms, rel=1e-12)
+
+
+@pytest.mark.parametrize("n", [0, 2, 4], ids=["height", "gradient", "curvature"])
+@pytest.mark.parametrize("cells", [96, 97])
+def test_drawn_profiles_and_surfaces_have_equal_moments(cells, n):
+    """Geike's rule on drawn roughness. For a smooth spectrum, sums over waves are integrals to rounding (Poisson)."""
+    step = 2 * np.pi / cells
+
+    def c2d(q):
+        return np.exp(-(((q / step - 24) / 4) ** 2))
+
+    profile = mdr.rough_profile(lambda q: mdr.geike(q, c2d), length=cells, points=cells, rng=rng(1))
+    surface = bem3d.rough_surface(c2d, shape=(cells, cells), spacing=1.0, rng=rng(2))
+    ratio = profile_moment(profile, n, cells) / surface_moment(surface, n, (1.0, 1.0))
+    assert ratio == pytest.approx(1, rel=1e-9)
+
+
+def test_lines_cut_from_surfaces_are_no_draws_of_geikes_spectrum():
+    """They keep the height and half of the mean square gradient: the tests above can tell."""
+    spectrum = band(0.7, 32, 128.0)
+    surface = bem3d.rough_surface(spectrum.c2d, shape=(128, 128), spacing=1.0, rng=rng(3))
+    along = np.mean([profile_moment(line, 2, 128.0) for line in surface.T])
+    assert along / surface_moment(surface, 2, (1.0, 1.0)) == pytest.approx(0.5, rel=1e-10)
+
+
+@given(seed=seeds, hurst=hursts, points=st.integers(8, 20))
+def test_a_finer_grid_draws_the_same_roughness(seed, hurst, points):
+    """Between the points of the coarse grid lie those of one three times as fine: every third is the same point."""
+    profiles = [
+        mdr.rough_profile(band(hurst, points // 4).c1d, length=1.0, points=n, rng=rng(seed)) for n in (points, 3 * points)
+    ]
+    np.testing.assert_allclose(profiles[1][1::3], profiles[0], atol=1e-12 * np.abs(profiles[0]).max())
+    surfaces = [
+        bem3d.rough_surface(band(hurst, points // 4).c2d, shape=(n, n), spacing=1 / n, rng=rng(seed))
+        for n in (points, 3 * points)
+    ]
+    np.testing.assert_allclose(surfaces[1][1::3, 1::3], surfaces[0], atol=1e-12 * np.abs(surfaces[0]).max())
+
+
+def test_gaussian_amplitudes_have_the_spectrum_in_the_mean_alone():
+    """Mean square: the sum over the waves, with a relative standard error of sqrt(sum of squares / draws)."""
+    spectrum = band(0.7, 16)
+    draws = 2000
+    squares = [
+        np.mean(mdr.rough_profile(spectrum.c1d, length=1.0, points=64, rng=rng(i), rms=1.0, amplitudes="gaussian") ** 2)
+        for i in range(draws)
+    ]
+    assert np.std(squares) > 0.1
+    assert np.mean(squares) == pytest.approx(1, abs=5 * np.std(squares) / np.sqrt(draws))
+    surfaces = [
+        np.mean(
+            bem3d.rough_surface(
+                spectrum.c2d, shape=(33, 34), spacing=1 / 34, rng=rng(i), rms=1.0, amplitudes="gaussian"
+            )
+            ** 2
+        )
+        for i in range(draws)
+    ]
+    assert np.mean(surfaces) == pytest.approx(1, abs=5 * np.std(surfaces) / np.sqrt(draws))
+
+
+def test_heights_are_normal_when_many_waves_share_them():
+    """Random phases: skewness 0 and kurtosis 3, each to five standard errors of the correlated heights' number of waves."""
+    step = 2 * np.pi / 256
+
+    def c2d(q):
+        return np.exp(-(((q / step - 40) / 10) ** 2))
+
+    heights = bem3d.rough_surface(c2d, shape=(256, 256), spacing=1.0, rng=rng(5), rms=1.0).ravel()
+    waves = np.pi * 40 * 10
+    assert np.mean(heights**3) == pytest.approx(0, abs=5 * np.sqrt(15 / waves))
+    assert np.mean(heights**4) == pytest.approx(3, abs=5 * np.sqrt(96 / waves))
+
+
+def test_a_wave_at_the_edge_of_the_band_survives_rounding():
+    """q_min = 2 pi / L carries most of the height, whatever the last bit of the lattice says."""
+    for length in np.random.default_rng(0).uniform(0.1, 10, 200):
+        spectrum = band(0.7, 4, length)
+        height = mdr.rough_profile(spectrum.c1d, length=length, points=32, rng=rng(1))
+        waves = np.abs(np.fft.fft(height, norm="forward")) > 1e-6
+        assert np.count_nonzero(waves) == 8

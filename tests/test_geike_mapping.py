@@ -1,0 +1,133 @@
+"""Geike's rule between the spectra of a line and of a surface: what it keeps, and what would be refuted in its place."""
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+import mdr
+from tests.oracles import gauss_legendre, moment_1d, moment_2d
+from tests.strategies import bumps, hursts, scales, self_affine
+from validation import closed_forms
+
+KEPT = {"height": 0, "gradient": 2, "curvature": 4}
+# Gauss-Legendre in ln q is exact to rounding for power laws and for bumps this smooth
+QUADRATURE = 1e-9
+
+
+def share_kept(c1d, c2d, n, low, high):
+    """Moment of a 1D spectrum over that of the surface."""
+    return moment_1d(c1d, n, low, high) / moment_2d(c2d, n, low, high)
+
+
+@pytest.mark.parametrize("n", KEPT.values(), ids=KEPT.keys())
+@given(spectrum=self_affine())
+@example(spectrum=mdr.SelfAffine(hurst=1.2, q_min=1e-9, q_max=1e-3, rms=1e9))
+@example(spectrum=mdr.SelfAffine(hurst=0.01, q_min=1e9, q_max=1.03e9, rms=1e-9))
+def test_moments_of_power_laws_are_kept(spectrum, n):
+    assert share_kept(spectrum.c1d, spectrum.c2d, n, spectrum.q_min, spectrum.q_max) == pytest.approx(1, rel=QUADRATURE)
+
+
+@pytest.mark.parametrize("n", [0, 1, 2, 3, 4])
+@given(spectrum=bumps())
+def test_moments_of_arbitrary_spectra_are_kept(spectrum, n):
+    def c1d(q):
+        return mdr.geike(q, spectrum.c2d)
+
+    assert share_kept(c1d, spectrum.c2d, n, spectrum.q_low, spectrum.q_high) == pytest.approx(1, rel=QUADRATURE)
+
+
+@given(spectrum=self_affine())
+def test_self_affine_spectra_have_their_rms(spectrum):
+    square = moment_2d(spectrum.c2d, 0, spectrum.q_min, spectrum.q_max)
+    assert square == pytest.approx(spectrum.rms**2, rel=QUADRATURE)
+
+
+@given(spectrum=bumps(), q=scales)
+def test_round_trip(spectrum, q):
+    q = np.array([q, 2 * q])
+    there = mdr.geike(q, spectrum.c2d)
+    np.testing.assert_allclose(mdr.inverse_geike(q, there), spectrum.c2d(q), rtol=1e-14)
+    np.testing.assert_allclose(mdr.geike(q, mdr.inverse_geike(q, there)), there, rtol=1e-14)
+
+
+@given(one=bumps(), other=bumps(), a=st.floats(0, 1e3), b=st.floats(0, 1e3), q=st.floats(1e-3, 1e3))
+def test_linear_and_positive(one, other, a, b, q):
+    both = mdr.geike(q, a * one.c2d(q) + b * other.c2d(q))
+    np.testing.assert_allclose(both, a * mdr.geike(q, one.c2d) + b * mdr.geike(q, other.c2d), rtol=1e-14)
+    assert both >= 0
+
+
+@given(spectrum=bumps(), scale=scales, q=st.floats(1e-3, 1e3))
+def test_commutes_with_a_change_of_length(spectrum, scale, q):
+    """Lengths times s: q -> q / s, C_2D -> s^4 C_2D, and C_1D must follow as s^3."""
+
+    def stretched(k):
+        return scale**4 * spectrum.c2d(k * scale)
+
+    np.testing.assert_allclose(mdr.geike(q / scale, stretched), scale**3 * mdr.geike(q, spectrum.c2d), rtol=1e-12)
+
+
+@given(spectrum=bumps(), shape=bumps(), q=st.floats(1e-3, 1e3))
+def test_commutes_with_an_isotropic_filter(spectrum, shape, q):
+    filtered_first = mdr.geike(q, shape.c2d(q) ** 2 * spectrum.c2d(q))
+    np.testing.assert_allclose(filtered_first, shape.c2d(q) ** 2 * mdr.geike(q, spectrum.c2d), rtol=1e-14)
+
+
+@given(spectrum=self_affine())
+def test_two_sided_and_zero_outside_the_band(spectrum):
+    q = np.geomspace(spectrum.q_min, spectrum.q_max, 5)
+    np.testing.assert_array_equal(spectrum.c1d(-q), spectrum.c1d(q))
+    assert (spectrum.c1d(q) > 0).all()
+    outside = np.array([0.0, 0.99 * spectrum.q_min, 1.01 * spectrum.q_max])
+    assert (spectrum.c1d(outside) == 0).all()
+    assert (spectrum.c2d(outside) == 0).all()
+
+
+@given(spectrum=self_affine(), fraction=st.floats(1e-6, 1.0))
+def test_line_trace_is_the_integral_across_the_line(spectrum, fraction):
+    """C_line(q) = 2 int C_2D(s) s ds / sqrt(s^2 - q^2), by quadrature over t, s = q cosh t."""
+    q = fraction * spectrum.q_max * 0.999
+    nodes, weights = gauss_legendre(400)
+    start, end = (np.arccosh(max(1.0, edge / q)) for edge in (spectrum.q_min, spectrum.q_max))
+    s = q * np.cosh(start + (end - start) * (nodes + 1) / 2)
+    level = spectrum.c2d(spectrum.q_min) * spectrum.q_min ** (2 * spectrum.hurst + 2)
+    expected = np.sum(weights * level * s ** (-2 * spectrum.hurst - 1)) * (end - start)
+    # arccosh near one, and the difference of two edges that nearly coincide, keep half of the digits
+    assert spectrum.line(q) == pytest.approx(expected, rel=1e-7)
+
+
+@given(hurst=hursts)
+def test_line_trace_of_a_wide_power_law(hurst):
+    wide = mdr.SelfAffine(hurst=hurst, q_min=1.0, q_max=1e12, rms=1.0)
+    ratio = wide.line(10.0) / wide.c1d(10.0)
+    assert ratio == pytest.approx(closed_forms.line_trace_ratio(hurst), rel=1e-9)
+
+
+@given(spectrum=bumps(), scale=st.floats(0.1, 10))
+def test_line_trace_of_an_arbitrary_spectrum_against_its_closed_form(spectrum, scale):
+    """A Gaussian is its own line trace but for a factor: C_2D = exp(-q^2 / s^2) gives sqrt(pi) s exp(-q^2 / s^2)."""
+    q = scale * np.linspace(0, 3, 7)
+    trace = mdr.line_trace(q, lambda k: np.exp(-((k / scale) ** 2)), q_max=8 * scale)
+    np.testing.assert_allclose(trace, np.sqrt(np.pi) * scale * np.exp(-((q / scale) ** 2)), rtol=1e-9)
+
+
+@given(spectrum=self_affine())
+def test_line_trace_is_refuted_through_the_gradient(spectrum):
+    """In Geike's place it keeps the height and half of the mean square gradient: the moments must tell them apart."""
+    below = moment_1d(spectrum.line, 2, 1e-6 * spectrum.q_min, spectrum.q_min)
+    line = below + moment_1d(spectrum.line, 2, spectrum.q_min, spectrum.q_max)
+    share = line / moment_2d(spectrum.c2d, 2, spectrum.q_min, spectrum.q_max)
+    # quadrature across the kink at q_min and the root at q_max is of order nodes^-2 or better
+    assert share == pytest.approx(0.5, abs=2e-3)
+
+
+@pytest.mark.parametrize(("factor", "share"), [(1.0, 1 / np.pi), (2 * np.pi, 2.0)], ids=["q C_2D", "2 pi q C_2D"])
+@given(spectrum=self_affine())
+def test_wrong_factors_are_refuted_through_the_height(spectrum, factor, share):
+    def wrong(q):
+        return factor * q * spectrum.c2d(q)
+
+    kept = share_kept(wrong, spectrum.c2d, 0, spectrum.q_min, spectrum.q_max)
+    assert kept == pytest.approx(share, rel=1e-9)
+    assert abs(kept - 1) > 0.5

@@ -1,0 +1,130 @@
+"""The FFT operator against a matrix written out cell by cell, and the kernel against quadrature."""
+
+import pickle
+import threading
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from scipy import integrate
+
+import bem3d
+from tests.oracles import dense_operator, love_by_logarithms
+from tests.strategies import half_spaces
+
+
+def random_pressure(half_space, seed):
+    return np.random.default_rng(seed).standard_normal(half_space.shape)
+
+
+@given(half_space=half_spaces(most=8), seed=st.integers(0, 1000))
+def test_displacement(half_space, seed):
+    pressure = random_pressure(half_space, seed)
+    dense = dense_operator(half_space) @ pressure.ravel()
+    fast = half_space.displacement(pressure)
+    np.testing.assert_allclose(fast.ravel(), dense, atol=1e-12 * np.abs(dense).max(initial=1e-300))
+
+
+@given(half_space=half_spaces(most=12), seed=st.integers(0, 1000))
+def test_operator_is_symmetric_and_positive(half_space, seed):
+    p, q = random_pressure(half_space, seed), random_pressure(half_space, seed + 1)
+    there, back = np.sum(half_space.displacement(p) * q), np.sum(p * half_space.displacement(q))
+    size = np.sum(half_space.displacement(np.abs(p)) * np.abs(q)) + np.abs(p).sum() * half_space.self_compliance
+    assert there == pytest.approx(back, abs=1e-12 * abs(size) + 1e-300)
+    assert np.sum(half_space.displacement(p) * p) >= -1e-12 * abs(size)
+
+
+@given(half_space=half_spaces(most=12), seed=st.integers(0, 1000))
+def test_mirror_and_transpose(half_space, seed):
+    p = random_pressure(half_space, seed)
+    u = half_space.displacement(p)
+    tolerance = {"rtol": 0, "atol": 1e-12 * np.abs(u).max(initial=1e-300)}
+    np.testing.assert_allclose(half_space.displacement(p[::-1]), u[::-1], **tolerance)
+    np.testing.assert_allclose(half_space.displacement(p[:, ::-1]), u[:, ::-1], **tolerance)
+    turned = bem3d.HalfSpace(
+        shape=half_space.shape[::-1], spacing=half_space.steps[::-1], modulus=1.0, periodic=half_space.periodic
+    )
+    np.testing.assert_allclose(turned.displacement(p.T), u.T, **tolerance)
+
+
+@given(
+    x=st.floats(-20, 20), y=st.floats(-20, 20), dx=st.floats(0.1, 10), dy=st.floats(0.1, 10)
+)
+def test_love_against_the_textbook_logarithms(x, y, dx, dy):
+    # the logarithms cancel when the point lies on the line through a side of the cell
+    assert bem3d.love(x, y, dx, dy) == pytest.approx(love_by_logarithms(x, y, dx, dy), rel=1e-9, abs=1e-11)
+
+
+def test_love_against_quadrature():
+    value, error = integrate.dblquad(lambda s, t: 1 / np.hypot(3 - s, 2 - t), -1, 1, -0.5, 0.5)
+    assert bem3d.love(3.0, 2.0, 1.0, 2.0) == pytest.approx(value, abs=10 * error)
+
+
+def test_corner_is_continued_to_the_axes():
+    assert bem3d.corner(0.0, 0.0) == 0
+    assert bem3d.corner(0.0, 3.0) == pytest.approx(bem3d.corner(1e-14, 3.0), abs=1e-11)
+    assert bem3d.corner(2.0, 0.0) == 0
+
+
+@given(half_space=half_spaces(most=12, periodic=True), seed=st.integers(0, 100))
+def test_zero_mode_of_a_periodic_half_space_is_zero(half_space, seed):
+    u = half_space.displacement(random_pressure(half_space, seed) + 5.0)
+    assert abs(u.mean()) <= 1e-13 * max(np.abs(u).max(), half_space.self_compliance)
+
+
+def test_far_away_a_loaded_cell_is_a_point_force():
+    """u = F / (pi E* r), with a relative error of order (dx / r)^2."""
+    half_space = bem3d.HalfSpace(shape=(101, 3), spacing=0.1, modulus=2.0)
+    pressure = np.zeros(half_space.shape)
+    pressure[0, 1] = 7.0
+    r = 0.1 * np.arange(20, 101)
+    expected = 7.0 * 0.01 / (np.pi * 2.0 * r)
+    np.testing.assert_allclose(half_space.displacement(pressure)[20:, 1], expected, rtol=0.2 / 20**2)
+
+
+def test_input_is_not_touched_and_results_are_not_shared():
+    half_space = bem3d.HalfSpace(shape=(6, 7), spacing=1.0, modulus=1.0)
+    pressure = random_pressure(half_space, 0)
+    kept = pressure.copy()
+    first = half_space.displacement(pressure)
+    saved = first.copy()
+    half_space.displacement(2 * pressure)
+    np.testing.assert_array_equal(pressure, kept)
+    np.testing.assert_array_equal(first, saved)
+
+
+def test_threads_do_not_mix_up_their_fields():
+    half_space = bem3d.HalfSpace(shape=(40, 41), spacing=1.0, modulus=1.0)
+    pressures = [random_pressure(half_space, i) for i in range(8)]
+    expected = [half_space.displacement(p) for p in pressures]
+    wrong = []
+
+    def work(p, u):
+        for _ in range(50):
+            if not np.array_equal(half_space.displacement(p), u):
+                wrong.append(1)
+
+    threads = [threading.Thread(target=work, args=pair) for pair in zip(pressures, expected, strict=True)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_a_half_space_survives_pickling():
+    half_space = bem3d.HalfSpace(shape=(5, 6), spacing=(1.0, 2.0), modulus=3.0, periodic=True)
+    pressure = random_pressure(half_space, 0)
+    expected = half_space.displacement(pressure)
+    copy = pickle.loads(pickle.dumps(half_space))
+    assert copy == half_space
+    np.testing.assert_array_equal(copy.displacement(pressure), expected)
+
+
+@given(pressure=arrays(np.float64, (7, 5), elements=st.floats(-1, 1)))
+def test_planning_changes_rounding_alone(pressure):
+    settings = {"shape": (7, 5), "spacing": 1.0, "modulus": 1.0}
+    u = [bem3d.HalfSpace(**settings, planning=plan).displacement(pressure) for plan in ("estimate", "measure")]
+    np.testing.assert_allclose(u[0], u[1], atol=1e-14)

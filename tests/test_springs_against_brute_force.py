@@ -1,0 +1,116 @@
+"""The foundation against a sum over its springs, and the sphere against Hertz."""
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+import mdr
+from tests.oracles import spring_sum
+from tests.strategies import profiles, scales
+from validation import closed_forms
+
+
+@given(height=profiles, approach=st.floats(-2, 3))
+@example(height=np.zeros(4), approach=0.0)
+@example(height=np.array([1.0, 1.0, 0.0]), approach=-1.0)
+@example(height=np.array([0.5]), approach=1.0)
+def test_force_and_stiffness_at_an_approach(height, approach):
+    point = mdr.load_curve(height, length=2.0, modulus=3.0).at_approach(approach)
+    force, stiffness = spring_sum(height, 2.0, 3.0, approach)
+    assert point.force == pytest.approx(force, rel=1e-13, abs=1e-15)
+    assert point.stiffness == pytest.approx(stiffness, rel=1e-13)
+
+
+@given(height=profiles, fraction=st.floats(1e-6, 3))
+def test_force_to_approach_and_back(height, fraction):
+    curve = mdr.load_curve(height, length=2.0, modulus=3.0)
+    force = fraction * max(curve.force[-1], 1.0)
+    there = curve.at_force(force)
+    back = curve.at_approach(there.approach)
+    assert there.force == force
+    assert back.force == pytest.approx(force, rel=1e-12, abs=1e-14)
+
+
+@given(height=profiles)
+def test_breakpoints_are_exact_states(height):
+    curve = mdr.load_curve(height, length=2.0, modulus=3.0)
+    for d, force, stiffness in zip(curve.approach, curve.force, curve.stiffness, strict=True):
+        expected = spring_sum(height, 2.0, 3.0, d)
+        assert force == pytest.approx(expected[0], rel=1e-13, abs=1e-15)
+        assert stiffness == pytest.approx(expected[1], rel=1e-13)
+
+
+@given(height=profiles, fraction=st.floats(0, 2))
+def test_arrays_are_answered_like_numbers(height, fraction):
+    curve = mdr.load_curve(height, length=2.0, modulus=3.0)
+    forces = fraction * np.array([0.0, 0.5, 1.0])
+    together = curve.at_force(forces)
+    for i, force in enumerate(forces):
+        alone = curve.at_force(float(force))
+        assert (together.approach[i], together.force[i], together.stiffness[i]) == (
+            alone.approach,
+            alone.force,
+            alone.stiffness,
+        )
+
+
+@given(height=profiles, d=st.floats(-1.5, 2), step=st.floats(1e-3, 1))
+def test_stiffness_is_the_slope_and_force_grows(height, d, step):
+    """Between two approaches the slope lies between the stiffnesses at both ends: the curve is convex."""
+    curve = mdr.load_curve(height, length=2.0, modulus=3.0)
+    low, high = curve.at_approach(d), curve.at_approach(d + step)
+    slope = (high.force - low.force) / step
+    assert low.force <= high.force
+    assert low.stiffness * (1 - 1e-9) - 1e-9 <= slope <= high.stiffness * (1 + 1e-9) + 1e-9
+
+
+@given(height=profiles, d=st.floats(-1, 2))
+def test_energy_is_the_integral_of_the_force(height, d):
+    """1/2 E* dx sum (d + h)^2 over the pressed springs = int F dd, exact by trapezia between breakpoints."""
+    curve = mdr.load_curve(height, length=2.0, modulus=3.0)
+    path = np.append(curve.approach[curve.approach < d], d)
+    work = np.trapezoid(curve.at_approach(path).force, path)
+    energy = 0.5 * 3.0 * 2.0 / height.size * np.sum(np.maximum(d + height, 0) ** 2)
+    assert work == pytest.approx(energy, rel=1e-12, abs=1e-15)
+
+
+@given(height=profiles, scale=scales, modulus=scales, d=st.floats(-1, 2))
+def test_scaling(height, scale, modulus, d):
+    """F ~ E* L^2, k ~ E* L when all lengths, heights included, are scaled."""
+    one = mdr.load_curve(height, length=2.0, modulus=1.0).at_approach(d)
+    other = mdr.load_curve(scale * height, length=2.0 * scale, modulus=modulus).at_approach(scale * d)
+    assert other.force == pytest.approx(modulus * scale**2 * one.force, rel=1e-12, abs=1e-14 * modulus * scale**2)
+
+
+@given(height=profiles, d=st.floats(-1, 2))
+def test_order_of_the_springs_does_not_matter(height, d):
+    curves = [mdr.load_curve(h, length=1.0, modulus=1.0).at_approach(d) for h in (height, height[::-1])]
+    assert curves[0] == curves[1]
+
+
+def test_zero_force_is_no_contact():
+    nothing = mdr.load_curve(np.array([0.2, -0.1]), length=1.0, modulus=1.0).at_force(0.0)
+    assert (nothing.approach, nothing.force, nothing.stiffness) == (-0.2, 0.0, 0.0)
+
+
+@given(radius=scales, modulus=scales, approach=scales)
+def test_sphere_is_hertz(radius, modulus, approach):
+    sphere = mdr.press_sphere(radius=radius, modulus=modulus, approach=approach)
+    hertz = closed_forms.hertz_force(radius=radius, modulus=modulus, approach=approach)
+    a = closed_forms.hertz_contact_radius(radius=radius, approach=approach)
+    assert sphere.force == pytest.approx(hertz, rel=1e-14)
+    assert sphere.contact_radius == pytest.approx(a, rel=1e-14)
+    assert sphere.stiffness == pytest.approx(
+        closed_forms.circular_punch_stiffness(radius=a, modulus=modulus), rel=1e-14
+    )
+    assert mdr.press_sphere(radius=radius, modulus=modulus, force=hertz).approach == pytest.approx(approach, rel=1e-13)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.1, 0.37, 0.5])
+def test_springs_under_a_parabola_tend_to_the_sphere_at_second_order(offset):
+    """Midpoint rule: (dx/a)^2 / 8 inside, at most 3/8 from both ends, wherever the springs lie."""
+    for cells in (16, 64, 256):
+        x = (np.arange(-2 * cells, 2 * cells) + offset) / cells
+        curve = mdr.load_curve(-mdr.sphere_profile(x, radius=1.0), length=4.0, modulus=1.0)
+        assert curve.at_approach(1.0).force == pytest.approx(4 / 3, rel=0.5 / cells**2)
