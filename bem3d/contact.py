@@ -79,7 +79,8 @@ def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
     pressure, and max(-w) / s, a penetration.
     Without overlap, s <= 0, only p = 0 is a solution (residual 0), anything else is none (infinite).
 
-    pressure: [Pa]; w: gap + u - approach, with u from a fresh operator application on that pressure [m]; overlap: s [m].
+    pressure: [Pa]; overlap: s [m];
+    w: gap + u - approach, with u from a fresh operator application on that pressure [m].
     """
     total = float(pressure.sum())
     if overlap <= 0:

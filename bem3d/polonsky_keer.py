@@ -9,6 +9,8 @@ from bem3d.border import FloatArray
 from bem3d.contact import residual
 from bem3d.problem import Problem
 
+ROUNDING = 1e-12
+
 
 @dataclass(frozen=True, eq=False)
 class Iterate:
@@ -53,8 +55,10 @@ def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator
         if force is not None:
             yielding -= yielding[contact].mean()
         along, curvature = float((w * direction).sum()), float((yielding * direction).sum())
-        # a single cell, or an exact solution on the contact, leaves no direction: a cell's own compliance sets the step
-        step = along / curvature if curvature > 0 else 1 / half_space.self_compliance
+        # no direction is left in a single cell, no curvature in a uniform pressure on a periodic half-space:
+        # then a cell's own compliance sets the step
+        stiff = half_space.self_compliance * float((direction**2).sum())
+        step = along / curvature if curvature > ROUNDING * stiff else 1 / half_space.self_compliance
         pressure = np.maximum(pressure - step * direction, 0.0)
         overlapping = (pressure == 0) & (w < 0)
         pressure[overlapping] -= step * w[overlapping]

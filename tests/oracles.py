@@ -25,9 +25,8 @@ def dense_operator(half_space):
     (nx, ny), (dx, dy) = half_space.shape, half_space.steps
     cells = [(i, j) for i in range(nx) for j in range(ny)]
     if half_space.periodic:
-        return np.array(
-            [[_periodic_green(i - k, j - m, (nx, ny), (dx, dy)) / half_space.modulus for k, m in cells] for i, j in cells]
-        )
+        green = [[_periodic_green(i - k, j - m, (nx, ny), (dx, dy)) for k, m in cells] for i, j in cells]
+        return np.array(green) / half_space.modulus
     factor = 1 / (math.pi * half_space.modulus)
     return np.array(
         [[factor * love_by_logarithms((i - k) * dx, (j - m) * dy, dx, dy) for k, m in cells] for i, j in cells]
@@ -60,6 +59,8 @@ def approach_by_least_squares(half_space, gap, force):
     """The approach at which the dense solution carries a force."""
 
     def excess(approach):
+        if approach <= low:
+            return -force
         return contact_by_least_squares(half_space, gap, approach).sum() * half_space.cell_area - force
 
     low = float(gap.min())

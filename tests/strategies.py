@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from hypothesis import assume
+from hypothesis import assume, reject
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -65,16 +65,23 @@ class Pressed:
     prescribed: dict[str, float]
 
     def solve(self, **settings):
-        return bem3d.solve(self.half_space, self.gap, **self.prescribed, **settings)
+        """The contact. At prescribed force the textbook iteration may cycle and say so, see
+        `test_textbook_iteration_may_cycle_under_a_force`: such a gap is not what a property is tested on."""
+        try:
+            return bem3d.solve(self.half_space, self.gap, **self.prescribed, **settings)
+        except bem3d.ConvergenceError:
+            if "approach" in self.prescribed:
+                raise
+            reject()
 
 
 @st.composite
-def half_spaces(draw, *, most=9, periodic=None, modulus=st.just(1.0)):
+def half_spaces(draw, *, most=9, periodic=None):
     """Odd, even and non-square grids, cells up to ten times as long as wide."""
     return bem3d.HalfSpace(
         shape=(draw(st.integers(1, most)), draw(st.integers(1, most))),
         spacing=(draw(st.floats(0.3, 3)), draw(st.floats(0.3, 3))),
-        modulus=draw(modulus),
+        modulus=1.0,
         periodic=draw(st.booleans()) if periodic is None else periodic,
     )
 
@@ -83,7 +90,8 @@ def half_spaces(draw, *, most=9, periodic=None, modulus=st.just(1.0)):
 def pressed(draw, *, most=9, periodic=None, by=("approach", "force")):
     """Contact problems: random gaps, gaps with plateaus of equal height, spikes; light to full contact."""
     half_space = draw(half_spaces(most=most, periodic=periodic))
-    rough = arrays(np.float64, half_space.shape, elements=st.floats(0, 1, width=32))
+    # heights on a ladder: differences that are mere rounding beside the load have no residual to reach
+    rough = arrays(np.float64, half_space.shape, elements=st.integers(0, 64).map(lambda i: i / 64))
     steps = arrays(np.float64, half_space.shape, elements=st.sampled_from([0.0, 0.5, 1.0]))
     gap = draw(rough | steps)
     if draw(st.sampled_from(by)) == "force":

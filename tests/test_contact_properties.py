@@ -10,6 +10,8 @@ from tests.oracles import approach_by_least_squares, contact_by_least_squares, d
 from tests.strategies import pressed, scales
 
 TIGHT = 1e-12
+# two solves of one scaled problem stop at different iterations: both must be past what is compared
+DEEP = 1e-13
 
 
 def moved(contact, step):
@@ -27,10 +29,10 @@ def test_complementarity(problem):
     half_space, gap = problem.half_space, problem.gap
     u = (dense_operator(half_space) @ contact.pressure.ravel()).reshape(gap.shape)
     w = gap + u - contact.approach
-    overlap = max(contact.approach - gap.min(), 1e-12)
+    allowed = 1.001e-9 * (contact.approach - gap.min()) + 1e-13 * (1 + np.abs(u).max())
     assert (contact.pressure >= 0).all()
-    assert -w.min() <= 1.001e-9 * overlap + 1e-13
-    assert np.sum(contact.pressure * np.abs(w)) <= (1.001e-9 * overlap + 1e-13) * contact.pressure.sum()
+    assert -w.min() <= allowed
+    assert np.sum(contact.pressure * np.abs(w)) <= allowed * contact.pressure.sum()
 
 
 @given(problem=pressed(periodic=False, by=("approach",)))
@@ -51,14 +53,12 @@ def test_approach_is_that_of_the_dense_solution_under_the_same_force(problem):
 @given(problem=pressed(periodic=False), scale=scales, modulus=scales)
 def test_scaling_with_lengths_and_modulus(problem, scale, modulus):
     """All lengths times s, E* times m: approach ~ s, pressure ~ m, force ~ m s^2, stiffness ~ m s."""
-    one = problem.solve(tolerance=TIGHT)
+    one = problem.solve(tolerance=DEEP)
     old = problem.half_space
-    half_space = bem3d.HalfSpace(
-        shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus
-    )
+    half_space = bem3d.HalfSpace(shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus)
     factor = {"approach": scale, "force": modulus * scale**2}
     prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
-    other = bem3d.solve(half_space, scale * problem.gap, **prescribed, tolerance=TIGHT)
+    other = bem3d.solve(half_space, scale * problem.gap, **prescribed, tolerance=DEEP)
     assert other.force == pytest.approx(one.force * modulus * scale**2, rel=1e-12)
     overlap = one.approach - problem.gap.min()
     assert other.approach / scale == pytest.approx(one.approach, abs=1e-12 * overlap)
@@ -72,9 +72,7 @@ def test_scaling_by_powers_of_two_is_exact(problem, exponent, other):
     """No absolute number hides anywhere: the same bits come out."""
     scale, modulus = 2.0**exponent, 2.0**other
     old = problem.half_space
-    half_space = bem3d.HalfSpace(
-        shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus
-    )
+    half_space = bem3d.HalfSpace(shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus)
     factor = {"approach": scale, "force": modulus * scale**2}
     prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
     contact = bem3d.solve(half_space, scale * problem.gap, **prescribed)
@@ -222,6 +220,17 @@ def test_not_converged_is_never_success(prescribed):
         bem3d.press_frozen(half_space, gap < 0.5, tolerance=1e-10, max_iterations=2)
     frozen = bem3d.press_frozen(half_space, gap < 0.5, max_iterations=2, raise_on_failure=False)
     assert not frozen.converged
+
+
+def test_textbook_iteration_may_cycle_under_a_force():
+    """A spike over a plateau of equal heights: two contact sets take turns. It must say so; by approach it ends."""
+    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=(2.0, 0.3125), modulus=1.0)
+    gap = np.ones((8, 8))
+    gap[0, 0] = 0.0
+    stuck = bem3d.solve(half_space, gap, force=1.0, max_iterations=200, raise_on_failure=False)
+    assert stuck.status == "iteration limit"
+    assert stuck.history[-1] == pytest.approx(stuck.history[-3], rel=1e-3)
+    assert bem3d.solve(half_space, gap, approach=1.1, tolerance=TIGHT).converged
 
 
 def test_unreachable_tolerance_is_an_honest_failure():

@@ -99,7 +99,8 @@ def test_lines_cut_from_surfaces_are_no_draws_of_geikes_spectrum():
 def test_a_finer_grid_draws_the_same_roughness(seed, hurst, points):
     """Between the points of the coarse grid lie those of one three times as fine: every third is the same point."""
     profiles = [
-        mdr.rough_profile(band(hurst, points // 4).c1d, length=1.0, points=n, rng=rng(seed)) for n in (points, 3 * points)
+        mdr.rough_profile(band(hurst, points // 4).c1d, length=1.0, points=n, rng=rng(seed))
+        for n in (points, 3 * points)
     ]
     np.testing.assert_allclose(profiles[1][1::3], profiles[0], atol=1e-12 * np.abs(profiles[0]).max())
     surfaces = [
@@ -132,7 +133,7 @@ def test_gaussian_amplitudes_have_the_spectrum_in_the_mean_alone():
 
 
 def test_heights_are_normal_when_many_waves_share_them():
-    """Random phases: skewness 0 and kurtosis 3, each to five standard errors of the correlated heights' number of waves."""
+    """Random phases: skewness 0, kurtosis 3, to five standard errors of as many heights as waves."""
     step = 2 * np.pi / 256
 
     def c2d(q):

@@ -1,4 +1,4 @@
-"""Geike's rule between the spectra of a line and of a surface: what it keeps, and what would be refuted in its place."""
+"""Geike's rule between the spectra of a line and of a surface: what it keeps, what would be refuted in its place."""
 
 import numpy as np
 import pytest

@@ -49,9 +49,7 @@ def test_mirror_and_transpose(half_space, seed):
     np.testing.assert_allclose(turned.displacement(p.T), u.T, **tolerance)
 
 
-@given(
-    x=st.floats(-20, 20), y=st.floats(-20, 20), dx=st.floats(0.1, 10), dy=st.floats(0.1, 10)
-)
+@given(x=st.floats(-20, 20), y=st.floats(-20, 20), dx=st.floats(0.1, 10), dy=st.floats(0.1, 10))
 def test_love_against_the_textbook_logarithms(x, y, dx, dy):
     # the logarithms cancel when the point lies on the line through a side of the cell
     assert bem3d.love(x, y, dx, dy) == pytest.approx(love_by_logarithms(x, y, dx, dy), rel=1e-9, abs=1e-11)

@@ -79,7 +79,7 @@ def _solve_or_load(solve: Callable[[P], Outcome], problem: P, store: Path | None
 def _load(path: Path, key: str) -> Outcome | None:
     """A stored result, or None if there is none that can be trusted."""
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as archive:
             contents = {name: archive[name] for name in archive.files}
     except (OSError, ValueError, KeyError, EOFError, BadZipFile, zlib.error):
         return None

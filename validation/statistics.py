@@ -50,6 +50,7 @@ def estimate(samples: FloatArray, statistic: Statistic, rng: np.random.Generator
     """A statistic with its bootstrap standard error.
 
     samples: one positive value a realisation, at least 3; statistic: of the samples along an axis, see `log_mean`.
+    Where most resamples have no finite value, as in saturation, the error is NaN.
     Student's quantile makes up for most of what the percentile interval misses in samples as small as 12.
     """
     if samples.ndim != 1 or samples.size < 3 or not (np.isfinite(samples) & (samples > 0)).all():
@@ -57,4 +58,7 @@ def estimate(samples: FloatArray, statistic: Statistic, rng: np.random.Generator
     resampled = stats.bootstrap(
         (samples,), statistic, vectorized=True, n_resamples=RESAMPLES, method="percentile", rng=rng
     )
-    return Estimate(float(statistic(samples)), float(resampled.standard_error), samples.size)
+    # a resample of equal values has no deviation to take the logarithm of
+    finite = resampled.bootstrap_distribution[np.isfinite(resampled.bootstrap_distribution)]
+    error = float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
+    return Estimate(float(statistic(samples)), error, samples.size)

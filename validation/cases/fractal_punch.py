@@ -9,7 +9,7 @@ import bem3d
 import mdr
 from validation import closed_forms
 from validation.ensemble import SERIAL, Engine, Outcome, generator
-from validation.evidence import Evidence, Number, Role, Table
+from validation.evidence import Evidence, NotConvergedError, Number, Role, Table
 from validation.statistics import Estimate, Statistic, estimate, log_mean, log_relative_deviation
 
 FloatArray = NDArray[np.float64]
@@ -192,8 +192,14 @@ def _key(hurst: float) -> int:
 
 
 def evidence(result: FractalPunchResult) -> Evidence:
-    """Means and fluctuations of both methods in decibels apart, with what grid and sample leave open."""
+    """Means and fluctuations of both methods in decibels apart, with what grid and sample leave open.
+
+    Raises NotConvergedError where too few surfaces have converged at one of the forces.
+    """
     case = result.case
+    fewest = min(int(np.isfinite(ensemble.bem).sum(axis=0).min()) for ensemble in result.ensembles)
+    if fewest < 3:
+        raise NotConvergedError(f"{fewest} surfaces converged at one of the forces, 3 are needed", result.unconverged)
     rows: list[dict[str, float]] = []
     numbers = [_bounded(result, "bem3d", closed_forms.SQUARE_PUNCH), _bounded(result, "mdr", 1.0)]
     for h, ensemble in enumerate(result.ensembles):
@@ -254,7 +260,10 @@ def _numbers(case: FractalPunch, h: int, ensemble: Ensemble) -> list[Number]:
     for name, statistic in STATISTICS.items():
         for r, force in enumerate(case.reported):
             level = _level(case, force)
-            fine, coarse = ensemble.refined[:, r], ensemble.bem[: case.refined, level]
+            pairs = np.column_stack([ensemble.refined[:, r], ensemble.bem[: case.refined, level]])
+            fine, coarse = pairs[np.isfinite(pairs).all(axis=1)].T
+            if fine.size < 2:
+                raise NotConvergedError(f"{fine.size} surfaces converged on both grids, 2 are needed")
             rng = generator(case.seed, BOOTSTRAP, h, level)
             apart = _estimate(ensemble.mdr[:, level], statistic, rng).minus(
                 _estimate(ensemble.bem[:, level], statistic, rng)

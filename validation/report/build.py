@@ -12,7 +12,7 @@ import jinja2
 from bem3d import ConvergenceError
 from validation.cases import CASES, Profile
 from validation.ensemble import Engine
-from validation.evidence import Evidence, Number, Role, Verdict
+from validation.evidence import Evidence, NotConvergedError, Number, Role, Verdict
 from validation.report.figures import DRAW
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
@@ -27,7 +27,7 @@ class Section:
     answers: str
     settings: dict[str, object]
     evidence: Evidence | None
-    failure: str = ""
+    failure: tuple[str, ...] = ()
 
     @property
     def numbers(self) -> tuple[Number, ...]:
@@ -37,9 +37,7 @@ class Section:
     @property
     def unconverged(self) -> tuple[str, ...]:
         """Whatever did not converge in it."""
-        if self.failure:
-            return (self.failure,)
-        return self.evidence.unconverged if self.evidence else ()
+        return self.evidence.unconverged if self.evidence else self.failure
 
     @property
     def missed(self) -> tuple[Number, ...]:
@@ -106,7 +104,9 @@ def _section(name: str, profile: Profile, seed: int | None, engine: Engine) -> S
     try:
         evidence = entry.evidence(entry.run(case, engine))
     except ConvergenceError as error:
-        return Section(name, entry.answers, asdict(case), None, f"{name}: {error}")
+        return Section(name, entry.answers, asdict(case), None, (str(error),))
+    except NotConvergedError as error:
+        return Section(name, entry.answers, asdict(case), None, (str(error), *error.lost))
     return Section(name, entry.answers, asdict(case), evidence)
 
 

@@ -1,0 +1,44 @@
+# The first Python that is new enough; another one by `make PYTHON=...`
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+VENV := .venv
+RUN := $(VENV)/bin/python -m
+READY := $(VENV)/ready
+
+.PHONY: report full-report reference test thorough lint types format clean
+
+report: $(READY)  ## the validation report, small: reports/quick/index.html
+	$(RUN) validation report $(ARGS)
+
+full-report: $(READY)  ## the real one: reports/full/index.html
+	$(RUN) validation report --profile full $(ARGS)
+
+reference: $(READY)  ## the committed one: reports/reference/index.html
+	$(RUN) validation report --profile full --out reports/reference
+
+test: $(READY)  ## all tests
+	$(RUN) pytest -n auto $(ARGS)
+
+thorough: $(READY)  ## the property tests on many more examples
+	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
+
+lint: $(READY)
+	$(RUN) ruff check .
+	$(RUN) ruff format --check .
+
+types: $(READY)
+	$(RUN) mypy
+
+format: $(READY)
+	$(RUN) ruff check --fix .
+	$(RUN) ruff format .
+
+$(READY): pyproject.toml
+	@test -n "$(PYTHON)" || { echo "Python 3.11 or newer is needed; name one with make PYTHON=..."; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+	$(RUN) pip install --quiet --upgrade "pip>=25.1"
+	$(RUN) pip install --quiet --editable . --group dev
+	touch $@
+
+clean:
+	rm -rf $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache

@@ -1,0 +1,66 @@
+"""Who may lean on whom, read from the imports; and what numerics must not do."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = ("mdr", "bem3d", "validation")
+
+
+def sources(package):
+    return sorted((ROOT / package).rglob("*.py"))
+
+
+def imported(source):
+    names = set()
+    for node in ast.walk(ast.parse(source.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{source}: imports are absolute"
+            names.add(node.module)
+    return names
+
+
+def rooms(source):
+    return {name.partition(".")[0] for name in imported(source)}
+
+
+@pytest.mark.parametrize(("package", "others"), [("mdr", {"bem3d", "validation"}), ("bem3d", {"mdr", "validation"})])
+def test_methods_stand_alone(package, others):
+    for source in sources(package):
+        assert not rooms(source) & others, source
+
+
+def test_closed_forms_import_neither_method():
+    assert not rooms(ROOT / "validation" / "closed_forms.py") & {"mdr", "bem3d", "validation"}
+
+
+def test_matplotlib_is_imported_only_where_figures_are_drawn():
+    places = {s.relative_to(ROOT).parts[:2] for p in PACKAGES for s in sources(p) if "matplotlib" in rooms(s)}
+    assert places == {("validation", "report")}
+
+
+def test_numerics_neither_print_nor_write():
+    for source in sources("mdr") + sources("bem3d"):
+        calls = {
+            node.func.id
+            for node in ast.walk(ast.parse(source.read_text()))
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+        }
+        assert not calls & {"print", "open"}, source
+        assert not rooms(source) & {"os", "pathlib", "logging", "warnings"}, source
+
+
+def test_oracles_share_no_code_with_what_they_check():
+    assert not rooms(ROOT / "tests" / "oracles.py") & set(PACKAGES)
+
+
+def test_architecture_names_every_file():
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    for package in PACKAGES:
+        for source in sources(package):
+            if source.name not in ("__init__.py", "__main__.py"):
+                assert source.name in text, f"{source.relative_to(ROOT)} is missing in ARCHITECTURE.md"

@@ -1,0 +1,106 @@
+"""The referees themselves: integrals, inverses and limits that tie one closed form to another."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import integrate
+
+from tests.strategies import hursts, scales
+from validation import closed_forms
+
+
+@given(radius=scales, modulus=scales, approach=scales)
+def test_hertz_approach_inverts_the_force(radius, modulus, approach):
+    force = closed_forms.hertz_force(radius=radius, modulus=modulus, approach=approach)
+    assert closed_forms.hertz_approach(radius=radius, modulus=modulus, force=force) == pytest.approx(
+        approach, rel=1e-13
+    )
+
+
+@given(radius=st.floats(0.1, 10), approach=st.floats(0.1, 10))
+def test_hertz_pressure_integrates_to_the_force(radius, approach):
+    """int p 2 pi r dr with r = a sin(t), which takes the root out of the integrand."""
+    a = closed_forms.hertz_contact_radius(radius=radius, approach=approach)
+    t, weight = (v / 2 for v in np.polynomial.legendre.leggauss(20))
+    t = np.pi / 2 * (t + 0.5)
+    p = closed_forms.hertz_pressure(a * np.sin(t), radius=radius, modulus=2.0, approach=approach)
+    total = np.sum(weight * p * 2 * np.pi * a * np.sin(t) * a * np.cos(t)) * np.pi / 2
+    assert total == pytest.approx(closed_forms.hertz_force(radius=radius, modulus=2.0, approach=approach), rel=1e-12)
+
+
+@given(radius=st.floats(0.1, 10), approach=st.floats(0.1, 10))
+def test_hertz_stiffness_is_that_of_the_punch_of_its_radius(radius, approach):
+    step = 1e-4 * approach
+    low, high = (
+        closed_forms.hertz_force(radius=radius, modulus=2.0, approach=approach + side) for side in (-step, step)
+    )
+    a = closed_forms.hertz_contact_radius(radius=radius, approach=approach)
+    assert (high - low) / (2 * step) == pytest.approx(
+        closed_forms.circular_punch_stiffness(radius=a, modulus=2.0), rel=1e-7
+    )
+
+
+def test_hertz_displacement_under_its_pressure_is_the_sphere():
+    """u(0) = (1 / pi E*) int p / r dA = d: the pressure carries the approach, by quadrature."""
+    p = integrate.quad(lambda r: closed_forms.hertz_pressure(r, radius=3.0, modulus=2.0, approach=0.5), 0, np.sqrt(1.5))
+    assert 2 / 2.0 * p[0] == pytest.approx(0.5, rel=1e-8)
+
+
+@given(load=st.floats(0.01, 1.0))
+def test_westergaard_pressure_has_its_mean(load):
+    scene = {"amplitude": 1e-6, "wavelength": 1e-3, "modulus": 1e9}
+    mean = load * closed_forms.westergaard_full_pressure(**scene)
+    a = closed_forms.westergaard_half_width(mean_pressure=mean, **scene)
+    t = np.pi * (np.arange(4000) + 0.5) / 4000 - np.pi / 2
+    x = a * np.sin(t)
+    p = closed_forms.westergaard_pressure(x, mean_pressure=mean, **scene)
+    total = np.sum(p * a * np.cos(t)) * np.pi / 4000
+    assert total / 1e-3 == pytest.approx(mean, rel=1e-6)
+
+
+def test_westergaard_closes_at_the_full_pressure():
+    scene = {"amplitude": 1e-6, "wavelength": 1e-3, "modulus": 1e9}
+    full = closed_forms.westergaard_full_pressure(**scene)
+    assert closed_forms.westergaard_half_width(mean_pressure=full, **scene) == pytest.approx(0.5e-3)
+    valley = closed_forms.westergaard_pressure(0.5e-3, mean_pressure=full, **scene)
+    assert valley == pytest.approx(0, abs=1e-9 * full)
+
+
+@pytest.mark.parametrize(("hurst", "ratio"), [(0.4, 0.680), (0.7, 0.570), (1.0, 0.5)])
+def test_line_trace_ratio(hurst, ratio):
+    """Gamma(H + 1/2) / (sqrt(pi) Gamma(H + 1)): 1/2 at H = 1, and the beta integral elsewhere."""
+    integral, _ = integrate.quad(lambda t: np.cos(t) ** (2 * hurst), 0, np.pi / 2)
+    assert closed_forms.line_trace_ratio(hurst) == pytest.approx(2 / np.pi * integral, rel=1e-9)
+    assert closed_forms.line_trace_ratio(hurst) == pytest.approx(ratio, abs=6e-4)
+
+
+@given(hurst=hursts)
+def test_line_trace_has_less_than_geike(hurst):
+    assert 0 < closed_forms.line_trace_ratio(hurst) < 1
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+@pytest.mark.parametrize(
+    ("form", "names"),
+    [
+        (closed_forms.hertz_force, ("radius", "modulus", "approach")),
+        (closed_forms.hertz_approach, ("radius", "modulus", "force")),
+        (closed_forms.hertz_contact_radius, ("radius", "approach")),
+        (closed_forms.circular_punch_stiffness, ("radius", "modulus")),
+        (closed_forms.square_punch_stiffness, ("side", "modulus")),
+        (closed_forms.westergaard_full_pressure, ("amplitude", "wavelength", "modulus")),
+        (closed_forms.westergaard_half_width, ("mean_pressure", "amplitude", "wavelength", "modulus")),
+        (closed_forms.line_trace_ratio, ("hurst",)),
+    ],
+)
+def test_bad_input_is_named(form, names, bad):
+    for name in names:
+        values = {**dict.fromkeys(names, 1.0), name: bad}
+        with pytest.raises(ValueError, match=f"{name} must be finite and positive"):
+            form(**values)
+
+
+def test_westergaard_beyond_full_contact_is_refused():
+    with pytest.raises(ValueError, match="mean_pressure must not exceed"):
+        closed_forms.westergaard_half_width(mean_pressure=4.0, amplitude=1.0, wavelength=1.0, modulus=1.0)

@@ -1,0 +1,226 @@
+"""The report as a user makes it: files, bytes, exit statuses."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bem3d
+from validation import __main__ as command
+from validation.cases import CASES, fractal_punch, geike, hertz
+from validation.report import build
+
+ROOT = Path(__file__).parents[1]
+SMALL = {
+    "hertz": hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2),
+    "geike": geike.Geike(cells=128, surfaces=2, longest=4),
+    "fractal_punch": fractal_punch.FractalPunch(
+        hursts=(0.4, 1.0), cells=16, surfaces=4, profiles=12, points=64, refined=3, decades=(-1, 0)
+    ),
+}
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """The same cases, small enough for a test."""
+    for name, case in SMALL.items():
+        use(monkeypatch, name, case)
+    return list(SMALL)
+
+
+def use(monkeypatch, name, case):
+    monkeypatch.setitem(CASES, name, replace(CASES[name], quick=case))
+
+
+def report(*words):
+    return command.main(["report", *words])
+
+
+def contents(folder, *patterns):
+    return {str(f.relative_to(folder)): f.read_bytes() for p in patterns for f in sorted(folder.glob(p))}
+
+
+NUMBERS = ("results.json", "data/*.csv", "figures/*.svg", "figures/*.pdf")
+
+
+def test_two_runs_give_equal_bytes(small, tmp_path):
+    """Whatever the number of workers, stored results or none."""
+    for name, workers in (("one", "1"), ("two", "2")):
+        assert report("--only", *small, "--out", str(tmp_path / name), "--workers", workers) == 0
+    one, two = (contents(tmp_path / name, *NUMBERS) for name in ("one", "two"))
+    assert one.keys() == two.keys()
+    assert len(one) == 1 + 3 + 2 + 1 + 2 * 3
+    for name in one:
+        assert one[name] == two[name], name
+    assert report("--only", *small, "--out", str(tmp_path / "one"), "--workers", "1") == 0
+    assert contents(tmp_path / "one", *NUMBERS) == one
+    other = tmp_path / "other"
+    assert report("--only", "fractal_punch", "--out", str(other), "--workers", "1", "--seed", "5") == 0
+    assert contents(other, "data/fractal*") != contents(tmp_path / "one", "data/fractal*")
+
+
+def test_results_hold_every_number_with_its_verdict(small, tmp_path):
+    report("--only", "hertz", "--out", str(tmp_path), "--workers", "1")
+    results = json.loads((tmp_path / "results.json").read_text())
+    numbers = results["cases"]["hertz"]["numbers"]
+    assert len(numbers) == 12
+    for number in numbers:
+        assert number["verdict"] in ("agree", "differ", "undecided")
+        assert number["reason"] and number["source"]
+        assert np.isfinite([number["value"], number["reference"], number["tolerance"], number["difference"]]).all()
+    assert results["cases"]["hertz"]["settings"]["radius"] == 0.5
+
+
+def test_page_is_self_contained(small, tmp_path):
+    report("--only", *small, "--out", str(tmp_path), "--workers", "1")
+    page = (tmp_path / "index.html").read_text()
+    for external in ("http://", "https://", "<script", "@import", 'rel="stylesheet"'):
+        assert external not in page
+    for name in small:
+        assert f'id="{name}"' in page
+    assert page.count("data:image/svg+xml;base64,") == 3
+    assert "profile: quick" in page
+
+
+def test_provenance_names_no_machine(small, tmp_path):
+    report("--only", "geike", "--out", str(tmp_path), "--workers", "1")
+    text = (tmp_path / "provenance.json").read_text() + (tmp_path / "results.json").read_text()
+    assert str(ROOT) not in text
+    assert str(tmp_path) not in text
+    assert os.uname().nodename not in text
+
+
+def test_a_failed_criterion_is_exit_1(small, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(bem3d.kernel, "free_space_symbol", lambda *args: 1.1 * original(*args))
+    assert report("--only", "hertz", "--out", str(tmp_path), "--workers", "1") == command.Exit.CRITERION_FAILED
+    assert "missed: bem3d: force" in capsys.readouterr().out
+    assert "differ" in (tmp_path / "index.html").read_text()
+
+
+original = bem3d.kernel.free_space_symbol
+
+
+def test_not_converged_is_exit_3(small, tmp_path, monkeypatch, capsys):
+    """One case fails, the others are still reported."""
+    use(monkeypatch, "hertz", hertz.Hertz(cells_per_radius=(4, 6), load_steps=1, tolerance=1e-30))
+    assert report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
+    printed = capsys.readouterr().out
+    assert "not converged: residual" in printed
+    results = json.loads((tmp_path / "results.json").read_text())
+    assert results["cases"]["hertz"]["numbers"] == []
+    assert len(results["cases"]["geike"]["numbers"]) == 16
+
+
+def limited(monkeypatch, is_lost):
+    """Give up at once on the solves that are to be lost."""
+    solve = bem3d.solve
+
+    def stubborn(half_space, gap, *, force, **settings):
+        lost = is_lost(half_space, gap, force)
+        return solve(half_space, gap, force=force, **{**settings, "max_iterations": 1 if lost else 2000})
+
+    monkeypatch.setattr(bem3d, "solve", stubborn)
+
+
+def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch):
+    """One surface of eight fails at its largest force: named, counted, and the report still stands."""
+    seen = []
+
+    def is_lost(half_space, gap, force):
+        seen.append(force)
+        return len(seen) == len(SMALL["fractal_punch"].forces)
+
+    limited(monkeypatch, is_lost)
+    assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
+    results = json.loads((tmp_path / "results.json").read_text())["cases"]["fractal_punch"]
+    assert len(results["unconverged"]) == 1
+    assert results["unconverged"][0].startswith("surface 0, H = 0.4, 16² cells, Fbar = 1: residual")
+    assert len(results["numbers"]) == 10
+    curves = (tmp_path / "data" / "fractal_punch-curves.csv").read_text().splitlines()
+    assert [line.rpartition(",")[2] for line in curves[1:]] == ["4", "4", "4", "3", "4", "4", "4", "4"]
+    assert "surface 0, H = 0.4" in (tmp_path / "index.html").read_text()
+
+
+def test_a_lost_ensemble_has_no_result_and_is_exit_3(small, tmp_path, monkeypatch, capsys):
+    limited(monkeypatch, lambda half_space, gap, force: force > 0.9e-3)
+    assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
+    results = json.loads((tmp_path / "results.json").read_text())["cases"]["fractal_punch"]
+    assert results["numbers"] == []
+    assert "3 are needed" in results["unconverged"][0]
+    assert "no result" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["report", "--profile", "slow"], "--profile"),
+        (["report", "--only", "hertz", "moon"], "--only"),
+        (["report", "--only"], "--only"),
+        (["report", "--workers", "0"], "--workers"),
+        (["report", "--workers", "two"], "whole number"),
+        (["report", "--seed", "-1"], "--seed"),
+        (["report", "--seed", "nan"], "--seed"),
+        (["dance"], "dance"),
+        ([], "COMMAND"),
+    ],
+)
+def test_bad_usage_is_exit_2(words, said, capsys):
+    with pytest.raises(SystemExit) as caught:
+        command.main(words)
+    assert caught.value.code == command.Exit.BAD_INPUT
+    assert said in capsys.readouterr().err
+
+
+def test_a_folder_with_something_else_in_it_is_refused(tmp_path, capsys):
+    (tmp_path / "thesis.tex").write_text("years of work")
+    assert report("--only", "hertz", "--out", str(tmp_path)) == command.Exit.BAD_INPUT
+    assert "--out" in capsys.readouterr().err
+    assert report("--only", "hertz", "--out", str(tmp_path / "thesis.tex")) == command.Exit.BAD_INPUT
+    assert [f.name for f in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_old_figures_do_not_stay(small, tmp_path):
+    report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1")
+    report("--only", "geike", "--out", str(tmp_path), "--workers", "1")
+    assert [f.name for f in sorted((tmp_path / "figures").iterdir())] == ["geike.pdf", "geike.svg"]
+    assert all(f.name.startswith("geike") for f in (tmp_path / "data").iterdir())
+
+
+def test_cases_are_listed(capsys):
+    assert command.main(["cases"]) == 0
+    printed = capsys.readouterr().out
+    assert all(name in printed and entry.answers in printed for name, entry in CASES.items())
+
+
+def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
+    """Control-C in the middle: exit 130; finished solves are there, and the next run takes them."""
+    words = [sys.executable, "-m", "validation", "report", "--only", "fractal_punch", "--workers", "1"]
+    run = subprocess.Popen([*words, "--out", str(tmp_path)], cwd=ROOT, stderr=subprocess.PIPE, text=True)
+    store = tmp_path / "realisations"
+    deadline = time.monotonic() + 60
+    while len(list(store.glob("*.npz"))) < 3 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    run.send_signal(signal.SIGINT)
+    _, said = run.communicate(timeout=60)
+    assert run.returncode == command.Exit.INTERRUPTED
+    assert "interrupted" in said
+    kept = {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")}
+    assert len(kept) >= 3
+    assert not list(tmp_path.glob("*.json"))
+    assert not list(store.glob("*.part"))
+    again = fractal_punch.Surface(
+        case=CASES["fractal_punch"].quick,
+        hurst=0.4,
+        realisation=0,
+        cells=128,
+        forces=CASES["fractal_punch"].quick.forces,
+    )
+    build.Engine(store=store).map(fractal_punch.press_surface, [again])
+    assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept

@@ -1,0 +1,134 @@
+"""Boundary elements against closed forms on finer and finer grids: the error, and how fast it falls."""
+
+import numpy as np
+import pytest
+
+import bem3d
+from tests.oracles import flat_square_by_graded_cells
+from validation import closed_forms
+from validation.cases import hertz, square_punch, westergaard
+
+
+def slope(sizes, errors):
+    """Order of convergence: slope of ln error against ln size."""
+    return -np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0]
+
+
+def sphere_force_errors(cells_per_radius):
+    case = hertz.Hertz()
+    return [
+        hertz.press_by_bem(hertz.Sphere(case=case, resolution=n, approach=case.approach))["force"] / case.force - 1
+        for n in cells_per_radius
+    ]
+
+
+def test_sphere_force_at_second_order():
+    """Variational: at most (dx/a)^2 / 4; grids of n = 128, 256, 512 cells with a = n/4."""
+    n = np.array([32, 64, 128])
+    errors = np.abs(sphere_force_errors(n))
+    assert (errors <= 0.25 / n**2).all()
+    assert slope(n, errors) == pytest.approx(2, abs=0.3)
+
+
+@pytest.mark.parametrize("offset", [(0.0, 0.0), (0.5, 0.5), (0.3, 0.1)])
+def test_sphere_anywhere_between_the_cells(offset):
+    """The centre on a corner, a centre or anywhere in a cell: the same bound."""
+    n = 24
+    x, y = ((np.arange(4 * n) - 2 * n + 0.5 + shift) / n for shift in offset)
+    half_space = bem3d.HalfSpace(shape=(4 * n, 4 * n), spacing=1 / n, modulus=1.0)
+    gap = (x[:, np.newaxis] ** 2 + y**2) / 2
+    contact = bem3d.solve(half_space, gap, approach=1.0, tolerance=1e-8)
+    assert contact.force == pytest.approx(4 / 3, rel=0.25 / n**2)
+    assert contact.stiffness() == pytest.approx(2.0, rel=1 / n)
+
+
+def test_sphere_on_cells_that_are_no_squares():
+    n = 24
+    dx, dy = 1 / n, 1 / (2 * n)
+    x, y = (np.arange(3 * n) - 1.5 * n + 0.5) * dx, (np.arange(6 * n) - 3 * n + 0.5) * dy
+    half_space = bem3d.HalfSpace(shape=(3 * n, 6 * n), spacing=(dx, dy), modulus=1.0)
+    contact = bem3d.solve(half_space, (x[:, np.newaxis] ** 2 + y**2) / 2, approach=1.0, tolerance=1e-8)
+    assert contact.force == pytest.approx(4 / 3, rel=0.25 / n**2)
+
+
+def test_a_wider_grid_changes_nothing():
+    """Free space has no images: the same contact on a grid twice as wide, to the residual."""
+    n = 12
+    forces = []
+    for width in (3, 6):
+        x = (np.arange(width * n) - width * n / 2 + 0.5) / n
+        half_space = bem3d.HalfSpace(shape=(width * n, width * n), spacing=1 / n, modulus=1.0)
+        gap = (x[:, np.newaxis] ** 2 + x**2) / 2
+        forces.append(bem3d.solve(half_space, gap, approach=1.0, tolerance=1e-11).force)
+    assert forces[0] == pytest.approx(forces[1], rel=1e-9)
+
+
+def square_stiffness(cells):
+    case = square_punch.SquarePunch(side=1.0, modulus=1.0)
+    return [float(square_punch.press_by_bem(square_punch.Punch(case=case, cells=n))["square"]) for n in cells]
+
+
+def test_square_punch_at_first_order():
+    """-0.35 / n of its value, and 1.1523 within 5e-4 after one extrapolation."""
+    n = np.array([16, 32, 64, 128])
+    stiffness = np.array(square_stiffness(n))
+    steps = np.diff(stiffness)
+    assert slope(n[1:], steps) == pytest.approx(1, abs=0.1)
+    assert 2 * stiffness[-1] - stiffness[-2] == pytest.approx(closed_forms.SQUARE_PUNCH, abs=5e-4)
+
+
+def test_reference_of_the_square_punch_against_graded_cells():
+    """Cells that grow finer as the cosine towards the edges: second order, so one extrapolation gives four digits."""
+    coarse, fine = flat_square_by_graded_cells(11), flat_square_by_graded_cells(22)
+    assert fine + (fine - coarse) / 3 == pytest.approx(closed_forms.SQUARE_PUNCH, abs=3e-4)
+
+
+def test_circular_punch_within_half_a_cell():
+    """k / (2 E* a) with a the radius of a circle of as many cells: the staircase is worth less than half a cell."""
+    case = square_punch.SquarePunch(side=2.0, modulus=1.0)
+    for n in (32, 64, 128):
+        found = square_punch.press_by_bem(square_punch.Punch(case=case, cells=n))
+        expected = closed_forms.circular_punch_stiffness(radius=float(found["circle_radius"]), modulus=1.0)
+        assert found["circle"] == pytest.approx(expected, rel=1 / n)
+
+
+def wave_errors(cells, load):
+    case = westergaard.Westergaard()
+    return [float(westergaard.press_by_bem(westergaard.Wave(case=case, load=load, cells=n))["error"]) for n in cells]
+
+
+def test_wave_pressure_at_first_order():
+    """Half load: the edges of the contact fall between cells on each grid; 7e-4 at n = 512."""
+    n = np.array([64, 128, 256, 512])
+    errors = np.array(wave_errors(n, 0.5))
+    assert (errors <= 7e-4 * 512 / n).all()
+    assert slope(n, errors) == pytest.approx(1, abs=0.1)
+
+
+@pytest.mark.parametrize("load", [0.1, 0.37, 0.9])
+def test_wave_pressure_away_from_the_edge(load):
+    """Where an edge cuts a cell, that cell is wrong by up to its own pressure; inside 0.9 a the error is of order 3/2
+    in the cells across the half-width: a misplaced edge weighs dx^(3/2) in the force."""
+    case = westergaard.Westergaard()
+    for n in (128, 512):
+        found = westergaard.press_by_bem(westergaard.Wave(case=case, load=load, cells=n))
+        a = closed_forms.westergaard_half_width(
+            mean_pressure=load * case.full_pressure,
+            amplitude=case.amplitude,
+            wavelength=case.wavelength,
+            modulus=case.modulus,
+        )
+        inside = np.abs(found["x"]) < 0.9 * a
+        worst = np.max(np.abs(found["pressure"] - found["exact_pressure"])[inside]) / found["exact_pressure"].max()
+        assert worst <= 0.5 * (case.wavelength / n / a) ** 1.5
+
+
+def test_a_row_of_cells_answers_like_a_whole_periodic_grid():
+    """Ridges: one row, or sixteen equal rows of cells of another depth."""
+    x = np.arange(32) / 32
+    gap = 0.02 * np.sin(np.pi * x) ** 2
+    row = bem3d.HalfSpace(shape=(32, 1), spacing=(1 / 32, 1.0), modulus=1.0, periodic=True)
+    grid = bem3d.HalfSpace(shape=(32, 16), spacing=(1 / 32, 1 / 16), modulus=1.0, periodic=True)
+    one = bem3d.solve(row, gap[:, np.newaxis], force=0.01, tolerance=1e-11)
+    many = bem3d.solve(grid, np.repeat(gap[:, np.newaxis], 16, axis=1), force=0.01, tolerance=1e-11)
+    np.testing.assert_allclose(many.pressure, np.repeat(one.pressure, 16, axis=1), atol=1e-9 * one.pressure.max())

@@ -1,0 +1,172 @@
+"""Negative controls: each fault is planted on purpose, and the named test must catch it."""
+
+import functools
+
+import numpy as np
+import pytest
+
+import bem3d
+import mdr
+from bem3d import contact, frozen, halfspace, kernel, polonsky_keer, surface
+from mdr import foundation
+from mdr import profile as profile_module
+from tests import (
+    test_contact_properties,
+    test_convergence_rates,
+    test_drawn_roughness,
+    test_geike_mapping,
+    test_operator_against_dense_twin,
+    test_springs_against_brute_force,
+)
+
+POISSON = 1 / 3
+
+
+def scaled(function, factor):
+    """The same function with a factor on its result."""
+
+    @functools.wraps(function)
+    def wrong(*args, **kwargs):
+        return factor * function(*args, **kwargs)
+
+    return wrong
+
+
+def shifted_love(x, y, dx, dy):
+    return kernel_love(np.asarray(x) + dx / 2, y, dx, dy)
+
+
+def one_sided_corner(x, y):
+    return kernel._half(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+
+
+def softer_curve(height, *, length, modulus):
+    return load_curve(height, length=length, modulus=modulus * (1 - POISSON**2))
+
+
+def stretched_curve(height, *, length, modulus):
+    return load_curve(height, length=1.1523 * length, modulus=modulus)
+
+
+def half_of_the_parabola(x, *, radius):
+    return np.asarray(x) ** 2 / (2 * radius)
+
+
+def forgiving_residual(pressure, w, overlap):
+    return 1e-6 * contact.residual(pressure, w, overlap)
+
+
+def blind_to_penetration(pressure, w, overlap):
+    return contact.residual(pressure, np.maximum(w, 0.0), overlap)
+
+
+def grown_contact(half_space, cells, **settings):
+    wider = cells | np.roll(cells, 1, axis=0)
+    return frozen.press_frozen(half_space, wider, **settings)
+
+
+def printed_formula(c1d, q, nyquist):
+    """(14.9) as printed: sqrt(2 pi / L) C_1D, which has the wrong unit."""
+    return resolved(c1d, q, nyquist) ** 2
+
+
+kernel_love, load_curve, resolved = kernel.love, foundation.load_curve, profile_module._resolved
+E_FOR_E_STAR = 1 - POISSON**2
+
+FAULTS = {
+    "E for E* in boundary elements": (
+        (kernel, "free_space_symbol", scaled(kernel.free_space_symbol, E_FOR_E_STAR)),
+        test_convergence_rates.test_sphere_force_at_second_order,
+    ),
+    "E for E* in springs": (
+        (mdr, "load_curve", softer_curve),
+        test_springs_against_brute_force.test_force_and_stiffness_at_an_approach,
+    ),
+    "factor 2 lost in the periodic symbol": (
+        (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
+        test_convergence_rates.test_wave_pressure_at_first_order,
+    ),
+    "factor 2 lost in the periodic symbol, against the dense twin": (
+        (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    "no padding": (
+        (halfspace, "_doubled", lambda points: points),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
+    "padding two points short": (
+        (halfspace, "_doubled", lambda points: max(points, 2 * points - 3)),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    "no padding, seen in a contact": (
+        (halfspace, "_doubled", lambda points: points),
+        test_convergence_rates.test_a_wider_grid_changes_nothing,
+    ),
+    "kernel shifted by half a cell": (
+        (kernel, "love", shifted_love),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    "half of the corner function": (
+        (kernel, "corner", one_sided_corner),
+        test_operator_against_dense_twin.test_love_against_quadrature,
+    ),
+    "surface shifted by half a cell": (
+        (surface, "_half_a_cell", lambda mode, points: np.ones(mode.shape)),
+        test_drawn_roughness.test_a_finer_grid_draws_the_same_roughness,
+    ),
+    "spectrum of a surface without its mirror images": (
+        (surface, "_hermitian", lambda wave, amplitudes: wave),
+        test_drawn_roughness.test_surface_moments_are_the_sums_over_its_waves,
+    ),
+    "one-sided spectrum taken for two-sided": (
+        (bem3d, "rough_surface", scaled(bem3d.rough_surface, np.sqrt(2))),
+        test_drawn_roughness.test_surface_moments_are_the_sums_over_its_waves,
+    ),
+    "(14.9) as printed": (
+        (profile_module, "_resolved", printed_formula),
+        test_drawn_roughness.test_profile_moments_are_the_sums_over_its_waves,
+    ),
+    "line trace for Geike": (
+        (mdr.SelfAffine, "c1d", mdr.SelfAffine.line),
+        functools.partial(test_geike_mapping.test_moments_of_power_laws_are_kept, n=2),
+    ),
+    "q C_2D for Geike": (
+        (mdr, "geike", scaled(mdr.geike, 1 / np.pi)),
+        functools.partial(test_geike_mapping.test_moments_of_arbitrary_spectra_are_kept, n=0),
+    ),
+    "2 pi q C_2D for Geike": (
+        (mdr, "geike", scaled(mdr.geike, 2.0)),
+        functools.partial(test_geike_mapping.test_moments_of_arbitrary_spectra_are_kept, n=0),
+    ),
+    "x^2 / 2R in one dimension": (
+        (mdr, "sphere_profile", half_of_the_parabola),
+        functools.partial(
+            test_springs_against_brute_force.test_springs_under_a_parabola_tend_to_the_sphere_at_second_order, 0.1
+        ),
+    ),
+    "1.1523 L for L": (
+        (mdr, "load_curve", stretched_curve),
+        test_springs_against_brute_force.test_force_and_stiffness_at_an_approach,
+    ),
+    "stiffness of a contact grown by a cell": (
+        (contact, "press_frozen", grown_contact),
+        test_contact_properties.test_stiffness_is_that_of_the_dense_contact,
+    ),
+    "a residual that forgives": (
+        (polonsky_keer, "residual", forgiving_residual),
+        test_convergence_rates.test_a_wider_grid_changes_nothing,
+    ),
+    "a residual blind to penetration": (
+        (polonsky_keer, "residual", blind_to_penetration),
+        test_contact_properties.test_complementarity,
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_named_test_catches(fault, monkeypatch):
+    (place, name, wrong), named_test = FAULTS[fault]
+    monkeypatch.setattr(place, name, wrong)
+    with pytest.raises(AssertionError):
+        named_test()
