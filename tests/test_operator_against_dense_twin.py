@@ -5,7 +5,7 @@ import threading
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import integrate
@@ -51,7 +51,8 @@ def test_mirror_and_transpose(half_space, seed):
 
 @given(x=st.floats(-20, 20), y=st.floats(-20, 20), dx=st.floats(0.1, 10), dy=st.floats(0.1, 10))
 def test_love_against_the_textbook_logarithms(x, y, dx, dy):
-    # the logarithms cancel when the point lies on the line through a side of the cell
+    # the logarithms cancel, and one of them is that of zero, on the lines through the sides of the cell
+    assume(abs(abs(x) - dx / 2) > 1e-3 and abs(abs(y) - dy / 2) > 1e-3)
     assert bem3d.love(x, y, dx, dy) == pytest.approx(love_by_logarithms(x, y, dx, dy), rel=1e-9, abs=1e-11)
 
 
