@@ -12,6 +12,7 @@ FloatArray = NDArray[np.float64]
 Statistic = Callable[..., FloatArray]
 
 RESAMPLES = 999
+ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -42,8 +43,9 @@ def log_mean(samples: FloatArray, axis: int = -1) -> FloatArray:
 
 
 def log_relative_deviation(samples: FloatArray, axis: int = -1) -> FloatArray:
-    """ln of the standard deviation (n - 1) over the mean."""
-    return np.asarray(np.log(samples.std(axis=axis, ddof=1) / samples.mean(axis=axis)))
+    """ln of the standard deviation (n - 1) over the mean; minus infinity where values differ by rounding alone."""
+    relative = samples.std(axis=axis, ddof=1) / samples.mean(axis=axis)
+    return np.asarray(np.log(np.where(relative > ROUNDING, relative, 0.0)))
 
 
 def estimate(samples: FloatArray, statistic: Statistic, rng: np.random.Generator) -> Estimate:
