@@ -7,7 +7,6 @@ from bem3d.contact import Contact, Status
 from bem3d.convergence import ConvergenceError
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.halfspace import HalfSpace
-from bem3d.kernel import corner, love
 from bem3d.solver import solve
 from bem3d.surface import rough_surface
 
@@ -17,8 +16,6 @@ __all__ = [
     "FrozenContact",
     "HalfSpace",
     "Status",
-    "corner",
-    "love",
     "press_frozen",
     "rough_surface",
     "solve",

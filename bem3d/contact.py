@@ -1,6 +1,6 @@
 """The answer to a contact problem, with the problem it answers, and its residual."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
@@ -28,11 +28,11 @@ class Contact:
     operator_applications: all of them, start included; status: see `Status`.
     """
 
-    problem: Problem
+    problem: Problem = field(repr=False)
     tolerance: float
-    pressure: FloatArray
+    pressure: FloatArray = field(repr=False)
     approach: float
-    history: tuple[float, ...]
+    history: tuple[float, ...] = field(repr=False)
     operator_applications: int
     status: Status
 

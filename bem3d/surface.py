@@ -36,7 +36,7 @@ def rough_surface(
     expected (gaussian) [m].
     Returns height, shape (nx, ny), positive towards the other body [m].
     Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the grid can carry.
-    Source: (14.8) in two dimensions, B_2D of SCIENCE.md section 2.
+    Source: Popov and Hess, (14.8) in two dimensions; sum B^2 must tend to int C_2D d^2q, which sets B.
     """
     shape, steps = grid_shape(shape), grid_spacing(spacing)
     if not isinstance(rng, np.random.Generator):

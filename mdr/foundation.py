@@ -71,7 +71,7 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     height: shape (points,), positive towards the other body [m]; length: of the profile [m]; modulus: E* [Pa].
     The approach is zero where the plane height = 0 is met, so the first touch is at -max(height).
     Raises ValueError for an empty or non-finite profile, a length or modulus that is not positive.
-    Source: SCIENCE.md section 4.
+    Source: Popov and Hess, chapter 10: rough profiles on the foundation.
     """
     heights = finite_array("height", height, ndim=1)
     spring = positive("modulus", modulus) * positive("length", length) / heights.size
@@ -101,7 +101,7 @@ def press_sphere(
 
     radius: R [m]; modulus: E* [Pa]; exactly one of approach (zero or less: no contact) [m] and force (>= 0) [N].
     Raises ValueError if both or neither are given, or one is out of range.
-    Source: (14.2) and SCIENCE.md section 4; equal to Hertz.
+    Source: Popov and Hess, (14.2), (14.4) and (14.5) without roughness; equal to Hertz.
     """
     radius, modulus = positive("radius", radius), positive("modulus", modulus)
     if (approach is None) == (force is None):

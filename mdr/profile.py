@@ -12,7 +12,7 @@ def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
     """The one-dimensional profile that stands for a sphere of the given radius: x^2 / R, not x^2 / 2R.
 
     x: distance from the centre of the contact [m]; radius: of the sphere, positive [m]. Returns [m].
-    Source: (14.2).
+    Source: Popov and Hess, (14.2).
     """
     profile: FloatArray = finite_array("x", x) ** 2 / positive("radius", radius)
     return profile
@@ -42,7 +42,7 @@ def rough_profile(
     expected (gaussian) [m].
     Returns height, shape (points,), positive towards the other body [m].
     Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry.
-    Source: (14.8), and (14.9) with the root over all of it.
+    Source: Popov and Hess, (14.8), and (14.9) with the root over all of it.
     """
     length, points = positive("length", length), count("points", points, least=2)
     if not isinstance(rng, np.random.Generator):

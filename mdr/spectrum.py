@@ -27,7 +27,7 @@ def geike(q: ArrayLike, c2d: ArrayLike | Spectrum) -> FloatArray:
     q: angular wavenumbers, any sign [rad/m]; c2d: densities at q, or a callable of |q| [m^4].
     Returns C_1D, shape of q and c2d broadcast [m^3].
     Raises ValueError for negative densities, NaN or infinities.
-    Source: rule of Geike, (10.12).
+    Source: rule of Geike; Popov and Hess, (10.12).
     """
     wavenumber = np.abs(finite_array("q", q))
     return np.pi * wavenumber * _values("c2d", c2d, wavenumber)
@@ -41,7 +41,7 @@ def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
     q: angular wavenumbers, not zero [rad/m]; c1d: densities at q, or a callable of |q| [m^3].
     Returns C_2D [m^4].
     Raises ValueError for q = 0, negative densities, NaN or infinities.
-    Source: (10.12), solved for C_2D.
+    Source: Popov and Hess, (10.12), solved for C_2D.
     """
     wavenumber = np.abs(finite_array("q", q))
     if (wavenumber == 0).any():
@@ -58,7 +58,7 @@ def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -
     q: along the line [rad/m]; c2d: callable, smooth up to q_max and zero beyond [m^4]; nodes: of the quadrature.
     A spectrum with jumps inside the band converges slowly: use `SelfAffine.line` for a power law with cut-offs.
     Returns C_line, shape of q [m^3].
-    Source: SCIENCE.md section 3 with s^2 = q^2 + k^2.
+    Source: the spectrum of a section is that of the surface, integrated across it; s^2 = q^2 + k^2.
     """
     wavenumber = np.abs(finite_array("q", q))
     reach = np.sqrt(np.maximum(positive("q_max", q_max) ** 2 - wavenumber**2, 0.0))
@@ -108,7 +108,7 @@ class SelfAffine:
 
         C_line(q) = A |q|^(-2H-1) int t^(H-1/2) (1-t)^(-1/2) dt over (q/q_max)^2 < t < min(1, (q/q_min)^2),
         with t = (q/s)^2: an incomplete beta function. Below q_min it is a plateau, not zero.
-        Source: SCIENCE.md section 3.
+        Source: `line_trace`, with C_2D inserted.
         """
         q, _ = self._in_band(q)
         flat = q < FLAT * self.q_min

@@ -11,6 +11,7 @@ from hypothesis.extra.numpy import arrays
 from scipy import integrate
 
 import bem3d
+from bem3d import kernel
 from tests.oracles import dense_operator, love_by_logarithms
 from tests.strategies import half_spaces
 
@@ -53,18 +54,18 @@ def test_mirror_and_transpose(half_space, seed):
 def test_love_against_the_textbook_logarithms(x, y, dx, dy):
     # the logarithms cancel, and one of them is that of zero, on the lines through the sides of the cell
     assume(abs(abs(x) - dx / 2) > 1e-3 and abs(abs(y) - dy / 2) > 1e-3)
-    assert bem3d.love(x, y, dx, dy) == pytest.approx(love_by_logarithms(x, y, dx, dy), rel=1e-9, abs=1e-11)
+    assert kernel.love(x, y, dx, dy) == pytest.approx(love_by_logarithms(x, y, dx, dy), rel=1e-9, abs=1e-11)
 
 
 def test_love_against_quadrature():
     value, error = integrate.dblquad(lambda s, t: 1 / np.hypot(3 - s, 2 - t), -1, 1, -0.5, 0.5)
-    assert bem3d.love(3.0, 2.0, 1.0, 2.0) == pytest.approx(value, abs=10 * error)
+    assert kernel.love(3.0, 2.0, 1.0, 2.0) == pytest.approx(value, abs=10 * error)
 
 
 def test_corner_is_continued_to_the_axes():
-    assert bem3d.corner(0.0, 0.0) == 0
-    assert bem3d.corner(0.0, 3.0) == pytest.approx(bem3d.corner(1e-14, 3.0), abs=1e-11)
-    assert bem3d.corner(2.0, 0.0) == 0
+    assert kernel.corner(0.0, 0.0) == 0
+    assert kernel.corner(0.0, 3.0) == pytest.approx(kernel.corner(1e-14, 3.0), abs=1e-11)
+    assert kernel.corner(2.0, 0.0) == 0
 
 
 @given(half_space=half_spaces(most=12, periodic=True), seed=st.integers(0, 100))

@@ -1,6 +1,7 @@
 """The command line."""
 
 import argparse
+import importlib.metadata
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -37,9 +38,10 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases and write their report."""
-    out = arguments.out or Path("reports") / arguments.profile
+    names = list(dict.fromkeys(arguments.only or CASES))
+    out = arguments.out or Path("reports") / "-".join([arguments.profile, *(names if arguments.only else ())])
     sections = build(
-        arguments.only or list(CASES),
+        names,
         profile=arguments.profile,
         out=out,
         workers=arguments.workers,
@@ -77,11 +79,17 @@ def _parser() -> argparse.ArgumentParser:
         epilog="Exit status: 0 all criteria met; 1 a criterion failed; 2 bad usage or input; "
         "3 something did not converge; 130 interrupted.",
     )
+    parser.add_argument("--version", action="version", version=importlib.metadata.version("mdr-validation"))
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     making = commands.add_parser("report", help="run cases and write a report folder")
     making.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
     making.add_argument("--only", nargs="+", choices=list(CASES), metavar="CASE", help="these cases alone; see `cases`")
-    making.add_argument("--out", type=Path, metavar="DIR", help="folder of the report (default: reports/PROFILE)")
+    making.add_argument(
+        "--out",
+        type=Path,
+        metavar="DIR",
+        help="folder of the report (default: reports/PROFILE, with the names of the cases if --only)",
+    )
     making.add_argument("--workers", type=_at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
     making.add_argument("--seed", type=_at_least(0), metavar="S", help="for every case that draws at random")
     making.set_defaults(command=report)

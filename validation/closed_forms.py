@@ -1,4 +1,4 @@
-"""Exact answers of linear elasticity. They import neither method.
+"""What linear elasticity knows of simple contacts. The referees: they import neither method.
 
 Lengths in metres, forces in newtons, pressures in pascals; ``modulus`` is the contact modulus E*.
 All arguments with a unit must be finite and positive unless said otherwise; ValueError names the one that is not.
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
-# pi times the capacitance of the unit square, 0.36679: SCIENCE.md section 6
+# pi times the capacitance of the unit square, 0.36679, which is known by numerical methods only; five digits
 SQUARE_PUNCH = 1.1523
 
 
@@ -54,7 +54,10 @@ def circular_punch_stiffness(*, radius: float, modulus: float) -> float:
 
 
 def square_punch_stiffness(*, side: float, modulus: float) -> float:
-    """k = 1.1523 E* L of a flat square punch [N/m]; the factor is pi times the capacitance of the unit square."""
+    """k = 1.1523 E* L of a flat square punch [N/m].
+
+    The square has no closed form: the factor is pi times the numerical capacitance of the unit square.
+    """
     _positive(side=side, modulus=modulus)
     return SQUARE_PUNCH * modulus * side
 
@@ -95,7 +98,7 @@ def westergaard_pressure(
 def line_trace_ratio(hurst: float) -> float:
     """C_line / C_Geike = Gamma(H + 1/2) / (sqrt(pi) Gamma(H + 1)) of an unbounded power law, H > 0 [-].
 
-    Source: SCIENCE.md section 3; the ratio of the spectrum along a line to Geike's.
+    From C_line(q) = 2 int_q^inf C_2D(s) s / sqrt(s^2 - q^2) ds with C_2D ~ s^(-2H-2), over pi q C_2D(q).
     """
     _positive(hurst=hurst)
     return math.gamma(hurst + 0.5) / (math.sqrt(math.pi) * math.gamma(hurst + 1))

@@ -9,12 +9,16 @@ import bem3d
 import mdr
 from validation import closed_forms
 from validation.ensemble import SERIAL, Engine, Outcome, generator
-from validation.evidence import Evidence, NotConvergedError, Number, Role, Table
+from validation.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict
 from validation.statistics import Estimate, Statistic, estimate, log_mean, log_relative_deviation
 
 FloatArray = NDArray[np.float64]
 
+Row = dict[str, float]
+
 DECIBEL = 20 / np.log(10)
+# a contact of fewer cells is under-resolved
+FEW_CELLS = 16
 # the spawn keys under which each kind of roughness draws, and the bootstrap
 PROFILES, SURFACES, BOOTSTRAP = 1, 2, 3
 
@@ -37,12 +41,17 @@ class FractalPunch:
     profiles: int = 200
     decades: tuple[int, int] = (-2, 1)
     per_decade: int = 3
-    reported: tuple[float, ...] = (0.1, 1.0)
+    reported: tuple[float, ...] = (0.01, 0.1, 1.0, 10 ** (1 / 3), 10.0)
     refined: int = 3
     points: int = 2048
     height: float = 1e-3
     tolerance: float = 1e-5
     seed: int = 14
+
+    def __post_init__(self) -> None:
+        for force in self.reported:
+            if not np.isclose(force, self.forces).any():
+                raise ValueError(f"reported must be among the forces {self.forces}, got {force}")
 
     @property
     def forces(self) -> tuple[float, ...]:
@@ -200,37 +209,31 @@ def evidence(result: FractalPunchResult) -> Evidence:
     fewest = min(int(np.isfinite(ensemble.bem).sum(axis=0).min()) for ensemble in result.ensembles)
     if fewest < 3:
         raise NotConvergedError(f"{fewest} surfaces converged at one of the forces, 3 are needed", result.unconverged)
-    rows: list[dict[str, float]] = []
-    numbers = [_bounded(result, "bem3d", closed_forms.SQUARE_PUNCH), _bounded(result, "mdr", 1.0)]
-    for h, ensemble in enumerate(result.ensembles):
-        numbers += _numbers(case, h, ensemble)
-        rows += _rows(case, h, ensemble)
-    curves = Table("curves", {name: [row[name] for row in rows] for name in rows[0]})
-    at = _level(case, case.reported[0])
-    middle = result.ensembles[len(result.ensembles) // 2]
+    bounds = [_bounded(result, "bem3d", closed_forms.SQUARE_PUNCH), _bounded(result, "mdr", 1.0)]
+    apart = {
+        name: [n for h, ensemble in enumerate(result.ensembles) for n in _apart(case, h, ensemble, name)]
+        for name in STATISTICS
+    }
+    rows = [row for h, ensemble in enumerate(result.ensembles) for row in _rows(case, h, ensemble)]
     return Evidence(
         title="Fractal punch (Fig. 14.1)",
         compared=(
-            f"A rigid square punch of side L, rough from q_min = 2 pi / L to {case.cells // 4} q_min, no roll-off. "
+            f"A rigid square punch of side L, rough from q_min = 2π/L to {case.cells // 4} q_min, no roll-off. "
             f"{case.surfaces} surfaces of {case.cells}² cells under boundary elements, {case.profiles} profiles of "
             f"{case.points} springs of Geike's spectrum, L_1D = L, at equal forces; Fbar = F / (E* h L), "
             "kbar = k / (E* L) on both sides, h exact in every draw. Stiffness of the frozen contact (3D) and of the "
             f"springs in contact (1D). Grid error from {case.refined} surfaces on cells half as wide, and from half as "
             "many springs."
         ),
-        numbers=tuple(numbers),
-        tables=(curves,),
-        conclusions=(
-            _summary(numbers, "mean stiffness"),
-            _summary(numbers, "relative deviation"),
-            f"Contact fraction is another matter: at H = {middle.hurst:g}, Fbar = {case.forces[at]:.2g} the springs in "
-            f"contact make up {middle.fraction[:, at].mean():.3f} of the length, the true contact "
-            f"{np.nanmean(middle.area[:, at]):.4f} of the area. MDR is no model of the contact area.",
-        ),
+        numbers=(*bounds, *apart["mean stiffness"], *apart["relative deviation"]),
+        tables=(Table("curves", {name: [row[name] for row in rows] for name in rows[0]}),),
+        conclusions=(*(_summary(name, numbers) for name, numbers in apart.items()), *_saturation(rows), *_area(rows)),
         caption=(
-            "Above: mean stiffness against force. Below: its relative standard deviation. Points with bars: boundary "
-            "elements with 95 % intervals. Lines in a band: MDR with L_1D = L and its 95 % interval; dashed: MDR with "
-            "L_1D = 1.1523 L."
+            "Above: mean stiffness k / (E* L) against force Fbar = F / (E* h L). Below: its relative standard "
+            "deviation. Circles: boundary elements, 95 % intervals of the sample alone, open where the mean contact "
+            f"has fewer than {FEW_CELLS} cells. Full line in a band: MDR with L_1D = L and its 95 % interval; dashed: "
+            "MDR with L_1D = 1.1523 L. Below, the lines end where all springs of all profiles are in contact and no "
+            "deviation is left. Dotted: slope 1 / (1 + H), through the boundary elements at Fbar = 0.1."
         ),
         unconverged=result.unconverged,
     )
@@ -254,44 +257,45 @@ def _level(case: FractalPunch, force: float) -> int:
     return int(np.argmin(np.abs(np.log(np.array(case.forces) / force))))
 
 
-def _numbers(case: FractalPunch, h: int, ensemble: Ensemble) -> list[Number]:
-    """MDR beside boundary elements at the reported forces."""
+def _apart(case: FractalPunch, h: int, ensemble: Ensemble, name: str) -> list[Number]:
+    """MDR beside boundary elements at the reported forces, as far as both have the statistic."""
+    statistic = STATISTICS[name]
     numbers = []
-    for name, statistic in STATISTICS.items():
-        for r, force in enumerate(case.reported):
-            level = _level(case, force)
-            pairs = np.column_stack([ensemble.refined[:, r], ensemble.bem[: case.refined, level]])
-            fine, coarse = pairs[np.isfinite(pairs).all(axis=1)].T
-            if fine.size < 2:
-                raise NotConvergedError(f"{fine.size} surfaces converged on both grids, 2 are needed")
-            rng = generator(case.seed, BOOTSTRAP, h, level)
-            apart = _estimate(ensemble.mdr[:, level], statistic, rng).minus(
-                _estimate(ensemble.bem[:, level], statistic, rng)
+    for r, force in enumerate(case.reported):
+        level = _level(case, force)
+        pairs = np.column_stack([ensemble.refined[:, r], ensemble.bem[: case.refined, level]])
+        fine, coarse = pairs[np.isfinite(pairs).all(axis=1)].T
+        if fine.size < 2:
+            raise NotConvergedError(f"{fine.size} surfaces converged on both grids, 2 are needed")
+        rng = generator(case.seed, BOOTSTRAP, h, level)
+        springs = _estimate(ensemble.mdr[:, level], statistic, rng)
+        if not np.isfinite([springs.value, springs.error]).all():
+            continue
+        apart = springs.minus(_estimate(ensemble.bem[:, level], statistic, rng))
+        # first order in the cell: what a halving changed is left to come once more, and the same for springs
+        of_cells = 2 * abs(float(statistic(fine) - statistic(coarse)))
+        of_springs = 2 * abs(springs.value - float(statistic(ensemble.mdr_coarse[:, level])))
+        numbers.append(
+            Number(
+                label=f"{name} at H = {ensemble.hurst:g}, Fbar = {force:.3g}: mdr over bem3d",
+                value=DECIBEL * apart.value,
+                reference=0.0,
+                source="bem3d",
+                tolerance=1.0,
+                unit="dB",
+                reason="12 %, what a third-octave level can tell",
+                grid=DECIBEL * (of_cells + of_springs),
+                sample=DECIBEL * apart.half_width,
+                role=Role.FINDING,
             )
-            # first order in the cell: what a halving changed is left to come once more, and the same for springs
-            of_cells = 2 * abs(float(statistic(fine) - statistic(coarse)))
-            of_springs = 2 * abs(float(statistic(ensemble.mdr[:, level]) - statistic(ensemble.mdr_coarse[:, level])))
-            numbers.append(
-                Number(
-                    label=f"{name} at Fbar = {force:g}, H = {ensemble.hurst:g}: mdr over bem3d",
-                    value=DECIBEL * apart.value,
-                    reference=0.0,
-                    source="bem3d",
-                    tolerance=1.0,
-                    unit="dB",
-                    reason="1 dB (12 %): what a third-octave level can tell",
-                    grid=DECIBEL * (of_cells + of_springs),
-                    sample=DECIBEL * apart.half_width,
-                    role=Role.FINDING,
-                )
-            )
+        )
     return numbers
 
 
 STATISTICS: dict[str, Statistic] = {"mean stiffness": log_mean, "relative deviation": log_relative_deviation}
 
 
-def _rows(case: FractalPunch, h: int, ensemble: Ensemble) -> list[dict[str, float]]:
+def _rows(case: FractalPunch, h: int, ensemble: Ensemble) -> list[Row]:
     """One row a force: both statistics of both methods with their 95 % intervals."""
     rows = []
     for level, force in enumerate(case.forces):
@@ -302,7 +306,8 @@ def _rows(case: FractalPunch, h: int, ensemble: Ensemble) -> list[dict[str, floa
                 row[f"{method} {name}"] = float(np.exp(found.value))
                 row[f"{method} {name} low"] = float(np.exp(found.value - found.half_width))
                 row[f"{method} {name} high"] = float(np.exp(found.value + found.half_width))
-        row["bem3d contact area"] = float(np.nanmean(ensemble.area[:, level]))
+        row["bem3d contact fraction"] = float(np.nanmean(ensemble.area[:, level]))
+        row["bem3d cells in contact"] = row["bem3d contact fraction"] * case.cells**2
         row["mdr contact fraction"] = float(ensemble.fraction[:, level].mean())
         row["bem3d surfaces"] = int(np.isfinite(ensemble.bem[:, level]).sum())
         rows.append(row)
@@ -318,12 +323,36 @@ def _estimate(samples: FloatArray, statistic: Statistic, rng: np.random.Generato
         return estimate(samples[np.isfinite(samples)], statistic, rng)
 
 
-def _summary(numbers: list[Number], name: str) -> str:
-    mine = [n for n in numbers if n.label.startswith(name)]
-    worst = max(mine, key=lambda n: abs(n.value))
-    verdicts = [n.verdict.value for n in mine]
-    counts = ", ".join(f"{verdicts.count(v)} {v}" for v in ("agree", "differ", "undecided") if v in verdicts)
+def _summary(name: str, numbers: list[Number]) -> str:
+    """How many agree, which differ and by how much."""
+    verdicts = [n.verdict for n in numbers]
+    counts = ", ".join(f"{verdicts.count(v)} {v}" for v in Verdict if v in verdicts)
+    differ = [
+        f"{n.label.removeprefix(name + ' at ').removesuffix(': mdr over bem3d')} ({n.value:+.2f} dB)"
+        for n in numbers
+        if n.verdict is Verdict.DIFFER
+    ]
+    return f"{name.capitalize()}, MDR beside boundary elements within 1 dB: {counts}" + (
+        f"; differ: {'; '.join(differ)}." if differ else "."
+    )
+
+
+def _saturation(rows: list[Row]) -> tuple[str, ...]:
+    """Where the springs have no fluctuation left and the boundary elements still have."""
+    still = [row for row in rows if row["mdr relative deviation"] == 0]
+    first = {row["H"]: row for row in reversed(still)}
+    return tuple(
+        f"At H = {hurst:g} all springs of all profiles are in contact from Fbar = {row['Fbar']:.3g} on: MDR has no "
+        f"fluctuation left, boundary elements have a relative deviation of {row['bem3d relative deviation']:.2g}."
+        for hurst, row in sorted(first.items())
+    )
+
+
+def _area(rows: list[Row]) -> tuple[str, ...]:
+    """True contact beside the springs in contact, in the middle of the curves."""
+    row = rows[len(rows) // 2]
     return (
-        f"{name.capitalize()}, MDR beside boundary elements within 1 dB: {counts}; largest difference "
-        f"{worst.value:+.2f} dB ({worst.label.split(':')[0]}; grid {worst.grid:.2f} dB, sample {worst.sample:.2f} dB)."
+        f"Contact area is another matter: at H = {row['H']:g}, Fbar = {row['Fbar']:.2g} the springs in contact make up "
+        f"{row['mdr contact fraction']:.3f} of the length, the true contact {row['bem3d contact fraction']:.4f} of the "
+        "area. MDR is no model of the contact area.",
     )

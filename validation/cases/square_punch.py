@@ -86,7 +86,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
             label="bem3d: square punch, k / (E* L), extrapolated",
             value=limit,
             reference=exact,
-            source="capacitance of the square",
+            source="capacitance of the square, numerical",
             tolerance=5e-4,
             grid=abs(limit - _extrapolated(square[:-1])),
             reason="five units of the last digit of the reference, 1.1523",
@@ -137,6 +137,13 @@ def evidence(result: SquarePunchResult) -> Evidence:
                     "circle k / (2 E* a)": circle.tolist(),
                 },
             ),
+            Table(
+                "levels",
+                {
+                    "level": ["capacitance", "extrapolated", "mdr L", "mdr 1.1523 L"],
+                    "k / (E* L)": [exact, limit, *(k / (case.modulus * case.side) for k in result.springs)],
+                },
+            ),
             Table("pressure", columns(**{"x / L": last["x"] / case.side, "p / mean p": last["pressure"] / mean})),
         ),
         conclusions=(
@@ -146,8 +153,9 @@ def evidence(result: SquarePunchResult) -> Evidence:
             " % too soft; with 1.1523 L it saturates alike, by choice of the length.",
         ),
         caption=(
-            "(a) Stiffness of the square against the cell size, with the extrapolation and both 1D lengths. "
-            "(b) Pressure under the square along its middle, finest grid."
+            "(a) Stiffness against the cell size: the square over E* L, with the extrapolation and both 1D lengths; "
+            "the circle over 2 E* a. (b) Pressure under the square along its middle, finest grid, over its mean: "
+            "singular at the edges."
         ),
     )
 
@@ -157,7 +165,7 @@ def _length(name: str, stiffness: float, exact: float) -> Number:
         label=f"mdr: full contact with L_1D = {name}, k / (E* L)",
         value=stiffness,
         reference=exact,
-        source="capacitance of the square",
+        source="capacitance of the square, numerical",
         tolerance=5e-4,
         reason="as for boundary elements",
         role=Role.FINDING,

@@ -90,7 +90,8 @@ def build(
         folder.write(f"figures/{section.name}.pdf", pdf(figure))
         for table in section.evidence.tables:
             folder.write(f"data/{section.name}-{table.name}.csv", as_csv(table))
-    about = provenance(profile, seed, workers, seconds)
+    seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
+    about = provenance(profile, seeds, workers, seconds)
     folder.write("provenance.json", as_json(about))
     folder.write(RESULTS, as_json(_results(sections, profile)))
     folder.write("index.html", _page(sections, profile, pictures, about))
@@ -119,7 +120,12 @@ def _case_results(section: Section) -> dict[str, object]:
         "answers": section.answers,
         "settings": section.settings,
         "numbers": [
-            {**asdict(number), "difference": number.difference, "verdict": number.verdict, "met": number.met}
+            {
+                **asdict(number),
+                "difference": number.difference,
+                "verdict": number.verdict,
+                "met": number.met if number.role is Role.CRITERION else None,
+            }
             for number in section.numbers
         ],
         "conclusions": list(section.evidence.conclusions) if section.evidence else [],
@@ -128,9 +134,9 @@ def _case_results(section: Section) -> dict[str, object]:
 
 
 def _resolved(value: float, tolerance: float) -> str:
-    """A value with two digits more than its tolerance has."""
+    """A value with two digits more than its tolerance has, seven at the most."""
     digits = max(0, 2 - math.floor(math.log10(tolerance))) if tolerance > 0 else 6
-    return f"{value:.{digits}f}" if digits < 12 else f"{value:.6g}"
+    return f"{value:.{min(digits, 7)}f}"
 
 
 def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, bytes], about: dict[str, object]) -> bytes:

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+import tempfile
 from pathlib import Path
 
 from validation.evidence import Table
@@ -16,7 +17,8 @@ RESULTS = "results.json"
 class Folder:
     """A folder that holds a report, or nothing yet.
 
-    Raises ValueError for a path that is a file, or a folder with something else in it.
+    Made if need be. Raises ValueError for a path that is a file, a folder with something else in it, or one that
+    cannot be written.
     """
 
     def __init__(self, path: Path):
@@ -24,6 +26,12 @@ class Folder:
             raise ValueError(f"--out must be a folder, got the file {path}")
         if path.exists() and any(path.iterdir()) and not ((path / RESULTS).exists() or (path / REALISATIONS).exists()):
             raise ValueError(f"--out must be a new or empty folder or an earlier report, got {path} with other files")
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=path):
+                pass
+        except OSError as error:
+            raise ValueError(f"--out must be a folder that can be written, got {path}: {error.strerror}") from None
         self.path = path
         self._written: set[Path] = set()
 

@@ -1,4 +1,4 @@
-"""What produced a report: versions, settings, commit, time. Never whose machine."""
+"""What produced a report: versions, commit, seeds, time. Never whose machine."""
 
 import importlib.metadata
 import os
@@ -10,14 +10,18 @@ ROOT = Path(__file__).parents[2]
 LIBRARIES = ("numpy", "scipy", "pyfftw", "matplotlib", "joblib")
 
 
-def provenance(profile: str, seed: int | None, workers: int, seconds: dict[str, float]) -> dict[str, object]:
-    """Plain values for provenance.json: everything about a run that is no result."""
+def provenance(profile: str, seeds: dict[str, object], workers: int, seconds: dict[str, float]) -> dict[str, object]:
+    """Plain values for provenance.json: everything about a run that is no result.
+
+    seeds: of the cases that draw; seconds: this run took for each case, less where it found finished solves.
+    """
     return {
         "profile": profile,
-        "seed": "default of each case" if seed is None else seed,
+        "seeds": seeds,
         "workers": workers,
         "seconds": {name: round(value, 2) for name, value in seconds.items()},
         "commit": _commit(),
+        "version": importlib.metadata.version("mdr-validation"),
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
         "cores": os.cpu_count(),

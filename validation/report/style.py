@@ -20,7 +20,7 @@ BEM: Style = {"color": "#0072B2", "marker": "o", "markersize": 4, "linestyle": "
 MDR: Style = {"color": "#D55E00", "marker": "s", "markersize": 4, "markerfacecolor": "none", "linestyle": "none"}
 MDR_LINE: Style = {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4}
 MDR_OTHER: Style = {"color": "#009E73", "linestyle": "--", "linewidth": 1.4}
-GUIDE: Style = {"color": "#999999", "linestyle": ":", "linewidth": 1.0}
+GUIDE: Style = {"color": "#555555", "linestyle": ":", "linewidth": 1.3}
 
 SETTINGS: Any = {
     "svg.hashsalt": "validation",

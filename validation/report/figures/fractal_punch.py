@@ -4,8 +4,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from validation.cases.fractal_punch import FEW_CELLS
 from validation.evidence import Evidence, Table
-from validation.report.style import BEM, MDR_LINE, MDR_OTHER, panels
+from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, panels
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -19,9 +20,15 @@ def draw(evidence: Evidence) -> Figure:
         _compare(above, mine, "mean stiffness")
         _compare(below, mine, "relative deviation")
         above.set_title(f"H = {hurst:g}")
-        below.set_xlabel("force F / (E* h L)")
-    axes[0].set_ylabel("mean stiffness k / (E* L)")
-    axes[len(hursts)].set(ylabel="relative standard deviation of k", ylim=(1e-3, 1))
+        below.set_xlabel("force Fbar = F / (E* h L)")
+        force, stiffness = mine["Fbar"], mine["bem3d mean stiffness"]
+        power = force ** (1 / (1 + hurst))
+        pinned = np.argmin(np.abs(np.log(force / 0.1)))
+        unsaturated = force <= 1
+        guide = stiffness[pinned] * power / power[pinned]
+        above.plot(force[unsaturated], guide[unsaturated], label="slope 1 / (1 + H)", **GUIDE)
+    axes[0].set_ylabel("mean stiffness kbar = k / (E* L)")
+    axes[len(hursts)].set(ylabel="relative standard deviation of k", ylim=(5e-4, 1))
     axes[0].legend(loc="lower right")
     return figure
 
@@ -29,7 +36,11 @@ def draw(evidence: Evidence) -> Figure:
 def _compare(axis: Axes, curves: Table, name: str) -> None:
     force = curves["Fbar"]
     value, low, high = (_drawn(curves[f"bem3d {name}{end}"]) for end in ("", " low", " high"))
-    axis.errorbar(force, value, yerr=[value - low, high - value], capsize=2, label="boundary elements", **BEM)
+    for few, face in ((False, BEM["color"]), (True, "white")):
+        drawn = (curves["bem3d cells in contact"] < FEW_CELLS) == few
+        bars = [(value - low)[drawn], (high - value)[drawn]]
+        label = "_" if few else "boundary elements"
+        axis.errorbar(force[drawn], value[drawn], yerr=bars, capsize=2, label=label, markerfacecolor=face, **BEM)
     axis.plot(force, _drawn(curves[f"mdr {name}"]), label="MDR, L_1D = L", **MDR_LINE)
     low, high = _drawn(curves[f"mdr {name} low"]), _drawn(curves[f"mdr {name} high"])
     axis.fill_between(force, low, high, color=MDR_LINE["color"], alpha=0.25, linewidth=0)

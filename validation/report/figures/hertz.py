@@ -20,9 +20,10 @@ def draw(evidence: Evidence) -> Figure:
     load_axis.legend(loc="lower right")
 
     pressure = evidence.table("pressure")
-    millimetres = 1e3 * pressure["x [m]"]
-    pressure_axis.plot(millimetres, 1e-6 * pressure["hertz pressure [Pa]"], label="Hertz", **EXACT)
-    pressure_axis.plot(millimetres, 1e-6 * pressure["bem3d pressure [Pa]"], label="boundary elements", **BEM)
+    exact = evidence.table("exact-pressure")
+    pressure_axis.plot(1e3 * exact["x [m]"], 1e-6 * exact["hertz pressure [Pa]"], label="Hertz", **EXACT)
+    cells = 1e3 * pressure["x [m]"], 1e-6 * pressure["bem3d pressure [Pa]"]
+    pressure_axis.plot(*cells, label="boundary elements", **BEM)
     pressure_axis.set(xlabel="distance from the centre [mm]", ylabel="pressure p [MPa]")
     pressure_axis.legend(loc="upper right")
 
