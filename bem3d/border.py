@@ -83,7 +83,7 @@ def field(name: str, values: ArrayLike, shape: tuple[int, int]) -> FloatArray:
         raise TypeError(f"{name} must hold real numbers, got dtype {given.dtype}")
     if given.shape != shape:
         raise ValueError(f"{name} must have shape {shape}, got {given.shape}")
-    array = np.asarray(given, dtype=np.float64)
+    array = given.astype(np.float64, copy=False)
     if not np.isfinite(array).all():
         broken = np.count_nonzero(~np.isfinite(array))
         raise ValueError(f"{name} must be finite, got {broken} NaN or infinite values out of {array.size}")

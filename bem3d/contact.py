@@ -77,13 +77,17 @@ def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
 
     With s = approach - min(gap), the deepest geometric overlap: the larger of sum(p |w|) / (s sum(p)), a gap under
     pressure, and max(-w) / s, a penetration.
+    One deep spike makes s large and this figure small for all the rest: ask for a finer tolerance there.
     Without overlap, s <= 0, only p = 0 is a solution (residual 0), anything else is none (infinite).
 
     pressure: [Pa]; overlap: s [m];
     w: gap + u - approach, with u from a fresh operator application on that pressure [m].
     """
     total = float(pressure.sum())
+    if not np.isfinite(total):
+        return float("nan")
     if overlap <= 0:
         return 0.0 if total == 0 else float("inf")
     open_under_pressure = float((pressure * np.abs(w)).sum()) / total if total > 0 else 0.0
-    return max(open_under_pressure, -float(w.min()), 0.0) / overlap
+    # not the built-in max, which loses a NaN
+    return float(np.max([open_under_pressure, -float(w.min()), 0.0])) / overlap

@@ -70,7 +70,7 @@ def press_frozen(
     square = start = float((remainder**2).sum())
     history = [1.0]
     while history[-1] > tolerance and len(history) <= max_iterations:
-        yielding = np.where(contact, half_space.displacement(direction), 0.0)
+        yielding = np.where(contact, half_space.apply(direction), 0.0)
         step = square / float((direction * yielding).sum())
         pressure += step * direction
         remainder -= step * yielding

@@ -47,7 +47,11 @@ class HalfSpace:
         pressure: shape of the half-space, of any sign [Pa]. Returns the displacement into the half-space at the
         cell centres, same shape [m]. Raises ValueError for a wrong shape, NaN or infinities.
         """
-        return self._convolve(field("pressure", pressure, self.shape))
+        return self.apply(field("pressure", pressure, self.shape))
+
+    def apply(self, pressure: FloatArray) -> FloatArray:
+        """`displacement` of a pressure that is known to be in order: the operator of the solvers."""
+        return self._convolve(pressure)
 
     @property
     def steps(self) -> tuple[float, float]:
@@ -63,9 +67,9 @@ class HalfSpace:
     @cached_property
     def self_compliance(self) -> float:
         """Displacement at the centre of a cell under unit pressure on it alone [m/Pa]."""
-        one = np.zeros(self.shape)
-        one[0, 0] = 1.0
-        return float(self.displacement(one)[0, 0])
+        if self.periodic:
+            return float(fft.irfft2(kernel.periodic_symbol(self.shape, self.steps, self.modulus), self.shape)[0, 0])
+        return float(kernel.love(0.0, 0.0, *self.steps)) / (np.pi * self.modulus)
 
     @cached_property
     def _convolve(self) -> Convolution:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem3d.border import FloatArray
 from bem3d.contact import residual
@@ -40,9 +41,9 @@ def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator
     restart, square_before = True, 1.0
     applications = 0
     while True:
-        separation = gap + half_space.displacement(pressure)
+        separation = gap + half_space.apply(pressure)
         contact = pressure > 0
-        s = float(separation[contact].mean()) if depth is None else depth
+        s = mean_over(contact, separation) if depth is None else depth
         w = separation - s
         applications += 1
         yield Iterate(pressure, problem.first_touch + s, residual(pressure, w, s), applications)
@@ -50,10 +51,10 @@ def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator
         square = float((w[contact] ** 2).sum())
         conjugacy = 0.0 if restart else square / square_before
         direction = np.where(contact, w + conjugacy * direction, 0.0)
-        yielding = half_space.displacement(direction)
+        yielding = half_space.apply(direction)
         applications += 1
         if force is not None:
-            yielding -= yielding[contact].mean()
+            yielding -= mean_over(contact, yielding)
         along, curvature = float((w * direction).sum()), float((yielding * direction).sum())
         # no direction is left in a single cell, no curvature in a uniform pressure on a periodic half-space:
         # then a cell's own compliance sets the step
@@ -65,6 +66,11 @@ def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator
         if force is not None:
             pressure = _loaded(problem, pressure)
         restart, square_before = bool(overlapping.any()) or square == 0, square
+
+
+def mean_over(contact: NDArray[np.bool_], values: FloatArray) -> float:
+    """Mean over the contact; NaN where there is none left, which ends the iteration."""
+    return float(values[contact].mean()) if contact.any() else float("nan")
 
 
 def first_pressure(problem: Problem) -> FloatArray:

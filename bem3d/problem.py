@@ -26,7 +26,10 @@ class Problem:
     def __post_init__(self) -> None:
         if not isinstance(self.half_space, HalfSpace):
             raise TypeError(f"half_space must be a bem3d.HalfSpace, got {type(self.half_space).__name__}")
-        object.__setattr__(self, "gap", field("gap", self.gap, self.half_space.shape))
+        # a result carries the problem it answers, whatever the caller does with the array afterwards
+        gap = field("gap", self.gap, self.half_space.shape).copy()
+        gap.flags.writeable = False
+        object.__setattr__(self, "gap", gap)
         if (self.approach is None) == (self.force is None):
             raise ValueError(f"give either approach or force, got approach={self.approach} and force={self.force}")
         if self.force is not None:

@@ -43,11 +43,13 @@ def solve(
     if known is not None:
         return _contact(problem, tolerance, known, [known.residual], Status.CONVERGED)
     history: list[float] = []
-    for iterate in polonsky_keer(problem, pressure):
-        history.append(iterate.residual)
-        status = _status(history, tolerance, max_iterations)
-        if status is not None:
-            break
+    # numbers that overflow end as a residual that is none, and that is a status
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        for iterate in polonsky_keer(problem, pressure):
+            history.append(iterate.residual)
+            status = _status(history, tolerance, max_iterations)
+            if status is not None:
+                break
     result = _contact(problem, tolerance, iterate, history, status or Status.BREAKDOWN)
     if raise_on_failure and not result.converged:
         raise ConvergenceError(
@@ -79,6 +81,7 @@ def _status(history: list[float], tolerance: float, max_iterations: int) -> Stat
 
 
 def _contact(problem: Problem, tolerance: float, last: Iterate, history: list[float], status: Status) -> Contact:
+    last.pressure.flags.writeable = False
     return Contact(
         problem=problem,
         tolerance=tolerance,
@@ -97,4 +100,4 @@ def _start(start: Contact | ArrayLike | None, half_space: HalfSpace) -> FloatArr
     pressure = field("start", start.pressure if isinstance(start, Contact) else start, half_space.shape)
     if (pressure < 0).any():
         raise ValueError(f"start must be zero or positive everywhere, got {pressure.min()}")
-    return pressure if pressure.any() else None
+    return pressure.copy() if pressure.any() else None

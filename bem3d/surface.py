@@ -28,7 +28,8 @@ def rough_surface(
 
     c2d: callable of |q|, zero beyond the Nyquist wavenumber of the coarser axis [m^4]; shape: cells (nx, ny);
     spacing: one number or (dx, dy) [m]; rng: the source of the phases. Waves take their random numbers in rings
-    from the longest to the shortest, so that the same generator on a finer grid draws the same surface.
+    from the longest to the shortest, so that the same generator on a finer grid of the same proportions draws the same
+    surface, if its band ends below the Nyquist wavenumber of the coarser one.
     amplitudes: "fixed", where every draw has the same mean square, sum_q (2 pi)^2 C_2D / (Lx Ly), exactly (the sum
     over the waves of the grid, which exceeds int C_2D d^2q when the band begins at 2 pi / L); or "gaussian", where
     only its expectation has.
@@ -68,7 +69,7 @@ def _resolved(c2d: Spectrum, q: FloatArray, steps: tuple[float, float]) -> Float
     waves = q > 0
     values[waves] = density("c2d", c2d(q[waves]), q[waves].shape)
     nyquist = np.pi / max(steps)
-    beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 256)
+    beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 4096)
     if np.max(beyond**5 * density("c2d", c2d(beyond), beyond.shape)) > 1e-9 * np.max(q**5 * values):
         raise ValueError(
             f"c2d must vanish beyond the Nyquist wavenumber of the grid, {nyquist:.6g} rad/m, "
@@ -85,7 +86,8 @@ def _random_waves(
     rng: np.random.Generator,
 ) -> ComplexArray:
     """Complex factors of mean square one on the half spectrum of a real field."""
-    ring = np.maximum(np.abs(i), j)
+    # the same order on every grid of these proportions: the waves of a coarse one come first on a finer one
+    ring = np.maximum(np.abs(i) * shape[1], j * shape[0])
     order = np.lexsort(((i + 0 * j).ravel(), (j + 0 * i).ravel(), ring.ravel()))
     wave = np.empty(ring.size, dtype=np.complex128)
     if amplitudes == "fixed":

@@ -75,6 +75,8 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     """
     heights = finite_array("height", height, ndim=1)
     spring = positive("modulus", modulus) * positive("length", length) / heights.size
+    if not (math.isfinite(spring) and spring > 0):
+        raise ValueError(f"modulus and length must give a finite stiffness, got {modulus} and {length}")
     approach = np.sort(-heights)
     stiffness = spring * np.searchsorted(approach, approach, side="left").astype(np.float64)
     steps = spring * np.arange(1, heights.size) * np.diff(approach)

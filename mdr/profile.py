@@ -34,7 +34,7 @@ def rough_profile(
 
     c1d: callable, two-sided density, zero beyond the Nyquist wavenumber pi points / L [m^3]; length: period L [m];
     rng: the source of the phases. Waves take their random numbers in order of q, so that the same generator on
-    more points draws the same profile.
+    more points draws the same profile, if its band ends below the Nyquist wavenumber of fewer.
     amplitudes: "fixed", where every draw has the same mean square, sum_q 2 pi C_1D(q) / L, exactly (the sum over
     the waves of the period, which exceeds int C_1D dq when the band begins at 2 pi / L); or "gaussian", where
     only its expectation has.
@@ -84,7 +84,7 @@ def _resolved(c1d: Spectrum, q: FloatArray, nyquist: float) -> FloatArray:
     values = density("c1d", c1d(q))
     if values.shape != q.shape:
         raise ValueError(f"c1d must return one value a wavenumber, got shape {values.shape} for {q.shape}")
-    beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 256)
+    beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 4096)
     if np.max(beyond**4 * density("c1d", c1d(beyond))) > 1e-9 * np.max(q**4 * values):
         raise ValueError(
             f"c1d must vanish beyond the Nyquist wavenumber of the points, {nyquist:.6g} rad/m, "

@@ -186,18 +186,15 @@ def test_flat_periodic_half_space_takes_a_uniform_pressure(shape):
 
 
 def test_result_carries_its_problem_and_its_costs():
-    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
     calls = []
 
     class Counting(bem3d.HalfSpace):
-        def displacement(self, pressure):
+        def apply(self, pressure):
             calls.append(1)
-            return super().displacement(pressure)
+            return super().apply(pressure)
 
     counting = Counting(shape=(8, 8), spacing=1.0, modulus=1.0)
     gap = np.random.default_rng(0).random((8, 8))
-    half_space.self_compliance, counting.self_compliance  # noqa: B018
-    calls.clear()
     contact = bem3d.solve(counting, gap, approach=0.7)
     assert contact.operator_applications == len(calls)
     assert contact.iterations + 1 == len(contact.history)
@@ -232,6 +229,33 @@ def test_textbook_iteration_may_cycle_under_a_force():
     assert stuck.status == "iteration limit"
     assert stuck.history[-1] == pytest.approx(stuck.history[-3], rel=1e-3)
     assert bem3d.solve(half_space, gap, approach=1.1, tolerance=TIGHT).converged
+
+
+def test_results_belong_to_nobody_else():
+    """Neither the caller's gap nor a start that is already a solution is shared with the result."""
+    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(0).random((8, 8))
+    contact = bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-8)
+    kept = contact.problem.gap.copy()
+    gap += 100
+    np.testing.assert_array_equal(contact.problem.gap, kept)
+    start = contact.pressure.copy()
+    again = bem3d.solve(half_space, kept, approach=0.7, tolerance=1e-6, start=start)
+    assert again.iterations == 0
+    assert not np.shares_memory(again.pressure, start)
+    for array in (again.pressure, again.problem.gap):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0, 0] = 1.0
+
+
+@pytest.mark.parametrize("prescribed", [{"force": 1e200}, {"force": 5e-324}, {"approach": 1e300}])
+def test_numbers_that_overflow_are_an_honest_failure(prescribed):
+    half_space = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(0).random((4, 4))
+    contact = bem3d.solve(half_space, gap, **prescribed, raise_on_failure=False)
+    assert contact.converged == (contact.residual <= contact.tolerance)
+    if contact.converged:
+        assert np.isfinite([contact.force, contact.approach]).all()
 
 
 def test_unreachable_tolerance_is_an_honest_failure():

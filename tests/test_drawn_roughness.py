@@ -103,11 +103,14 @@ def test_a_finer_grid_draws_the_same_roughness(seed, hurst, points):
         for n in (points, 3 * points)
     ]
     np.testing.assert_allclose(profiles[1][1::3], profiles[0], atol=1e-12 * np.abs(profiles[0]).max())
-    surfaces = [
-        bem3d.rough_surface(band(hurst, points // 4).c2d, shape=(n, n), spacing=1 / n, rng=rng(seed))
-        for n in (points, 3 * points)
-    ]
-    np.testing.assert_allclose(surfaces[1][1::3, 1::3], surfaces[0], atol=1e-12 * np.abs(surfaces[0]).max())
+    for stretch in (1, 2):
+        surfaces = [
+            bem3d.rough_surface(
+                band(hurst, points // 4).c2d, shape=(n, stretch * n), spacing=(1 / n, 1 / n), rng=rng(seed)
+            )
+            for n in (points, 3 * points)
+        ]
+        np.testing.assert_allclose(surfaces[1][1::3, 1::3], surfaces[0], atol=1e-12 * np.abs(surfaces[0]).max())
 
 
 def test_gaussian_amplitudes_have_the_spectrum_in_the_mean_alone():
@@ -143,6 +146,17 @@ def test_heights_are_normal_when_many_waves_share_them():
     waves = np.pi * 40 * 10
     assert np.mean(heights**3) == pytest.approx(0, abs=5 * np.sqrt(15 / waves))
     assert np.mean(heights**4) == pytest.approx(3, abs=5 * np.sqrt(96 / waves))
+
+
+def test_profiles_look_the_same_up_and_down():
+    """Phases cover the whole circle: mean cube of the height zero, and each mode's phase uniform."""
+    spectrum = band(0.7, 8)
+    draws = np.array([mdr.rough_profile(spectrum.c1d, length=1.0, points=64, rng=rng(i), rms=1.0) for i in range(1000)])
+    modes = np.fft.rfft(draws, axis=1)[:, 1:9]
+    turns = np.mean(modes / np.abs(modes), axis=0)
+    assert np.abs(turns).max() < 5 / np.sqrt(2000)
+    cubes = np.mean(draws**3, axis=1)
+    assert abs(cubes.mean()) < 5 * cubes.std() / np.sqrt(1000)
 
 
 def test_a_wave_at_the_edge_of_the_band_survives_rounding():

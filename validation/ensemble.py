@@ -23,7 +23,8 @@ Outcome = dict[str, NDArray[np.float64]]
 P = TypeVar("P")
 
 ROOT = Path(__file__).parents[1]
-NUMERICS = ("mdr", "bem3d", "validation/cases")
+NUMERICS = ("mdr", "bem3d", "validation")
+ON_PAPER = ROOT / "validation" / "report"
 LIBRARIES = ("numpy", "scipy", "pyfftw")
 
 
@@ -96,10 +97,11 @@ def _save(path: Path, key: str, outcome: Outcome) -> None:
 
 @cache
 def _numerics() -> str:
-    """Digest of the source that computes and of the libraries under it."""
+    """Digest of all source but what only draws and writes, and of the libraries under it."""
     digest = hashlib.sha256()
     for package in NUMERICS:
         for source in sorted((ROOT / package).rglob("*.py")):
-            digest.update(source.read_bytes())
+            if ON_PAPER not in source.parents:
+                digest.update(source.read_bytes())
     digest.update(json.dumps({name: importlib.metadata.version(name) for name in LIBRARIES}).encode())
     return digest.hexdigest()

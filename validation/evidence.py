@@ -121,6 +121,13 @@ class Evidence:
         return next(table for table in self.tables if table.name == name)
 
 
+def claim(sentence: str, numbers: Sequence[Number]) -> str:
+    """A conclusion that holds as long as all its numbers agree."""
+    if all(number.verdict is Verdict.AGREE for number in numbers):
+        return sentence
+    return f"Not confirmed by this run: {sentence}"
+
+
 def columns(**arrays: ArrayLike) -> dict[str, Sequence[object]]:
     """Plain Python values of arrays, one list a column."""
     return {name: np.asarray(array).tolist() for name, array in arrays.items()}

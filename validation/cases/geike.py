@@ -12,7 +12,7 @@ import bem3d
 import mdr
 from validation import closed_forms
 from validation.ensemble import SERIAL, Engine, Outcome, generator
-from validation.evidence import Evidence, Number, Role, Table
+from validation.evidence import Evidence, Number, Role, Table, claim
 
 FloatArray = NDArray[np.float64]
 
@@ -139,8 +139,11 @@ def evidence(result: GeikeResult) -> Evidence:
             ),
         ),
         conclusions=(
-            "Geike's rule keeps every moment; the line trace keeps the height and loses "
-            f"{100 * (1 - line[2]):.1f} % of the mean square gradient.",
+            claim(
+                "Geike's rule keeps every moment; the line trace keeps the height and loses "
+                f"{100 * (1 - line[2]):.1f} % of the mean square gradient.",
+                _of_spectra(geike, line),
+            ),
             f"Lines cut from the drawn surfaces have {_mid_band(case, lines, 'geike [m^3]'):.3f} of Geike's spectrum "
             "in the middle of the band; an unbounded power law would have "
             f"{closed_forms.line_trace_ratio(case.hurst):.3f}.",

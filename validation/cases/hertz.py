@@ -8,7 +8,7 @@ import bem3d
 import mdr
 from validation import closed_forms
 from validation.ensemble import SERIAL, Engine, Outcome
-from validation.evidence import Evidence, Number, Table, columns
+from validation.evidence import Evidence, Number, Table, claim, columns
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -200,9 +200,12 @@ def evidence(result: HertzResult) -> Evidence:
             _refinement_table(result),
         ),
         conclusions=(
-            "For a smooth sphere both methods give the same force, approach, contact radius and stiffness: "
-            f"forces differ by {abs(float(result.mdr[-1]['force'] / result.bem[-1]['force']) - 1):.1e} "
-            f"with {n[-1]} cells in the contact radius.",
+            claim(
+                "For a smooth sphere both methods give the same force, approach, contact radius and stiffness: "
+                f"forces differ by {abs(float(result.mdr[-1]['force'] / result.bem[-1]['force']) - 1):.1e} "
+                f"with {n[-1]} cells in the contact radius.",
+                numbers,
+            ),
         ),
         caption=(
             f"(a) Load curve, {n[1]} cells in the largest contact radius. "

@@ -147,7 +147,8 @@ def evidence(result: SquarePunchResult) -> Evidence:
             Table("pressure", columns(**{"x / L": last["x"] / case.side, "p / mean p": last["pressure"] / mean})),
         ),
         conclusions=(
-            f"The stiffness of the square tends to {limit:.5f} E* L; on n cells a side it is low by a fraction of "
+            f"By boundary elements the stiffness of the square tends to {limit:.5f} E* L; on n cells a side it is low "
+            "by a fraction of "
             f"{(limit / square[-1] - 1) * n[-1]:.3f} / n.",
             f"A 1D model of length L saturates {100 * (1 - result.springs[0] / (exact * case.modulus * case.side)):.1f}"
             " % too soft; with 1.1523 L it saturates alike, by choice of the length.",
