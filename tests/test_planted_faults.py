@@ -1,6 +1,7 @@
 """Negative controls: each fault is planted on purpose, and the named test must catch it."""
 
 import functools
+import types
 
 import numpy as np
 import pytest
@@ -14,12 +15,35 @@ from tests import (
     test_contact_properties,
     test_convergence_rates,
     test_drawn_roughness,
+    test_fractal_punch,
     test_geike_mapping,
     test_operator_against_dense_twin,
     test_springs_against_brute_force,
 )
+from validation import ensemble
+from validation.cases import fractal_punch, fractal_punch_evidence
 
 POISSON = 1 / 3
+
+
+def in_the_case(attribute, wrong):
+    """A fault that only the fractal punch sees: its own view of a module, with one name changed."""
+    view = types.SimpleNamespace(**{name: getattr(attribute, name) for name in attribute.__all__})
+    for name, value in wrong.items():
+        setattr(view, name, value)
+    return view
+
+
+def upside_down(half_space, gap, **settings):
+    return bem3d.solve(half_space, -gap, **settings)
+
+
+def twice_the_same(entropy, *key):
+    return ensemble.generator(entropy, *key[:-1], key[-1] // 2)
+
+
+def half_a_circle(modes, own_mirror, amplitudes, rng):
+    return np.where(own_mirror, 1.0, np.exp(1j * np.pi * rng.random(modes)))
 
 
 def scaled(function, factor):
@@ -72,6 +96,12 @@ def printed_formula(c1d, q, nyquist):
 
 kernel_love, load_curve, resolved = kernel.love, foundation.load_curve, profile_module._resolved
 E_FOR_E_STAR = 1 - POISSON**2
+spectrum = fractal_punch.FractalPunch.spectrum
+
+
+class LineForGeike(mdr.SelfAffine):
+    c1d = mdr.SelfAffine.line
+
 
 FAULTS = {
     "E for E* in boundary elements": (
@@ -152,6 +182,26 @@ FAULTS = {
     "stiffness of a contact grown by a cell": (
         (contact, "press_frozen", grown_contact),
         test_contact_properties.test_stiffness_is_that_of_the_dense_contact,
+    ),
+    "line trace for Geike in Fig. 14.1": (
+        (fractal_punch.FractalPunch, "spectrum", lambda case, hurst: LineForGeike(**vars(spectrum(case, hurst)))),
+        functools.partial(test_fractal_punch.test_profiles_are_those_of_geikes_spectrum, 1.0),
+    ),
+    "surfaces pressed upside down": (
+        (fractal_punch, "bem3d", in_the_case(bem3d, {"solve": upside_down})),
+        test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
+    ),
+    "every profile drawn twice": (
+        (fractal_punch, "generator", twice_the_same),
+        test_fractal_punch.test_no_realisation_is_counted_twice,
+    ),
+    "no grid error": (
+        (fractal_punch_evidence, "paired_change", lambda *pairs: (0.0, 0.0)),
+        test_fractal_punch.test_a_change_of_the_grid_reaches_its_error_bar,
+    ),
+    "phases on half of the circle": (
+        (profile_module, "_random_waves", half_a_circle),
+        test_drawn_roughness.test_profiles_look_the_same_up_and_down,
     ),
     "a residual that forgives": (
         (polonsky_keer, "residual", forgiving_residual),

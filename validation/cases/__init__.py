@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from validation.cases import fractal_punch, geike, hertz, square_punch, westergaard
+from validation.cases import fractal_punch, fractal_punch_evidence, geike, hertz, square_punch, westergaard
 from validation.ensemble import Engine
 from validation.evidence import Evidence
 
@@ -61,6 +61,6 @@ CASES = {
         fractal_punch.FractalPunch(),
         fractal_punch.FractalPunch(cells=256, surfaces=60, profiles=500, decades=(-3, 1), refined=8),
         fractal_punch.run,
-        fractal_punch.evidence,
+        fractal_punch_evidence.evidence,
     ),
 }
