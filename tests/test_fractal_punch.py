@@ -106,6 +106,19 @@ def test_verdicts_on_known_deviations(apart, surfaces, verdict):
         assert n.value == pytest.approx(20 * np.log10(apart), abs=0.02)
 
 
+def test_a_factor_lost_in_the_force_is_a_missed_criterion(monkeypatch):
+    """Boundary elements pressed with half, or a hundredth, of the force: stiffness and load curve no longer fit."""
+    case = replace(CASE, decades=(-1, 1), cells=16)
+    solve = bem3d.solve
+    for factor in (1.0, 0.5, 0.01):
+        monkeypatch.setattr(
+            bem3d, "solve", lambda *args, force, factor=factor, **more: solve(*args, force=factor * force, **more)
+        )
+        numbers = fractal_punch_evidence.evidence(fractal_punch.run(case)).numbers
+        slope = next(n for n in numbers if n.label.startswith("bem3d: slope"))
+        assert slope.met == (factor == 1.0)
+
+
 def test_error_of_a_paired_change():
     """The scatter of the change, propagated, against the spread of what many samples of pairs measure."""
     rng = np.random.default_rng(0)

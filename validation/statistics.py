@@ -34,7 +34,8 @@ class Estimate:
         error = math.sqrt(square + their_square)
         spread = square**2 / (self.samples - 1) + their_square**2 / (other.samples - 1)
         freedom = (square + their_square) ** 2 / spread if spread > 0 else math.inf
-        return Estimate(self.value - other.value, error, 1 + int(min(freedom, 1e9)))
+        samples = 1 + int(min(freedom, 1e9)) if math.isfinite(error) else min(self.samples, other.samples)
+        return Estimate(self.value - other.value, error, samples)
 
 
 def log_mean(samples: FloatArray, axis: int = -1) -> FloatArray:
