@@ -35,7 +35,9 @@ def _commit() -> str:
         return "unknown"
     try:
         revision = _git("rev-parse", "--short", "HEAD")
-        return revision + (", changed since" if _git("status", "--porcelain", "--untracked-files=no") else "")
+        return revision + (
+            ", changed since" if _git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!reports") else ""
+        )
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
 
