@@ -77,7 +77,7 @@ class HalfSpace:
             symbol, padded = kernel.periodic_symbol(self.shape, self.steps, self.modulus), self.shape
         else:
             padded = (_doubled(self.shape[0]), _doubled(self.shape[1]))
-            symbol = kernel.free_space_symbol(self.shape, self.steps, self.modulus, padded)
+            symbol = kernel.free_space_symbol(padded, self.steps, self.modulus)
         return Convolution(symbol, shape=self.shape, padded=padded, planning=self.planning)
 
     def __reduce__(self) -> tuple[Any, ...]:

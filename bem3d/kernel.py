@@ -29,9 +29,7 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> FloatArray:
     return corner(right, up) - corner(left, up) - corner(right, down) + corner(left, down)
 
 
-def free_space_symbol(
-    shape: tuple[int, int], spacing: tuple[float, float], modulus: float, padded: tuple[int, int]
-) -> FloatArray:
+def free_space_symbol(padded: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
     """Real Fourier transform of the Love kernel on the padded grid [m/Pa].
 
     The padded grid has at least 2n - 1 points a side, so that no cell meets the image of another.

@@ -108,13 +108,11 @@ def test_provenance_names_no_machine(small, tmp_path):
 
 
 def test_a_failed_criterion_is_exit_1(small, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(bem3d.kernel, "free_space_symbol", lambda *args: 1.1 * original(*args))
+    symbol = bem3d.kernel.free_space_symbol
+    monkeypatch.setattr(bem3d.kernel, "free_space_symbol", lambda *args: 1.1 * symbol(*args))
     assert report("--only", "hertz", "--out", str(tmp_path), "--workers", "1") == command.Exit.CRITERION_FAILED
     assert "missed: bem3d: force" in capsys.readouterr().out
     assert "differ" in (tmp_path / "index.html").read_text()
-
-
-original = bem3d.kernel.free_space_symbol
 
 
 def test_not_converged_is_exit_3(small, tmp_path, monkeypatch, capsys):

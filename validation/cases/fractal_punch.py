@@ -14,6 +14,8 @@ FloatArray = NDArray[np.float64]
 
 # the spawn keys under which each kind of roughness draws
 PROFILES, SURFACES = 1, 2
+# stiffness, area and approach of a solve that did not converge
+LOST = (np.nan, np.nan, np.nan)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,9 +181,6 @@ def press_profiles(profiles: Profiles) -> Outcome:
         points = mdr.load_curve(height, length=profiles.length, modulus=1.0).at_force(force)
         stiffness[i], approach[i] = points.stiffness, points.approach
     return {"stiffness": stiffness, "area": stiffness / profiles.length, "approach": approach}
-
-
-LOST = (np.nan, np.nan, np.nan)
 
 
 def _stacked(outcomes: list[Outcome]) -> Outcome:

@@ -10,6 +10,20 @@ from validation import closed_forms
 from validation.ensemble import SERIAL, Engine, Outcome
 from validation.evidence import Evidence, Number, Table, claim, columns
 
+SCATTER = {
+    "bem3d": "the staircase edge scatters the error from grid to grid",
+    "mdr": "where the ends of the contact fall between two springs scatters the error, but not for whole numbers",
+}
+# error of the force in units of (dx/a)^2, and why
+QUADRATIC = {
+    "bem3d": (
+        0.25,
+        "second order: the discrete pressure minimises the energy, so the force error is quadratic in that of "
+        "the pressure; (dx/a)^2 / 4 leaves room for the staircase edge",
+    ),
+    "mdr": (0.5, "second order: midpoint rule, (dx/a)^2 / 8 inside and at most 3/8 from the two ends of the contact"),
+}
+
 
 @dataclass(frozen=True, kw_only=True)
 class Hertz:
@@ -119,52 +133,7 @@ def evidence(result: HertzResult) -> Evidence:
     case = result.case
     n = np.array(case.cells_per_radius)
     finest = 1 / n[-1]
-    stiffness = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
-    numbers: list[Number] = []
-    for method, outcomes, quadratic in (("bem3d", result.bem, 0.25), ("mdr", result.mdr, 0.5)):
-        last = outcomes[-1]
-        numbers += [
-            Number(
-                label=f"{method}: force at the given approach, over Hertz",
-                value=float(last["force"]) / case.force,
-                reference=1.0,
-                source="Hertz",
-                tolerance=quadratic * finest**2,
-                reason=QUADRATIC[method],
-            ),
-            Number(
-                label=f"{method}: approach at the given force, over Hertz",
-                value=float(last["approach_at_force"]) / case.approach,
-                reference=1.0,
-                source="Hertz",
-                tolerance=2 / 3 * quadratic * finest**2,
-                reason="two thirds of the tolerance of the force, since d ~ F^(2/3)",
-            ),
-            Number(
-                label=f"{method}: contact radius over Hertz",
-                value=float(last["radius"]) / case.contact_radius,
-                reference=1.0,
-                source="Hertz",
-                tolerance=finest,
-                reason="one cell in the radius",
-            ),
-            Number(
-                label=f"{method}: stiffness over 2 E* a",
-                value=float(last["stiffness"]) / stiffness,
-                reference=1.0,
-                source="Boussinesq",
-                tolerance=finest,
-                reason="k follows the radius of the discrete contact: one cell in the radius",
-            ),
-            Number(
-                label=f"{method}: order of the force error in the cell size",
-                value=_order(n, np.array([float(o["force"]) for o in outcomes]) / case.force - 1),
-                reference=2.0,
-                source="error model",
-                tolerance=0.5,
-                reason=f"second order; {SCATTER[method]}",
-            ),
-        ]
+    numbers = [*_against_hertz(case, "bem3d", result.bem), *_against_hertz(case, "mdr", result.mdr)]
     numbers += [
         Number(
             label="bem3d: pressure, relative L2 error",
@@ -216,15 +185,54 @@ def evidence(result: HertzResult) -> Evidence:
     )
 
 
-SCATTER = {
-    "bem3d": "the staircase edge scatters the error from grid to grid",
-    "mdr": "where the ends of the contact fall between two springs scatters the error, but not for whole numbers",
-}
-QUADRATIC = {
-    "bem3d": "second order: the discrete pressure minimises the energy, so the force error is quadratic in that of "
-    "the pressure; (dx/a)^2 / 4 leaves room for the staircase edge",
-    "mdr": "second order: midpoint rule, (dx/a)^2 / 8 inside and at most 3/8 from the two ends of the contact",
-}
+def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Number]:
+    """Force, approach, radius and stiffness on the finest grid, and the rate of the force."""
+    n = np.array(case.cells_per_radius)
+    finest, last = 1 / n[-1], outcomes[-1]
+    quadratic, why = QUADRATIC[method]
+    stiffness = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
+    return [
+        Number(
+            label=f"{method}: force at the given approach, over Hertz",
+            value=float(last["force"]) / case.force,
+            reference=1.0,
+            source="Hertz",
+            tolerance=quadratic * finest**2,
+            reason=why,
+        ),
+        Number(
+            label=f"{method}: approach at the given force, over Hertz",
+            value=float(last["approach_at_force"]) / case.approach,
+            reference=1.0,
+            source="Hertz",
+            tolerance=2 / 3 * quadratic * finest**2,
+            reason="two thirds of the tolerance of the force, since d ~ F^(2/3)",
+        ),
+        Number(
+            label=f"{method}: contact radius over Hertz",
+            value=float(last["radius"]) / case.contact_radius,
+            reference=1.0,
+            source="Hertz",
+            tolerance=finest,
+            reason="one cell in the radius",
+        ),
+        Number(
+            label=f"{method}: stiffness over 2 E* a",
+            value=float(last["stiffness"]) / stiffness,
+            reference=1.0,
+            source="Boussinesq",
+            tolerance=finest,
+            reason="k follows the radius of the discrete contact: one cell in the radius",
+        ),
+        Number(
+            label=f"{method}: order of the force error in the cell size",
+            value=_order(n, np.array([float(o["force"]) for o in outcomes]) / case.force - 1),
+            reference=2.0,
+            source="error model",
+            tolerance=0.5,
+            reason=f"second order; {SCATTER[method]}",
+        ),
+    ]
 
 
 def _order(n: np.ndarray, error: np.ndarray) -> float:
