@@ -7,7 +7,7 @@ import numpy as np
 
 from bem3d.border import FloatArray
 from bem3d.convergence import ConvergenceError
-from bem3d.frozen import press_frozen
+from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.problem import Problem
 
 
@@ -16,6 +16,7 @@ class Status(StrEnum):
 
     CONVERGED = "converged"
     ITERATION_LIMIT = "iteration limit"
+    STAGNATION = "stagnation"
     BREAKDOWN = "breakdown"
 
 
@@ -24,8 +25,11 @@ class Contact:
     """Pressure between a rigid indenter and a half-space, with the problem it answers and the tolerance asked for.
 
     pressure: never negative, shape of the half-space [Pa]; approach: [m];
-    history: residual at the start and after each iteration, each from a fresh operator application;
-    operator_applications: all of them, start included; status: see `Status`.
+    history: residual at the start and after each iteration; the last, like the first, from a fresh operator
+    application on the pressure as returned;
+    operator_applications: all of them on this grid or a window of it, start included; coarse_applications: those on the
+    coarser grids that gave the start, (shape, count) of each; status: see `Status`;
+    frozen: this contact pressed as a flat punch, where `indent` was asked for the stiffness.
     """
 
     problem: Problem = field(repr=False)
@@ -35,6 +39,8 @@ class Contact:
     history: tuple[float, ...] = field(repr=False)
     operator_applications: int
     status: Status
+    coarse_applications: tuple[tuple[tuple[int, int], int], ...] = field(default=(), repr=False)
+    frozen: FrozenContact | None = field(default=None, repr=False)
 
     @property
     def force(self) -> float:
@@ -61,14 +67,18 @@ class Contact:
         """Whether this is a solution."""
         return self.status is Status.CONVERGED
 
-    def stiffness(self, *, tolerance: float = 1e-8) -> float:
+    def stiffness(self, *, tolerance: float = 1e-6) -> float:
         """k = dF/dd of the discrete problem: the frozen contact pressed by a unit approach [N/m].
 
-        tolerance: relative residual of the linear solve. Zero where there is no contact; infinite for a periodic
-        half-space in full contact. Raises ConvergenceError if this contact is no solution, or the linear solve fails.
+        tolerance: relative residual of the linear solve; the relative error of k is of the order of its square, see
+        `press_frozen`. A stiffness that `indent` has brought along is not solved for again.
+        Zero where there is no contact; infinite for a periodic half-space in full contact.
+        Raises ConvergenceError if this contact is no solution, or the linear solve fails.
         """
         if not self.converged:
             raise ConvergenceError(f"no stiffness of a contact that ended with: {self.status}", self.history, self)
+        if self.frozen is not None and self.frozen.residual <= tolerance:
+            return self.frozen.stiffness
         return press_frozen(self.problem.half_space, self.pressure > 0, tolerance=tolerance).stiffness
 
 

@@ -1,50 +1,117 @@
-"""Convolution with a real, even kernel: two planned FFTs on buffers that are made once and reused."""
+"""Convolution with a real, even kernel by planned FFTs, on buffers that are made once and reused."""
 
 import threading
+from abc import ABC, abstractmethod
 from typing import Literal
 
 import numpy as np
 import pyfftw
 
-from bem3d.border import FloatArray
+from bem3d.border import FloatArray, IndexArray
 
 Planning = Literal["estimate", "measure"]
+COLUMNS = 16
+"""Columns transformed at a time: few enough to stay in the cache, forwards, times the symbol, and back."""
 
 
-class Convolution:
-    """Circular convolution on a padded grid, read back on the part that was filled.
+class Convolution(ABC):
+    """Circular convolution with an even kernel on a padded grid, read back on the part that was filled.
 
-    symbol: real Fourier transform of the kernel, shape (padded[0], padded[1] // 2 + 1).
-    One FFT thread. "estimate" plans give the same bits in every process, "measure" plans are somewhat faster and
-    do not. Calls from several threads wait for each other, since the buffers are shared.
+    shape: the filled part; padded: the grid; planning: "estimate" plans give the same bits in every process, "measure"
+    plans are somewhat faster and do not. One FFT thread. Calls from several threads wait for each other, since the
+    buffers are shared.
     """
 
-    def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
-        self._filled = np.s_[: shape[0], : shape[1]]
-        self._symbol = symbol / (padded[0] * padded[1])
+    def __init__(self, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
+        self.shape, self.padded = shape, padded
+        self.flags = (f"FFTW_{planning.upper()}",)
         self._lock = threading.Lock()
-        self._field = pyfftw.empty_aligned(padded, dtype=np.float64)
-        self._spectrum = pyfftw.empty_aligned(symbol.shape, dtype=np.complex128)
-        self._result = pyfftw.empty_aligned(padded, dtype=np.float64)
-        flag = f"FFTW_{planning.upper()}"
-        self._forward = pyfftw.FFTW(self._field, self._spectrum, axes=(0, 1), flags=(flag,), threads=1)
-        # the inverse destroys its input, which the next forward transform writes anew
-        self._inverse = pyfftw.FFTW(
-            self._spectrum,
-            self._result,
-            axes=(0, 1),
-            direction="FFTW_BACKWARD",
-            flags=(flag, "FFTW_DESTROY_INPUT"),
-            threads=1,
-        )
-        # planning overwrites its arrays: the padding is cleared only now, and stays clear
-        self._field[:] = 0.0
+        # the padding along the first axis need not be stored, see PaddedConvolution
+        self._rows = pyfftw.empty_aligned((shape[0], padded[1]), dtype=np.float64)
+
+    @abstractmethod
+    def _convolve(self) -> None:
+        """Convolve the rows in place."""
 
     def __call__(self, field: FloatArray) -> FloatArray:
         """The convolution, same shape as the field."""
+        filled = np.s_[:, : self.shape[1]]
         with self._lock:
-            self._field[self._filled] = field
-            self._forward.execute()
-            self._spectrum *= self._symbol
-            self._inverse.execute()
-            return np.array(self._result[self._filled])
+            self._rows[filled] = field
+            self._rows[:, self.shape[1] :] = 0.0
+            self._convolve()
+            return np.array(self._rows[filled])
+
+    def places(self, cells: IndexArray) -> IndexArray:
+        """Where the cells, flat indices of the filled part, lie in the rows; for `at`."""
+        return cells // self.shape[1] * self.padded[1] + cells % self.shape[1]
+
+    def at(self, places: IndexArray, values: FloatArray) -> FloatArray:
+        """The convolution of a field that is zero but at these places, read back there alone."""
+        with self._lock:
+            flat = self._rows.reshape(-1)
+            flat[:] = 0.0
+            flat[places] = values
+            self._convolve()
+            return np.asarray(flat[places])
+
+
+class PlainConvolution(Convolution):
+    """Without padding: two transforms in two dimensions.
+
+    symbol: quadrant of the real Fourier transform of the kernel, shape (shape[0] // 2 + 1, shape[1] // 2 + 1).
+    """
+
+    def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], planning: Planning):
+        super().__init__(shape, shape, planning)
+        self._symbol = np.concatenate([symbol, symbol[(shape[0] - 1) // 2 : 0 : -1]]) / (shape[0] * shape[1])
+        self._spectrum = pyfftw.empty_aligned(self._symbol.shape, dtype=np.complex128)
+        plan = {"axes": (0, 1), "threads": 1}
+        self._forward = pyfftw.FFTW(self._rows, self._spectrum, flags=self.flags, **plan)
+        # the inverse destroys its input, which the next forward transform writes anew
+        flags = (*self.flags, "FFTW_DESTROY_INPUT")
+        self._inverse = pyfftw.FFTW(self._spectrum, self._rows, flags=flags, direction="FFTW_BACKWARD", **plan)
+
+    def _convolve(self) -> None:
+        self._forward.execute()
+        np.multiply(self._spectrum, self._symbol, out=self._spectrum)
+        self._inverse.execute()
+
+
+class PaddedConvolution(Convolution):
+    """With padding: transforms in one dimension, which leave out rows that are zero or not asked for.
+
+    The spectrum of the padded grid never exists as a whole: its columns go forwards, times the symbol, and back, a few
+    at a time.
+
+    symbol: quadrant of the real Fourier transform of the kernel, shape (padded[0] // 2 + 1, padded[1] // 2 + 1).
+    """
+
+    def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
+        super().__init__(shape, padded, planning)
+        self._along = np.ascontiguousarray(symbol.T) / (padded[0] * padded[1])
+        self._spectrum = pyfftw.empty_aligned((shape[0], padded[1] // 2 + 1), dtype=np.complex128)
+        self._columns = pyfftw.empty_aligned((COLUMNS, padded[0]), dtype=np.complex128)
+        plan = {"axes": (1,), "threads": 1}
+        back = {"direction": "FFTW_BACKWARD", **plan}
+        self._forward = pyfftw.FFTW(self._rows, self._spectrum, flags=self.flags, **plan)
+        self._inverse = pyfftw.FFTW(self._spectrum, self._rows, flags=(*self.flags, "FFTW_DESTROY_INPUT"), **back)
+        self._down = pyfftw.FFTW(self._columns, self._columns, flags=self.flags, **plan)
+        self._up = pyfftw.FFTW(self._columns, self._columns, flags=self.flags, **back)
+
+    def _convolve(self) -> None:
+        self._forward.execute()
+        filled, half = self.shape[0], self._along.shape[1]
+        # the symbol is even along the column too: its second half mirrors the first, without both ends
+        mirror = np.s_[:, self.padded[0] - half : 0 : -1]
+        for first in range(0, self._spectrum.shape[1], COLUMNS):
+            some = self._spectrum[:, first : first + COLUMNS]
+            columns, symbol = self._columns[: some.shape[1]], self._along[first : first + COLUMNS]
+            columns[:, :filled] = some.T
+            columns[:, filled:] = 0.0
+            self._down.execute()
+            columns[:, :half] *= symbol
+            columns[:, half:] *= symbol[mirror]
+            self._up.execute()
+            some[:] = columns[:, :filled].T
+        self._inverse.execute()

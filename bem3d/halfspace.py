@@ -1,6 +1,6 @@
 """The elastic half-space on a regular grid: pressure in, displacement out."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
 
@@ -10,7 +10,10 @@ from scipy import fft
 
 from bem3d import kernel
 from bem3d.border import FloatArray, field, grid_shape, grid_spacing, positive
-from bem3d.convolution import Convolution, Planning
+from bem3d.convolution import Convolution, PaddedConvolution, PlainConvolution, Planning
+
+RELATIVES = 4
+"""Windows and coarser grids that a half-space keeps ready."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +54,7 @@ class HalfSpace:
 
     def apply(self, pressure: FloatArray) -> FloatArray:
         """`displacement` of a pressure that is known to be in order: the operator of the solvers."""
-        return self._convolve(pressure)
+        return self.convolution(pressure)
 
     @property
     def steps(self) -> tuple[float, float]:
@@ -68,17 +71,45 @@ class HalfSpace:
     def self_compliance(self) -> float:
         """Displacement at the centre of a cell under unit pressure on it alone [m/Pa]."""
         if self.periodic:
-            return float(fft.irfft2(kernel.periodic_symbol(self.shape, self.steps, self.modulus), self.shape)[0, 0])
+            lone = np.zeros(self.shape)
+            lone[0, 0] = 1.0
+            return float(self.apply(lone)[0, 0])
         return float(kernel.love(0.0, 0.0, *self.steps)) / (np.pi * self.modulus)
 
     @cached_property
-    def _convolve(self) -> Convolution:
+    def convolution(self) -> Convolution:
+        """Pressure to displacement, u = K p."""
         if self.periodic:
-            symbol, padded = kernel.periodic_symbol(self.shape, self.steps, self.modulus), self.shape
-        else:
-            padded = (_doubled(self.shape[0]), _doubled(self.shape[1]))
-            symbol = kernel.free_space_symbol(padded, self.steps, self.modulus)
-        return Convolution(symbol, shape=self.shape, padded=padded, planning=self.planning)
+            symbol = kernel.periodic_symbol(self.shape, self.steps, self.modulus)
+            return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
+        padded = _doubled(self.shape[0]), _doubled(self.shape[1])
+        table = kernel.love_table((padded[0] // 2 + 1, padded[1] // 2 + 1), self.steps[1] / self.steps[0])
+        symbol = kernel.free_space_symbol(table, self.steps, self.modulus)
+        return PaddedConvolution(symbol, shape=self.shape, padded=padded, planning=self.planning)
+
+    @cached_property
+    def inverse(self) -> Convolution:
+        """Displacement to pressure, nearly: the preconditioner of the solvers, without padding."""
+        symbol = kernel.inverse_symbol(self.shape, self.steps, self.modulus)
+        return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
+
+    def like(self, *, shape: tuple[int, int], spacing: float | tuple[float, float] | None = None) -> "HalfSpace":
+        """The same half-space on another grid. The last few are kept, with their plans."""
+        wanted = replace(self, shape=shape, spacing=self.spacing if spacing is None else spacing)
+        if wanted == self:
+            return self
+        for kept in self._relatives:
+            if kept == wanted:
+                self._relatives.remove(kept)
+                wanted = kept
+                break
+        self._relatives.append(wanted)
+        del self._relatives[:-RELATIVES]
+        return wanted
+
+    @cached_property
+    def _relatives(self) -> list["HalfSpace"]:
+        return []
 
     def __reduce__(self) -> tuple[Any, ...]:
         # plans and buffers belong to one process
@@ -87,5 +118,5 @@ class HalfSpace:
 
 
 def _doubled(points: int) -> int:
-    """The smallest fast FFT length without images: at least 2n - 1."""
-    return int(fft.next_fast_len(2 * points - 1, real=True))
+    """An even and fast FFT length without images: at least 2n - 1."""
+    return 2 * int(fft.next_fast_len(points, real=True))

@@ -29,41 +29,56 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> FloatArray:
     return corner(right, up) - corner(left, up) - corner(right, down) + corner(left, down)
 
 
-def free_space_symbol(padded: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
-    """Real Fourier transform of the Love kernel on the padded grid [m/Pa].
+def love_table(cells: tuple[int, int], aspect: float) -> FloatArray:
+    """`love` at the centres (i, j) of the cells of a quadrant, in units of dx: neighbours share their corners.
 
-    The padded grid has at least 2n - 1 points a side, so that no cell meets the image of another.
-    Returns shape (padded[0], padded[1] // 2 + 1). The kernel is even, so its transform is real.
+    cells: how many along both axes; aspect: dy / dx. Returns shape (cells[0], cells[1]).
     """
-    # in units of dx, so that a change of scale changes nothing but the factor in front
-    aspect = spacing[1] / spacing[0]
-    x = np.arange(padded[0] // 2 + 1.0)[:, np.newaxis]
-    y = aspect * np.arange(padded[1] // 2 + 1.0)[np.newaxis, :]
-    quadrant = spacing[0] / (np.pi * modulus) * love(x, y, 1.0, aspect)
-    kernel = quadrant[np.ix_(_mirrored(padded[0]), _mirrored(padded[1]))]
-    return np.ascontiguousarray(fft.rfft2(kernel).real)
+    x = np.arange(cells[0] + 1)[:, np.newaxis] - 0.5
+    y = aspect * (np.arange(cells[1] + 1)[np.newaxis, :] - 0.5)
+    return np.diff(np.diff(corner(x, y), axis=0), axis=1)
+
+
+def free_space_symbol(table: FloatArray, spacing: tuple[float, float], modulus: float) -> FloatArray:
+    """Real Fourier transform of the Love kernel on a padded grid, its quadrant [m/Pa].
+
+    table: `love_table` of shape (m, n) for the padded grid of (2m - 2, 2n - 2) points. With at least 2n - 1 points
+    a side, no cell meets the image of another. The kernel is even along both axes, so its transform is a cosine
+    transform of one quadrant, of the same shape.
+    """
+    return np.asarray(spacing[0] / (np.pi * modulus) * fft.dctn(table, type=1))
 
 
 def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
-    """2 / (E* |q|) at the waves of a periodic grid, zero at q = 0 [m/Pa].
+    """2 / (E* |q|) at the waves of a periodic grid, zero at q = 0, its quadrant [m/Pa].
 
     The zero mode is free in a periodic half-space: the mean displacement is unbounded. Set to zero it makes every
     displacement, and with it every approach, relative to the mean plane of the deformed surface.
-    Returns shape (shape[0], shape[1] // 2 + 1).
+    Returns shape (shape[0] // 2 + 1, shape[1] // 2 + 1).
     """
-    qx = 2 * np.pi * fft.fftfreq(shape[0], spacing[0])
-    qy = 2 * np.pi * fft.rfftfreq(shape[1], spacing[1])
-    q = np.hypot(qx[:, np.newaxis], qy[np.newaxis, :])
+    q = wavenumbers(shape, spacing)
     q[0, 0] = np.inf
     return np.asarray(2 / (modulus * q))
+
+
+def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
+    """E*/2 sqrt(q^2 + (2 pi/L)^2), the quadrant of a symbol that nearly inverts the half-space [Pa/m].
+
+    L is the longer side: a half-space in free space yields to a uniform pressure as if to its longest wave.
+    Without padding its images touch, which a preconditioner may ignore.
+    Source: the inverse of Stanley and Kato's symbol, as used by Vollebregt, J. Comput. Phys. 257 (2014) 269.
+    """
+    longest = max(shape[0] * spacing[0], shape[1] * spacing[1])
+    return np.asarray(modulus / 2 * np.hypot(wavenumbers(shape, spacing), 2 * np.pi / longest))
+
+
+def wavenumbers(shape: tuple[int, int], spacing: tuple[float, float]) -> FloatArray:
+    """|q| on the quadrant of the spectrum of a grid [rad/m]."""
+    qx = 2 * np.pi * fft.rfftfreq(shape[0], spacing[0])
+    qy = 2 * np.pi * fft.rfftfreq(shape[1], spacing[1])
+    return np.asarray(np.hypot(qx[:, np.newaxis], qy[np.newaxis, :]))
 
 
 def _half(x: FloatArray, y: FloatArray) -> FloatArray:
     """x asinh(y/|x|), continued by its limit 0 at x = 0."""
     return x * np.arcsinh(y / np.where(x == 0, 1.0, np.abs(x)))
-
-
-def _mirrored(points: int) -> np.ndarray:
-    """Distance of each point of a ring from point 0, in points."""
-    index = np.arange(points)
-    return np.minimum(index, points - index)

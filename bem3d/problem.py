@@ -1,6 +1,6 @@
 """The statement of a contact problem: half-space, gap, and what is prescribed."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bem3d.border import FloatArray, field, finite, not_negative
 from bem3d.halfspace import HalfSpace
@@ -27,8 +27,10 @@ class Problem:
         if not isinstance(self.half_space, HalfSpace):
             raise TypeError(f"half_space must be a bem3d.HalfSpace, got {type(self.half_space).__name__}")
         # a result carries the problem it answers, whatever the caller does with the array afterwards
-        gap = field("gap", self.gap, self.half_space.shape).copy()
-        gap.flags.writeable = False
+        gap = field("gap", self.gap, self.half_space.shape)
+        if gap.flags.writeable or gap.base is not None:
+            gap = gap.copy()
+            gap.flags.writeable = False
         object.__setattr__(self, "gap", gap)
         if (self.approach is None) == (self.force is None):
             raise ValueError(f"give either approach or force, got approach={self.approach} and force={self.force}")
@@ -52,6 +54,20 @@ class Problem:
     def depth(self) -> float | None:
         """Prescribed approach beyond the first touch, the deepest geometric overlap [m]; None where force is given."""
         return None if self.approach is None else self.approach - self.first_touch
+
+    @property
+    def total(self) -> float | None:
+        """Sum of the pressures over the cells, F / (dx dy) [Pa]; None where approach is given."""
+        return None if self.force is None else self.force / self.half_space.cell_area
+
+    def under(self, value: float) -> "Problem":
+        """The same problem at another approach or force, whichever is prescribed; the gap is shared."""
+        return replace(self, force=value) if self.approach is None else replace(self, approach=value)
+
+    @property
+    def uniform(self) -> bool:
+        """Whether a flat gap meets a periodic half-space: a uniform pressure, and no overlap to scale by."""
+        return self.half_space.periodic and float(self.gap.max()) == self.first_touch
 
     @property
     def touching(self) -> bool:

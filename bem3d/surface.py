@@ -9,7 +9,6 @@ from scipy import fft
 from bem3d.border import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
 
 ComplexArray = NDArray[np.complex128]
-BoolArray = NDArray[np.bool_]
 
 
 def rough_surface(

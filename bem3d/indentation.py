@@ -1,0 +1,103 @@
+"""A load path: contacts one after the other, each from those before."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bem3d.border import FloatArray, count, fraction
+from bem3d.contact import Contact
+from bem3d.frozen import FrozenContact, press_frozen
+from bem3d.halfspace import HalfSpace
+from bem3d.press import Start
+from bem3d.problem import Problem
+from bem3d.solver import answer, checked
+
+STIFFNESS_TOLERANCE = 1e-4
+"""Relative residual of the frozen contacts: their stiffness is good to about its square."""
+
+
+def indent(
+    half_space: HalfSpace,
+    gap: ArrayLike,
+    *,
+    approaches: Sequence[float] | FloatArray | None = None,
+    forces: Sequence[float] | FloatArray | None = None,
+    stiffness: bool = False,
+    tolerance: float = 1e-6,
+    max_iterations: int = 500,
+    raise_on_failure: bool = True,
+) -> Iterator[Contact]:
+    """Press along a path of approaches [m] or forces [N], in the order given, loading or unloading; one Contact each.
+
+    half_space, gap, tolerance, max_iterations, raise_on_failure: as those of `solve`;
+    stiffness: have each contact bring its `frozen` contact along, from which `stiffness(tolerance=1e-4)` reads at once,
+    and which serves as the tangent to the next: p + f dd.
+
+    Each contact starts from the last: along its tangent where the stiffness is asked for, along the secant through the
+    last two otherwise. Raises as `solve` does, input out of range before the first contact.
+    """
+    if (approaches is None) == (forces is None):
+        raise ValueError(f"give either approaches or forces, got approaches={approaches} and forces={forces}")
+    name, path = ("approaches", approaches) if forces is None else ("forces", forces)
+    values = np.asarray(path)
+    if values.ndim != 1 or values.size == 0:
+        raise ValueError(f"{name} must be a sequence of at least one number, got {path!r}")
+    first, *others = values.tolist()
+    prescribed = {"approach": first} if forces is None else {"force": first}
+    begin = Problem(half_space=half_space, gap=cast(FloatArray, gap), **prescribed)
+    problems = [begin, *(begin.under(value) for value in others)]
+    tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
+    return _path(problems, stiffness, tolerance, max_iterations, raise_on_failure)
+
+
+def _path(
+    problems: list[Problem], stiffness: bool, tolerance: float, max_iterations: int, raise_on_failure: bool
+) -> Iterator[Contact]:
+    past: tuple[Contact, ...] = ()
+    frozen: FrozenContact | None = None
+    for problem in problems:
+        contact = answer(problem, _predicted(problem, past), tolerance, max_iterations)
+        if raise_on_failure:
+            checked(contact)
+        if stiffness and contact.converged:
+            frozen = press_frozen(
+                problem.half_space,
+                contact.pressure > 0,
+                start=None if frozen is None else frozen.pressure,
+                tolerance=STIFFNESS_TOLERANCE,
+                raise_on_failure=raise_on_failure,
+            )
+            contact = replace(contact, frozen=frozen)
+        past = (*past[-1:], contact) if contact.converged else ()
+        yield contact
+
+
+def _predicted(problem: Problem, past: tuple[Contact, ...]) -> Start | None:
+    """Along the tangent or the secant; None, a cold start, where there is nothing to start from."""
+    if not past or not past[-1].pressure.any():
+        return None
+    last = past[-1]
+    change = _prescribed(problem) - _prescribed(last.problem)
+    if last.frozen is not None and np.isfinite(last.frozen.stiffness):
+        approach = change if problem.force is None else change / last.frozen.stiffness
+        return _start(problem, last.pressure + approach * last.frozen.pressure, last.approach + approach)
+    if len(past) == 1 or not past[0].pressure.any() or _prescribed(last.problem) == _prescribed(past[0].problem):
+        return _start(problem, last.pressure, last.approach)
+    part = change / (_prescribed(last.problem) - _prescribed(past[0].problem))
+    pressure = last.pressure + part * (last.pressure - past[0].pressure)
+    return _start(problem, pressure, last.approach + part * (last.approach - past[0].approach))
+
+
+def _start(problem: Problem, pressure: FloatArray, approach: float) -> Start | None:
+    """The part of a predicted pressure that presses."""
+    pressure = np.maximum(pressure, 0.0)
+    overlap = approach - problem.first_touch
+    return Start(pressure, overlap if overlap > 0 else None) if pressure.any() else None
+
+
+def _prescribed(problem: Problem) -> float:
+    value = problem.force if problem.approach is None else problem.approach
+    return cast(float, value)

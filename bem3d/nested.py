@@ -1,0 +1,95 @@
+"""Nested iteration: the same contact on half as many cells a side, to begin with."""
+
+import numpy as np
+
+from bem3d.border import FloatArray
+from bem3d.halfspace import HalfSpace
+from bem3d.press import Start, press
+from bem3d.problem import Problem
+
+Level = tuple[tuple[int, int], int]
+
+FEWEST_CELLS = 32
+"""An axis of fewer cells is not coarsened."""
+COARSE_TOLERANCE = 1e-4
+"""Residual on the coarser grids: about what their own cells leave as an error."""
+
+
+def cold_start(problem: Problem, max_iterations: int) -> tuple[Start, tuple[Level, ...]]:
+    """A pressure for a touching problem, from the solution on coarser grids, and the applications it took there."""
+    coarse = _coarser_problem(problem)
+    if coarse is None or coarse.uniform or not coarse.touching:
+        return first_pressure(problem), ()
+    start, levels = cold_start(coarse, max_iterations)
+    attempt = press(coarse, start, COARSE_TOLERANCE, max_iterations)
+    levels = (*levels, (coarse.half_space.shape, attempt.operator_applications))
+    pressure = prolong(attempt.pressure, problem.half_space)
+    if not np.isfinite(pressure).all() or not pressure.any():
+        return first_pressure(problem), levels
+    return Start(pressure, attempt.overlap + coarse.first_touch - problem.first_touch), levels
+
+
+def _coarser_problem(problem: Problem) -> Problem | None:
+    half_space = coarser(problem.half_space)
+    if half_space is None:
+        return None
+    return Problem(half_space=half_space, gap=restrict(problem.gap), approach=problem.approach, force=problem.force)
+
+
+def first_pressure(problem: Problem) -> Start:
+    """Uniform at a prescribed force; else proportional to the overlap, as large as lowers the energy most."""
+    if problem.depth is None:
+        return Start(np.ones(problem.half_space.shape))
+    overlap = np.maximum(problem.depth - (problem.gap - problem.first_touch), 0.0)
+    yielding = problem.half_space.apply(overlap)
+    return Start(overlap * (float((overlap**2).sum()) / float((overlap * yielding).sum())), problem.depth)
+
+
+def coarser(half_space: HalfSpace) -> HalfSpace | None:
+    """The half-space with cells twice as long along every axis that can spare them; None if none can."""
+    factors = _factors(half_space.shape)
+    if factors == (1, 1):
+        return None
+    shape = tuple(-(-points // factor) for points, factor in zip(half_space.shape, factors, strict=True))
+    if half_space.periodic:
+        steps = tuple(n * dx / m for n, dx, m in zip(half_space.shape, half_space.steps, shape, strict=True))
+    else:
+        steps = tuple(dx * factor for dx, factor in zip(half_space.steps, factors, strict=True))
+    return half_space.like(shape=(shape[0], shape[1]), spacing=(steps[0], steps[1]))
+
+
+def restrict(values: FloatArray) -> FloatArray:
+    """Means over the cells of the coarser grid."""
+    for axis, factor in enumerate(_factors(values.shape)):
+        if factor == 2:
+            even = np.concatenate([values, values.take([-1], axis)], axis) if values.shape[axis] % 2 else values
+            first, second = [slice(None)] * 2, [slice(None)] * 2
+            first[axis], second[axis] = slice(0, None, 2), slice(1, None, 2)
+            values = (even[tuple(first)] + even[tuple(second)]) / 2
+    return values
+
+
+def prolong(pressure: FloatArray, half_space: HalfSpace) -> FloatArray:
+    """A pressure of the coarser grid, interpolated linearly to the cells of the half-space."""
+    for axis, factor in enumerate(_factors(half_space.shape)):
+        if factor == 2:
+            ends = np.roll if half_space.periodic else _shifted
+            before, after = ends(pressure, 1, axis), ends(pressure, -1, axis)
+            pair = np.stack([0.75 * pressure + 0.25 * before, 0.75 * pressure + 0.25 * after], axis=axis + 1)
+            shape = list(pressure.shape)
+            shape[axis] *= 2
+            pressure = pair.reshape(shape).take(range(half_space.shape[axis]), axis)
+    return pressure
+
+
+def _factors(shape: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(2 if points >= FEWEST_CELLS else 1 for points in shape)
+
+
+def _shifted(values: FloatArray, by: int, axis: int) -> FloatArray:
+    """`np.roll` that lets nothing in from the other end."""
+    moved = np.roll(values, by, axis)
+    edge: list[slice | int] = [slice(None)] * values.ndim
+    edge[axis] = 0 if by > 0 else -1
+    moved[tuple(edge)] = 0.0
+    return moved

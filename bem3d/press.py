@@ -1,0 +1,120 @@
+"""One contact problem on one grid: window and candidate cells around the iteration, fresh residuals at its end."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bem3d.border import BoolArray, FloatArray
+from bem3d.contact import Status, residual
+from bem3d.problem import Problem
+from bem3d.projected_cg import Load, projected_cg
+from bem3d.window import Candidates, smallest_box
+
+REACH = 1.25
+"""Under a prescribed force, a window is laid around the cells that overlap at so many times the expected overlap."""
+MARGIN = 2.0
+"""Cells no further from the contact than so many times the error of the start may come to touch."""
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A pressure to begin with, shape of the half-space, and the overlap that comes with it, if known."""
+
+    pressure: FloatArray
+    overlap: float | None = None
+
+
+@dataclass(eq=False)
+class Attempt:
+    """A pressure on the whole grid, the overlap it has, and what has led there."""
+
+    pressure: FloatArray
+    overlap: float
+    history: list[float] = field(default_factory=list)
+    operator_applications: int = 0
+    status: Status | None = None
+
+    def judge(self, residual: float, tolerance: float, max_iterations: int) -> None:
+        """Note the residual of a new pressure, and whether it ends the iteration."""
+        self.history.append(residual)
+        if residual <= tolerance:
+            self.status = Status.CONVERGED
+        elif math.isnan(residual):
+            self.status = Status.BREAKDOWN
+        elif len(self.history) > max_iterations:
+            self.status = Status.ITERATION_LIMIT
+
+
+def press(problem: Problem, start: Start, tolerance: float, max_iterations: int) -> Attempt:
+    """Solve on the smallest window that can hold the contact, and on a larger one where that proves too small.
+
+    In free space a cell can only touch where the undeformed bodies overlap, since u >= 0 for p >= 0.
+    """
+    gap, s = problem.gap - problem.first_touch, problem.depth
+    attempt = Attempt(start.pressure, s or start.overlap or math.inf)
+    reach = attempt.overlap if s is not None else REACH * attempt.overlap
+    while True:
+        attempt.status = None
+        _press_window(problem, gap, gap < reach, attempt, tolerance, max_iterations)
+        if problem.half_space.periodic or not attempt.overlap > reach:
+            return attempt
+        reach = REACH * attempt.overlap
+
+
+def _press_window(
+    problem: Problem, gap: FloatArray, within: BoolArray, attempt: Attempt, tolerance: float, max_iterations: int
+) -> None:
+    """Iterate on candidate cells until a fresh application confirms the residual on all cells of the window."""
+    box = smallest_box(problem.half_space, within | (attempt.pressure > 0))
+    near, load = gap[box], Load(problem.depth, problem.total)
+    window = problem.half_space.like(shape=(near.shape[0], near.shape[1]))
+    pressure = load.scaled(attempt.pressure[box])
+    marked, confirmed = np.zeros(window.shape, dtype=np.bool_), math.nan
+    while True:
+        separation = near + window.apply(pressure)
+        attempt.operator_applications += 1
+        attempt.overlap = load.overlap_of(pressure, separation)
+        w = separation - attempt.overlap
+        # a fresh residual takes the place of the running one of the same pressure
+        attempt.history = attempt.history[:-1]
+        attempt.judge(residual(pressure, w, attempt.overlap), tolerance, max_iterations)
+        known, marked = marked, marked | _may_touch(pressure, w)
+        stuck = not math.isnan(confirmed) and not attempt.history[-1] <= confirmed / 2
+        if attempt.status is None and stuck and (marked == known).all():
+            attempt.status = Status.STAGNATION
+        if attempt.status is not None:
+            break
+        confirmed = attempt.history[-1]
+        pressure = _iterate(Candidates(window, marked), pressure, separation, load, attempt, tolerance, max_iterations)
+    attempt.pressure = np.zeros(problem.half_space.shape)
+    attempt.pressure[box] = pressure
+
+
+def _iterate(
+    cells: Candidates,
+    pressure: FloatArray,
+    separation: FloatArray,
+    load: Load,
+    attempt: Attempt,
+    tolerance: float,
+    max_iterations: int,
+) -> FloatArray:
+    """The pressure at which the running residual on the candidate cells is small enough, or nothing more is gained."""
+    states = projected_cg(cells, cells.compress(pressure), cells.compress(separation), load)
+    state = next(states)
+    for state in states:
+        attempt.operator_applications += 1
+        attempt.judge(state.residual, 0.0, max_iterations)
+        if state.residual <= tolerance or attempt.status is not None:
+            break
+    # only a fresh application may say how it has ended
+    attempt.status = None
+    return cells.spread(state.pressure)
+
+
+def _may_touch(pressure: FloatArray, w: FloatArray) -> BoolArray:
+    """Cells in contact, and those that are no further from it than the error that the start still has."""
+    touching = (pressure > 0) | (w < 0)
+    error = float(np.abs(w[touching]).max(initial=0.0))
+    return np.asarray(touching | (w < MARGIN * error))

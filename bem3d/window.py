@@ -1,0 +1,65 @@
+"""The smallest window that holds a contact, and vectors over the cells that may touch."""
+
+import numpy as np
+
+from bem3d.border import BoolArray, FloatArray
+from bem3d.halfspace import HalfSpace
+
+Box = tuple[slice, slice]
+
+
+def smallest_box(half_space: HalfSpace, marked: BoolArray) -> Box:
+    """Rows and columns that hold all marked cells, widened to a length that transforms fast.
+
+    A periodic half-space has images all around and no smaller window than its period.
+    """
+    if half_space.periodic or not marked.any():
+        return slice(0, marked.shape[0]), slice(0, marked.shape[1])
+    rows, columns = (_widened(np.flatnonzero(marked.any(axis=axis)), marked.shape[1 - axis]) for axis in (1, 0))
+    return rows, columns
+
+
+def _widened(marked: np.ndarray, points: int) -> slice:
+    """A slice over the marked indices whose length is m 2^k, m = 4 to 7, so that few windows serve many contacts."""
+    length = int(marked[-1] - marked[0]) + 1
+    power = max(length.bit_length() - 3, 0)
+    wide = min(-(-length // 2**power) * 2**power, points)
+    first = min(max(int(marked[0]) - (wide - length) // 2, 0), points - wide)
+    return slice(first, first + wide)
+
+
+class Candidates:
+    """The cells of a window that may touch: K and its approximate inverse on vectors over these cells alone.
+
+    marked: boolean, shape of the half-space; vectors hold the marked cells in the order of the grid.
+    """
+
+    def __init__(self, half_space: HalfSpace, marked: BoolArray):
+        self._marked, self._cells = marked, np.flatnonzero(marked)
+        self._direct, self._inverse = half_space.convolution, half_space.inverse
+        self.stiffness = 1 / half_space.self_compliance
+        self._in_direct = self._direct.places(self._cells)
+        self._in_inverse = self._inverse.places(self._cells)
+
+    def displacement(self, pressure: FloatArray) -> FloatArray:
+        """u = K p."""
+        return self._direct.at(self._in_direct, pressure)
+
+    def inverse(self, displacement: FloatArray) -> FloatArray:
+        """Nearly the pressure that makes this displacement, were it zero elsewhere."""
+        return self._inverse.at(self._in_inverse, displacement)
+
+    def compress(self, field: FloatArray) -> FloatArray:
+        """The vector of a field."""
+        return np.asarray(field.reshape(-1)[self._cells])
+
+    def spread(self, vector: FloatArray) -> FloatArray:
+        """The field of a vector, zero elsewhere."""
+        field = np.zeros(self._marked.shape)
+        field[self._marked] = vector
+        return field
+
+
+def dot(a: FloatArray, b: FloatArray) -> float:
+    """Inner product of two vectors, without BLAS, whose last bits depend on the number of threads."""
+    return float(np.einsum("i,i", a, b))
