@@ -3,8 +3,9 @@
 All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
 """
 
-from bem3d.contact import Contact, Status
+from bem3d.contact import Contact, Status, residual
 from bem3d.convergence import ConvergenceError
+from bem3d.doubts import ContactWarning, EdgeWarning, ResolutionWarning
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
@@ -14,12 +15,16 @@ from bem3d.surface import rough_surface
 
 __all__ = [
     "Contact",
+    "ContactWarning",
     "ConvergenceError",
+    "EdgeWarning",
     "FrozenContact",
     "HalfSpace",
+    "ResolutionWarning",
     "Status",
     "indent",
     "press_frozen",
+    "residual",
     "rough_surface",
     "solve",
     "solve_plain",

@@ -7,6 +7,7 @@ import numpy as np
 
 from bem3d.border import FloatArray
 from bem3d.convergence import ConvergenceError
+from bem3d.doubts import Doubt, doubts_of
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.problem import Problem
 
@@ -61,6 +62,11 @@ class Contact:
     def iterations(self) -> int:
         """Iterations taken."""
         return len(self.history) - 1
+
+    @property
+    def doubts(self) -> tuple[Doubt, ...]:
+        """What a converged answer may still be wrong about, (category, sentence) of each; see `doubts`."""
+        return doubts_of(self.pressure > 0, periodic=self.problem.half_space.periodic)
 
     @property
     def converged(self) -> bool:

@@ -89,7 +89,9 @@ class PaddedConvolution(Convolution):
 
     def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
         super().__init__(shape, padded, planning)
-        self._along = np.ascontiguousarray(symbol.T) / (padded[0] * padded[1])
+        # one row a column of the spectrum, each even: the second half mirrors the first, without both ends
+        half = symbol.T / (padded[0] * padded[1])
+        self._symbol = np.concatenate([half, half[:, (padded[0] - 1) // 2 : 0 : -1]], axis=1)
         self._spectrum = pyfftw.empty_aligned((shape[0], padded[1] // 2 + 1), dtype=np.complex128)
         self._columns = pyfftw.empty_aligned((COLUMNS, padded[0]), dtype=np.complex128)
         plan = {"axes": (1,), "threads": 1}
@@ -101,17 +103,14 @@ class PaddedConvolution(Convolution):
 
     def _convolve(self) -> None:
         self._forward.execute()
-        filled, half = self.shape[0], self._along.shape[1]
-        # the symbol is even along the column too: its second half mirrors the first, without both ends
-        mirror = np.s_[:, self.padded[0] - half : 0 : -1]
+        filled = self.shape[0]
         for first in range(0, self._spectrum.shape[1], COLUMNS):
             some = self._spectrum[:, first : first + COLUMNS]
-            columns, symbol = self._columns[: some.shape[1]], self._along[first : first + COLUMNS]
+            columns = self._columns[: some.shape[1]]
             columns[:, :filled] = some.T
             columns[:, filled:] = 0.0
             self._down.execute()
-            columns[:, :half] *= symbol
-            columns[:, half:] *= symbol[mirror]
+            columns *= self._symbol[first : first + COLUMNS]
             self._up.execute()
             some[:] = columns[:, :filled].T
         self._inverse.execute()

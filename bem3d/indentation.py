@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from bem3d.border import FloatArray, count, fraction
 from bem3d.contact import Contact
+from bem3d.doubts import warn
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.halfspace import HalfSpace
 from bem3d.press import Start
@@ -37,7 +38,8 @@ def indent(
     and which serves as the tangent to the next: p + f dd.
 
     Each contact starts from the last: along its tangent where the stiffness is asked for, along the secant through the
-    last two otherwise. Raises as `solve` does, input out of range before the first contact.
+    last two otherwise. Raises as `solve` does, input out of range before the first contact;
+    warns as `solve` does, once of a kind.
     """
     if (approaches is None) == (forces is None):
         raise ValueError(f"give either approaches or forces, got approaches={approaches} and forces={forces}")
@@ -57,6 +59,7 @@ def _path(
     problems: list[Problem], stiffness: bool, tolerance: float, max_iterations: int, raise_on_failure: bool
 ) -> Iterator[Contact]:
     past: tuple[Contact, ...] = ()
+    warned: set[object] = set()
     frozen: FrozenContact | None = None
     for problem in problems:
         contact = answer(problem, _predicted(problem, past), tolerance, max_iterations)
@@ -71,6 +74,8 @@ def _path(
                 raise_on_failure=raise_on_failure,
             )
             contact = replace(contact, frozen=frozen)
+        warn(tuple(doubt for doubt in contact.doubts if doubt[0] not in warned))
+        warned |= {category for category, _ in contact.doubts}
         past = (*past[-1:], contact) if contact.converged else ()
         yield contact
 

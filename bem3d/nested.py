@@ -11,8 +11,8 @@ Level = tuple[tuple[int, int], int]
 
 FEWEST_CELLS = 32
 """An axis of fewer cells is not coarsened."""
-COARSE_TOLERANCE = 1e-4
-"""Residual on the coarser grids: about what their own cells leave as an error."""
+PART = 0.03
+"""A coarser grid is solved to so much of the error that its own start had, which the finer one will have again."""
 
 
 def cold_start(problem: Problem, max_iterations: int) -> tuple[Start, tuple[Level, ...]]:
@@ -21,12 +21,13 @@ def cold_start(problem: Problem, max_iterations: int) -> tuple[Start, tuple[Leve
     if coarse is None or coarse.uniform or not coarse.touching:
         return first_pressure(problem), ()
     start, levels = cold_start(coarse, max_iterations)
-    attempt = press(coarse, start, COARSE_TOLERANCE, max_iterations)
+    attempt = press(coarse, start, PART * min(start.error, 1.0), max_iterations)
     levels = (*levels, (coarse.half_space.shape, attempt.operator_applications))
     pressure = prolong(attempt.pressure, problem.half_space)
     if not np.isfinite(pressure).all() or not pressure.any():
         return first_pressure(problem), levels
-    return Start(pressure, attempt.overlap + coarse.first_touch - problem.first_touch), levels
+    overlap = attempt.overlap + coarse.first_touch - problem.first_touch
+    return Start(pressure, overlap, attempt.history[0]), levels
 
 
 def _coarser_problem(problem: Problem) -> Problem | None:

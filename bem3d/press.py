@@ -11,18 +11,22 @@ from bem3d.problem import Problem
 from bem3d.projected_cg import Load, projected_cg
 from bem3d.window import Candidates, smallest_box
 
-REACH = 1.25
+REACH = 1.1
 """Under a prescribed force, a window is laid around the cells that overlap at so many times the expected overlap."""
-MARGIN = 2.0
-"""Cells no further from the contact than so many times the error of the start may come to touch."""
+MARGIN = 1.0
+"""Cells no further from touching than so many times the error that the contact still has are candidates for it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """A pressure to begin with, shape of the half-space, and the overlap that comes with it, if known."""
+    """A pressure to begin with, shape of the half-space, and the overlap that comes with it, if known.
+
+    error: the residual that a start of this kind had on the next coarser grid.
+    """
 
     pressure: FloatArray
     overlap: float | None = None
+    error: float = 1.0
 
 
 @dataclass(eq=False)

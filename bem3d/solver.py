@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from bem3d.border import FloatArray, count, field, fraction
 from bem3d.contact import Contact, Status
 from bem3d.convergence import ConvergenceError
+from bem3d.doubts import warn
 from bem3d.halfspace import HalfSpace
 from bem3d.nested import cold_start
 from bem3d.press import Attempt, Start, press
@@ -34,12 +35,15 @@ def solve(
 
     An approach at or below min(gap), or zero force, is no contact: zero pressure, zero stiffness.
     Raises ValueError or TypeError for input out of range, ConvergenceError with the history if not converged.
+    Warns, with numbers, of few cells in contact (ResolutionWarning), and of contact at the edge of a free-space grid
+    (EdgeWarning).
     Method: nested iteration (`nested`), on the smallest window (`window`), by projected and preconditioned conjugate
     directions (`projected_cg`), one operator application an iteration. The textbook's: `solve_plain`.
     """
     problem = Problem(half_space=half_space, gap=cast(FloatArray, gap), approach=approach, force=force)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     contact = answer(problem, _start(start, problem), tolerance, max_iterations)
+    warn(contact.doubts)
     return checked(contact) if raise_on_failure else contact
 
 

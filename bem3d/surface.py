@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from bem3d.border import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
+from bem3d.doubts import doubt_waves, warn
 
 ComplexArray = NDArray[np.complex128]
 
@@ -35,6 +36,7 @@ def rough_surface(
     rms: where given, all amplitudes are scaled by one constant that makes this root mean square exact (fixed) or
     expected (gaussian) [m].
     Returns height, shape (nx, ny), positive towards the other body [m].
+    Warns (ResolutionWarning) of a shortest wave of fewer than four cells.
     Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the grid can carry.
     Source: Popov and Hess, (14.8) in two dimensions; sum B^2 must tend to int C_2D d^2q, which sets B.
     """
@@ -47,7 +49,9 @@ def rough_surface(
     j = np.arange(shape[1] // 2 + 1.0)[np.newaxis, :]
     lengths = shape[0] * steps[0], shape[1] * steps[1]
     q = 2 * np.pi * np.hypot(i / lengths[0], j / lengths[1])
-    variance = (2 * np.pi) ** 2 / (lengths[0] * lengths[1]) * _resolved(c2d, q, steps)
+    values = _resolved(c2d, q, steps)
+    warn(doubt_waves(values, q, steps))
+    variance = (2 * np.pi) ** 2 / (lengths[0] * lengths[1]) * values
     # the half spectrum shows each wave once, but those of its first and Nyquist column with their mirror images
     twice = np.where((j == 0) | (2 * j == shape[1]), 1, 2)
     total = np.sum(twice * variance)

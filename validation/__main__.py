@@ -9,8 +9,22 @@ from enum import IntEnum
 from pathlib import Path
 
 from validation.cases import CASES
-from validation.evidence import Verdict
+from validation.evidence import Evidence, Verdict
+from validation.peers import peers_installed
 from validation.report.build import Section, build
+
+RACE_COLUMNS = (
+    "problem",
+    "area",
+    "contestant",
+    "status",
+    "median [s]",
+    "fastest [s]",
+    "slowest [s]",
+    "residual",
+    "operator applications",
+    "pressure difference to ours, L2",
+)
 
 
 class Exit(IntEnum):
@@ -38,8 +52,20 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases and write their report."""
-    names = list(dict.fromkeys(arguments.only or CASES))
+    # the race is run last, when nothing else is
+    names = list(dict.fromkeys(arguments.only or [*CASES, *(["race"] if peers_installed() else [])]))
     out = arguments.out or Path("reports") / "-".join([arguments.profile, *(names if arguments.only else ())])
+    return _built(names, out, arguments)
+
+
+def race(arguments: argparse.Namespace) -> Exit:
+    """Race the peers that are installed, and write the page of it."""
+    out = arguments.out or Path("reports") / ("race" if arguments.profile == "full" else "race-quick")
+    return _built(["race"], out, arguments)
+
+
+def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exit:
+    """Write a report and say how it came out."""
     sections = build(
         names,
         profile=arguments.profile,
@@ -70,6 +96,28 @@ def _tell(section: Section) -> None:
         print(f"    missed: {number.label} = {number.value:.6g}, {number.verdict} with {number.reference:.6g}")
     for solve in section.unconverged:
         print(f"    not converged: {solve}", flush=True)
+    if section.name == "race" and section.evidence:
+        _tell_race(section.evidence)
+
+
+def _tell_race(evidence: Evidence) -> None:
+    """The rows of the race, and what follows from them."""
+    heats = evidence.table("heats")
+    print(
+        "    "
+        + " " * 62
+        + "".join(f"{name:>10s}" for name in ("median", "fastest", "slowest", "residual", "appl.", "dp"))
+    )
+    for problem, area, name, status, *values in zip(*(heats[name] for name in RACE_COLUMNS), strict=True):
+        median, fastest, slowest, residual, applications, difference = values
+        result = (
+            f"{median:10.4f}{fastest:10.4f}{slowest:10.4f}{residual:10.1e}{applications:10.0f}{difference:10.1e}"
+            if status == "finished"
+            else f"  {status}"
+        )
+        print(f"    {problem:38s} {area:5.1%} {name:17s}{result}")
+    for sentence in evidence.conclusions:
+        print(f"    {sentence}", flush=True)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -93,6 +141,11 @@ def _parser() -> argparse.ArgumentParser:
     making.add_argument("--workers", type=_at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
     making.add_argument("--seed", type=_at_least(0), metavar="S", help="for every case that draws at random")
     making.set_defaults(command=report)
+    racing = commands.add_parser("race", help="our solver beside the peers that are installed; full takes half an hour")
+    racing.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
+    racing.add_argument("--out", type=Path, metavar="DIR", help="folder (default: reports/race-quick or reports/race)")
+    racing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
+    racing.set_defaults(command=race, workers=1)
     listing = commands.add_parser("cases", help="what there is, and which figure or claim each one answers")
     listing.set_defaults(command=cases)
     return parser

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
+from validation import race, race_evidence
 from validation.cases import fractal_punch, fractal_punch_evidence, geike, hertz, square_punch, westergaard
 from validation.ensemble import Engine
 from validation.evidence import Evidence
@@ -26,6 +27,14 @@ class Entry:
         case = self.quick if profile == "quick" else self.full
         return replace(case, seed=seed) if seed is not None and hasattr(case, "seed") else case
 
+
+RACE = Entry(
+    "The race: our solver beside the peers that are installed, same problems, same residual",
+    race.Race(),
+    race.Race(cells=(256, 512, 1024), scaling=(128, 256, 512, 1024, 2048, 4096)),
+    race.run,
+    race_evidence.evidence,
+)
 
 CASES = {
     "hertz": Entry(

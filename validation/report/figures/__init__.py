@@ -5,7 +5,7 @@ from collections.abc import Callable
 from matplotlib.figure import Figure
 
 from validation.evidence import Evidence
-from validation.report.figures import fractal_punch, geike, hertz, square_punch, westergaard
+from validation.report.figures import fractal_punch, geike, hertz, race, square_punch, westergaard
 
 DRAW: dict[str, Callable[[Evidence], Figure]] = {
     "hertz": hertz.draw,
@@ -13,4 +13,5 @@ DRAW: dict[str, Callable[[Evidence], Figure]] = {
     "westergaard": westergaard.draw,
     "geike": geike.draw,
     "fractal_punch": fractal_punch.draw,
+    "race": race.draw,
 }

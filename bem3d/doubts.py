@@ -1,0 +1,73 @@
+"""What a converged answer may still be wrong about: too few cells, or a grid that ends where the contact goes on."""
+
+import math
+import warnings
+
+import numpy as np
+
+from bem3d.border import BoolArray, FloatArray
+
+FEWEST_CELLS = 32
+FEWEST_CELLS_A_WAVE = 4.0
+
+
+class ContactWarning(UserWarning):
+    """A contact problem was solved as it was put, but it may not be the one that was meant."""
+
+
+class ResolutionWarning(ContactWarning):
+    """Too few cells: in the contact, or to the shortest wave."""
+
+
+class EdgeWarning(ContactWarning):
+    """The contact reaches the edge of a grid in free space. No cause for doubt under a punch that ends there."""
+
+
+Doubt = tuple[type[ContactWarning], str]
+
+
+def doubts_of(contact: BoolArray, *, periodic: bool) -> tuple[Doubt, ...]:
+    """What to doubt about a contact set.
+
+    A flat punch of N cells is too soft by about 0.35 / sqrt(N), measured on squares.
+    """
+    cells = int(np.count_nonzero(contact))
+    found: list[Doubt] = []
+    if 0 < cells < FEWEST_CELLS:
+        found.append(
+            (
+                ResolutionWarning,
+                f"only {cells} cells in contact: expect errors of the order of {0.35 / math.sqrt(cells):.0%} "
+                f"in its stiffness, refine the grid ({FEWEST_CELLS} or more cells are not warned of)",
+            )
+        )
+    inner = int(np.count_nonzero(contact[1:-1, 1:-1]))
+    if not periodic and cells > inner:
+        found.append(
+            (
+                EdgeWarning,
+                f"{cells - inner} of {cells} contact cells lie on the edge of the grid, beyond which nothing carries: "
+                "widen the grid, unless the indenter ends there",
+            )
+        )
+    return tuple(found)
+
+
+def doubt_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -> tuple[Doubt, ...]:
+    """What to doubt about a spectrum on a grid: values at the wavenumbers q, cells of these sides."""
+    cells = 2 * math.pi / (float(q[values > 0].max(initial=0.0)) * max(steps)) if (values > 0).any() else math.inf
+    if cells > FEWEST_CELLS_A_WAVE * (1 - 1e-9):
+        return ()
+    return (
+        (
+            ResolutionWarning,
+            f"the shortest wave of the spectrum has {cells:.2g} cells, fewer than {FEWEST_CELLS_A_WAVE:.0f}: "
+            "lower q_max or refine the grid",
+        ),
+    )
+
+
+def warn(doubts: tuple[Doubt, ...]) -> None:
+    """Hand them to Python's warnings, as of the caller of the public function that found them."""
+    for category, sentence in doubts:
+        warnings.warn(sentence, category, stacklevel=3)

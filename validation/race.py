@@ -1,0 +1,296 @@
+"""The race: the same contact problems, the same residual, one thread each, one after the other in turns."""
+
+import itertools
+import multiprocessing
+import os
+import resource
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+import bem3d
+import mdr
+from validation.ensemble import SERIAL, Engine, Outcome, generator
+from validation.peers import CONTESTANTS, Run, Solve, Task
+
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
+SPHERE, ROUGH = "sphere", "rough"
+FINISHED = "finished"
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Course:
+    """A surface pressed on an n x n grid of unit side: a sphere with a = n/4 cells, or a self-affine surface.
+
+    Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; load: F / (E* L^2).
+    """
+
+    surface: str
+    load: float
+    cells: int
+    periodic: bool
+    seed: int
+
+    @property
+    def label(self) -> str:
+        """For tables and figures."""
+        load = "" if self.surface == SPHERE else f", F = {self.load:g} E* L²"
+        return f"{self.surface}{load}, {'periodic' if self.periodic else 'free'}, {self.cells}²"
+
+    def height(self) -> np.ndarray:
+        """Positive towards the half-space [L]."""
+        n = self.cells
+        if self.surface == SPHERE:
+            x = (np.arange(n) + 0.5) / n - 0.5
+            return -(x[:, np.newaxis] ** 2 + x**2) / 2
+        band = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * n / 4, rms=0.01)
+        return bem3d.rough_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=generator(self.seed), rms=0.01)
+
+    def task(self) -> Task:
+        """The problem, with the approach that belongs to its force."""
+        height = self.height()
+        task = Task(height, 1 / self.cells, 1.0, self.periodic, self.load, 0.0)
+        approach = bem3d.solve(task.half_space(), task.gap, force=self.load, tolerance=1e-10).approach
+        return Task(height, 1 / self.cells, 1.0, self.periodic, self.load, approach)
+
+
+@dataclass(frozen=True)
+class Race:
+    """All courses.
+
+    cells: grids; loads: of the rough surfaces; residual: to be reached by everyone, see `bem3d.residual`;
+    slow: a contestant that takes longer is timed once [s]; scaling: grids on which our solver alone is measured.
+    """
+
+    cells: tuple[int, ...] = (64, 128)
+    loads: tuple[float, ...] = (0.001, 0.008)
+    residual: float = 1e-8
+    slow: float = 5.0
+    scaling: tuple[int, ...] = (64, 128, 256)
+    seed: int = 20261121
+
+    def courses(self) -> list[Course]:
+        """The sphere presses with the force of Hertz for a = L/4 and R = L."""
+        surfaces = [(SPHERE, 4 / 3 / 4**3), *((ROUGH, load) for load in self.loads)]
+        return [
+            Course(surface, load, n, periodic, self.seed)
+            for periodic, (surface, load), n in itertools.product((True, False), surfaces, self.cells)
+        ]
+
+
+@dataclass(frozen=True)
+class Heat:
+    """One course, run by everyone."""
+
+    course: Course
+    residual: float
+    slow: float
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Our solver alone on one grid: its time and the memory of its process."""
+
+    course: Course
+    residual: float
+
+
+@dataclass(frozen=True)
+class RaceResult:
+    """The race and what was measured: one outcome a heat, and one a grid."""
+
+    race: Race
+    heats: list[Heat]
+    outcomes: list[Outcome]
+    measured: list[Measured]
+    costs: list[Outcome]
+
+
+def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
+    """Run all heats, one at a time whatever the engine's workers, so that nobody is disturbed."""
+    alone = Engine(workers=1, store=engine.store, progress=engine.progress)
+    heats = [Heat(course, race.residual, race.slow) for course in race.courses()]
+    measured = [
+        Measured(Course(surface, load, n, periodic, race.seed), race.residual)
+        for surface, load, periodic in (
+            (SPHERE, 4 / 3 / 4**3, False),
+            (ROUGH, race.loads[-1], False),
+            (ROUGH, race.loads[-1], True),
+        )
+        for n in race.scaling
+    ]
+    return RaceResult(race, heats, alone.map(run_heat, heats), measured, alone.map(measure, measured))
+
+
+def run_heat(heat: Heat) -> Outcome:
+    """Everyone in a process of its own, with one thread, taking turns; who fails or dies is a row, not an omission.
+
+    One row a contestant: seconds (median, fastest, slowest), set-up seconds, residual reached, applications, relative
+    L2 difference of the pressure, relative difference of force and of area to our solver's; status "finished" or why
+    not.
+    """
+    with ExitStack() as stack:
+        stack.enter_context(warnings.catch_warnings())
+        warnings.simplefilter("ignore", bem3d.EdgeWarning)  # a rough surface is pressed as far as its grid goes
+        task = heat.course.task()
+        stack.enter_context(_one_thread())
+        lanes = [stack.enter_context(ProcessPoolExecutor(1, multiprocessing.get_context("spawn"))) for _ in CONTESTANTS]
+        rows = [_qualify(lane, number, task, heat.residual) for number, lane in enumerate(lanes)]
+        for _ in range(4):
+            for row, lane in zip(rows, lanes, strict=True):
+                if row.status == FINISHED and row.seconds[0] < heat.slow:
+                    row.seconds.append(lane.submit(_again).result())
+    return _outcome(task, rows)
+
+
+@dataclass
+class Row:
+    """How one contestant fares."""
+
+    status: str
+    setup: float = float("nan")
+    residual: float = float("nan")
+    applications: float = float("nan")
+    seconds: list[float] = field(default_factory=list)
+    pressure: np.ndarray | None = None
+
+
+def _qualify(lane: ProcessPoolExecutor, number: int, task: Task, residual: float) -> Row:
+    """The first run: with the loosest of its own tolerances that reaches the residual."""
+    contestant = CONTESTANTS[number]
+    if contestant.version is None:
+        return Row("not installed")
+    reached = float("nan")
+    for part in contestant.tolerances:
+        try:
+            setup = lane.submit(_prepare, number, task, part * residual).result()
+            seconds, run = lane.submit(_run).result()
+        except Exception as error:  # whatever a contestant dies of, the race goes on
+            return Row(f"failed: {type(error).__name__}: {error}"[:200])
+        if not np.isfinite(run.pressure).all():
+            return Row("failed: pressure is not finite")
+        reached = task.residual(run.pressure)
+        if reached <= residual:
+            return Row(FINISHED, setup, reached, run.applications, [seconds], run.pressure)
+    return Row(f"failed: residual {reached:.2g} at its tightest tolerance")
+
+
+_asked: list[Any] = []
+_ready: list[Solve] = []
+
+
+def _prepare(number: int, task: Task, tolerance: float) -> float:
+    """In the contestant's process: everything before the clock runs. Returns how long it took."""
+    warnings.simplefilter("ignore")
+    begin = time.perf_counter()
+    _asked[:] = [number, task, tolerance]
+    _ready[:] = [CONTESTANTS[number].prepare(task, tolerance)]
+    return time.perf_counter() - begin
+
+
+def _again() -> float:
+    """Prepared anew, since what a contestant has solved once may be where it starts from."""
+    _prepare(*_asked)
+    return _run()[0]
+
+
+def _run() -> tuple[float, Run]:
+    """In the contestant's process: one solve from a cold start."""
+    begin = time.perf_counter()
+    run = _ready[0]()
+    return time.perf_counter() - begin, run
+
+
+def _outcome(task: Task, rows: list[Row]) -> Outcome:
+    ours = rows[0].pressure
+    times = [row.seconds or [float("nan")] for row in rows]
+    return {
+        "status": np.array([row.status for row in rows]),
+        "seconds": np.array([(np.median(t), min(t), max(t), len(t)) for t in times]),
+        "setup": np.array([row.setup for row in rows]),
+        "residual": np.array([row.residual for row in rows]),
+        "applications": np.array([row.applications for row in rows]),
+        "difference": np.array([_differences(row.pressure, ours) for row in rows]),
+        "area": np.array(np.nan if ours is None else np.count_nonzero(ours) / ours.size),
+    }
+
+
+def _differences(pressure: np.ndarray | None, ours: np.ndarray | None) -> tuple[float, float, float]:
+    """Of the pressure field in L2, of the force, of the area, each relative to ours."""
+    if pressure is None or ours is None:
+        return float("nan"), float("nan"), float("nan")
+    field = float(np.sqrt(((pressure - ours) ** 2).sum() / (ours**2).sum()))
+    area = np.count_nonzero(pressure > 1e-9 * pressure.max()) / np.count_nonzero(ours > 1e-9 * ours.max())
+    return field, abs(float(pressure.sum() / ours.sum()) - 1), abs(area - 1)
+
+
+def measure(measured: Measured) -> Outcome:
+    """Seconds and peak memory of a solve in a process of its own, and the seconds of one application."""
+    with _one_thread(), ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as lane:
+        return lane.submit(_measure, measured).result()
+
+
+def _measure(measured: Measured) -> Outcome:
+    course = measured.course
+    task = Task(course.height(), 1 / course.cells, 1.0, course.periodic, course.load, 0.0)
+    half_space = task.half_space()
+
+    def solve() -> bem3d.Contact:
+        return bem3d.solve(half_space, task.gap, force=task.force, tolerance=measured.residual)
+
+    warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
+    before = _peak()
+    contact, first = _timed(solve)
+    peak = _peak()
+    seconds = sorted(_timed(solve)[1] for _ in range(3 if first < 5 else 1))
+    half_space.displacement(contact.pressure)
+    application = sorted(_timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5))
+    return {
+        "seconds": np.array(seconds[len(seconds) // 2]),
+        "first": np.array(first),
+        "application": np.array(application[2]),
+        "applications": np.array(contact.operator_applications),
+        "coarse": np.array(sum(n for _, n in contact.coarse_applications)),
+        "peak": np.array(peak),
+        "before": np.array(before),
+        "residual": np.array(contact.residual),
+    }
+
+
+def _timed(function: Callable[[], T]) -> tuple[T, float]:
+    begin = time.perf_counter()
+    result = function()
+    return result, time.perf_counter() - begin
+
+
+def _peak() -> float:
+    """Largest memory of this process so far [bytes]."""
+    status = Path("/proc/self/status")
+    if status.exists():
+        # the figure of getrusage is inherited from the parent
+        line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
+        return 1024.0 * float(line.split()[1])
+    return 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Processes started meanwhile compute with one thread."""
+    before = {name: os.environ.get(name) for name in THREADS}
+    os.environ.update(dict.fromkeys(THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
