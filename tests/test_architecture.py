@@ -51,7 +51,8 @@ def test_numerics_neither_print_nor_write():
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
         }
         assert not calls & {"print", "open"}, source
-        assert not rooms(source) & {"os", "pathlib", "logging", "warnings"}, source
+        assert not rooms(source) & {"os", "pathlib", "logging"}, source
+        assert "warnings" not in rooms(source) or source.name == "doubts.py", source
 
 
 def test_oracles_share_no_code_with_what_they_check():
