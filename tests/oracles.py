@@ -4,7 +4,7 @@ import functools
 import math
 
 import numpy as np
-from scipy import linalg, optimize
+from scipy import linalg, optimize, signal
 
 
 def love_by_logarithms(x, y, dx, dy):
@@ -31,6 +31,30 @@ def dense_operator(half_space):
     return np.array(
         [[factor * love_by_logarithms((i - k) * dx, (j - m) * dy, dx, dy) for k, m in cells] for i, j in cells]
     )
+
+
+def displacement(half_space, pressure):
+    """K p on grids too large for a matrix: a direct sum of textbook kernels, or of the waves of the whole spectrum."""
+    (nx, ny), (dx, dy) = half_space.shape, half_space.steps
+    if half_space.periodic:
+        wave_x, wave_y = np.meshgrid(np.fft.fftfreq(nx, dx), np.fft.fftfreq(ny, dy), indexing="ij")
+        q = 2 * np.pi * np.sqrt(wave_x**2 + wave_y**2)
+        green = np.divide(2 / half_space.modulus, q, out=np.zeros(q.shape), where=q > 0)
+        return np.fft.ifft2(green * np.fft.fft2(pressure)).real
+    i, j = np.meshgrid(np.arange(1 - nx, nx), np.arange(1 - ny, ny), indexing="ij")
+    kernel = _many_loves(i * dx, j * dy, dx / 2, dy / 2) / (math.pi * half_space.modulus)
+    return signal.oaconvolve(kernel, pressure, mode="valid")
+
+
+def _many_loves(x, y, a, b):
+    """`love_by_logarithms` for arrays."""
+    total = np.zeros(x.shape)
+    for this, that, half_this, half_that in ((x, y, a, b), (y, x, b, a)):
+        for sign in (1, -1):
+            arm = this + sign * half_this
+            above, below = that + half_that, that - half_that
+            total += sign * arm * np.log((above + np.hypot(above, arm)) / (below + np.hypot(below, arm)))
+    return total
 
 
 def _periodic_green(i, j, shape, spacing):

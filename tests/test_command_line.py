@@ -128,13 +128,14 @@ def test_not_converged_is_exit_3(small, tmp_path, monkeypatch, capsys):
 
 def limited(monkeypatch, is_lost):
     """Give up at once on the solves that are to be lost."""
-    solve = bem3d.solve
+    indent = bem3d.indent
 
-    def stubborn(half_space, gap, *, force, **settings):
-        lost = is_lost(half_space, gap, force)
-        return solve(half_space, gap, force=force, **{**settings, "max_iterations": 1 if lost else 2000})
+    def stubborn(half_space, gap, *, forces, **settings):
+        for force in forces:
+            lost = is_lost(half_space, gap, force)
+            yield from indent(half_space, gap, forces=[force], **settings, max_iterations=1 if lost else 500)
 
-    monkeypatch.setattr(bem3d, "solve", stubborn)
+    monkeypatch.setattr(bem3d, "indent", stubborn)
 
 
 def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch):

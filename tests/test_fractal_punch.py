@@ -109,10 +109,10 @@ def test_verdicts_on_known_deviations(apart, surfaces, verdict):
 def test_a_factor_lost_in_the_force_is_a_missed_criterion(monkeypatch):
     """Boundary elements pressed with half, or a hundredth, of the force: stiffness and load curve no longer fit."""
     case = replace(CASE, decades=(-1, 1), cells=16)
-    solve = bem3d.solve
+    indent = bem3d.indent
     for factor in (1.0, 0.5, 0.01):
         monkeypatch.setattr(
-            bem3d, "solve", lambda *args, force, factor=factor, **more: solve(*args, force=factor * force, **more)
+            bem3d, "indent", lambda *args, forces, factor=factor, **more: indent(*args, forces=factor * forces, **more)
         )
         numbers = fractal_punch_evidence.evidence(fractal_punch.run(case)).numbers
         slope = next(n for n in numbers if n.label.startswith("bem3d: slope"))

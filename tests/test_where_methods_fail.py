@@ -1,0 +1,231 @@
+"""Limits of the solver: either a solution with its residual under the tolerance, or an honest failure. Never a NaN."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+import bem3d
+from tests.oracles import contact_by_least_squares, dense_operator, displacement
+from tests.strategies import half_spaces
+
+TOLERANCE = 1e-8
+
+
+def half_space(shape=(16, 16), *, periodic=False, spacing=1.0, modulus=1.0):
+    return bem3d.HalfSpace(shape=shape, spacing=spacing, modulus=modulus, periodic=periodic)
+
+
+def rough(shape, seed=0):
+    return np.random.default_rng(seed).normal(size=shape)
+
+
+def checked(contact):
+    """The contact, if it is what it says: finite, its residual met on all cells by an operator of the test's own."""
+    half_space, gap = contact.problem.half_space, contact.problem.gap
+    assert contact.status == "converged"
+    assert np.isfinite([contact.force, contact.approach, contact.area, contact.residual]).all()
+    assert (contact.pressure >= 0).all()
+    u = displacement(half_space, contact.pressure)
+    w, s = gap + u - contact.approach, contact.approach - gap.min()
+    if s > 0:
+        # the digits that the oracle itself loses; Love's far field cancels
+        noise = 1e-11 * (np.abs(u).max() + np.abs(gap).max())
+        assert -w.min() <= contact.tolerance * s + noise
+        assert (contact.pressure * np.abs(w)).sum() <= (contact.tolerance * s + noise) * contact.pressure.sum()
+    return contact
+
+
+@pytest.mark.parametrize("fraction", [0.99, 0.999, 1.0])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_full_and_nearly_full_contact(fraction, periodic):
+    """Pressed until so much of the area is in contact."""
+    body, gap = half_space((40, 50), periodic=periodic), 1e-3 * rough((40, 50))
+    contact = None
+    for force in np.geomspace(1e-2, 1e3, 60):
+        contact = checked(bem3d.solve(body, gap, force=force, start=contact, tolerance=TOLERANCE))
+        if contact.area >= fraction * gap.size:
+            break
+    assert contact.area >= fraction * gap.size
+    if periodic and fraction == 1.0:
+        # the pressure that flattens it, by Fourier, and the rest uniform
+        q = 2 * np.pi * np.hypot(np.fft.fftfreq(40)[:, np.newaxis], np.fft.rfftfreq(50))
+        flat = np.fft.irfft2(-q / 2 * np.fft.rfft2(gap), gap.shape) + contact.force / gap.size
+        assert contact.pressure == pytest.approx(flat, abs=1e-5 * flat.max())
+    if not periodic:
+        near = checked(bem3d.solve(body, gap, approach=contact.approach, tolerance=TOLERANCE))
+        assert near.force == pytest.approx(contact.force, rel=1e-6)
+
+
+@pytest.mark.parametrize(("periodic", "cells"), list(itertools.product([True, False], [1, 2])))
+def test_one_and_two_cells(periodic, cells):
+    """Solved by hand: p = s / K_00 in one cell, s / (K_00 + K_01) in each of two neighbours."""
+    body, gap = half_space((8, 9), periodic=periodic), np.full((8, 9), 5.0)
+    gap[3, 4 : 4 + cells] = 0.0
+    matrix = dense_operator(body)
+    first = 3 * 9 + 4
+    compliance = matrix[first, first : first + cells].sum()
+    by_approach = checked(bem3d.solve(body, gap, approach=0.5, tolerance=TOLERANCE))
+    assert by_approach.pressure[3, 4] == pytest.approx(0.5 / compliance, rel=1e-7)
+    by_force = checked(bem3d.solve(body, gap, force=cells * 0.5 / compliance, tolerance=TOLERANCE))
+    assert by_force.approach == pytest.approx(0.5, rel=1e-7)
+    assert by_force.area == by_approach.area == cells
+    assert by_force.stiffness() == pytest.approx(cells / compliance, rel=1e-7)
+
+
+@pytest.mark.parametrize("prescribed", [{"force": 2.0}, {"approach": 1.5}])
+@pytest.mark.parametrize("shape", [(16, 16), (48, 33), (1, 1), (1, 40)])
+def test_flat_gap(shape, prescribed):
+    contact = checked(bem3d.solve(half_space(shape), np.ones(shape), **prescribed, tolerance=TOLERANCE))
+    assert contact.area == np.prod(shape)
+
+
+def test_flat_gap_periodic():
+    body = half_space((48, 33), periodic=True)
+    contact = checked(bem3d.solve(body, np.ones((48, 33)), force=2.0))
+    assert contact.pressure == pytest.approx(np.full((48, 33), 2.0 / (48 * 33)))
+    assert contact.stiffness() == np.inf
+
+
+@pytest.mark.parametrize("scales", list(itertools.product([1e-6, 1e6], repeat=3)))
+@pytest.mark.parametrize("periodic", [True, False])
+def test_scales_twelve_decades_apart(scales, periodic):
+    """Lengths, heights and moduli of 1e-6 to 1e6: the problem in units of its own has the same answer."""
+    length, height, modulus = scales
+    gap = rough((24, 20))
+    plain = checked(bem3d.solve(half_space(gap.shape, periodic=periodic), gap, force=1.0, tolerance=1e-9))
+    body = half_space(gap.shape, periodic=periodic, spacing=length, modulus=modulus)
+    force = modulus * length * height
+    scaled = checked(bem3d.solve(body, height * gap, force=force, tolerance=1e-9))
+    assert scaled.approach / height == pytest.approx(plain.approach, rel=1e-7)
+    assert scaled.pressure * length / (height * modulus) == pytest.approx(plain.pressure, abs=1e-7)
+
+
+@pytest.mark.parametrize("force", [1e-12, 1e12])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_tiny_and_huge_forces(force, periodic):
+    gap = rough((33, 20))
+    body = half_space(gap.shape, periodic=periodic)
+    contact = bem3d.solve(body, gap, force=force, tolerance=TOLERANCE, raise_on_failure=False)
+    if periodic and force > 1:
+        # a uniform pressure does not bend the half-space: its last digits are all the roughness has left
+        assert contact.status == "stagnation"
+        assert contact.residual <= 10 * np.finfo(float).eps * contact.pressure.max() / np.ptp(gap)
+    else:
+        checked(contact)
+    assert contact.force == pytest.approx(force)
+    assert contact.area == (1 if force < 1 else gap.size)
+
+
+@pytest.mark.parametrize("shape", [(1, 37), (37, 1), (1, 128), (2, 61)])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_rows_of_cells(shape, periodic):
+    checked(bem3d.solve(half_space(shape, periodic=periodic), rough(shape), force=1.0, tolerance=TOLERANCE))
+
+
+@pytest.mark.parametrize("depth", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("upwards", [True, False])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_a_spike(depth, upwards, periodic):
+    """One cell far out of a plane, or a hole in it."""
+    gap = np.ones((36, 36))
+    gap[20, 11] += depth if upwards else -depth
+    for force in (1e-3 * depth, depth, 1e3 * depth):
+        checked(bem3d.solve(half_space(gap.shape, periodic=periodic), gap, force=force, tolerance=TOLERANCE))
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_plateaus_of_equal_heights(periodic):
+    gap = np.round(rough((36, 36)))
+    for force in np.geomspace(1e-3, 1e3, 7):
+        checked(bem3d.solve(half_space(gap.shape, periodic=periodic), gap, force=force, tolerance=TOLERANCE))
+
+
+@pytest.mark.parametrize("shape", [(16, 16), (33, 20), (64, 64)])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_checkerboard_at_the_nyquist_wavenumber(shape, periodic):
+    """Coarser grids see a plane: they are no help, and must do no harm."""
+    board = np.indices(shape).sum(axis=0) % 2
+    for force in (1e-2, 1.0, 1e2, 1e4):
+        contact = checked(
+            bem3d.solve(half_space(shape, periodic=periodic), 1.0 * board, force=force, tolerance=TOLERANCE)
+        )
+        if shape != (33, 20) and force < 10 and periodic:
+            assert np.ptp(contact.pressure[board == 0]) <= 1e-6 * contact.pressure.max()
+
+
+@pytest.mark.parametrize("part", [0.9, 0.999, 0.999999])
+def test_periodic_contact_close_to_saturation(part):
+    """By an approach ever closer to the mean gap, where the pressure that it takes is no longer determined by it."""
+    body, gap = half_space((32, 32), periodic=True), rough((32, 32))
+    approach = gap.min() + part * (gap.mean() - gap.min())
+    contact = checked(bem3d.solve(body, gap, approach=approach, tolerance=TOLERANCE))
+    assert contact.area <= gap.size
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("by", ["approach", "force"])
+def test_iteration_limit_one(periodic, by):
+    """A failure that says so, with its history, and no NaN in it; as a value where that is asked for."""
+    body, gap = half_space((40, 40), periodic=periodic), rough((40, 40))
+    prescribed = {by: 1.0 if by == "force" else -0.5}
+    with pytest.raises(bem3d.ConvergenceError, match=r"after 1 iterations \(iteration limit\)") as caught:
+        bem3d.solve(body, gap, **prescribed, max_iterations=1)
+    assert len(caught.value.history) == 2
+    contact = bem3d.solve(body, gap, **prescribed, max_iterations=1, raise_on_failure=False)
+    assert contact.status == "iteration limit"
+    assert np.isfinite(contact.history).all()
+    assert contact.residual > contact.tolerance
+    assert (contact.pressure >= 0).all()
+
+
+@pytest.mark.parametrize("tolerance", [1e-13, 1e-15, 1e-30])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_tolerance_below_rounding(tolerance, periodic):
+    """Ends soon, either way, and never with a residual that it does not have."""
+    body, gap = half_space((40, 40), periodic=periodic), rough((40, 40))
+    contact = bem3d.solve(body, gap, force=1.0, tolerance=tolerance, raise_on_failure=False)
+    assert contact.converged == (contact.residual <= tolerance)
+    assert contact.residual < 1e-11
+    assert contact.iterations < 200
+
+
+@st.composite
+def nasty(draw):
+    """Gaps with little to hold on to: few heights, spikes over plateaus, boards, ramps; any load."""
+    body = draw(half_spaces(most=draw(st.sampled_from([6, 12, 40]))))
+    levels = draw(st.sampled_from([(0.0, 1.0), (0.0, 1.0, 1e-9), (0.0, 1e-6, 1.0, 1e6), tuple(np.linspace(0, 1, 65))]))
+    gap = draw(arrays(np.float64, body.shape, elements=st.sampled_from(levels), fill=st.sampled_from(levels)))
+    gap = gap + draw(st.sampled_from([0.0, 1e-3, 1.0])) * (np.indices(body.shape).sum(axis=0) % 2)
+    return body, gap, 10 ** draw(st.floats(-8, 8))
+
+
+@given(problem=nasty())
+def test_nasty_gaps_under_a_force(problem):
+    body, gap, force = problem
+    contact = bem3d.solve(body, gap, force=force, tolerance=1e-7, raise_on_failure=False)
+    assert contact.converged == (contact.residual <= 1e-7)
+    assert np.isfinite(contact.pressure).all()
+    if contact.converged:
+        checked(contact)
+    else:
+        # heights that are mere rounding beside the overlap leave no residual to reach
+        assert contact.residual <= 1e-3 or contact.status != "converged"
+
+
+@given(problem=nasty(), part=st.floats(0.001, 2))
+def test_nasty_gaps_at_an_approach(problem, part):
+    body, gap, _ = problem
+    low = gap.min()
+    reach = gap.mean() - low if body.periodic else np.ptp(gap) or 1.0
+    if not reach > 0:
+        return
+    approach = low + (min(part, 0.99) if body.periodic else part) * reach
+    contact = bem3d.solve(body, gap, approach=approach, tolerance=1e-7)
+    checked(contact)
+    if not body.periodic and gap.size <= 40:
+        dense = contact_by_least_squares(body, gap, approach)
+        assert contact.force == pytest.approx(dense.sum() * body.cell_area, rel=1e-5)
