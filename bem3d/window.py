@@ -35,11 +35,16 @@ class Candidates:
     """
 
     def __init__(self, half_space: HalfSpace, marked: BoolArray):
+        self._half_space = half_space
         self._marked, self._cells = marked, np.flatnonzero(marked)
         self._direct, self._inverse = half_space.convolution, half_space.inverse
-        self.stiffness = 1 / half_space.self_compliance
         self._in_direct = self._direct.places(self._cells)
         self._in_inverse = self._inverse.places(self._cells)
+
+    @property
+    def stiffness(self) -> float:
+        """Pressure on a cell alone that moves it by a unit [Pa/m]."""
+        return 1 / self._half_space.self_compliance
 
     def displacement(self, pressure: FloatArray) -> FloatArray:
         """u = K p."""

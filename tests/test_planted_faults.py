@@ -1,5 +1,6 @@
 """Negative controls: each fault is planted on purpose, and the named test must catch it."""
 
+import dataclasses
 import functools
 import types
 
@@ -8,7 +9,7 @@ import pytest
 
 import bem3d
 import mdr
-from bem3d import contact, frozen, halfspace, kernel, press, surface
+from bem3d import contact, frozen, halfspace, kernel, press, projected_cg, surface, window
 from mdr import foundation
 from mdr import profile as profile_module
 from tests import (
@@ -17,8 +18,10 @@ from tests import (
     test_drawn_roughness,
     test_fractal_punch,
     test_geike_mapping,
+    test_load_paths,
     test_operator_against_dense_twin,
     test_springs_against_brute_force,
+    test_windows_and_starts,
 )
 from validation import ensemble
 from validation.cases import fractal_punch, fractal_punch_evidence
@@ -88,6 +91,20 @@ def blind_to_penetration(pressure, w, overlap):
 def grown_contact(half_space, cells, **settings):
     wider = cells | np.roll(cells, 1, axis=0)
     return frozen.press_frozen(half_space, wider, **settings)
+
+
+def half_a_window(half_space, marked):
+    """The middle of the box that holds all cells which may touch."""
+    return tuple(
+        slice(side.start + (side.stop - side.start) // 4, side.stop - (side.stop - side.start) // 4)
+        for side in window.smallest_box(half_space, marked)
+    )
+
+
+def sum_of_the_pressure(half_space, cells, **settings):
+    """k = sum(p) dx dy, whose error is the residual and not its square."""
+    result = frozen.press_frozen(half_space, cells, **settings)
+    return dataclasses.replace(result, stiffness=float(result.pressure.sum()) * half_space.cell_area)
 
 
 def printed_formula(c1d, q, nyquist):
@@ -205,19 +222,30 @@ FAULTS = {
         test_drawn_roughness.test_profiles_look_the_same_up_and_down,
     ),
     "a residual that forgives": (
-        (press, "residual", forgiving_residual),
+        ((press, projected_cg), "residual", forgiving_residual),
         test_convergence_rates.test_a_wider_grid_changes_nothing,
     ),
     "a residual blind to penetration": (
-        (press, "residual", blind_to_penetration),
+        ((press, projected_cg), "residual", blind_to_penetration),
         test_contact_properties.test_complementarity,
+    ),
+    "a window that cuts cells off": (
+        (press, "smallest_box", half_a_window),
+        functools.partial(
+            test_windows_and_starts.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0
+        ),
+    ),
+    "stiffness to first order in the residual": (
+        (bem3d, "press_frozen", sum_of_the_pressure),
+        test_load_paths.test_error_of_the_stiffness_is_the_residual_squared,
     ),
 }
 
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_named_test_catches(fault, monkeypatch):
-    (place, name, wrong), named_test = FAULTS[fault]
-    monkeypatch.setattr(place, name, wrong)
+    (places, name, wrong), named_test = FAULTS[fault]
+    for place in places if isinstance(places, tuple) else (places,):
+        monkeypatch.setattr(place, name, wrong)
     with pytest.raises(AssertionError):
         named_test()

@@ -18,7 +18,7 @@ import numpy as np
 import bem3d
 import mdr
 from validation.ensemble import SERIAL, Engine, Outcome, generator
-from validation.peers import CONTESTANTS, Run, Solve, Task
+from validation.peers import CONTESTANTS, Contestant, Run, Solve, Task
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
 SPHERE, ROUGH = "sphere", "rough"
@@ -143,7 +143,9 @@ def run_heat(heat: Heat) -> Outcome:
         task = heat.course.task()
         stack.enter_context(_one_thread())
         lanes = [stack.enter_context(ProcessPoolExecutor(1, multiprocessing.get_context("spawn"))) for _ in CONTESTANTS]
-        rows = [_qualify(lane, number, task, heat.residual) for number, lane in enumerate(lanes)]
+        rows = [
+            _qualify(lane, contestant, task, heat.residual) for lane, contestant in zip(lanes, CONTESTANTS, strict=True)
+        ]
         for _ in range(4):
             for row, lane in zip(rows, lanes, strict=True):
                 if row.status == FINISHED and row.seconds[0] < heat.slow:
@@ -163,15 +165,14 @@ class Row:
     pressure: np.ndarray | None = None
 
 
-def _qualify(lane: ProcessPoolExecutor, number: int, task: Task, residual: float) -> Row:
+def _qualify(lane: ProcessPoolExecutor, contestant: Contestant, task: Task, residual: float) -> Row:
     """The first run: with the loosest of its own tolerances that reaches the residual."""
-    contestant = CONTESTANTS[number]
     if contestant.version is None:
         return Row("not installed")
     reached = float("nan")
     for part in contestant.tolerances:
         try:
-            setup = lane.submit(_prepare, number, task, part * residual).result()
+            setup = lane.submit(_prepare, contestant, task, part * residual).result()
             seconds, run = lane.submit(_run).result()
         except Exception as error:  # whatever a contestant dies of, the race goes on
             return Row(f"failed: {type(error).__name__}: {error}"[:200])
@@ -187,12 +188,12 @@ _asked: list[Any] = []
 _ready: list[Solve] = []
 
 
-def _prepare(number: int, task: Task, tolerance: float) -> float:
+def _prepare(contestant: Contestant, task: Task, tolerance: float) -> float:
     """In the contestant's process: everything before the clock runs. Returns how long it took."""
     warnings.simplefilter("ignore")
     begin = time.perf_counter()
-    _asked[:] = [number, task, tolerance]
-    _ready[:] = [CONTESTANTS[number].prepare(task, tolerance)]
+    _asked[:] = [contestant, task, tolerance]
+    _ready[:] = [contestant.prepare(task, tolerance)]
     return time.perf_counter() - begin
 
 

@@ -1,0 +1,75 @@
+"""Warnings, with numbers, of what a converged answer may still be wrong about."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import bem3d
+import mdr
+from tests.oracles import dense_operator
+
+BODY = bem3d.HalfSpace(shape=(24, 24), spacing=1.0, modulus=1.0)
+
+
+def bowl(middle):
+    x = np.arange(24.0)
+    return ((x[:, np.newaxis] - middle) ** 2 + (x - 12) ** 2) / 200
+
+
+def said(function, *args, **settings):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = function(*args, **settings)
+    return result, [(w.category, str(w.message), w.filename) for w in caught]
+
+
+def test_few_cells():
+    contact, ((category, sentence, place),) = said(bem3d.solve, BODY, bowl(12), force=0.01)
+    cells = round(contact.area)
+    assert cells < 32
+    assert category is bem3d.ResolutionWarning
+    assert sentence.startswith(f"only {cells} cells in contact: expect errors of the order of {0.35 / cells**0.5:.0%}")
+    assert place == __file__
+    assert contact.doubts == ((category, sentence),)
+
+
+@pytest.mark.parametrize("side", [2, 3, 5, 8, 11])
+def test_error_of_few_cells_is_as_said(side):
+    """A square punch of side^2 cells against 1.1523 E* L: too soft by about 0.35 / side."""
+    body = bem3d.HalfSpace(shape=(side, side), spacing=1 / side, modulus=1.0)
+    k = np.linalg.solve(dense_operator(body), np.ones(side**2)).sum() / side**2
+    assert 1 - k / 1.15225 == pytest.approx(0.35 / side, rel=0.25)
+
+
+def test_contact_at_the_edge():
+    contact, ((category, sentence, _),) = said(bem3d.solve, BODY, bowl(1), approach=0.3)
+    on_edge = np.count_nonzero(contact.pressure[0])
+    assert category is bem3d.EdgeWarning
+    assert sentence.startswith(f"{on_edge} of {round(contact.area)} contact cells lie on the edge of the grid")
+    periodic = bem3d.HalfSpace(shape=(24, 24), spacing=1.0, modulus=1.0, periodic=True)
+    assert said(bem3d.solve, periodic, bowl(1), approach=0.3)[1] == []
+
+
+def test_enough_cells_away_from_the_edge_are_no_cause_for_doubt():
+    contact, nothing = said(bem3d.solve, BODY, bowl(12), approach=0.2)
+    assert contact.area > 32
+    assert nothing == []
+    assert said(bem3d.solve, BODY, bowl(12), force=0.0)[1] == []
+
+
+def test_a_path_says_it_once():
+    _, found = said(lambda: list(bem3d.indent(BODY, bowl(12), forces=[0.001, 0.002, 0.004])))
+    assert [category for category, _, _ in found] == [bem3d.ResolutionWarning]
+
+
+@pytest.mark.parametrize(("cells", "warned"), [(2.5, True), (3.9, True), (4.0, False), (8.0, False)])
+def test_short_waves(cells, warned):
+    """Fewer than four cells to the shortest wave of a spectrum."""
+    band = mdr.SelfAffine(hurst=0.8, q_min=2 * np.pi, q_max=2 * np.pi * 64 / cells, rms=1e-2)
+    _, found = said(
+        bem3d.rough_surface, band.c2d, shape=(64, 64), spacing=1 / 64, rng=np.random.default_rng(0), rms=1e-2
+    )
+    assert [category for category, _, _ in found] == [bem3d.ResolutionWarning] * warned
+    if warned:
+        assert found[0][1].startswith(f"the shortest wave of the spectrum has {cells:.2g} cells, fewer than 4")

@@ -1,0 +1,117 @@
+"""`indent`: contacts along a path, with the stiffness; the frozen contact behind it."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+import bem3d
+from tests.oracles import dense_operator
+from tests.strategies import pressed
+
+BODY = bem3d.HalfSpace(shape=(40, 36), spacing=1.0, modulus=1.0)
+GAP = np.random.default_rng(5).normal(size=BODY.shape)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("by", ["forces", "approaches"])
+@pytest.mark.parametrize("stiffness", [True, False])
+def test_each_contact_is_the_one_of_a_cold_solve(by, periodic, stiffness):
+    """Loading, unloading, the same load twice, no load in between."""
+    body = bem3d.HalfSpace(shape=BODY.shape, spacing=1.0, modulus=1.0, periodic=periodic)
+    path = [0.1, 1.0, 1.0, 3.0, 0.0, 2.0, 0.5] if by == "forces" else [-2.5, -1.0, -1.0, -0.5, -9.0, -0.7, -2.0]
+    contacts = list(bem3d.indent(body, GAP, **{by: path}, stiffness=stiffness, tolerance=1e-9))
+    assert len(contacts) == len(path)
+    for value, contact in zip(path, contacts, strict=True):
+        cold = bem3d.solve(body, GAP, **{by.removesuffix("es" if by == "approaches" else "s"): value}, tolerance=1e-9)
+        assert contact.force == pytest.approx(cold.force, rel=1e-6, abs=1e-12)
+        assert contact.approach == pytest.approx(cold.approach, abs=1e-7)
+        assert contact.area == cold.area
+        if stiffness:
+            assert contact.frozen is not None
+            assert contact.stiffness(tolerance=1e-4) == contact.frozen.stiffness
+            assert contact.frozen.stiffness == pytest.approx(cold.stiffness(tolerance=1e-9), rel=1e-6)
+        else:
+            assert contact.frozen is None
+
+
+def test_a_finer_stiffness_than_the_path_has_brought_is_solved_for():
+    contact = next(bem3d.indent(BODY, GAP, forces=[1.0], stiffness=True))
+    assert contact.frozen.residual > 1e-9
+    exact = contact.stiffness(tolerance=1e-9)
+    assert exact != contact.frozen.stiffness
+    assert exact == pytest.approx(contact.frozen.stiffness, rel=1e-6)
+
+
+@given(problem=pressed(most=12, by=("force",)))
+def test_error_of_the_stiffness_is_the_residual_squared(problem):
+    """k = 2 sum(p) - sum(p K p) takes the energy of p, which is lowest for the answer: always from below, and to
+    (condition of K) x residual^2, while sum(p) itself may be off by the residual."""
+    contact = problem.solve().pressure > 0
+    body = problem.half_space
+    if body.periodic and contact.all():
+        return
+    cells = np.flatnonzero(contact)
+    matrix = dense_operator(body)[np.ix_(cells, cells)]
+    exact = np.linalg.solve(matrix, np.ones(cells.size)).sum() * body.cell_area
+    condition = np.linalg.cond(matrix)
+    for tolerance in (1e-1, 1e-2, 1e-3, 1e-5):
+        # from a start, what is left is not orthogonal to the pressure
+        frozen = bem3d.press_frozen(body, contact, start=np.ones(body.shape), tolerance=tolerance)
+        assert frozen.residual <= tolerance
+        short = 1 - frozen.stiffness / exact
+        assert -1e-12 * condition <= short <= condition * frozen.residual**2 + 1e-12 * condition
+
+
+def test_a_start_for_the_frozen_contact():
+    contact = bem3d.solve(BODY, GAP, force=1.0).pressure > 0
+    cold = bem3d.press_frozen(BODY, contact, tolerance=1e-6)
+    warm = bem3d.press_frozen(BODY, contact, start=cold.pressure + GAP, tolerance=1e-6)
+    again = bem3d.press_frozen(BODY, contact, start=cold.pressure, tolerance=1e-6)
+    assert warm.stiffness == pytest.approx(cold.stiffness, rel=1e-9)
+    assert again.operator_applications == 1
+    assert not again.pressure[~contact].any()
+
+
+def test_contacts_come_one_by_one(monkeypatch):
+    """Nothing is solved before it is asked for; what is wrong with the input is said at once."""
+    solved = []
+    press = bem3d.press.press
+    monkeypatch.setattr(bem3d.solver, "press", lambda problem, *more: solved.append(problem) or press(problem, *more))
+    path = bem3d.indent(BODY, GAP, forces=[1.0, 2.0, 3.0])
+    assert not solved
+    next(path)
+    assert [problem.force for problem in solved] == [1.0]
+    with pytest.raises(ValueError, match="force must be zero or positive, got -1"):
+        bem3d.indent(BODY, GAP, forces=[1.0, -1.0])
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({}, "give either approaches or forces, got approaches=None and forces=None"),
+        ({"forces": [1.0], "approaches": [1.0]}, "give either approaches or forces"),
+        ({"forces": []}, "forces must be a sequence of at least one number"),
+        ({"forces": 1.0}, "forces must be a sequence"),
+        ({"forces": [[1.0]]}, "forces must be a sequence"),
+        ({"forces": [1.0, float("nan")]}, "force must be finite, got nan"),
+        ({"approaches": [1.0, float("inf")]}, "approach must be finite, got inf"),
+        ({"forces": [1.0], "tolerance": 0.0}, "tolerance must lie between 0 and 1"),
+        ({"forces": [1.0], "max_iterations": 0}, "max_iterations must be at least 1"),
+    ],
+)
+def test_bad_paths_are_refused(settings, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        bem3d.indent(BODY, GAP, **settings)
+
+
+def test_a_path_that_does_not_converge():
+    """Raised where it happens; or a status, after which the path goes on from a cold start."""
+    path = bem3d.indent(BODY, GAP, forces=[1.0, 2.0], max_iterations=1)
+    with pytest.raises(bem3d.ConvergenceError, match="iteration limit"):
+        next(path)
+    contacts = list(
+        bem3d.indent(BODY, GAP, forces=[1.0, 2.0], max_iterations=1, stiffness=True, raise_on_failure=False)
+    )
+    assert [contact.status for contact in contacts] == ["iteration limit"] * 2
+    with pytest.raises(bem3d.ConvergenceError, match="no stiffness"):
+        contacts[0].stiffness()

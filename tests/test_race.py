@@ -1,0 +1,159 @@
+"""The race: fair to everyone, a row for everyone, and true where peers are installed."""
+
+import dataclasses
+import json
+import os
+import time
+
+import numpy as np
+import pytest
+
+import validation.__main__ as command
+from validation import peers, race, race_evidence
+from validation.cases import RACE
+from validation.evidence import Verdict
+from validation.peers import CONTESTANTS, Contestant, Run
+
+HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0)
+
+
+def dies(task, tolerance):
+    return lambda: os._exit(1)
+
+
+def raises(task, tolerance):
+    return lambda: 1 / 0
+
+
+def forgets_a_factor(task, tolerance):
+    solve = peers.bem3d_fast(task, tolerance)
+    return lambda: Run(1.01 * solve().pressure, 1)
+
+
+def returns_nan(task, tolerance):
+    return lambda: Run(np.full(task.height.shape, np.nan), 1)
+
+
+def warms_up(task, tolerance):
+    """As fast as can be, the second time."""
+    solve, known = peers.bem3d_fast(task, tolerance), []
+
+    def run():
+        if not known:
+            time.sleep(0.1)
+            known.append(solve())
+        return known[0]
+
+    return run
+
+
+def other(name, prepare, package="numpy"):
+    return Contestant(name, package, "for a test", prepare, (1.0, 0.1))
+
+
+def test_whoever_fails_is_a_row(monkeypatch):
+    entrants = (
+        CONTESTANTS[0],
+        CONTESTANTS[1],
+        other("dies", dies),
+        other("raises", raises),
+        other("wrong", forgets_a_factor),
+        other("nan", returns_nan),
+        other("absent", dies, package="no-such-package"),
+        other("warm", warms_up),
+    )
+    monkeypatch.setattr(race, "CONTESTANTS", entrants)
+    outcome = race.run_heat(HEAT)
+    said = dict(zip([entrant.name for entrant in entrants], outcome["status"], strict=True))
+    assert said["bem3d"] == said["bem3d, textbook"] == said["warm"] == "finished"
+    assert said["dies"].startswith("failed: BrokenProcessPool")
+    assert said["raises"].startswith("failed: ZeroDivisionError")
+    assert said["wrong"].startswith("failed: residual 0.0")
+    assert said["nan"] == "failed: pressure is not finite"
+    assert said["absent"] == "not installed"
+    # a start that remembers is prepared anew each time
+    assert outcome["seconds"][-1, 1] >= 0.1
+    finished = outcome["status"] == "finished"
+    assert np.isnan(outcome["seconds"][~finished, 0]).all()
+    assert (outcome["residual"][finished] <= 1e-6).all()
+    assert (outcome["difference"][finished, 0] <= 1e-4).all()
+
+
+def test_threads_of_the_contestants_are_one(monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", "7")
+    monkeypatch.delenv("MKL_NUM_THREADS", raising=False)
+    with race._one_thread():
+        assert {os.environ[name] for name in race.THREADS} == {"1"}
+    assert os.environ["OMP_NUM_THREADS"] == "7"
+    assert "MKL_NUM_THREADS" not in os.environ
+
+
+def small(**settings):
+    return race.Race(cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), **settings)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return race.run(small())
+
+
+def test_evidence(result):
+    evidence = race_evidence.evidence(result)
+    heats, scaling = evidence.table("heats"), evidence.table("scaling")
+    assert len(heats["problem"]) == 4 * len(CONTESTANTS)
+    assert len(scaling["cells"]) == 6
+    assert not evidence.unconverged
+    assert all(number.verdict is Verdict.AGREE for number in evidence.numbers)
+    assert any("n² log n" in sentence for sentence in evidence.conclusions)
+    assert (scaling["peak memory [MiB]"] > 1).all()
+    for name in ("bem3d", "bem3d, textbook"):
+        mine = heats.where(contestant=name)
+        assert (mine["median [s]"] > 0).all()
+        assert (mine["residual"] <= 1e-8).all()
+        assert (mine["pressure difference to ours, L2"] <= 1e-4).all()
+
+
+@pytest.mark.parametrize("name", [c.name for c in CONTESTANTS if c.package != "mdr-validation"])
+def test_peers_find_the_same_pressure(name, result):
+    """Relative L2 under 1e-4 at a residual of 1e-8, force and area too; periodic and free, sphere and rough."""
+    i = [contestant.name for contestant in CONTESTANTS].index(name)
+    if CONTESTANTS[i].version is None:
+        pytest.skip(f"{name} is not installed")
+    for outcome in result.outcomes:
+        assert outcome["status"][i] == "finished"
+        assert outcome["residual"][i] <= 1e-8
+        assert outcome["difference"][i, 0] <= 1e-4
+        assert outcome["difference"][i, 1] <= 1e-6
+        assert outcome["difference"][i, 2] == 0.0
+
+
+def test_a_difference_of_answers_is_a_missed_criterion(result):
+    outcomes = [{**outcome} for outcome in result.outcomes]
+    outcomes[0]["difference"] = outcomes[0]["difference"].copy()
+    outcomes[0]["difference"][1] = (2e-4, 2e-6, 0.0)
+    numbers = race_evidence.evidence(dataclasses.replace(result, outcomes=outcomes)).numbers
+    assert sum(not number.met for number in numbers) == 2
+
+
+def test_command_line(result, tmp_path, monkeypatch, capsys):
+    """The race has a page, a table on the terminal, and times that are kept apart from results."""
+    entry = dataclasses.replace(RACE, quick=result.race, run=lambda race, engine: result)
+    monkeypatch.setattr("validation.report.build.RACE", entry)
+    assert command.main(["race", "--out", str(tmp_path)]) == command.Exit.MET
+    printed = capsys.readouterr().out
+    assert "rough, F = 0.004 E* L², free, 32²" in printed
+    results = json.loads((tmp_path / "race.json").read_text())["cases"]["race"]
+    assert results["settings"]["cells"] == [32]
+    assert json.loads((tmp_path / "results.json").read_text())["cases"] == {}
+    assert (tmp_path / "figures" / "race.svg").exists()
+    assert (tmp_path / "data" / "race-heats.csv").exists()
+    assert "The race" in (tmp_path / "index.html").read_text()
+
+
+@pytest.mark.parametrize("installed", [True, False])
+def test_report_runs_the_race_where_there_are_peers(installed, tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(command, "peers_installed", lambda: installed)
+    monkeypatch.setattr(command, "build", lambda names, **settings: asked.extend(names) or [])
+    command.main(["report", "--out", str(tmp_path)])
+    assert ("race" in asked) == installed

@@ -1,0 +1,174 @@
+"""What makes the solver fast must not be seen in its answers: windows, candidate cells, coarse grids, given starts."""
+
+import threading
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+import bem3d
+from bem3d import nested, window
+from bem3d.problem import Problem
+from tests.oracles import displacement
+from tests.strategies import half_spaces, pressed
+
+
+def residual(contact):
+    """Of the whole grid, by an operator of the test's own."""
+    problem = contact.problem
+    w = problem.gap + displacement(problem.half_space, contact.pressure) - contact.approach
+    s = contact.approach - problem.gap.min()
+    return max((contact.pressure * np.abs(w)).sum() / contact.pressure.sum(), -w.min()) / s
+
+
+def spheres(shape, *places, radius=200.0):
+    x, y = np.indices(shape)
+    return np.min([((x - i) ** 2 + (y - j) ** 2) / (2 * radius) + high for i, j, high in places], axis=0)
+
+
+@pytest.mark.parametrize("places", [[(10, 100, 0.0)], [(8, 8, 0.0), (110, 70, 0.2)], [(60, 3, 0.0), (64, 90, 1.0)]])
+@pytest.mark.parametrize("force", [3.0, 100.0, 1000.0])
+def test_contacts_anywhere_on_the_grid(places, force):
+    """Under a force that reaches a second, distant contact or does not: the residual holds on all cells."""
+    body = bem3d.HalfSpace(shape=(120, 110), spacing=1.0, modulus=1.0)
+    gap = spheres(body.shape, *places)
+    contact = bem3d.solve(body, gap, force=force, tolerance=1e-8)
+    assert residual(contact) <= 1.01e-8
+    plain = bem3d.solve_plain(body, gap, force=force, tolerance=1e-9)
+    assert contact.approach == pytest.approx(plain.approach, rel=1e-6)
+
+
+@pytest.mark.parametrize("load", [{"force": 200.0}, {"approach": 0.8}])
+@pytest.mark.parametrize("size", [1e-12, 1.0, 1e12])
+def test_a_start_somewhere_else(load, size):
+    """Pressure where there is no contact, far too small or far too large."""
+    body = bem3d.HalfSpace(shape=(120, 110), spacing=1.0, modulus=1.0)
+    gap = spheres(body.shape, (30, 30, 0.0))
+    start = np.zeros(body.shape)
+    start[100:105, 90:100] = size
+    contact = bem3d.solve(body, gap, **load, start=start, tolerance=1e-8)
+    assert residual(contact) <= 1.01e-8
+    assert not contact.pressure[80:].any()
+
+
+def test_a_start_with_a_window_too_small():
+    """The contact of a small load starts a load a thousand times as large, and the other way round."""
+    body = bem3d.HalfSpace(shape=(120, 110), spacing=1.0, modulus=1.0)
+    gap = spheres(body.shape, (50, 60, 0.0))
+    small = bem3d.solve(body, gap, force=1.0, tolerance=1e-8)
+    large = bem3d.solve(body, gap, force=1000.0, start=small, tolerance=1e-8)
+    again = bem3d.solve(body, gap, force=1.0, start=large, tolerance=1e-8)
+    for contact, cold in ((large, bem3d.solve(body, gap, force=1000.0, tolerance=1e-8)), (again, small)):
+        assert residual(contact) <= 1.01e-8
+        assert contact.approach == pytest.approx(cold.approach, rel=1e-7)
+
+
+@given(data=st.data())
+def test_a_window_is_a_part_of_the_grid(data):
+    """K on a window: the same displacement there, for pressure inside."""
+    body = data.draw(half_spaces(most=12, periodic=False))
+    marked = data.draw(arrays(np.bool_, body.shape))
+    box = window.smallest_box(body, marked)
+    inside = np.zeros(body.shape, dtype=bool)
+    inside[box] = True
+    assert not (marked & ~inside).any()
+    pressure = np.where(marked, data.draw(arrays(np.float64, body.shape, elements=st.floats(-1, 1, width=32))), 0.0)
+    part = body.like(shape=pressure[box].shape).displacement(pressure[box])
+    assert part == pytest.approx(body.displacement(pressure)[box], abs=1e-12 * max(1.0, np.abs(pressure).sum()))
+
+
+@given(data=st.data())
+def test_candidates_are_a_part_of_the_field(data):
+    """Vectors over some cells, through the operator and back: those of the field that is zero elsewhere."""
+    body = data.draw(half_spaces(most=9))
+    marked = data.draw(arrays(np.bool_, body.shape))
+    cells = window.Candidates(body, marked)
+    pressure = np.where(marked, data.draw(arrays(np.float64, body.shape, elements=st.floats(-1, 1, width=32))), 0.0)
+    vector = cells.compress(pressure)
+    np.testing.assert_array_equal(cells.spread(vector), pressure)
+    np.testing.assert_array_equal(cells.displacement(vector), body.displacement(pressure)[marked])
+
+
+@given(data=st.data())
+def test_coarser_grids(data):
+    """Means are kept, a constant stays one, the sides of a period stay what they are."""
+    body = data.draw(half_spaces(most=70))
+    coarse = nested.coarser(body)
+    if coarse is None:
+        assert max(body.shape) < 32
+        return
+    values = data.draw(arrays(np.float64, body.shape, elements=st.floats(-1, 1, width=32), fill=st.just(0.5)))
+    down = nested.restrict(values)
+    assert down.shape == coarse.shape
+    if all(n % 2 == 0 or n == m for n, m in zip(body.shape, coarse.shape, strict=True)):
+        assert down.mean() == pytest.approx(values.mean(), abs=1e-12)
+    constant = nested.prolong(np.ones(coarse.shape), body)
+    assert constant.shape == body.shape
+    assert constant[1:-1, 1:-1] == pytest.approx(1.0)
+    if body.periodic:
+        sides = [n * d for n, d in zip(body.shape, body.steps, strict=True)]
+        assert [n * d for n, d in zip(coarse.shape, coarse.steps, strict=True)] == pytest.approx(sides)
+
+
+@pytest.mark.parametrize("shape", [(64, 64), (65, 47), (1, 97), (101, 40)])
+@pytest.mark.parametrize("periodic", [True, False])
+def test_coarse_grids_give_a_start_and_no_more(shape, periodic, monkeypatch):
+    """With and without them, the same contact."""
+    body = bem3d.HalfSpace(shape=shape, spacing=(1.0, 1.7), modulus=1.0, periodic=periodic)
+    gap = np.random.default_rng(1).normal(size=shape)
+    one = bem3d.solve(body, gap, force=3.0, tolerance=1e-10)
+    assert one.coarse_applications
+    monkeypatch.setattr(nested, "FEWEST_CELLS", 10**9)
+    other = bem3d.solve(body, gap, force=3.0, tolerance=1e-10)
+    assert not other.coarse_applications
+    assert one.pressure == pytest.approx(other.pressure, abs=1e-7 * other.pressure.max())
+
+
+@given(problem=pressed(most=40))
+def test_textbook_and_fast_solver_find_the_same(problem):
+    fast = problem.solve(tolerance=1e-9)
+    plain = bem3d.solve_plain(
+        problem.half_space, problem.gap, **problem.prescribed, tolerance=1e-9, raise_on_failure=False
+    )
+    if plain.converged:
+        assert fast.approach == pytest.approx(plain.approach, abs=1e-6 * (plain.approach - problem.gap.min()))
+        assert fast.force == pytest.approx(plain.force, rel=1e-5)
+
+
+def test_what_a_half_space_has_solved_before_does_not_matter():
+    """Equal bits from a new half-space, from one that has solved other problems, and from threads that share one."""
+    gap = np.random.default_rng(1).normal(size=(70, 50))
+
+    def new():
+        return bem3d.HalfSpace(shape=gap.shape, spacing=1.0, modulus=1.0)
+
+    first = bem3d.solve(new(), gap, force=1.0).pressure
+    used = new()
+    for force in (10.0, 0.01, 1000.0):
+        bem3d.solve(used, gap[::-1], force=force)
+    np.testing.assert_array_equal(bem3d.solve(used, gap, force=1.0).pressure, first)
+    found = []
+    threads = [
+        threading.Thread(target=lambda: found.append(bem3d.solve(used, gap, force=1.0).pressure)) for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 4
+    for pressure in found:
+        np.testing.assert_array_equal(pressure, first)
+
+
+def test_a_problem_shares_its_gap_with_those_along_a_path():
+    """A path of many loads on a large grid holds one copy of the gap, which nobody else can change."""
+    body = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(1).normal(size=(8, 8))
+    problem = Problem(half_space=body, gap=gap, force=1.0)
+    assert not np.shares_memory(problem.gap, gap)
+    assert problem.under(2.0).gap is problem.gap
+    frozen = gap.view()
+    frozen.flags.writeable = False
+    assert not np.shares_memory(Problem(half_space=body, gap=frozen, force=1.0).gap, gap)
