@@ -10,6 +10,7 @@ from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
 from bem3d.plain import solve_plain
+from bem3d.problem import Problem
 from bem3d.solver import solve
 from bem3d.surface import rough_surface
 
@@ -20,6 +21,7 @@ __all__ = [
     "EdgeWarning",
     "FrozenContact",
     "HalfSpace",
+    "Problem",
     "ResolutionWarning",
     "Status",
     "indent",

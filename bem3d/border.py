@@ -45,7 +45,7 @@ def fraction(name: str, value: object) -> float:
     """A number strictly between zero and one."""
     number = finite(name, value)
     if not 0 < number < 1:
-        raise ValueError(f"{name} must lie between 0 and 1, got {number}")
+        raise ValueError(f"{name} must lie between 0 and 1, both excluded, got {number}")
     return number
 
 
@@ -77,6 +77,10 @@ def grid_spacing(spacing: object) -> tuple[float, float]:
 
 def field(name: str, values: ArrayLike, shape: tuple[int, int]) -> FloatArray:
     """Finite real values on the cells of a grid."""
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise ValueError(
+            f"{name} must have a value everywhere, got {int(np.ma.getmaskarray(values).sum())} masked ones"
+        )
     try:
         given = np.asarray(values)
     except ValueError:

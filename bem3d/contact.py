@@ -11,6 +11,8 @@ from bem3d.doubts import Doubt, doubts_of
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.problem import Problem
 
+STIFFNESS_TOLERANCE = 1e-6
+
 
 class Status(StrEnum):
     """How a solve ended. Only CONVERGED is a solution."""
@@ -73,19 +75,21 @@ class Contact:
         """Whether this is a solution."""
         return self.status is Status.CONVERGED
 
-    def stiffness(self, *, tolerance: float = 1e-6) -> float:
+    def stiffness(self, *, tolerance: float | None = None) -> float:
         """k = dF/dd of the discrete problem: the frozen contact pressed by a unit approach [N/m].
 
         tolerance: relative residual of the linear solve; the relative error of k is of the order of its square, see
-        `press_frozen`. A stiffness that `indent` has brought along is not solved for again.
+        `press_frozen`. None takes what `indent` has brought along, and where it has not, solves to 1e-6. A stiffness
+        that was brought along with a residual below the tolerance is not solved for again, any other is, at each call.
         Zero where there is no contact; infinite for a periodic half-space in full contact.
         Raises ConvergenceError if this contact is no solution, or the linear solve fails.
         """
         if not self.converged:
             raise ConvergenceError(f"no stiffness of a contact that ended with: {self.status}", self.history, self)
-        if self.frozen is not None and self.frozen.residual <= tolerance:
+        if self.frozen is not None and (tolerance is None or self.frozen.residual <= tolerance):
             return self.frozen.stiffness
-        return press_frozen(self.problem.half_space, self.pressure > 0, tolerance=tolerance).stiffness
+        wanted = STIFFNESS_TOLERANCE if tolerance is None else tolerance
+        return press_frozen(self.problem.half_space, self.pressure > 0, tolerance=wanted).stiffness
 
 
 def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from bem3d.border import BoolArray, FloatArray
 
 FEWEST_CELLS = 32
+FEWEST_CELLS_TO_JUDGE = 6
 FEWEST_CELLS_A_WAVE = 4.0
 
 
@@ -29,7 +30,8 @@ Doubt = tuple[type[ContactWarning], str]
 def doubts_of(contact: BoolArray, *, periodic: bool) -> tuple[Doubt, ...]:
     """What to doubt about a contact set.
 
-    A flat punch of N cells is too soft by about 0.35 / sqrt(N), measured on squares.
+    A flat punch of N cells is too soft by about 0.35 / sqrt(N), measured on squares: that much is wrong even where the
+    cells in contact are the right ones. Of a handful of cells nobody can say whether they are.
     """
     cells = int(np.count_nonzero(contact))
     found: list[Doubt] = []
@@ -37,8 +39,13 @@ def doubts_of(contact: BoolArray, *, periodic: bool) -> tuple[Doubt, ...]:
         found.append(
             (
                 ResolutionWarning,
-                f"only {cells} cells in contact: expect errors of the order of {0.35 / math.sqrt(cells):.0%} "
-                f"in its stiffness, refine the grid ({FEWEST_CELLS} or more cells are not warned of)",
+                f"only {cells} cell{'s' * (cells != 1)} in contact: "
+                + (
+                    "the answer is that of the grid, not of the surface"
+                    if cells < FEWEST_CELLS_TO_JUDGE
+                    else f"a flat punch of so few is {0.35 / math.sqrt(cells):.0%} too soft, its area is rougher still"
+                )
+                + f"; refine the grid ({FEWEST_CELLS} cells or more are not warned of)",
             )
         )
     inner = int(np.count_nonzero(contact[1:-1, 1:-1]))

@@ -26,7 +26,8 @@ def solve_plain(
 ) -> Contact:
     """`solve` by the constrained conjugate gradient of Polonsky and Keer: two operator applications an iteration.
 
-    Cold start on the whole grid, no preconditioner. Arguments and errors as those of `solve`; every entry of the
+    Cold start on the whole grid, no preconditioner. Arguments and errors as those of `solve`, without `start`; no
+    warnings; every entry of the
     history is from a fresh operator application. Its iterations grow with the grid, and at a prescribed force it can
     cycle on a spike over a plateau of equal heights.
     Source: Polonsky and Keer, Wear 231 (1999) 206.

@@ -28,7 +28,10 @@ def solve(
 ) -> Contact:
     """Press a rigid indenter on the half-space: p >= 0, w = gap + u - approach >= 0, p w = 0.
 
-    half_space, gap [m], approach [m] or force [N]: the problem, see `Problem`;
+    half_space: operator and grid; gap: undeformed separation, shape of the half-space, a bump makes it smaller [m];
+    exactly one of approach, of any sign [m], and force, zero or positive [N]. In free space the approach counts from
+    where gap is zero; periodic, from the mean plane of the deformed surface, so that it must stay below mean(gap),
+    beyond which the contact is full and only a force says how hard it is pressed;
     start: a previous contact, or a pressure, zero or positive, shape of the half-space [Pa];
     tolerance: the residual to reach, see `contact.residual`, in (0, 1); max_iterations: at least 1, on each grid;
     raise_on_failure: False returns an unconverged Contact, whose status says so.
@@ -80,9 +83,11 @@ def checked(contact: Contact) -> Contact:
     """The contact, if it is a solution; ConvergenceError otherwise."""
     if contact.converged:
         return contact
+    problem, count = contact.problem, contact.iterations
+    load = f"force {problem.force:g} N" if problem.approach is None else f"approach {problem.approach:g} m"
     raise ConvergenceError(
-        f"residual {contact.residual:.3g} after {contact.iterations} iterations ({contact.status}), "
-        f"asked for {contact.tolerance:g}",
+        f"residual {contact.residual:.3g} after {count} iteration{'s' * (count != 1)} ({contact.status}), "
+        f"asked for {contact.tolerance:g}, at {load} on {' x '.join(map(str, problem.half_space.shape))} cells",
         contact.history,
         contact,
     )

@@ -50,6 +50,10 @@ def count(name: str, value: object, *, least: int) -> int:
 
 def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None) -> FloatArray:
     """Finite real numbers, of ``ndim`` axes and not empty where ``ndim`` is given."""
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        raise ValueError(
+            f"{name} must have a value everywhere, got {int(np.ma.getmaskarray(values).sum())} masked ones"
+        )
     try:
         given = np.asarray(values)
     except ValueError:

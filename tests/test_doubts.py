@@ -25,13 +25,24 @@ def said(function, *args, **settings):
 
 
 def test_few_cells():
-    contact, ((category, sentence, place),) = said(bem3d.solve, BODY, bowl(12), force=0.01)
+    contact, ((category, sentence, place),) = said(bem3d.solve, BODY, bowl(12), force=0.04)
     cells = round(contact.area)
     assert cells < 32
     assert category is bem3d.ResolutionWarning
-    assert sentence.startswith(f"only {cells} cells in contact: expect errors of the order of {0.35 / cells**0.5:.0%}")
+    assert sentence.startswith(
+        f"only {cells} cells in contact: a flat punch of so few is {0.35 / cells**0.5:.0%} too soft"
+    )
     assert place == __file__
     assert contact.doubts == ((category, sentence),)
+
+
+@pytest.mark.parametrize(("force", "cells"), [(1e-6, "1 cell"), (1e-3, "4 cells")])
+def test_a_handful_of_cells(force, cells):
+    middle = 12 if cells == "1 cell" else 11.5
+    x = np.arange(24) - middle
+    _, ((category, sentence, _),) = said(bem3d.solve, BODY, (x[:, np.newaxis] ** 2 + x**2) / 200, force=force)
+    assert category is bem3d.ResolutionWarning
+    assert sentence.startswith(f"only {cells} in contact: the answer is that of the grid, not of the surface")
 
 
 @pytest.mark.parametrize("side", [2, 3, 5, 8, 11])

@@ -104,7 +104,8 @@ def test_evidence(result):
     assert len(scaling["cells"]) == 6
     assert not evidence.unconverged
     assert all(number.verdict is Verdict.AGREE for number in evidence.numbers)
-    assert any("n² log n" in sentence for sentence in evidence.conclusions)
+    assert sum("too small for an exponent" in sentence for sentence in evidence.conclusions) == 3
+    assert len(evidence.shown["problem"]) == 4
     assert (scaling["peak memory [MiB]"] > 1).all()
     for name in ("bem3d", "bem3d, textbook"):
         mine = heats.where(contestant=name)
@@ -148,6 +149,26 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     assert (tmp_path / "figures" / "race.svg").exists()
     assert (tmp_path / "data" / "race-heats.csv").exists()
     assert "The race" in (tmp_path / "index.html").read_text()
+
+
+def test_exponents_are_those_of_the_measurements(result):
+    """Time n^2.5, memory n^2 planted on grids of 512 and more."""
+    measured = [
+        dataclasses.replace(m, course=dataclasses.replace(m.course, cells=n))
+        for m in result.measured[::2]
+        for n in (512, 1024, 2048)
+    ]
+    costs = [
+        {
+            **result.costs[0],
+            "seconds": np.array(1e-6 * m.course.cells**2.5),
+            "before": np.array(1e6),
+            "peak": np.array(1e6 + 8.0 * m.course.cells**2),
+        }
+        for m in measured
+    ]
+    sentences = race_evidence.evidence(dataclasses.replace(result, measured=measured, costs=costs)).conclusions
+    assert sum("time grows like n^2.50 (n² log n: n^2.1" in s and "process like n^2.00" in s for s in sentences) == 3
 
 
 @pytest.mark.parametrize("installed", [True, False])

@@ -2,6 +2,7 @@
 
 import argparse
 import importlib.metadata
+import math
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -103,15 +104,14 @@ def _tell(section: Section) -> None:
 def _tell_race(evidence: Evidence) -> None:
     """The rows of the race, and what follows from them."""
     heats = evidence.table("heats")
-    print(
-        "    "
-        + " " * 62
-        + "".join(f"{name:>10s}" for name in ("median", "fastest", "slowest", "residual", "appl.", "dp"))
-    )
+    print("    times in seconds; appl.: operator applications on the finest grid; dp: difference of the pressure, L2")
+    header = ("median", "fastest", "slowest", "residual", "appl.", "dp")
+    print(f"    {'problem':38s}  area {'contestant':17s}" + "".join(f"{name:>10s}" for name in header))
     for problem, area, name, status, *values in zip(*(heats[name] for name in RACE_COLUMNS), strict=True):
         median, fastest, slowest, residual, applications, difference = values
+        count = "?" if math.isnan(applications) else f"{applications:.0f}"
         result = (
-            f"{median:10.4f}{fastest:10.4f}{slowest:10.4f}{residual:10.1e}{applications:10.0f}{difference:10.1e}"
+            f"{median:10.4f}{fastest:10.4f}{slowest:10.4f}{residual:10.1e}{count:>10s}{difference:10.1e}"
             if status == "finished"
             else f"  {status}"
         )

@@ -106,7 +106,10 @@ class Table:
 
 @dataclass(frozen=True, kw_only=True)
 class Evidence:
-    """What a case shows: how it was compared, its numbers, the tables behind its figure, what follows from them."""
+    """What a case shows: how it was compared, its numbers, the tables behind its figure, what follows from them.
+
+    shown: a table to be printed on the page as it stands.
+    """
 
     title: str
     compared: str
@@ -115,6 +118,7 @@ class Evidence:
     conclusions: tuple[str, ...]
     caption: str
     unconverged: tuple[str, ...] = field(default=())
+    shown: Table | None = None
 
     def table(self, name: str) -> Table:
         """The table of that name."""

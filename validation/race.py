@@ -4,6 +4,7 @@ import itertools
 import multiprocessing
 import os
 import resource
+import signal
 import time
 import warnings
 from collections.abc import Callable, Iterator
@@ -23,6 +24,7 @@ from validation.peers import CONTESTANTS, Contestant, Run, Solve, Task
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
 SPHERE, ROUGH = "sphere", "rough"
 FINISHED = "finished"
+FEWEST_RUNS, MOST_RUNS = 5, 15
 T = TypeVar("T")
 
 
@@ -112,11 +114,18 @@ class RaceResult:
     outcomes: list[Outcome]
     measured: list[Measured]
     costs: list[Outcome]
+    began: float = 0.0
+
+    @property
+    def resumed(self) -> int:
+        """Heats that an interrupted race had run before."""
+        return sum(float(outcome["time"]) < self.began for outcome in self.outcomes)
 
 
 def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
     """Run all heats, one at a time whatever the engine's workers, so that nobody is disturbed."""
     alone = Engine(workers=1, store=engine.store, progress=engine.progress)
+    began = time.time()
     heats = [Heat(course, race.residual, race.slow) for course in race.courses()]
     measured = [
         Measured(Course(surface, load, n, periodic, race.seed), race.residual)
@@ -127,7 +136,11 @@ def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
         )
         for n in race.scaling
     ]
-    return RaceResult(race, heats, alone.map(run_heat, heats), measured, alone.map(measure, measured))
+    result = RaceResult(race, heats, alone.map(run_heat, heats), measured, alone.map(measure, measured), began)
+    # a race that was interrupted goes on; one that is over is run anew the next time
+    for file in engine.store.glob("race-*.npz") if engine.store else ():
+        file.unlink()
+    return result
 
 
 def run_heat(heat: Heat) -> Outcome:
@@ -142,13 +155,13 @@ def run_heat(heat: Heat) -> Outcome:
         warnings.simplefilter("ignore", bem3d.EdgeWarning)  # a rough surface is pressed as far as its grid goes
         task = heat.course.task()
         stack.enter_context(_one_thread())
-        lanes = [stack.enter_context(ProcessPoolExecutor(1, multiprocessing.get_context("spawn"))) for _ in CONTESTANTS]
+        lanes = [stack.enter_context(_process()) for _ in CONTESTANTS]
         rows = [
             _qualify(lane, contestant, task, heat.residual) for lane, contestant in zip(lanes, CONTESTANTS, strict=True)
         ]
-        for _ in range(4):
+        for _ in range(MOST_RUNS - 1):
             for row, lane in zip(rows, lanes, strict=True):
-                if row.status == FINISHED and row.seconds[0] < heat.slow:
+                if row.wanting(heat.slow):
                     row.seconds.append(lane.submit(_again).result())
     return _outcome(task, rows)
 
@@ -163,6 +176,17 @@ class Row:
     applications: float = float("nan")
     seconds: list[float] = field(default_factory=list)
     pressure: np.ndarray | None = None
+
+    def wanting(self, slow: float) -> bool:
+        """Whether one more run would make the median better: until five, and a second in all."""
+        enough = len(self.seconds) >= FEWEST_RUNS and sum(self.seconds) >= 1.0
+        return self.status == FINISHED and self.seconds[0] < slow and not enough
+
+
+def _process() -> ProcessPoolExecutor:
+    """A fresh process, which leaves an interruption to its parent."""
+    spawn = multiprocessing.get_context("spawn")
+    return ProcessPoolExecutor(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
 
 
 def _qualify(lane: ProcessPoolExecutor, contestant: Contestant, task: Task, residual: float) -> Row:
@@ -220,6 +244,7 @@ def _outcome(task: Task, rows: list[Row]) -> Outcome:
         "residual": np.array([row.residual for row in rows]),
         "applications": np.array([row.applications for row in rows]),
         "difference": np.array([_differences(row.pressure, ours) for row in rows]),
+        "time": np.array(time.time()),
         "area": np.array(np.nan if ours is None else np.count_nonzero(ours) / ours.size),
     }
 
@@ -235,7 +260,7 @@ def _differences(pressure: np.ndarray | None, ours: np.ndarray | None) -> tuple[
 
 def measure(measured: Measured) -> Outcome:
     """Seconds and peak memory of a solve in a process of its own, and the seconds of one application."""
-    with _one_thread(), ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as lane:
+    with _one_thread(), _process() as lane:
         return lane.submit(_measure, measured).result()
 
 

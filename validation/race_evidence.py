@@ -6,31 +6,41 @@ from validation.evidence import Evidence, Number, Table
 from validation.peers import CONTESTANTS
 from validation.race import FINISHED, RaceResult
 
-PRESSURE, FORCE, AREA = 1e-4, 1e-6, 1e-3
+# the residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells
+AGREEMENT = (
+    ("pressure field, relative L2", 1e-4, "1e4 times the residual, for the condition of the contact on fine grids"),
+    ("force, relative", 1e-6, "100 times the residual: exact for who prescribes it, by stiffness for who does not"),
+    ("contact area, relative", 1e-3, "single cells of vanishing pressure may stand on either side"),
+)
 OTHERS = [i for i, contestant in enumerate(CONTESTANTS) if contestant.package != CONTESTANTS[0].package]
+AGAINST = (("the fastest peer", OTHERS), ("our own textbook iteration", [1]))
+RATIO = "solve / (applications x one on the whole grid)"
 
 
 def evidence(result: RaceResult) -> Evidence:
     """Numbers for what must agree; the times as tables and conclusions, since no time is right or wrong."""
+    cells = " and ".join(f"{n}²" for n in result.race.cells)
     return Evidence(
         title="The race: time to the same residual, one thread each",
         compared=(
             f"Everyone solves the same discrete problems, cold, to a residual of {result.race.residual:g} as this "
             "project defines it, from a fresh operator application on the returned pressure; with the loosest of their "
-            "own tolerances that reaches it. A process each, in turns, one thread; the median of up to five runs. "
-            "Set-up (operators, plans) is timed apart. "
-            + "; ".join(
-                f"{c.name}: {c.mode}{f' ({c.version})' if c.version else ', not installed'}" for c in CONTESTANTS
-            )
+            "own tolerances that reaches it. By force, or by the approach that belongs to this force, as each prefers. "
+            "A process each, in turns, one thread; the median of 5 to 15 runs, or of one that takes long. Set-up "
+            "(operators, plans; ours with a whole first solve) is timed apart. Our applications are those on the "
+            "finest grid or a window of it; the coarser grids are in our time. tamaas does not count its own. "
+            + "; ".join(f"{c.name}: {c.mode} ({c.version or 'not installed'})" for c in CONTESTANTS)
             + "."
         ),
         numbers=tuple(_agreement(result)),
         tables=(_heats(result), _scaling(result)),
+        shown=_times(result),
         conclusions=tuple(_conclusions(result)),
         caption=(
-            "(a) Median time to the residual, bars from the fastest to the slowest run. (b) The same beside our "
-            "solver's. (c) Our solver alone: seconds (filled) and peak memory of its process, less what it takes to "
-            "start (open), against the cells along a side."
+            f"On {cells} cells. (a) Median time to the residual, bars from the fastest to the slowest run. (b) Our "
+            "solver alone against the cells along a side: time of a solve, and n² log n through the largest rough one "
+            "in free space. (c) As (a), over the median of bem3d.solve. (d) Peak memory of its process, less that of an "
+            "idle one."
         ),
         unconverged=tuple(
             f"{heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}"
@@ -74,6 +84,20 @@ def _heats(result: RaceResult) -> Table:
     return Table("heats", rows)
 
 
+def _times(result: RaceResult) -> Table:
+    """Seconds as they stand on the page: median, from the fastest to the slowest, and set-up."""
+    rows: dict[str, list[object]] = {"problem": [], "area": []}
+    for heat, outcome in zip(result.heats, result.outcomes, strict=True):
+        rows["problem"].append(heat.course.label)
+        rows["area"].append(f"{float(outcome['area']):.1%}")
+        for i, contestant in enumerate(CONTESTANTS):
+            median, fastest, slowest, _ = outcome["seconds"][i]
+            cell = f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {outcome['setup'][i]:.2g} s"
+            done = outcome["status"][i] == FINISHED
+            rows.setdefault(contestant.name, []).append(cell if done else str(outcome["status"][i]))
+    return Table("times", rows)
+
+
 def _scaling(result: RaceResult) -> Table:
     rows: dict[str, list[object]] = {}
     for measured, outcome in zip(result.measured, result.costs, strict=True):
@@ -83,12 +107,10 @@ def _scaling(result: RaceResult) -> Table:
             "cells": course.cells,
             "solve [s]": float(outcome["seconds"]),
             "first solve, with plans [s]": float(outcome["first"]),
-            "one application [s]": float(outcome["application"]),
+            "one application on the whole grid [s]": float(outcome["application"]),
             "operator applications": int(outcome["applications"]),
             "on coarser grids": int(outcome["coarse"]),
-            "solve / (applications x one application)": float(
-                outcome["seconds"] / (outcome["applications"] * outcome["application"])
-            ),
+            RATIO: float(outcome["seconds"] / (outcome["applications"] * outcome["application"])),
             "peak memory less start [MiB]": float((outcome["peak"] - outcome["before"]) / 2**20),
             "peak memory [MiB]": float(outcome["peak"] / 2**20),
         }
@@ -104,67 +126,76 @@ def _agreement(result: RaceResult) -> list[Number]:
         done = [o["difference"][i] for o in result.outcomes if o["status"][i] == o["status"][0] == FINISHED]
         if not done:
             continue
-        for column, (what, tolerance) in enumerate(
-            (("pressure field, relative L2", PRESSURE), ("force", FORCE), ("contact area", AREA))
-        ):
+        for column, (what, tolerance, reason) in enumerate(AGREEMENT):
             numbers.append(
                 Number(
-                    label=f"{what}: largest difference between {contestant.name} and us in {len(done)} problems",
+                    label=f"{what}: {contestant.name} beside bem3d.solve, largest of {len(done)} problems",
                     value=float(np.max([row[column] for row in done])),
                     reference=0.0,
                     source="the same discrete problem has one solution",
                     tolerance=tolerance,
-                    reason=f"what a residual of {result.race.residual:g} leaves open, hundredfold; "
-                    "an area changes by whole cells",
+                    reason=reason,
                 )
             )
     return numbers
 
 
 def _conclusions(result: RaceResult) -> list[str]:
-    sentences = [_standing(result, periodic) for periodic in (True, False)]
-    lost = [
-        f"{heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}"
+    sentences = [_standing(result, periodic, *against) for periodic in (True, False) for against in AGAINST]
+    sentences += [
+        f"Not finished: {heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}."
         for heat, outcome in zip(result.heats, result.outcomes, strict=True)
         for i in OTHERS
         if outcome["status"][i].startswith("failed")
     ]
-    sentences += [f"Not finished: {row}." for row in lost]
+    if result.resumed:
+        sentences.append(f"{result.resumed} of {len(result.heats)} heats were run before this race was interrupted.")
     table = _scaling(result)
-    for problem in dict.fromkeys(table["problem"].tolist()):
-        rows = table.where(problem=problem)
-        n, large = rows["cells"], rows["cells"] >= 512
-        use = large if np.count_nonzero(large) > 1 else np.full(n.shape, True)
-        if np.count_nonzero(use) < 2:
-            continue
-        time, reference = (_exponent(n[use], y) for y in (rows["solve [s]"][use], (n**2 * np.log(n))[use]))
-        memory = _exponent(n[use], rows["peak memory [MiB]"][use])
-        sentences.append(
-            f"{problem}: from {n[use].min()}² to {n[use].max()}² the time grows like n^{time:.2f}, n² log n like "
-            f"n^{reference:.2f} there, the peak memory like n^{memory:.2f}; "
-            f"{rows['operator applications'].min()} to {rows['operator applications'].max()} applications on the "
-            f"finest grid; at {n.max()}² {rows['solve [s]'][-1]:.3g} s and {rows['peak memory [MiB]'][-1]:.0f} MiB, "
-            f"{rows['solve / (applications x one application)'][-1]:.2f} times its applications alone."
-        )
-    return sentences
+    problems = list(dict.fromkeys(table["problem"].tolist()))
+    return sentences + [_growth(problem, table.where(problem=problem)) for problem in problems]
 
 
-def _standing(result: RaceResult, periodic: bool) -> str:
-    """Against the fastest peer of each heat."""
-    where = "Periodic" if periodic else "Free space"
-    ratios = []
-    for heat, outcome in zip(result.heats, result.outcomes, strict=True):
-        if heat.course.periodic == periodic and outcome["status"][0] == FINISHED:
-            peers = [outcome["seconds"][i, 0] for i in OTHERS if outcome["status"][i] == FINISHED]
-            if peers:
-                ratios.append(min(peers) / outcome["seconds"][0, 0])
-    if not ratios:
-        return f"{where}: no peer is installed, or none has finished."
-    first = sum(ratio > 1 for ratio in ratios)
-    return (
-        f"{where}: first on {first} of {len(ratios)} problems; {np.exp(np.mean(np.log(ratios))):.1f} times as fast as "
-        f"the fastest peer in the geometric mean, {min(ratios):.1f} to {max(ratios):.1f} times on single problems."
+def _growth(problem: str, rows: Table) -> str:
+    """What the largest grid costs, and the exponents where there are grids enough to fit them."""
+    n, seconds, memory = rows["cells"], rows["solve [s]"], rows["peak memory less start [MiB]"]
+    applications = rows["operator applications"]
+    sentence = (
+        f"{problem}: {applications.min()} to {applications.max()} applications on the finest grid from {n.min()}² to "
+        f"{n.max()}² cells; at {n.max()}² {seconds[-1]:.3g} s, {rows[RATIO][-1]:.2f} times as long as so many "
+        "applications on the whole grid (windows make it shorter; coarser grids, preconditioner and vectors longer), "
+        f"and {rows['peak memory [MiB]'][-1]:.0f} MiB"
     )
+    large = n >= 512
+    if np.count_nonzero(large) < 3:
+        return sentence + "; too small for an exponent."
+    time, reference, growth = (_exponent(n[large], y[large]) for y in (seconds, n**2 * np.log(n), memory))
+    return sentence + (
+        f"; from {n[large].min()}² on the time grows like n^{time:.2f} (n² log n: n^{reference:.2f} there), the memory "
+        f"less that of an idle process like n^{growth:.2f}."
+    )
+
+
+def _standing(result: RaceResult, periodic: bool, name: str, others: list[int]) -> str:
+    """Our time beside the fastest of others in each heat."""
+    where = f"{'Periodic' if periodic else 'Free space'}, beside {name}"
+    pairs = []
+    for heat, outcome in zip(result.heats, result.outcomes, strict=True):
+        finished = [i for i in others if outcome["status"][i] == FINISHED]
+        if heat.course.periodic == periodic and outcome["status"][0] == FINISHED and finished:
+            pairs.append(outcome["seconds"][finished, :2].min(axis=0) / outcome["seconds"][0, :2])
+    if not pairs:
+        return f"{where}: nobody has finished."
+    by_median, by_fastest = np.array(pairs).T
+    return (
+        f"{where}: first on {np.count_nonzero(by_median > 1)} of {len(pairs)} problems; "
+        f"{_mean(by_median):.1f} times as fast in the geometric mean of medians ({_mean(by_fastest):.1f} by fastest "
+        f"runs), {by_median.min():.1f} to {by_median.max():.1f} times on single problems."
+    )
+
+
+def _mean(ratios: np.ndarray) -> float:
+    """Geometric."""
+    return float(np.exp(np.mean(np.log(ratios))))
 
 
 def _exponent(n: np.ndarray, y: np.ndarray) -> float:

@@ -160,6 +160,7 @@ def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, byt
         pictures={name: base64.b64encode(picture).decode() for name, picture in pictures.items()},
         about=about,
         verdicts=list(Verdict),
+        zip=zip,
         symbol={"agree": "✓", "differ": "≠", "undecided": "?"},
     )
     return (page + "\n").encode()

@@ -12,48 +12,49 @@ MARKS: dict[str, Style] = {
     "tamaas": {"color": "#D55E00", "marker": "s", "markerfacecolor": "none"},
     "ContactMechanics": {"color": "#009E73", "marker": "^"},
 }
-SCALES = (("o", "#0072B2", "-"), ("s", "#D55E00", "--"), ("^", "#009E73", ":"))
+LINES: tuple[Style, ...] = (
+    {"color": "#000000", "marker": "*", "linestyle": "-"},
+    {"color": "#CC79A7", "marker": "P", "linestyle": "--"},
+    {"color": "#E69F00", "marker": "X", "linestyle": "-."},
+)
 
 
 def draw(evidence: Evidence) -> Figure:
-    """Times, ratios, and how our own cost grows."""
+    """Times, ratios, and how our own time and memory grow."""
     heats, scaling = evidence.table("heats"), evidence.table("scaling")
     problems = list(dict.fromkeys(heats["problem"].tolist()))
-    figure, (time_axis, ratio_axis, growth_axis) = panels(1, 3, width=13.0, height=2.2 + 0.24 * len(problems))
+    figure, (time_axis, growth_axis, ratio_axis, memory_axis) = panels(
+        2, 2, width=11.0, height=2.4 + 0.6 * len(problems)
+    )
     place = np.array([problems.index(name) for name in heats["problem"].tolist()])
     ours = {row: t for row, t, c in zip(place, heats["median [s]"], heats["contestant"], strict=True) if c == "bem3d"}
-    ratio = heats["median [s]"] / np.array([ours[row] for row in place])
-    for name, style in MARKS.items():
-        mine = (heats["contestant"] == name) & (heats["status"] == "finished")
-        if not mine.any():
-            continue
-        median = heats["median [s]"][mine]
-        spread = np.abs(np.array([heats["fastest [s]"][mine], heats["slowest [s]"][mine]]) - median)
-        time_axis.errorbar(median, place[mine], xerr=spread, linestyle="none", label=name, **style)
-        if name != "bem3d":
-            ratio_axis.plot(ratio[mine], place[mine], linestyle="none", label=name, **style)
-    time_axis.set_yticks(range(len(problems)), problems)
-    ratio_axis.set_yticks(range(len(problems)), [""] * len(problems))
+    mine = np.array([ours[row] for row in place])
+    spread = np.abs(np.array([heats["fastest [s]"], heats["slowest [s]"]]) - heats["median [s]"])
+    for shift, (name, style) in zip((-0.27, -0.09, 0.09, 0.27), MARKS.items(), strict=True):
+        rows = (heats["contestant"] == name) & (heats["status"] == "finished")
+        for axis, unit in ((time_axis, np.ones(place.size)), (ratio_axis, mine)):
+            if rows.any() and (axis is time_axis or name != "bem3d"):
+                x, bars = heats["median [s]"] / unit, spread / unit
+                axis.errorbar(x[rows], place[rows] + shift, xerr=bars[:, rows], linestyle="none", label=name, **style)
     ratio_axis.axvline(1.0, color="#000000", linewidth=1.0)
-    for axis, label in ((time_axis, "time to the residual [s]"), (ratio_axis, "time beside bem3d's")):
+    for axis, label in ((time_axis, "time to the residual [s]"), (ratio_axis, "time / median time of bem3d")):
+        axis.set_yticks(range(len(problems)), problems)
         axis.set_xscale("log")
         axis.set_xlabel(label)
         axis.invert_yaxis()
-    figure.legend(*time_axis.get_legend_handles_labels(), loc="outside lower left", ncols=4)
+    time_axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.03), ncols=2)
 
-    memory_axis = growth_axis.twinx()
-    for (marker, color, line), problem in zip(SCALES, dict.fromkeys(scaling["problem"].tolist()), strict=False):
+    for style, problem in zip(LINES, dict.fromkeys(scaling["problem"].tolist()), strict=False):
         rows = scaling.where(problem=problem)
-        n = rows["cells"]
-        growth_axis.loglog(n, rows["solve [s]"], color=color, marker=marker, linestyle=line, label=problem)
-        memory = np.maximum(rows["peak memory less start [MiB]"], 0.1)
-        memory_axis.loglog(n, memory, color=color, marker=marker, linestyle=line, markerfacecolor="none", alpha=0.7)
+        growth_axis.loglog(rows["cells"], rows["solve [s]"], label=problem, **style)
+        memory_axis.loglog(rows["cells"], np.maximum(rows["peak memory less start [MiB]"], 0.1), label=problem, **style)
+    free = scaling.where(problem="rough, free")
+    n = free["cells"]
     guide = n**2 * np.log(n)
-    growth_axis.loglog(n, rows["solve [s]"][-1] * guide / guide[-1], color="#555555", linewidth=1, label="n² log n")
-    growth_axis.set(xlabel="cells along a side", ylabel="solve [s], filled")
-    growth_axis.set_xticks(n, [str(value) for value in n])
-    growth_axis.minorticks_off()
-    memory_axis.set_ylabel("memory [MiB], open")
-    memory_axis.grid(False)
-    growth_axis.legend(loc="upper left")
+    growth_axis.loglog(n, free["solve [s]"][-1] * guide / guide[-1], color="#555555", linestyle=":", label="n² log n")
+    for axis, label in ((growth_axis, "time of a solve [s]"), (memory_axis, "memory [MiB]")):
+        axis.set(xlabel="cells along a side, n", ylabel=label)
+        axis.set_xticks(n, [str(value) for value in n])
+        axis.minorticks_off()
+        axis.legend(loc="upper left")
     return figure
