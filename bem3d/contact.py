@@ -78,7 +78,7 @@ class Contact:
     def stiffness(self, *, tolerance: float | None = None) -> float:
         """k = dF/dd of the discrete problem: the frozen contact pressed by a unit approach [N/m].
 
-        tolerance: relative residual of the linear solve; the relative error of k is of the order of its square, see
+        tolerance: relative residual of the linear solve; the relative error of k is some tens of times its square, see
         `press_frozen`. None takes what `indent` has brought along, and where it has not, solves to 1e-6. A stiffness
         that was brought along with a residual below the tolerance is not solved for again, any other is, at each call.
         Zero where there is no contact; infinite for a periodic half-space in full contact.

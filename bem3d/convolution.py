@@ -2,14 +2,19 @@
 
 import threading
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
 import pyfftw
+from numpy.typing import NDArray
 
 from bem3d.border import FloatArray, IndexArray
 
 Planning = Literal["estimate", "measure"]
+ComplexArray = NDArray[np.complex128]
+PLANNER = threading.Lock()
+"""FFTW has one planner, and one memory of what it has measured, in a process."""
 COLUMNS = 16
 """Columns transformed at a time: few enough to stay in the cache, forwards, times the symbol, and back."""
 
@@ -23,11 +28,27 @@ class Convolution(ABC):
     """
 
     def __init__(self, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
-        self.shape, self.padded = shape, padded
-        self.flags = (f"FFTW_{planning.upper()}",)
+        self.shape, self.padded, self._planning = shape, padded, planning
         self._lock = threading.Lock()
         # the padding along the first axis need not be stored, see PaddedConvolution
         self._rows = pyfftw.empty_aligned((shape[0], padded[1]), dtype=np.float64)
+
+    def _plan(
+        self, there: FloatArray | ComplexArray, back: FloatArray | ComplexArray, axes: tuple[int, ...]
+    ) -> tuple[Callable[[], None], Callable[[], None]]:
+        """The transforms from one array to the other and back; the way back may destroy its input."""
+        common = {"axes": axes, "threads": 1}
+        flags = (f"FFTW_{self._planning.upper()}",)
+        with PLANNER:
+            # what is measured here would change the estimates of others in this process
+            known = pyfftw.export_wisdom() if self._planning == "measure" else None
+            forward = pyfftw.FFTW(there, back, flags=flags, **common)
+            destroying = flags if there is back else (*flags, "FFTW_DESTROY_INPUT")
+            inverse = pyfftw.FFTW(back, there, flags=destroying, direction="FFTW_BACKWARD", **common)
+            if known is not None:
+                pyfftw.forget_wisdom()
+                pyfftw.import_wisdom(known)
+        return forward.execute, inverse.execute
 
     @abstractmethod
     def _convolve(self) -> None:
@@ -66,16 +87,12 @@ class PlainConvolution(Convolution):
         super().__init__(shape, shape, planning)
         self._symbol = np.concatenate([symbol, symbol[(shape[0] - 1) // 2 : 0 : -1]]) / (shape[0] * shape[1])
         self._spectrum = pyfftw.empty_aligned(self._symbol.shape, dtype=np.complex128)
-        plan = {"axes": (0, 1), "threads": 1}
-        self._forward = pyfftw.FFTW(self._rows, self._spectrum, flags=self.flags, **plan)
-        # the inverse destroys its input, which the next forward transform writes anew
-        flags = (*self.flags, "FFTW_DESTROY_INPUT")
-        self._inverse = pyfftw.FFTW(self._spectrum, self._rows, flags=flags, direction="FFTW_BACKWARD", **plan)
+        self._forward, self._inverse = self._plan(self._rows, self._spectrum, (0, 1))
 
     def _convolve(self) -> None:
-        self._forward.execute()
-        np.multiply(self._spectrum, self._symbol, out=self._spectrum)
-        self._inverse.execute()
+        self._forward()
+        self._spectrum *= self._symbol
+        self._inverse()
 
 
 class PaddedConvolution(Convolution):
@@ -94,23 +111,19 @@ class PaddedConvolution(Convolution):
         self._symbol = np.concatenate([half, half[:, (padded[0] - 1) // 2 : 0 : -1]], axis=1)
         self._spectrum = pyfftw.empty_aligned((shape[0], padded[1] // 2 + 1), dtype=np.complex128)
         self._columns = pyfftw.empty_aligned((COLUMNS, padded[0]), dtype=np.complex128)
-        plan = {"axes": (1,), "threads": 1}
-        back = {"direction": "FFTW_BACKWARD", **plan}
-        self._forward = pyfftw.FFTW(self._rows, self._spectrum, flags=self.flags, **plan)
-        self._inverse = pyfftw.FFTW(self._spectrum, self._rows, flags=(*self.flags, "FFTW_DESTROY_INPUT"), **back)
-        self._down = pyfftw.FFTW(self._columns, self._columns, flags=self.flags, **plan)
-        self._up = pyfftw.FFTW(self._columns, self._columns, flags=self.flags, **back)
+        self._forward, self._inverse = self._plan(self._rows, self._spectrum, (1,))
+        self._down, self._up = self._plan(self._columns, self._columns, (1,))
 
     def _convolve(self) -> None:
-        self._forward.execute()
+        self._forward()
         filled = self.shape[0]
         for first in range(0, self._spectrum.shape[1], COLUMNS):
             some = self._spectrum[:, first : first + COLUMNS]
             columns = self._columns[: some.shape[1]]
             columns[:, :filled] = some.T
             columns[:, filled:] = 0.0
-            self._down.execute()
+            self._down()
             columns *= self._symbol[first : first + COLUMNS]
-            self._up.execute()
+            self._up()
             some[:] = columns[:, :filled].T
-        self._inverse.execute()
+        self._inverse()

@@ -30,8 +30,8 @@ Doubt = tuple[type[ContactWarning], str]
 def doubts_of(contact: BoolArray, *, periodic: bool) -> tuple[Doubt, ...]:
     """What to doubt about a contact set.
 
-    A flat punch of N cells is too soft by about 0.35 / sqrt(N), measured on squares: that much is wrong even where the
-    cells in contact are the right ones. Of a handful of cells nobody can say whether they are.
+    A flat punch of N < 32 cells is too soft by about 0.3 / sqrt(N), measured on squares: so much is
+    wrong even where the cells in contact are the right ones. Of a handful nobody can say whether they are.
     """
     cells = int(np.count_nonzero(contact))
     found: list[Doubt] = []
@@ -43,7 +43,7 @@ def doubts_of(contact: BoolArray, *, periodic: bool) -> tuple[Doubt, ...]:
                 + (
                     "the answer is that of the grid, not of the surface"
                     if cells < FEWEST_CELLS_TO_JUDGE
-                    else f"a flat punch of so few is {0.35 / math.sqrt(cells):.0%} too soft, its area is rougher still"
+                    else f"a flat punch of so few is {0.3 / math.sqrt(cells):.0%} too soft, its area is rougher still"
                 )
                 + f"; refine the grid ({FEWEST_CELLS} cells or more are not warned of)",
             )

@@ -1,5 +1,6 @@
 """The elastic half-space on a regular grid: pressure in, displacement out."""
 
+import threading
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
@@ -12,6 +13,7 @@ from bem3d import kernel
 from bem3d.border import FloatArray, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import Convolution, PaddedConvolution, PlainConvolution, Planning
 
+KEEPING = threading.Lock()
 RELATIVES = 4
 """Windows and coarser grids that a half-space keeps ready."""
 
@@ -98,18 +100,16 @@ class HalfSpace:
         wanted = replace(self, shape=shape, spacing=self.spacing if spacing is None else spacing)
         if wanted == self:
             return self
-        for kept in self._relatives:
-            if kept == wanted:
-                self._relatives.remove(kept)
-                wanted = kept
-                break
-        self._relatives.append(wanted)
-        del self._relatives[:-RELATIVES]
-        return wanted
+        with KEEPING:
+            kept = self._relatives.pop(wanted, wanted)
+            self._relatives[wanted] = kept
+            while len(self._relatives) > RELATIVES:
+                del self._relatives[next(iter(self._relatives))]
+        return kept
 
     @cached_property
-    def _relatives(self) -> list["HalfSpace"]:
-        return []
+    def _relatives(self) -> dict["HalfSpace", "HalfSpace"]:
+        return {}
 
     def __reduce__(self) -> tuple[Any, ...]:
         # plans and buffers belong to one process

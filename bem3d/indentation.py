@@ -17,7 +17,7 @@ from bem3d.problem import Problem
 from bem3d.solver import answer, checked
 
 STIFFNESS_TOLERANCE = 1e-4
-"""Relative residual of the frozen contacts: their stiffness is good to about its square."""
+"""Relative residual of the frozen contacts: their stiffness is good to some tens of times its square."""
 
 
 def indent(
@@ -74,6 +74,7 @@ def _path(
                 contact.pressure > 0,
                 start=None if frozen is None else frozen.pressure,
                 tolerance=STIFFNESS_TOLERANCE,
+                max_iterations=max_iterations,
                 raise_on_failure=raise_on_failure,
             )
             contact = replace(contact, frozen=frozen)

@@ -34,16 +34,23 @@ def _coarser_problem(problem: Problem) -> Problem | None:
     half_space = coarser(problem.half_space)
     if half_space is None:
         return None
-    return Problem(half_space=half_space, gap=restrict(problem.gap), approach=problem.approach, force=problem.force)
+    gap = restrict(problem.gap)
+    # an odd axis counts its last cell twice; the mean is what a periodic approach is measured from
+    gap += problem.gap.mean() - gap.mean()
+    if half_space.periodic and problem.approach is not None and problem.approach >= gap.mean():
+        return None
+    return Problem(half_space=half_space, gap=gap, approach=problem.approach, force=problem.force)
 
 
 def first_pressure(problem: Problem) -> Start:
     """Uniform at a prescribed force; else proportional to the overlap, as large as lowers the energy most."""
     if problem.depth is None:
         return Start(np.ones(problem.half_space.shape))
-    overlap = np.maximum(problem.depth - (problem.gap - problem.first_touch), 0.0)
+    # in units of the deepest, whose square may not be a number that there is
+    overlap = np.maximum(1 - (problem.gap - problem.first_touch) / problem.depth, 0.0)
     yielding = problem.half_space.apply(overlap)
-    return Start(overlap * (float((overlap**2).sum()) / float((overlap * yielding).sum())), problem.depth)
+    size = problem.depth * float((overlap**2).sum()) / float((overlap * yielding).sum())
+    return Start(size * overlap, problem.depth)
 
 
 def coarser(half_space: HalfSpace) -> HalfSpace | None:

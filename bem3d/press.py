@@ -16,6 +16,9 @@ REACH = 1.1
 MARGIN = 1.0
 """Cells no further from touching than so many times the error that the contact still has are candidates for it."""
 
+PATIENCE = 100
+"""Iterations in which the running residual has to halve; a fresh application then tells what is left."""
+
 
 @dataclass(frozen=True, eq=False)
 class Start:
@@ -73,9 +76,11 @@ def _press_window(
     box = smallest_box(problem.half_space, within | (attempt.pressure > 0))
     near, load = gap[box], Load(problem.depth, problem.total)
     window = problem.half_space.like(shape=(near.shape[0], near.shape[1]))
-    pressure = load.scaled(attempt.pressure[box])
+    pressure = attempt.pressure[box]
     marked, confirmed = np.zeros(window.shape, dtype=np.bool_), math.nan
     while True:
+        # the force is held to the last digit, which many small steps would lose
+        pressure = load.scaled(pressure)
         separation = near + window.apply(pressure)
         attempt.operator_applications += 1
         attempt.overlap = load.overlap_of(pressure, separation)
@@ -84,7 +89,8 @@ def _press_window(
         attempt.history = attempt.history[:-1]
         attempt.judge(residual(pressure, w, attempt.overlap), tolerance, max_iterations)
         known, marked = marked, marked | _may_touch(pressure, w)
-        stuck = not math.isnan(confirmed) and not attempt.history[-1] <= confirmed / 2
+        gained = attempt.history[-1] <= confirmed / 2 and attempt.history[-1] < confirmed
+        stuck = not math.isnan(confirmed) and not gained
         if attempt.status is None and stuck and (marked == known).all():
             attempt.status = Status.STAGNATION
         if attempt.status is not None:
@@ -107,10 +113,12 @@ def _iterate(
     """The pressure at which the running residual on the candidate cells is small enough, or nothing more is gained."""
     states = projected_cg(cells, cells.compress(pressure), cells.compress(separation), load)
     state = next(states)
+    best, since = state.residual, 0
     for state in states:
         attempt.operator_applications += 1
         attempt.judge(state.residual, 0.0, max_iterations)
-        if state.residual <= tolerance or attempt.status is not None:
+        best, since = (state.residual, 0) if state.residual < best / 2 else (best, since + 1)
+        if state.residual <= tolerance or attempt.status is not None or since > PATIENCE:
             break
     # only a fresh application may say how it has ended
     attempt.status = None

@@ -12,9 +12,9 @@ from bem3d.window import Candidates, dot
 MEMORY = 3
 """Steps remembered, with their images: what conjugacy and truncation need, measured on rough contacts."""
 FIRST_STEP = 0.4
+"""The approximate inverse is too stiff by up to a factor of a few: eigenvalues of M K on a contact are 1 and more."""
 WHOLE_STEP = 0.65
 """A step that cut cells off is taken whole if its best length is at least this part of it: it then gains energy."""
-"""The approximate inverse is too stiff by up to a factor of a few: eigenvalues of M K on a contact are 1 and more."""
 
 
 @dataclass(frozen=True, eq=False)

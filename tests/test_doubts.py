@@ -30,7 +30,7 @@ def test_few_cells():
     assert cells < 32
     assert category is bem3d.ResolutionWarning
     assert sentence.startswith(
-        f"only {cells} cells in contact: a flat punch of so few is {0.35 / cells**0.5:.0%} too soft"
+        f"only {cells} cells in contact: a flat punch of so few is {0.3 / cells**0.5:.0%} too soft"
     )
     assert place == __file__
     assert contact.doubts == ((category, sentence),)
@@ -45,12 +45,12 @@ def test_a_handful_of_cells(force, cells):
     assert sentence.startswith(f"only {cells} in contact: the answer is that of the grid, not of the surface")
 
 
-@pytest.mark.parametrize("side", [2, 3, 5, 8, 11])
+@pytest.mark.parametrize("side", [2, 3, 4, 5])
 def test_error_of_few_cells_is_as_said(side):
-    """A square punch of side^2 cells against 1.1523 E* L: too soft by about 0.35 / side."""
+    """A square punch of side^2 cells against 1.1523 E* L: too soft by about 0.3 / side."""
     body = bem3d.HalfSpace(shape=(side, side), spacing=1 / side, modulus=1.0)
     k = np.linalg.solve(dense_operator(body), np.ones(side**2)).sum() / side**2
-    assert 1 - k / 1.15225 == pytest.approx(0.35 / side, rel=0.25)
+    assert 1 - k / 1.15225 == pytest.approx(0.3 / side, rel=0.1)
 
 
 def test_contact_at_the_edge():

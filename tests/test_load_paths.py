@@ -70,6 +70,8 @@ def test_a_start_for_the_frozen_contact():
     assert warm.stiffness == pytest.approx(cold.stiffness, rel=1e-9)
     assert again.operator_applications == 1
     assert not again.pressure[~contact].any()
+    with pytest.raises(ValueError, match="read-only"):
+        cold.pressure[0, 0] = 1.0
 
 
 def test_contacts_come_one_by_one(monkeypatch):

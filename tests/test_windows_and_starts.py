@@ -162,6 +162,20 @@ def test_what_a_half_space_has_solved_before_does_not_matter():
         np.testing.assert_array_equal(pressure, first)
 
 
+@pytest.mark.parametrize("periodic", [True, False])
+def test_measured_plans_leave_the_estimates_of_others_alone(periodic):
+    """FFTW remembers what it has measured in a process, and would use it for the next estimate."""
+    pressure = np.random.default_rng(0).random((60, 60))
+
+    def displacement(planning):
+        body = bem3d.HalfSpace(shape=(60, 60), spacing=1.0, modulus=1.0, periodic=periodic, planning=planning)
+        return body.displacement(pressure)
+
+    before = displacement("estimate")
+    assert displacement("measure") == pytest.approx(before, rel=1e-12, abs=1e-12)
+    np.testing.assert_array_equal(displacement("estimate"), before)
+
+
 def test_a_problem_shares_its_gap_with_those_along_a_path():
     """A path of many loads on a large grid holds one copy of the gap, which nobody else can change."""
     body = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)

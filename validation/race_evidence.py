@@ -29,6 +29,7 @@ def evidence(result: RaceResult) -> Evidence:
             "A process each, in turns, one thread; the median of 5 to 15 runs, or of one that takes long. Set-up "
             "(operators, plans; ours with a whole first solve) is timed apart. Our applications are those on the "
             "finest grid or a window of it; the coarser grids are in our time. tamaas does not count its own. "
+            "Everyone's transforms are those of the package as it is installed. "
             + "; ".join(f"{c.name}: {c.mode} ({c.version or 'not installed'})" for c in CONTESTANTS)
             + "."
         ),
