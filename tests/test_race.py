@@ -162,7 +162,7 @@ def test_exponents_are_those_of_the_measurements(result):
         {
             **result.costs[0],
             "seconds": np.array(1e-6 * m.course.cells**2.5),
-            "before": np.array(1e6),
+            "idle": np.array(1e6),
             "peak": np.array(1e6 + 8.0 * m.course.cells**2),
         }
         for m in measured

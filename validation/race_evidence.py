@@ -112,7 +112,7 @@ def _scaling(result: RaceResult) -> Table:
             "operator applications": int(outcome["applications"]),
             "on coarser grids": int(outcome["coarse"]),
             RATIO: float(outcome["seconds"] / (outcome["applications"] * outcome["application"])),
-            "peak memory less start [MiB]": float((outcome["peak"] - outcome["before"]) / 2**20),
+            "peak memory less start [MiB]": float((outcome["peak"] - outcome["idle"]) / 2**20),
             "peak memory [MiB]": float(outcome["peak"] / 2**20),
         }
         for name, value in values.items():
