@@ -4,8 +4,9 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 VENV := .venv
 RUN := $(VENV)/bin/python -m
 READY := $(VENV)/ready
+PEERS := $(VENV)/peers
 
-.PHONY: report full-report reference test thorough lint types format clean
+.PHONY: report full-report reference race test thorough lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -13,8 +14,11 @@ report: $(READY)  ## the validation report, small: reports/quick/index.html
 full-report: $(READY)  ## the real one: reports/full/index.html
 	$(RUN) validation report --profile full $(ARGS)
 
-reference: $(READY)  ## the committed one: reports/reference/index.html
+reference: $(PEERS)  ## the committed one, with the race: reports/reference/index.html
 	$(RUN) validation report --profile full --out reports/reference
+
+race: $(PEERS)  ## beside the peers, which it installs: reports/race-quick/index.html
+	$(RUN) validation race $(ARGS)
 
 test: $(READY)  ## all tests
 	$(RUN) pytest -n auto $(ARGS)
@@ -38,6 +42,10 @@ $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(RUN) pip install --quiet --upgrade "pip>=25.1"
 	$(RUN) pip install --quiet --editable . --group dev
+	touch $@
+
+$(PEERS): $(READY)
+	$(RUN) pip install --quiet --editable ".[peers]"
 	touch $@
 
 clean:

@@ -24,9 +24,9 @@ def cold_start(problem: Problem, max_iterations: int) -> tuple[Start, tuple[Leve
     attempt = press(coarse, start, PART * min(start.error, 1.0), max_iterations)
     levels = (*levels, (coarse.half_space.shape, attempt.operator_applications))
     pressure = prolong(attempt.pressure, problem.half_space)
-    if not np.isfinite(pressure).all() or not pressure.any():
-        return first_pressure(problem), levels
     overlap = attempt.overlap + coarse.first_touch - problem.first_touch
+    if not np.isfinite(overlap) or not np.isfinite(pressure).all() or not pressure.any():
+        return first_pressure(problem), levels
     return Start(pressure, overlap, attempt.history[0]), levels
 
 
@@ -35,10 +35,11 @@ def _coarser_problem(problem: Problem) -> Problem | None:
     if half_space is None:
         return None
     gap = restrict(problem.gap)
-    # an odd axis counts its last cell twice; the mean is what a periodic approach is measured from
-    gap += problem.gap.mean() - gap.mean()
-    if half_space.periodic and problem.approach is not None and problem.approach >= gap.mean():
-        return None
+    if half_space.periodic:
+        # an odd axis counts its last cell twice, but a periodic approach is measured from the mean
+        gap += problem.gap.mean() - gap.mean()
+        if problem.approach is not None and problem.approach >= gap.mean():
+            return None
     return Problem(half_space=half_space, gap=gap, approach=problem.approach, force=problem.force)
 
 

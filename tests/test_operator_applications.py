@@ -43,11 +43,11 @@ def test_textbook_iteration_grows_with_the_grid():
 
 
 @pytest.mark.parametrize("periodic", [True, False])
-@pytest.mark.parametrize("n", [256, 512])
+@pytest.mark.parametrize("n", [256, 512, 1024])
 def test_rough_contact_costs_forty_at_most(n, periodic):
     half_space, gap = self_affine(n, periodic=periodic)
     by_force = bem3d.solve(half_space, gap, force=0.008, tolerance=1e-6)
-    assert 0.04 < by_force.area < 0.1
+    assert 0.03 < by_force.area < 0.1
     by_approach = bem3d.solve(half_space, gap, approach=by_force.approach, tolerance=1e-6)
     assert max(by_force.operator_applications, by_approach.operator_applications) <= 40
     assert len(by_force.coarse_applications) == round(np.log2(n / 16))
