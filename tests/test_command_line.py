@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +16,7 @@ import pytest
 import bem3d
 from validation import __main__ as command
 from validation.cases import CASES, fractal_punch, geike, hertz
+from validation.ensemble import SERIAL
 from validation.report import build
 
 ROOT = Path(__file__).parents[1]
@@ -234,3 +236,13 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     )
     build.Engine(store=store).map(fractal_punch.press_surface, [again])
     assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept
+
+
+@pytest.mark.parametrize("name", list(CASES))
+def test_cases_deal_with_every_warning(name):
+    """What a contact warns of is either avoided by the case or what the case is about."""
+    entry = CASES[name]
+    case = SMALL[name] if name == "fractal_punch" else entry.quick
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", bem3d.ContactWarning)
+        entry.run(case, SERIAL)
