@@ -59,6 +59,10 @@ class Memory:
     """The last steps s_i and their images y_i = K s_i."""
 
     def __init__(self) -> None:
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin anew."""
         self._steps: list[FloatArray] = []
         self._images: list[FloatArray] = []
         self._gram = np.zeros((0, 0))
@@ -74,10 +78,6 @@ class Memory:
         gram[:-1, :-1] = self._gram[forgotten:, forgotten:]
         gram[-1], gram[:, -1] = newest, newest
         self._gram = gram
-
-    def forget(self) -> None:
-        """Begin anew."""
-        self.__init__()  # type: ignore[misc]
 
     def improve(self, direction: FloatArray, downhill: FloatArray) -> FloatArray:
         """The direction made conjugate to what is remembered, plus the step among that which gains the most energy."""
