@@ -36,9 +36,17 @@ class Load:
             return direction
         return direction - float(direction.sum()) / float(pressure.sum()) * pressure
 
-    def levelled(self, direction: FloatArray, free: BoolArray) -> FloatArray:
-        """A direction on the free cells that keeps the prescribed total by an equal change of all of them."""
-        return direction if self.total is None else np.where(free, direction - direction[free].mean(), 0.0)
+    def nearest(self, aim: FloatArray, free: BoolArray) -> FloatArray:
+        """The nearest pressure, on the free cells, that is nowhere negative and has the prescribed total if any.
+
+        With a total it is aim less one number on all cells that stay in contact, found by a sort.
+        """
+        if self.total is None:
+            return np.where(free, np.maximum(aim, 0.0), 0.0)
+        falling = np.sort(aim[free])[::-1]
+        surplus = (np.cumsum(falling) - self.total) / np.arange(1, falling.size + 1)
+        level = surplus[np.flatnonzero(falling >= surplus)[-1]]
+        return np.where(free, np.maximum(aim - level, 0.0), 0.0)
 
     def scaled(self, pressure: FloatArray) -> FloatArray:
         """The pressure, scaled to the prescribed total if there is one."""
@@ -147,7 +155,9 @@ def _downhill(
         memory.forget()
         step = _step(preconditioned, pressure, w, free, load)
     if not step.gain > 0:
-        step = _step(length * cells.stiffness * load.levelled(downhill, free), pressure, w, free, load)
+        # along the gradient and back to the nearest pressure: downhill unless there is no lower place
+        change = load.nearest(pressure + length * cells.stiffness * downhill, free) - pressure
+        step = Step(change, -dot(w, change), cut=True)
     return step if step.gain > 0 else None
 
 

@@ -138,6 +138,17 @@ def test_a_spike(depth, upwards, periodic):
         checked(bem3d.solve(half_space(gap.shape, periodic=periodic), gap, force=force, tolerance=TOLERANCE))
 
 
+@pytest.mark.parametrize(("shape", "load"), [((79, 65), 0.0016), ((89, 55), 0.00022), ((64, 40), 0.01)])
+def test_ridges_under_a_force(shape, load):
+    """A start with too many cells, all alike along the ridge: neither a conjugate nor a preconditioned step gains."""
+    gap = np.cos(2 * np.pi * np.arange(shape[0]) / shape[0])[:, np.newaxis] + np.zeros(shape)
+    body = half_space(shape, periodic=True)
+    for factor in (0.5, 1.0, 2.0, 4.0):
+        force = factor * load * gap.size
+        contact = checked(bem3d.solve(body, gap, force=force, tolerance=TOLERANCE))
+        assert np.ptp(contact.pressure, axis=1).max() <= 1e-5 * contact.pressure.max()
+
+
 @pytest.mark.parametrize("periodic", [True, False])
 def test_plateaus_of_equal_heights(periodic):
     gap = np.round(rough((36, 36)))

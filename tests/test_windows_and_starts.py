@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import bem3d
-from bem3d import nested, window
+from bem3d import nested, projected_cg, window
 from bem3d.problem import Problem
 from tests.oracles import displacement
 from tests.strategies import half_spaces, pressed
@@ -89,6 +89,23 @@ def test_candidates_are_a_part_of_the_field(data):
     vector = cells.compress(pressure)
     np.testing.assert_array_equal(cells.spread(vector), pressure)
     np.testing.assert_array_equal(cells.displacement(vector), body.displacement(pressure)[marked])
+
+
+@given(data=st.data(), total=st.floats(1e-6, 1e6))
+def test_nearest_pressure_of_a_total(data, total):
+    """Least squares on p >= 0, sum(p) = total, by its conditions: one multiplier on the cells that carry, and no cell
+    without pressure that would rather have some."""
+    aim = data.draw(arrays(np.float64, st.integers(1, 12), elements=st.floats(-10, 10, width=32)))
+    free = data.draw(arrays(np.bool_, aim.shape))
+    if not free.any():
+        return
+    found = projected_cg.Load(total=total).nearest(aim, free)
+    assert found.sum() == pytest.approx(total, rel=1e-9)
+    assert (found >= 0).all()
+    assert not found[~free].any()
+    level = (aim - found)[found > 0]
+    assert level == pytest.approx(level[0], abs=1e-9 * (10 + total))
+    assert (aim[free & (found == 0)] <= level.min() + 1e-9 * (10 + total)).all()
 
 
 @given(data=st.data())
