@@ -23,20 +23,20 @@ class Iterate:
     operator_applications: int
 
 
-def polonsky_keer(problem: Problem, start: FloatArray | None = None) -> Iterator[Iterate]:
+def polonsky_keer(problem: Problem) -> Iterator[Iterate]:
     """Iterate towards p >= 0, w = gap + u - approach >= 0, p w = 0; the caller decides when to stop.
 
     Conjugate directions t on the current contact p > 0, exact line search, truncation at p = 0; cells that overlap
     without pressure join the contact, and the directions start anew. At prescribed force the approach is the mean of
     gap + u over the contact, and the pressure is scaled to its sum after each step.
 
-    problem: a touching one; start: a pressure with some contact, see `first_pressure` for what is used otherwise.
+    problem: a touching one. It begins with `first_pressure`.
     Source: Polonsky and Keer, Wear 231 (1999) 206.
     """
     half_space, force = problem.half_space, problem.force
     # heights count from the first touch: a gap far from zero would cost digits
     gap, depth = problem.gap - problem.first_touch, problem.depth
-    pressure = first_pressure(problem) if start is None else _loaded(problem, start)
+    pressure = first_pressure(problem)
     direction = np.zeros(half_space.shape)
     restart, square_before = True, 1.0
     applications = 0
