@@ -11,7 +11,8 @@ from bem3d.doubts import Doubt, doubts_of
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.problem import Problem
 
-STIFFNESS_TOLERANCE = 1e-6
+Level = tuple[tuple[int, int], int]
+"""Shape of a coarser grid, and the operator applications on it."""
 
 
 class Status(StrEnum):
@@ -42,7 +43,7 @@ class Contact:
     history: tuple[float, ...] = field(repr=False)
     operator_applications: int
     status: Status
-    coarse_applications: tuple[tuple[tuple[int, int], int], ...] = field(default=(), repr=False)
+    coarse_applications: tuple[Level, ...] = field(default=(), repr=False)
     frozen: FrozenContact | None = field(default=None, repr=False)
 
     @property
@@ -79,7 +80,8 @@ class Contact:
         """k = dF/dd of the discrete problem: the frozen contact pressed by a unit approach [N/m].
 
         tolerance: relative residual of the linear solve; the relative error of k is some tens of times its square, see
-        `press_frozen`. None takes what `indent` has brought along, and where it has not, solves to 1e-6. A stiffness
+        `press_frozen`. None takes what `indent` has brought along, and where it has not, solves to the tolerance that
+        `press_frozen` has of itself. A stiffness
         that was brought along with a residual below the tolerance is not solved for again, any other is, at each call.
         Zero where there is no contact; infinite for a periodic half-space in full contact.
         Raises ConvergenceError if this contact is no solution, or the linear solve fails.
@@ -88,8 +90,10 @@ class Contact:
             raise ConvergenceError(f"no stiffness of a contact that ended with: {self.status}", self.history, self)
         if self.frozen is not None and (tolerance is None or self.frozen.residual <= tolerance):
             return self.frozen.stiffness
-        wanted = STIFFNESS_TOLERANCE if tolerance is None else tolerance
-        return press_frozen(self.problem.half_space, self.pressure > 0, tolerance=wanted).stiffness
+        half_space, contact = self.problem.half_space, self.pressure > 0
+        if tolerance is None:
+            return press_frozen(half_space, contact).stiffness
+        return press_frozen(half_space, contact, tolerance=tolerance).stiffness
 
 
 def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:

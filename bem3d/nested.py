@@ -3,11 +3,10 @@
 import numpy as np
 
 from bem3d.border import FloatArray
+from bem3d.contact import Level
 from bem3d.halfspace import HalfSpace
 from bem3d.press import Start, press
 from bem3d.problem import Problem
-
-Level = tuple[tuple[int, int], int]
 
 FEWEST_CELLS = 32
 """An axis of fewer cells is not coarsened."""

@@ -15,7 +15,6 @@ REACH = 1.1
 """Under a prescribed force, a window is laid around the cells that overlap at so many times the expected overlap."""
 MARGIN = 1.0
 """Cells no further from touching than so many times the error that the contact still has are candidates for it."""
-
 PATIENCE = 100
 """Iterations in which the running residual has to halve; a fresh application then tells what is left."""
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bem3d.border import FloatArray, count, field, fraction
-from bem3d.contact import Contact, Status
+from bem3d.contact import Contact, Level, Status
 from bem3d.convergence import ConvergenceError
 from bem3d.doubts import warn
 from bem3d.halfspace import HalfSpace
@@ -93,9 +93,7 @@ def checked(contact: Contact) -> Contact:
     )
 
 
-def contact_of(
-    problem: Problem, tolerance: float, attempt: Attempt, levels: tuple[tuple[tuple[int, int], int], ...] = ()
-) -> Contact:
+def contact_of(problem: Problem, tolerance: float, attempt: Attempt, levels: tuple[Level, ...] = ()) -> Contact:
     """What an attempt has come to."""
     return Contact(
         problem=problem,

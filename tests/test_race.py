@@ -30,6 +30,16 @@ def forgets_a_factor(task, tolerance):
     return lambda: Run(1.01 * solve().pressure, 1)
 
 
+def dies_the_second_time(task, tolerance):
+    if tolerance in solved_before:
+        os._exit(1)
+    solved_before.append(tolerance)
+    return peers.bem3d_fast(task, tolerance)
+
+
+solved_before = []
+
+
 def returns_nan(task, tolerance):
     return lambda: Run(np.full(task.height.shape, np.nan), 1)
 
@@ -59,6 +69,7 @@ def test_whoever_fails_is_a_row(monkeypatch):
         other("raises", raises),
         other("wrong", forgets_a_factor),
         other("nan", returns_nan),
+        other("late", dies_the_second_time),
         other("absent", dies, package="no-such-package"),
         other("warm", warms_up),
     )
@@ -67,6 +78,7 @@ def test_whoever_fails_is_a_row(monkeypatch):
     said = dict(zip([entrant.name for entrant in entrants], outcome["status"], strict=True))
     assert said["bem3d"] == said["bem3d, textbook"] == said["warm"] == "finished"
     assert said["dies"].startswith("failed: BrokenProcessPool")
+    assert said["late"].startswith("failed: BrokenProcessPool")
     assert said["raises"].startswith("failed: ZeroDivisionError")
     assert said["wrong"].startswith("failed: residual 0.0")
     assert said["nan"] == "failed: pressure is not finite"

@@ -23,6 +23,8 @@ from validation.peers import CONTESTANTS, Contestant, Run, Solve, Task
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
 SPHERE, ROUGH = "sphere", "rough"
+SPHERE_LOAD = 4 / 3 / 4**3
+"""The force of Hertz for a = L/4 and R = L, over E* L^2."""
 FINISHED = "finished"
 FEWEST_RUNS, MOST_RUNS = 5, 15
 T = TypeVar("T")
@@ -80,8 +82,8 @@ class Race:
     seed: int = 20261121
 
     def courses(self) -> list[Course]:
-        """The sphere presses with the force of Hertz for a = L/4 and R = L."""
-        surfaces = [(SPHERE, 4 / 3 / 4**3), *((ROUGH, load) for load in self.loads)]
+        """Every surface in both half-spaces on every grid."""
+        surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
         return [
             Course(surface, load, n, periodic, self.seed)
             for periodic, (surface, load), n in itertools.product((True, False), surfaces, self.cells)
@@ -130,7 +132,7 @@ def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
     measured = [
         Measured(Course(surface, load, n, periodic, race.seed), race.residual)
         for surface, load, periodic in (
-            (SPHERE, 4 / 3 / 4**3, False),
+            (SPHERE, SPHERE_LOAD, False),
             (ROUGH, race.loads[-1], False),
             (ROUGH, race.loads[-1], True),
         )
@@ -162,7 +164,7 @@ def run_heat(heat: Heat) -> Outcome:
         for _ in range(MOST_RUNS - 1):
             for row, lane in zip(rows, lanes, strict=True):
                 if row.wanting(heat.slow):
-                    row.seconds.append(lane.submit(_again).result())
+                    _repeat(row, lane)
     return _outcome(task, rows)
 
 
@@ -199,13 +201,25 @@ def _qualify(lane: ProcessPoolExecutor, contestant: Contestant, task: Task, resi
             setup = lane.submit(_prepare, contestant, task, part * residual).result()
             seconds, run = lane.submit(_run).result()
         except Exception as error:  # whatever a contestant dies of, the race goes on
-            return Row(f"failed: {type(error).__name__}: {error}"[:200])
+            return Row(_failure(error))
         if not np.isfinite(run.pressure).all():
             return Row("failed: pressure is not finite")
         reached = task.residual(run.pressure)
         if reached <= residual:
             return Row(FINISHED, setup, reached, run.applications, [seconds], run.pressure)
     return Row(f"failed: residual {reached:.2g} at its tightest tolerance")
+
+
+def _repeat(row: Row, lane: ProcessPoolExecutor) -> None:
+    """One more run. Who fails in it has not finished."""
+    try:
+        row.seconds.append(lane.submit(_again).result())
+    except Exception as error:  # as above
+        row.status, row.seconds, row.pressure = _failure(error), [], None
+
+
+def _failure(error: Exception) -> str:
+    return f"failed: {type(error).__name__}: {error}"[:200]
 
 
 _asked: list[Any] = []
