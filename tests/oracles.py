@@ -138,3 +138,18 @@ def flat_square_by_graded_cells(cells):
         ]
     )
     return float(np.sum(linalg.solve(matrix, np.ones(x.size)) * dx * dy))
+
+
+def rms_scatter_of_gaussian_draws(hurst, *, last, dimensions):
+    """Relative standard deviation of the mean square of a Gaussian draw with waves 1 to last on a side.
+
+    The mean square is a sum of v_q |z_q|^2 over all waves of both signs, z_-q the conjugate of z_q, |z_q|^2
+    exponential with mean one: its variance is sum_q 2 v_q^2 over all of them.
+    """
+    modes = range(-last, last + 1)
+    if dimensions == 1:
+        power = [abs(i) ** (-2 * hurst - 1) for i in modes if i]
+    else:
+        lengths = [math.hypot(i, j) for i in modes for j in modes if 0 < math.hypot(i, j) <= last]
+        power = [q ** (-2 * hurst - 2) for q in lengths]
+    return math.sqrt(2 * sum(v**2 for v in power)) / sum(power)

@@ -15,15 +15,16 @@ import pytest
 
 import bem3d
 from validation import __main__ as command
-from validation.cases import CASES, fractal_punch, geike, hertz
-from validation.ensemble import SERIAL
-from validation.report import build
+from validation.cases import CASES, geike, hertz, mdr_limits, normalisation
+from validation.cases.fractal_punch import FractalPunch
+from validation.ensemble import SERIAL, Engine
+from validation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[1]
 SMALL = {
     "hertz": hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2),
     "geike": geike.Geike(cells=128, surfaces=2, longest=4),
-    "fractal_punch": fractal_punch.FractalPunch(
+    "fractal_punch": FractalPunch(
         hursts=(0.4, 1.0),
         cells=16,
         surfaces=20,
@@ -31,7 +32,12 @@ SMALL = {
         points=64,
         refined=8,
         decades=(-1, 1),
-        reported=(0.1, 1.0),
+    ),
+    "normalisation": normalisation.Normalisation(
+        hursts=(0.7,), cells=16, surfaces=8, profiles=40, points=64, decades=(-1, 0)
+    ),
+    "mdr_limits": mdr_limits.MdrLimits(
+        roll_offs=(1, 2), cells=16, surfaces=6, refined=3, profiles=40, points=64, decades=(-1, 0)
     ),
 }
 
@@ -66,8 +72,10 @@ def test_two_runs_give_equal_bytes(small, tmp_path):
         assert report("--only", *small, "--out", str(tmp_path / name), "--workers", workers) in (0, 1)
     one, two = (contents(tmp_path / name, *NUMBERS) for name in ("one", "two"))
     assert one.keys() == two.keys()
-    tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 1}
-    assert len(one) == 1 + sum(tables.values()) + 2 * len(tables)
+    tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 3}
+    tables |= {"normalisation": 2, "mdr_limits": 1}
+    # five figures of the fractal punch, one of each other case, twice each
+    assert len(one) == 1 + sum(tables.values()) + 2 * (4 + len(tables))
     for name in one:
         assert one[name] == two[name], name
     report("--only", *small, "--out", str(tmp_path / "one"), "--workers", "1")
@@ -97,7 +105,7 @@ def test_page_is_self_contained(small, tmp_path):
         assert external not in page
     for name in small:
         assert f'id="{name}"' in page
-    assert page.count("data:image/svg+xml;base64,") == len(CASES)
+    assert page.count("data:image/svg+xml;base64,") == len(CASES) + 4
     assert "profile: quick" in page
 
 
@@ -145,8 +153,8 @@ def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch)
     seen = []
 
     def is_lost(half_space, gap, force):
-        seen.append(force)
-        return len(seen) == len(SMALL["fractal_punch"].forces)
+        seen.append(gap.shape == (16, 16))
+        return sum(seen) == len(SMALL["fractal_punch"].forces)
 
     limited(monkeypatch, is_lost)
     assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
@@ -178,6 +186,7 @@ def test_a_lost_ensemble_has_no_result_and_is_exit_3(small, tmp_path, monkeypatc
         (["report", "--workers", "two"], "whole number"),
         (["report", "--seed", "-1"], "--seed"),
         (["report", "--seed", "nan"], "--seed"),
+        (["race", "--executor", "local"], "--executor"),
         (["dance"], "dance"),
         ([], "COMMAND"),
     ],
@@ -187,6 +196,14 @@ def test_bad_usage_is_exit_2(words, said, capsys):
         command.main(words)
     assert caught.value.code == command.Exit.BAD_INPUT
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("executor", ["dask", "dask://nowhere", "tcp://127.0.0.1:1"])
+def test_an_executor_that_is_none_is_exit_2(executor, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert report("--only", "hertz", "--executor", executor, "--out", str(out)) == command.Exit.BAD_INPUT
+    assert "executor must be" in capsys.readouterr().err
+    assert not out.exists()
 
 
 def test_a_folder_with_something_else_in_it_is_refused(tmp_path, capsys):
@@ -227,14 +244,8 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     assert len(kept) >= 3
     assert not list(tmp_path.glob("*.json"))
     assert not list(store.glob("*.part"))
-    again = fractal_punch.Surface(
-        case=CASES["fractal_punch"].quick,
-        hurst=0.4,
-        realisation=0,
-        cells=128,
-        forces=CASES["fractal_punch"].quick.forces,
-    )
-    build.Engine(store=store).map(fractal_punch.press_surface, [again])
+    case = CASES["fractal_punch"].quick
+    Engine(store=store).map(press_surface, [case.surface(case.hursts[0], 0, case.cells // 2)])
     assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept
 
 
@@ -242,7 +253,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
 def test_cases_deal_with_every_warning(name):
     """What a contact warns of is either avoided by the case or what the case is about."""
     entry = CASES[name]
-    case = SMALL[name] if name == "fractal_punch" else entry.quick
+    case = SMALL[name] if name in ("fractal_punch", "normalisation", "mdr_limits") else entry.quick
     with warnings.catch_warnings():
         warnings.simplefilter("error", bem3d.ContactWarning)
         entry.run(case, SERIAL)

@@ -1,15 +1,27 @@
 """Independent solves: equal bits for any number of workers, and stored results that can be trusted."""
 
+import io
 import os
+import re
+import socket
+import subprocess
+import sys
+import threading
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from validation import ensemble
+from validation import ensemble, progress
 from validation.cases import fractal_punch
 from validation.ensemble import Engine, generator
+from validation.rough_punch import press_surface
+
+ROOT = Path(__file__).parents[1]
+# workers of their own find this file as the tests do
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
 
 
 @dataclass(frozen=True)
@@ -81,17 +93,175 @@ def test_a_failed_write_leaves_nothing_behind(problems, tmp_path, monkeypatch):
 
 
 SMALL = fractal_punch.FractalPunch(
-    hursts=(0.7,), cells=16, surfaces=4, profiles=6, points=64, refined=3, decades=(-1, 0), reported=(0.1, 1.0)
+    hursts=(0.7,), cells=16, surfaces=4, profiles=6, points=64, refined=3, decades=(-1, 0), per_decade=1
 )
+SURFACES = [SMALL.surface(0.7, i, 32) for i in range(4)] + [SMALL.surface(0.7, i, 16) for i in range(4)]
 
 
-def test_any_number_of_workers_gives_the_same_bits():
-    surfaces = [
-        fractal_punch.Surface(case=SMALL, hurst=0.7, realisation=i, cells=32, forces=(0.1, 1.0)) for i in range(6)
-    ]
-    alone = Engine().map(fractal_punch.press_surface, surfaces)
+def test_any_number_of_workers_and_any_order_give_the_same_bits(tmp_path):
+    alone = Engine().map(press_surface, SURFACES)
     for workers in (2, 3):
-        assert same(alone, Engine(workers=workers).map(fractal_punch.press_surface, surfaces))
+        store = tmp_path / str(workers)
+        assert same(alone, Engine(workers=workers, store=store).map(press_surface, SURFACES))
+    shuffled = np.random.default_rng(0).permutation(len(SURFACES))
+    store = tmp_path / "shuffled"
+    mixed = Engine(workers=2, store=store).map(press_surface, [SURFACES[i] for i in shuffled])
+    assert same([alone[i] for i in shuffled], mixed)
+    for folder in ("3", "shuffled"):
+        assert contents(tmp_path / folder) == contents(tmp_path / "2")
+
+
+def contents(folder):
+    return {file.name: file.read_bytes() for file in folder.iterdir()}
+
+
+RUN = """
+import sys
+from pathlib import Path
+from tests.test_ensemble import Slow, slow
+from validation.ensemble import Engine
+problems = [Slow(i, sys.argv[2]) for i in range(12)]
+Engine(workers=2, store=Path(sys.argv[1])).map(slow, problems)
+"""
+
+
+@dataclass(frozen=True)
+class Slow:
+    number: int
+    log: str
+
+
+def slow(problem):
+    """Leaves a trace when it is finished."""
+    time.sleep(0.2)
+    found = toy(Toy(problem.number, problem.log))
+    return {"value": found["value"], "failed": np.array(float(problem.number == 3))}
+
+
+def wait_until(condition, seconds=60.0):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, "nothing happened"
+        time.sleep(0.02)
+
+
+def test_a_killed_run_goes_on_where_it_stopped(tmp_path):
+    """SIGKILL in the middle, no time for any farewell: a rerun ends with the bytes of a run that was left alone, and
+    computes nothing again that had been stored, and at most what the two workers were at or had before them."""
+    store, log = tmp_path / "store", tmp_path / "log"
+    words = [sys.executable, "-c", RUN, str(store), str(log)]
+    run = subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, stderr=subprocess.DEVNULL)
+    wait_until(lambda: len(list(store.glob("*.npz"))) >= 4)
+    run.kill()
+    run.wait()
+    kept = {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")}
+    assert 4 <= len(kept) < 12
+    subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, check=True)
+    assert {name: (store / name).stat().st_mtime_ns for name in kept} == kept
+    assert 12 <= len(computed(log)) <= 12 + 4
+    alone = Engine(store=tmp_path / "alone").map(slow, [Slow(i, str(log)) for i in range(12)])
+    assert len(alone) == 12
+    assert contents(tmp_path / "alone") == {f.name: f.read_bytes() for f in store.glob("*.npz")}
+
+
+@pytest.fixture
+def cluster():
+    """A real scheduler on loopback and worker processes of their own; yields its address and how to start workers."""
+    started = []
+
+    def start(module, *words):
+        words = [sys.executable, "-m", f"distributed.cli.{module}", *words, "--no-dashboard"]
+        started.append(subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, stderr=subprocess.DEVNULL))
+        return started[-1]
+
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
+
+    def worker(threads=1):
+        return start("dask_worker", f"tcp://127.0.0.1:{port}", "--nthreads", str(threads), "--no-nanny")
+
+    yield f"dask://127.0.0.1:{port}", worker
+    for process in reversed(started):
+        process.kill()
+        process.wait()
+
+
+def test_workers_of_a_scheduler_give_the_same_bits_and_one_may_die(cluster, tmp_path):
+    """One of three workers is killed in the middle: all results come, each as a single process would have it."""
+    address, worker = cluster
+    workers = [worker(), worker(), worker(threads=2)]
+    log = str(tmp_path / "log")
+    problems = [Slow(i, log) for i in range(24)]
+
+    def kill_one():
+        wait_until(lambda: len(computed(log)) >= 6)
+        workers[0].kill()
+
+    killer = threading.Thread(target=kill_one)
+    killer.start()
+    remote = Engine(store=tmp_path / "remote", executor=address).map(slow, problems)
+    killer.join()
+    assert workers[0].wait() != 0
+    assert all(other.poll() is None for other in workers[1:])
+    assert set(computed(log)) == set(range(24))
+    assert same(Engine().map(slow, problems), remote)
+    assert len(list((tmp_path / "remote").glob("*.npz"))) == 24
+    # the survivors still compute: surfaces this time, two at once on one of them
+    here, there = tmp_path / "here", tmp_path / "there"
+    assert same(
+        Engine(store=here).map(press_surface, SURFACES),
+        Engine(store=there, executor=address).map(press_surface, SURFACES),
+    )
+    assert contents(here) == contents(there)
+
+
+@pytest.mark.parametrize("executor", ["dask", "dask://", "dask://host", "tcp://host:1", "dask://host:port", "", "loky"])
+def test_an_executor_is_local_or_an_address(executor):
+    with pytest.raises(ValueError, match="executor must be"):
+        Engine(executor=executor)
+
+
+def test_an_address_where_nobody_answers(problems, monkeypatch):
+    monkeypatch.setattr(ensemble, "PATIENCE", 1)
+    with pytest.raises(ValueError, match="executor must be a running scheduler"):
+        Engine(executor="dask://127.0.0.1:9").map(toy, problems)
+
+
+def test_a_scheduler_without_workers(problems, cluster, monkeypatch):
+    monkeypatch.setattr(ensemble, "PATIENCE", 5)
+    with pytest.raises(ValueError, match="executor must have workers"):
+        Engine(executor=cluster[0]).map(toy, problems)
+
+
+def test_workers_with_other_numerics_are_refused(problems):
+    with pytest.raises(ValueError, match="another version of the numerics"):
+        ensemble._solve(toy, problems[0], 0, "another digest")
+
+
+def test_progress_in_a_log(problems, tmp_path, capsys, monkeypatch):
+    """Plain lines with done, stored, failed, rate and time left; none where nobody asks."""
+    monkeypatch.setattr(progress, "EVERY", 0.0)
+    Engine(store=tmp_path / "store").map(slow, [Slow(i, problems[0].log) for i in range(2)])
+    assert capsys.readouterr().err == ""
+    Engine(store=tmp_path / "store", progress=True).map(slow, [Slow(i, problems[0].log) for i in range(5)])
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 4
+    assert re.fullmatch(r"slow: 3 of 5 done, 2 were stored, 0 failed; [\d.]+ a second, \d+ s left", lines[0])
+    assert re.fullmatch(r"slow: 5 of 5 done, 2 were stored, 1 failed; [\d.]+ a second, 0 s left", lines[-1])
+
+
+def test_progress_on_a_terminal(monkeypatch):
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True
+    monkeypatch.setattr(sys, "stderr", terminal)
+    with progress.Progress("press surface", total=10, stored=4, failed=1, shown=True) as bar:
+        for failed in (False, True, False):
+            time.sleep(0.15)
+            bar.step(failed)
+    last = terminal.getvalue().split("\r")[-1]
+    assert re.search(r"press surface: 7 of 10 done, 4 were stored, 2 failed; +[\d.]+ solves/s, 00:00 left \|", last)
 
 
 def test_realisations_have_addresses():
@@ -110,7 +280,7 @@ def test_fewer_surfaces_are_the_first_of_more():
 
 def test_a_solve_that_fails_is_counted_and_shown():
     impossible = fractal_punch.FractalPunch(**{**vars(SMALL), "tolerance": 1e-30})
-    surface = fractal_punch.Surface(case=impossible, hurst=0.7, realisation=0, cells=16, forces=(10.0,))
-    outcome = fractal_punch.press_surface(surface)
+    outcome = press_surface(impossible.surface(0.7, 0, 16))
     assert np.isnan(outcome["stiffness"]).all()
-    assert outcome["residual"][0] > 1e-30
+    assert outcome["failed"] == len(SMALL.forces)
+    assert (outcome["residual"] > 1e-30).all()

@@ -6,7 +6,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from validation.evidence import Number, Role, Table, Verdict
-from validation.statistics import Estimate, estimate, log_mean, log_relative_deviation
+from validation.statistics import (
+    Estimate,
+    at,
+    change,
+    combined,
+    decade_slope,
+    decade_weights,
+    local_slope,
+    log_deviation_over,
+    log_mean,
+    log_relative_deviation,
+    sample,
+)
 
 reals = st.floats(-1e3, 1e3)
 sizes = st.floats(0, 1e3)
@@ -49,17 +61,114 @@ def test_tables_have_columns_of_one_length():
     assert Table("t", {"a": [1, 2, 1], "b": [4, 5, 6]}).where(a=1)["b"].tolist() == [4, 6]
 
 
+@given(value=reals, tolerance=sizes, grid=sizes, sample=st.floats(1e-3, 1e3))
+def test_so_much_more_of_a_sample_would_decide(value, tolerance, grid, sample):
+    """A little more than the factor named, and the interval of the sample that belongs to it decides; a little less
+    does not; where no sample would, the factor is infinite."""
+    n = number(value=value, reference=0.0, tolerance=tolerance, grid=grid, sample=sample)
+    for more in (1.001, 0.999):
+        factor = n.sample_needed * more
+        if np.isfinite(factor) and factor > 0:
+            other = number(value=value, reference=0.0, tolerance=tolerance, grid=grid, sample=sample / factor**0.5)
+            assert (other.verdict is Verdict.UNDECIDED) == (more < 1)
+    if np.isinf(n.sample_needed):
+        other = number(value=value, reference=0.0, tolerance=tolerance, grid=grid, sample=1e-9 * sample)
+        assert other.verdict is Verdict.UNDECIDED
+
+
+def one_level(statistic):
+    return at(0, statistic)
+
+
+def two_levels(statistic):
+    """The mean over two equal levels."""
+    return combined(np.array([0.5, 0.5]), statistic)
+
+
+POPULATIONS = {"normal": lambda rng, size: rng.standard_normal(size), "uniform": lambda rng, size: rng.random(size)}
+DEVIATIONS = {"normal": 1.0, "uniform": 12**-0.5}
+MEANS = {"normal": 0.0, "uniform": 0.5}
+
+
+@pytest.mark.parametrize("population", list(POPULATIONS))
 @pytest.mark.parametrize("size", [12, 60])
 @pytest.mark.parametrize("statistic", [log_mean, log_relative_deviation])
-def test_intervals_cover_the_truth(size, statistic):
-    """95 % nominal, 300 samples of a normal population: binomial error 1.3 %; small samples lack a few."""
+@pytest.mark.parametrize("of", [one_level, two_levels])
+def test_intervals_cover_the_truth(size, statistic, of, population):
+    """95 % nominal, 300 samples of a known population: binomial error 1.3 %; small samples lack a few."""
     rng = np.random.default_rng(1)
-    truth = {log_mean: 0.0, log_relative_deviation: np.log(0.2)}[statistic]
+    mean = 1 + 0.2 * MEANS[population]
+    truth = {log_mean: np.log(mean), log_relative_deviation: np.log(0.2 * DEVIATIONS[population] / mean)}[statistic]
+    levels = 2 if of is two_levels else 1
     hits = 0
     for _ in range(300):
-        found = estimate(1 + 0.2 * rng.standard_normal(size), statistic, rng)
+        # the levels of a realisation are correlated, as forces are
+        common, own = (POPULATIONS[population](rng, (size, n)) for n in (1, levels))
+        draws = 1 + 0.2 * np.where(np.arange(levels) == 0, common, own)
+        found = sample(draws, rng).estimate(of(statistic))
         hits += abs(found.value - truth) <= found.half_width
     assert 0.95 - 4 * 0.013 - 0.5 / size <= hits / 300 <= 0.95 + 4 * 0.013
+
+
+def test_levels_of_a_realisation_are_resampled_together():
+    """What has the same scatter at two levels has none in their ratio."""
+    rng = np.random.default_rng(0)
+    draws = 1 + 0.2 * rng.standard_normal((50, 1))
+    both = sample(np.concatenate([draws, 1.5 * draws], axis=1), rng)
+    ratio = both.estimate(change(at(0, log_mean)))
+    assert ratio.value == pytest.approx(np.log(1.5))
+    assert ratio.error == pytest.approx(0, abs=1e-12)
+    alone = both.estimate(at(0, log_mean)).error
+    assert both.estimate(combined(np.array([0.5, 0.5]), log_mean)).error == pytest.approx(alone, rel=1e-6)
+
+
+def test_error_of_a_paired_change():
+    """The bootstrap of pairs against the spread of what many samples of pairs measure."""
+    rng = np.random.default_rng(0)
+    for statistic in (log_mean, log_relative_deviation):
+        changes, errors = [], []
+        for _ in range(300):
+            coarse = 1 + 0.2 * rng.standard_normal(40)
+            fine = coarse * np.exp(0.02 * rng.standard_normal(40))
+            found = sample(np.stack([coarse, fine], axis=1), rng).estimate(change(at(0, statistic)))
+            changes.append(found.value)
+            errors.append(found.error)
+        # the standard deviation of 300 values is known to 4 %, each error to some 10 %, and small samples lack a few
+        assert np.mean(errors) == pytest.approx(np.std(changes), rel=0.15)
+
+
+def test_lost_realisations_are_left_out():
+    rng = np.random.default_rng(0)
+    draws = 1 + 0.2 * rng.random((20, 2))
+    draws[3:, 1] = np.nan
+    found = sample(draws, rng)
+    assert found.size == 3
+    assert found.estimate(at(1, log_mean)).value == pytest.approx(np.log(draws[:3, 1].mean()))
+    assert found.estimate(at(0, log_relative_deviation)).value == pytest.approx(
+        np.log(draws[:, 0].std(ddof=1) / draws[:, 0].mean())
+    )
+
+
+def test_weights_of_a_decade():
+    """Trapezoidal: exact for what is linear in ln F, a decade at a time, on any number of levels in it."""
+    for per_decade in (1, 2, 3, 6):
+        forces = tuple(10.0 ** (-3 + i / per_decade) for i in range(4 * per_decade + 1))
+        line = 2 + 3 * np.log10(forces)
+        for power in (-3, -2, -1, 0):
+            assert decade_weights(forces, 10.0**power) @ line == pytest.approx(2 + 3 * (power + 0.5))
+            assert decade_slope(forces, 10.0**power) @ line == pytest.approx(3 / np.log(10))
+        for level in range(len(forces)):
+            assert local_slope(forces, level) @ line == pytest.approx(3 / np.log(10))
+
+
+def test_deviation_over_levels_where_some_have_none():
+    """Root mean square: a level without deviation counts as zero, none at all is minus infinity."""
+    weights = np.array([0.25, 0.5, 0.25])
+    mean, deviation = np.ones(3), np.array([0.2, 0.1, 0.0])
+    expected = np.log(np.sqrt(0.25 * 0.04 + 0.5 * 0.01))
+    assert log_deviation_over(weights)(mean, deviation) == pytest.approx(expected)
+    with np.errstate(divide="ignore"):
+        assert log_deviation_over(weights)(mean, np.full(3, 1e-14)) == -np.inf
 
 
 @given(a=st.floats(0.01, 10), b=st.floats(0.01, 10), n=st.integers(3, 100), m=st.integers(3, 100))
@@ -70,7 +179,10 @@ def test_difference_of_estimates(a, b, n, m):
     assert min(n, m) - 1 <= apart.samples <= n + m
 
 
-@pytest.mark.parametrize("bad", [np.ones(2), np.ones((3, 3)), np.array([1.0, np.nan, 1.0]), np.array([1.0, -1.0, 2.0])])
-def test_samples_are_positive_and_enough(bad):
-    with pytest.raises(ValueError, match="samples"):
-        estimate(bad, log_mean, np.random.default_rng(0))
+@pytest.mark.parametrize(
+    "bad",
+    [np.ones(5), np.ones((2, 3)), np.full((4, 1), np.inf), np.array([[1.0], [-1.0], [2.0], [1.0]]), np.zeros((5, 1))],
+)
+def test_realisations_are_positive_and_enough(bad):
+    with pytest.raises(ValueError, match="realisations"):
+        sample(bad, np.random.default_rng(0))

@@ -16,15 +16,19 @@ from tests import (
     test_contact_properties,
     test_convergence_rates,
     test_drawn_roughness,
+    test_evidence,
     test_fractal_punch,
     test_geike_mapping,
     test_load_paths,
     test_operator_against_dense_twin,
+    test_rough_punches,
     test_springs_against_brute_force,
     test_windows_and_starts,
 )
-from validation import ensemble
-from validation.cases import fractal_punch, fractal_punch_evidence
+from validation import ensemble, rough_punch, statistics
+from validation.cases import fractal_punch_decades, mdr_limits
+from validation.evidence import Verdict
+from validation.rough_punch import Roughness
 
 POISSON = 1 / 3
 
@@ -114,11 +118,30 @@ def printed_formula(c1d, q, nyquist):
 
 load_curve, resolved = foundation.load_curve, profile_module._resolved
 E_FOR_E_STAR = 1 - POISSON**2
-spectrum = fractal_punch.FractalPunch.spectrum
 
 
 class LineForGeike(mdr.SelfAffine):
     c1d = mdr.SelfAffine.line
+
+
+def line_for_geike(roughness):
+    first, last = roughness.waves
+    return LineForGeike(hurst=roughness.hurst, q_min=2 * np.pi * first, q_max=2 * np.pi * last, rms=roughness.height)
+
+
+def each_level_for_itself(realisations, rng):
+    """Resamples drawn anew at every level."""
+    alone = [statistics.sample(realisations[:, [level]], rng) for level in range(realisations.shape[1])]
+    return statistics.Sample(
+        *(np.concatenate([getattr(one, name) for one in alone], axis=1) for name in ("moments", "resampled")),
+        size=len(realisations),
+    )
+
+
+def gap_of_the_rigid_surface(surface):
+    """The mean gap as if the half-space did not yield."""
+    outcome = rough_punch.press_surface(surface)
+    return {**outcome, "gap": -outcome["approach"]}
 
 
 FAULTS = {
@@ -202,20 +225,58 @@ FAULTS = {
         test_contact_properties.test_stiffness_is_that_of_the_dense_contact,
     ),
     "line trace for Geike in Fig. 14.1": (
-        (fractal_punch.FractalPunch, "spectrum", lambda case, hurst: LineForGeike(**vars(spectrum(case, hurst)))),
+        (Roughness, "spectrum", property(line_for_geike)),
         functools.partial(test_fractal_punch.test_profiles_are_those_of_geikes_spectrum, 1.0),
     ),
     "surfaces pressed upside down": (
-        (fractal_punch, "bem3d", in_the_case(bem3d, {"indent": upside_down})),
+        (rough_punch, "bem3d", in_the_case(bem3d, {"indent": upside_down})),
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
     "every profile drawn twice": (
-        (fractal_punch, "generator", twice_the_same),
+        (rough_punch, "generator", twice_the_same),
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
-        (fractal_punch_evidence, "paired_change", lambda *pairs: (0.0, 0.0)),
-        test_fractal_punch.test_a_change_of_the_grid_reaches_its_error_bar,
+        (fractal_punch_decades.Comparison, "left", 0.0),
+        test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
+    ),
+    "no extrapolation": (
+        (fractal_punch_decades.Comparison, "correction", 0.0),
+        test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
+    ),
+    "a third of the interval": (
+        (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
+        functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.15, 60, Verdict.UNDECIDED),
+    ),
+    "a third of the interval, seen by its coverage": (
+        (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
+        functools.partial(
+            test_evidence.test_intervals_cover_the_truth,
+            60,
+            statistics.log_relative_deviation,
+            test_evidence.one_level,
+            "normal",
+        ),
+    ),
+    "every level resampled for itself": (
+        (test_evidence, "sample", each_level_for_itself),
+        test_evidence.test_levels_of_a_realisation_are_resampled_together,
+    ),
+    "rms of the ensemble for that of each": (
+        (Roughness, "_normalised", lambda roughness, height: height),
+        functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
+    ),
+    "rms of each for that of the ensemble": (
+        (Roughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()),
+        functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
+    ),
+    "mean gap of a half-space that does not yield": (
+        (test_fractal_punch, "press_surface", gap_of_the_rigid_surface),
+        test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
+    ),
+    "the punch taken for its interface": (
+        (mdr_limits, "_flat", lambda method: np.inf),
+        functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
     ),
     "phases on half of the circle": (
         (profile_module, "_random_waves", half_a_circle),

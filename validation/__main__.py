@@ -10,6 +10,7 @@ from enum import IntEnum
 from pathlib import Path
 
 from validation.cases import CASES
+from validation.ensemble import LOCAL
 from validation.evidence import Evidence, Verdict
 from validation.peers import peers_installed
 from validation.report.build import Section, build
@@ -73,6 +74,7 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
         out=out,
         workers=arguments.workers,
         seed=arguments.seed,
+        executor=arguments.executor,
         tell=_tell,
     )
     print(f"report: {out / 'index.html'}")
@@ -140,12 +142,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     making.add_argument("--workers", type=_at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
     making.add_argument("--seed", type=_at_least(0), metavar="S", help="for every case that draws at random")
+    making.add_argument(
+        "--executor",
+        default=LOCAL,
+        metavar="WHERE",
+        help='"local", or dask://HOST:PORT, a scheduler whose workers compute in place of those here (default: local)',
+    )
     making.set_defaults(command=report)
     racing = commands.add_parser("race", help="our solver beside the peers that are installed; full takes half an hour")
     racing.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
     racing.add_argument("--out", type=Path, metavar="DIR", help="folder (default: reports/race-quick or reports/race)")
     racing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
-    racing.set_defaults(command=race, workers=1)
+    racing.set_defaults(command=race, workers=1, executor=LOCAL)
     listing = commands.add_parser("cases", help="what there is, and which figure or claim each one answers")
     listing.set_defaults(command=cases)
     return parser

@@ -4,20 +4,22 @@ import hashlib
 import importlib.metadata
 import io
 import json
+import re
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, Generic, TypeVar
 from zipfile import BadZipFile
 
 import joblib
 import numpy as np
 from numpy.typing import NDArray
-from tqdm import tqdm
 
 from validation.files import write_whole
+from validation.progress import Progress
 
 Outcome = dict[str, NDArray[np.float64]]
 P = TypeVar("P")
@@ -26,6 +28,9 @@ ROOT = Path(__file__).parents[1]
 NUMERICS = ("mdr", "bem3d", "validation")
 ON_PAPER = ROOT / "validation" / "report"
 LIBRARIES = ("numpy", "scipy", "pyfftw")
+LOCAL = "local"
+PATIENCE = 10
+"""Seconds in which a scheduler and its first worker must answer."""
 
 
 def generator(entropy: int, *key: int) -> np.random.Generator:
@@ -40,45 +45,125 @@ def generator(entropy: int, *key: int) -> np.random.Generator:
 class Engine:
     """Runs independent solves on worker processes and keeps what they found.
 
-    workers: processes; store: folder for finished results, None keeps nothing; progress: a bar, on a terminal only.
+    workers: processes on this machine; store: folder for finished results, None keeps nothing; progress: on stderr;
+    executor: "local", or "dask://HOST:PORT", a running scheduler whose workers take the place of those here.
     A stored result is used again only if the solve, its problem, the source of the numerics and their libraries are
-    the same; damaged or foreign files are computed anew.
+    the same; damaged or foreign files are computed anew. A result is stored as soon as it is there, by the worker that
+    found it, or, where that may be on another machine without a disk in common, as it comes in here: who is
+    interrupted, or killed, loses no finished one.
+    Raises ValueError for any other executor, and where the scheduler or its workers do not answer.
     """
 
     workers: int = 1
     store: Path | None = None
     progress: bool = False
+    executor: str = LOCAL
+
+    def __post_init__(self) -> None:
+        if self.executor != LOCAL and not re.fullmatch(r"dask://[^/\s]+:\d+", self.executor):
+            raise ValueError(f'executor must be "local" or dask://HOST:PORT, got {self.executor!r}')
 
     def map(self, solve: Callable[[P], Outcome], problems: Sequence[P]) -> list[Outcome]:
         """solve(problem) for each problem, in their order, whatever the number of workers.
 
-        solve: a module's own function; problems: frozen dataclasses of plain values, which their repr identifies.
+        solve: a module's own function; where part of it has not converged, its outcome says so by a number "failed";
+        problems: frozen dataclasses of plain values, which their repr identifies.
         """
-        tasks = [joblib.delayed(_solve_or_load)(solve, problem, self.store) for problem in problems]
-        outcomes = joblib.Parallel(n_jobs=min(self.workers, len(tasks)) or 1, return_as="generator")(tasks)
-        bar = tqdm(outcomes, total=len(tasks), desc=solve.__name__, disable=None if self.progress else True)
-        return list(bar)
+        keys = [f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_numerics()}" for problem in problems]
+        places = [self._place(solve, key) for key in keys]
+        known = {i: outcome for i, outcome in enumerate(map(_load, places, keys)) if outcome is not None}
+        missing = [i for i in range(len(problems)) if i not in known]
+        failed = sum(map(_failed, known.values()))
+        name = solve.__name__.replace("_", " ")
+        with Progress(name, total=len(problems), stored=len(known), failed=failed, shown=self.progress) as progress:
+            tasks = [_Task(solve, problems[i], i, places[i], keys[i]) for i in missing]
+            for i, outcome in self._solved(tasks):
+                known[i] = outcome
+                progress.step(_failed(outcome))
+        return [known[i] for i in range(len(problems))]
+
+    def _solved(self, tasks: Sequence["_Task[P]"]) -> Iterator[tuple[int, Outcome]]:
+        """Each as soon as it is finished."""
+        if not tasks:
+            return
+        if self.executor == LOCAL:
+            calls = [joblib.delayed(_solve_and_save)(task) for task in tasks]
+            with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
+                yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
+            return
+        by_index = {task.index: task for task in tasks}
+        # whoever joins later finds work waiting
+        everything = {"return_as": "generator_unordered", "batch_size": 1, "pre_dispatch": "all"}
+        calls = [joblib.delayed(_solve)(task.solve, task.problem, task.index, _numerics()) for task in tasks]
+        with _client(self.executor) as client, joblib.parallel_config(backend="dask", client=client, n_jobs=-1):
+            for i, outcome in joblib.Parallel(**everything)(calls):
+                _save(by_index[i].place, by_index[i].key, outcome)
+                yield i, outcome
+
+    def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
+        if self.store is None:
+            return None
+        case, digest = solve.__module__.rpartition(".")[2], hashlib.sha256(key.encode()).hexdigest()
+        return self.store / f"{case}-{solve.__name__}-{digest[:24]}.npz"
 
 
 SERIAL = Engine()
 
 
-def _solve_or_load(solve: Callable[[P], Outcome], problem: P, store: Path | None) -> Outcome:
-    if store is None:
-        return solve(problem)
-    key = f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_numerics()}"
-    case, digest = solve.__module__.rpartition(".")[2], hashlib.sha256(key.encode()).hexdigest()
-    path = store / f"{case}-{solve.__name__}-{digest[:24]}.npz"
-    stored = _load(path, key)
-    if stored is not None:
-        return stored
-    outcome = solve(problem)
-    _save(path, key, outcome)
-    return outcome
+@dataclass(frozen=True)
+class _Task(Generic[P]):
+    """A problem, which of all it is, and where its result belongs."""
+
+    solve: Callable[[P], Outcome]
+    problem: P
+    index: int
+    place: Path | None
+    key: str
 
 
-def _load(path: Path, key: str) -> Outcome | None:
+def _solve_and_save(task: _Task[P]) -> tuple[int, Outcome]:
+    outcome = task.solve(task.problem)
+    _save(task.place, task.key, outcome)
+    return task.index, outcome
+
+
+def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome]:
+    """On a worker, perhaps on another machine: only if its numerics are those of who asks."""
+    if _numerics() != numerics:
+        raise ValueError("a worker has another version of the numerics or of their libraries: install the same there")
+    return i, solve(problem)
+
+
+def _failed(outcome: Outcome) -> bool:
+    return bool(outcome.get("failed", np.zeros(1)).any())
+
+
+@contextmanager
+def _client(executor: str) -> Iterator[Any]:
+    """A connection to a scheduler that has a worker."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ValueError(f"executor {executor} needs the extra dask: pip install 'mdr-validation[dask]'") from None
+    address = executor.replace("dask://", "tcp://")
+    try:
+        client = Client(  # type: ignore[no-untyped-call]
+            address, timeout=PATIENCE, set_as_default=False
+        )
+    except (OSError, ValueError) as error:
+        raise ValueError(f"executor must be a running scheduler, got {executor}: {error}") from None
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            raise ValueError(f"executor must have workers, got {executor} without any") from None
+        yield client
+
+
+def _load(path: Path | None, key: str) -> Outcome | None:
     """A stored result, or None if there is none that can be trusted."""
+    if path is None:
+        return None
     try:
         with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as archive:
             contents = {name: archive[name] for name in archive.files}
@@ -89,7 +174,9 @@ def _load(path: Path, key: str) -> Outcome | None:
     return contents
 
 
-def _save(path: Path, key: str, outcome: Outcome) -> None:
+def _save(path: Path | None, key: str, outcome: Outcome) -> None:
+    if path is None:
+        return
     archive = io.BytesIO()
     np.savez(archive, **{"key": np.array(key), **outcome})  # type: ignore[arg-type]  # stubs take a name for a flag
     write_whole(path, archive.getvalue())

@@ -78,6 +78,13 @@ class Number:
         return Verdict.UNDECIDED
 
     @property
+    def sample_needed(self) -> float:
+        """How many times the sample would decide if value and grid stayed; infinite where the grid leaves too much."""
+        room = abs(abs(self.difference) - self.tolerance) - self.grid
+        ratio = self.sample / room if room > 0 else np.inf
+        return ratio * ratio
+
+    @property
     def met(self) -> bool:
         """False for a criterion that does not agree."""
         return self.role is Role.FINDING or self.verdict is Verdict.AGREE
@@ -106,9 +113,9 @@ class Table:
 
 @dataclass(frozen=True, kw_only=True)
 class Evidence:
-    """What a case shows: how it was compared, its numbers, the tables behind its figure, what follows from them.
+    """What a case shows: how it was compared, its numbers, the tables behind its figures, what follows from them.
 
-    shown: a table to be printed on the page as it stands.
+    captions: of each figure, by its name; shown: tables to be printed on the page as they stand.
     """
 
     title: str
@@ -116,9 +123,9 @@ class Evidence:
     numbers: tuple[Number, ...]
     tables: tuple[Table, ...]
     conclusions: tuple[str, ...]
-    caption: str
+    captions: Mapping[str, str]
     unconverged: tuple[str, ...] = field(default=())
-    shown: Table | None = None
+    shown: tuple[Table, ...] = ()
 
     def table(self, name: str) -> Table:
         """The table of that name."""

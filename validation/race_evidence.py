@@ -35,14 +35,16 @@ def evidence(result: RaceResult) -> Evidence:
         ),
         numbers=tuple(_agreement(result)),
         tables=(_heats(result), _scaling(result)),
-        shown=_times(result),
+        shown=(_times(result),),
         conclusions=tuple(_conclusions(result)),
-        caption=(
-            f"On {cells} cells. (a) Median time to the residual, bars from the fastest to the slowest run. (b) Our "
-            "solver alone against the cells along a side: time of a solve, and n² log n through the largest rough one "
-            "in free space. (c) As (a), over the median of bem3d.solve. (d) Peak memory of its process, less that of "
-            "an idle one."
-        ),
+        captions={
+            "race": (
+                f"On {cells} cells. (a) Median time to the residual, bars from the fastest to the slowest run. (b) Our "
+                "solver alone against the cells along a side: time of a solve, and n² log n through the largest rough "
+                "one in free space. (c) As (a), over the median of bem3d.solve. (d) Peak memory of its process, less "
+                "that of an idle one."
+            )
+        },
         unconverged=tuple(
             f"{heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}"
             for heat, outcome in zip(result.heats, result.outcomes, strict=True)

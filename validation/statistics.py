@@ -1,7 +1,8 @@
 """Estimates from a sample of realisations, with the error that the size of the sample leaves."""
 
 import math
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,10 +10,17 @@ from numpy.typing import NDArray
 from scipy import stats
 
 FloatArray = NDArray[np.float64]
-Statistic = Callable[..., FloatArray]
+Statistic = Callable[[FloatArray, FloatArray], FloatArray]
+"""Of mean and standard deviation, both with one row a level."""
+
+DECIBEL = 20 / math.log(10)
+"""From a natural logarithm."""
+THREE_PER_CENT, FIVE_PER_CENT = DECIBEL * math.log(1.03), DECIBEL * math.log(1.05)
 
 RESAMPLES = 999
+BATCH = 100
 ROUNDING = 1e-12
+CLOSE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -38,49 +46,123 @@ class Estimate:
         return Estimate(self.value - other.value, error, samples)
 
 
-def log_mean(samples: FloatArray, axis: int = -1) -> FloatArray:
-    """ln of the mean."""
-    return np.asarray(np.log(samples.mean(axis=axis)))
+@dataclass(frozen=True)
+class Sample:
+    """Realisations, each at all levels, and as many resamples of them as an error bar takes.
 
-
-def log_relative_deviation(samples: FloatArray, axis: int = -1) -> FloatArray:
-    """ln of the standard deviation (n - 1) over the mean; minus infinity where values differ by rounding alone."""
-    relative = samples.std(axis=axis, ddof=1) / samples.mean(axis=axis)
-    return np.asarray(np.log(np.where(relative > ROUNDING, relative, 0.0)))
-
-
-def paired_change(fine: FloatArray, coarse: FloatArray, whole: FloatArray, statistic: Statistic) -> tuple[float, float]:
-    """What a finer grid changed in a statistic, seen on some realisations, and the standard error of that.
-
-    If ln(fine / coarse) scatters with standard deviation s, independent of the value, n pairs leave the change
-    uncertain by s |d statistic / d ln x| sqrt(N / n), the gradient taken on the whole coarse sample of N.
-
-    fine, coarse: positive values of the same realisations, at least 3; whole: the coarse value of every realisation.
+    moments: mean and standard deviation (n - 1) of each level, shape (2, levels); resampled: those of each resample,
+    (2, levels, resamples); size: realisations at the level that has fewest.
     """
-    if fine.shape != coarse.shape or fine.ndim != 1 or fine.size < 3:
-        raise ValueError(f"fine and coarse must be pairs of at least 3, got shapes {fine.shape} and {coarse.shape}")
-    scatter = float(np.std(np.log(fine / coarse), ddof=1))
-    step = 1e-6
-    moved = whole * np.exp(step * np.eye(whole.size))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        change = float(statistic(fine) - statistic(coarse))
-        gradient = (statistic(moved) - statistic(whole)) / step
-    return change, scatter * float(np.linalg.norm(gradient)) * math.sqrt(whole.size / fine.size)
+
+    moments: FloatArray
+    resampled: FloatArray
+    size: int
+
+    def estimate(self, statistic: Statistic) -> Estimate:
+        """One number with its bootstrap standard error, which is NaN where most resamples have no finite value.
+
+        Student's quantile makes up for most of what the percentile interval misses in samples as small as 12.
+        """
+        with np.errstate(divide="ignore", invalid="ignore"):
+            value, resampled = float(statistic(*self.moments)), statistic(*self.resampled)
+        finite = resampled[np.isfinite(resampled)]
+        error = float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
+        return Estimate(value, error, self.size)
 
 
-def estimate(samples: FloatArray, statistic: Statistic, rng: np.random.Generator) -> Estimate:
-    """A statistic with its bootstrap standard error.
+def sample(realisations: FloatArray, rng: np.random.Generator) -> Sample:
+    """Bootstrap over realisations: what is drawn again is a realisation at all of its levels.
 
-    samples: one positive value a realisation, at least 3; statistic: of the samples along an axis, see `log_mean`.
-    Where most resamples have no finite value, as in saturation, the error is NaN.
-    Student's quantile makes up for most of what the percentile interval misses in samples as small as 12.
+    realisations: positive, shape (realisations, levels), NaN for what is lost; at least 3 at every level.
     """
-    if samples.ndim != 1 or samples.size < 3 or not (np.isfinite(samples) & (samples > 0)).all():
-        raise ValueError(f"samples must be at least 3 finite positive values, got {samples}")
-    resampled = stats.bootstrap(
-        (samples,), statistic, vectorized=True, n_resamples=RESAMPLES, method="percentile", rng=rng
+    known = np.isfinite(realisations) & (realisations > 0)
+    if realisations.ndim != 2 or not (known | np.isnan(realisations)).all() or known.sum(axis=0).min() < 3:
+        raise ValueError(f"realisations must be at least 3 finite positive values a level, got {realisations}")
+    rows = realisations.T
+    with warnings.catch_warnings():
+        # where a level has few realisations, a resample may have none of them, and no moments
+        warnings.simplefilter("ignore", RuntimeWarning)
+        resampled = stats.bootstrap(
+            (rows,),
+            _moments,
+            vectorized=True,
+            n_resamples=RESAMPLES,
+            batch=BATCH,
+            method="percentile",
+            axis=-1,
+            rng=rng,
+        )
+    return Sample(_moments(rows), resampled.bootstrap_distribution, int(known.sum(axis=0).min()))
+
+
+def _moments(rows: FloatArray, axis: int = -1) -> FloatArray:
+    return np.stack([np.nanmean(rows, axis=axis), np.nanstd(rows, axis=axis, ddof=1)])
+
+
+def log_mean(mean: FloatArray, deviation: FloatArray) -> FloatArray:
+    """ln of the mean, level by level."""
+    return np.asarray(np.log(mean))
+
+
+def log_relative_deviation(mean: FloatArray, deviation: FloatArray) -> FloatArray:
+    """ln of deviation over mean, level by level; minus infinity where values differ by rounding alone."""
+    return np.asarray(np.log(_relative(mean, deviation)))
+
+
+def at(level: int, statistic: Statistic) -> Statistic:
+    """A statistic at one level."""
+    return lambda mean, deviation: statistic(mean[level], deviation[level])
+
+
+def combined(weights: FloatArray, statistic: Statistic) -> Statistic:
+    """sum_l w_l s_l of a statistic s of each level: with weights that sum to one, its mean over levels."""
+    return lambda mean, deviation: np.asarray(np.tensordot(weights, statistic(mean, deviation), (0, 0)))
+
+
+def decade_weights(forces: Sequence[float], first: float) -> FloatArray:
+    """The trapezoidal rule over ln F from F = first to 10 first: the weights of a mean over that decade of levels."""
+    levels = np.log10(np.array(forces) / first)
+    inside = (levels > -CLOSE) & (levels < 1 + CLOSE)
+    ends = (np.abs(levels) < CLOSE) | (np.abs(levels - 1) < CLOSE)
+    weights = np.where(inside, np.where(ends, 0.5, 1.0), 0.0)
+    return np.asarray(weights / weights.sum())
+
+
+def slope_weights(forces: Sequence[float], before: int, after: int) -> FloatArray:
+    """The weights of d ln k / d ln F from one level to another."""
+    weights = np.zeros(len(forces))
+    weights[after], weights[before] = 1.0, -1.0
+    return np.asarray(weights / math.log(forces[after] / forces[before]))
+
+
+def local_slope(forces: Sequence[float], level: int) -> FloatArray:
+    """Those between the neighbours of a level; at the ends, between the end and its neighbour."""
+    return slope_weights(forces, max(level - 1, 0), min(level + 1, len(forces) - 1))
+
+
+def decade_slope(forces: Sequence[float], first: float) -> FloatArray:
+    """Those from F = first to 10 first, both among the levels."""
+    levels = np.log10(np.array(forces) / first)
+    return slope_weights(forces, int(np.argmin(np.abs(levels))), int(np.argmin(np.abs(levels - 1))))
+
+
+def log_deviation_over(weights: FloatArray) -> Statistic:
+    """ln of the root mean square over levels of the relative deviation, which may vanish at some of them."""
+    return lambda mean, deviation: np.asarray(
+        np.log(np.tensordot(weights, _relative(mean, deviation) ** 2, (0, 0))) / 2
     )
-    # a resample of equal values has no deviation to take the logarithm of
-    finite = resampled.bootstrap_distribution[np.isfinite(resampled.bootstrap_distribution)]
-    error = float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
-    return Estimate(float(statistic(samples)), error, samples.size)
+
+
+def change(statistic: Statistic) -> Statistic:
+    """What a statistic is of the second half of the levels, less what it is of the first: pairs, resampled together."""
+
+    def of_halves(mean: FloatArray, deviation: FloatArray) -> FloatArray:
+        half = len(mean) // 2
+        return np.asarray(statistic(mean[half:], deviation[half:]) - statistic(mean[:half], deviation[:half]))
+
+    return of_halves
+
+
+def _relative(mean: FloatArray, deviation: FloatArray) -> FloatArray:
+    relative = deviation / mean
+    return np.asarray(np.where(relative > ROUNDING, relative, 0.0))

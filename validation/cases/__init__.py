@@ -5,7 +5,16 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from validation import race, race_evidence
-from validation.cases import fractal_punch, fractal_punch_evidence, geike, hertz, square_punch, westergaard
+from validation.cases import (
+    fractal_punch,
+    fractal_punch_evidence,
+    geike,
+    hertz,
+    mdr_limits,
+    normalisation,
+    square_punch,
+    westergaard,
+)
 from validation.ensemble import Engine
 from validation.evidence import Evidence
 
@@ -68,8 +77,26 @@ CASES = {
     "fractal_punch": Entry(
         "Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
         fractal_punch.FractalPunch(),
-        fractal_punch.FractalPunch(cells=256, surfaces=60, profiles=500, decades=(-3, 1), refined=8),
+        fractal_punch.FractalPunch(
+            cells=256, surfaces=100, profiles=500, per_decade=6, refined=12, refined_per_decade=2
+        ),
         fractal_punch.run,
         fractal_punch_evidence.evidence,
+    ),
+    "normalisation": Entry(
+        "Fixed or Gaussian amplitudes, height of each draw or of the ensemble: what the fluctuations owe to it",
+        normalisation.Normalisation(),
+        normalisation.Normalisation(cells=128, surfaces=120, profiles=1000, points=2048, per_decade=3),
+        normalisation.run,
+        normalisation.evidence,
+    ),
+    "mdr_limits": Entry(
+        "Where MDR must fail: true contact area, mean gap, stiffness with a roll-off",
+        mdr_limits.MdrLimits(),
+        mdr_limits.MdrLimits(
+            roll_offs=(1, 8, 16), cells=256, surfaces=40, refined=8, profiles=500, decades=(-3, 1), per_decade=3
+        ),
+        mdr_limits.run,
+        mdr_limits.evidence,
     ),
 }

@@ -1,22 +1,10 @@
 """Fig. 14.1: rough square punches under equal forces, by both methods; `fractal_punch_evidence.py` reads the result."""
 
-import warnings
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-import bem3d
-import mdr
 from validation import closed_forms
-from validation.ensemble import SERIAL, Engine, Outcome, generator
-
-FloatArray = NDArray[np.float64]
-
-# the spawn keys under which each kind of roughness draws
-PROFILES, SURFACES = 1, 2
-# stiffness, area and approach of a solve that did not converge
-LOST = (np.nan, np.nan, np.nan)
+from validation.ensemble import SERIAL, Engine, Outcome
+from validation.rough_punch import Profiles, Roughness, Surface, lost, press_profiles, press_surface, stacked
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,28 +14,36 @@ class FractalPunch:
     Everything is normalised alike on both sides, in units of L = E* = 1: Fbar = F / (E* h L), kbar = k / (E* L),
     with h the rms height, which each realisation has exactly.
 
-    hursts; cells: on a side; surfaces, profiles: realisations; decades: of Fbar; per_decade: force levels in one;
-    reported: forces at which numbers are compared; refined: surfaces solved again on cells half as wide;
-    points: springs of a profile; height: h / L; tolerance: residual of the solver; seed: zero or positive.
+    hursts; cells: on a side, even; surfaces, profiles: realisations; decades: powers of ten of the first and the last
+    Fbar; per_decade: steps of force in one; refined: surfaces pressed again on half and on twice as many cells a side,
+    from three to all; light: up to this Fbar, where it costs little and tells most, all of them are;
+    refined_per_decade: steps of force in one there, a divisor of per_decade; points: springs of a profile; height:
+    h / L; tolerance: residual of the solver; seed: zero or positive.
     """
 
-    hursts: tuple[float, ...] = (0.4, 0.7, 1.0)
+    hursts: tuple[float, ...] = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
     cells: int = 128
-    surfaces: int = 24
+    surfaces: int = 20
     profiles: int = 200
-    decades: tuple[int, int] = (-2, 1)
+    decades: tuple[int, int] = (-3, 1)
     per_decade: int = 3
-    reported: tuple[float, ...] = (0.01, 0.1, 1.0, 10 ** (1 / 3), 10.0)
-    refined: int = 4
+    refined: int = 6
+    light: float = 0.1
+    refined_per_decade: int = 1
     points: int = 2048
     height: float = 1e-3
-    tolerance: float = 1e-5
+    tolerance: float = 1e-4
     seed: int = 14
 
     def __post_init__(self) -> None:
-        for force in self.reported:
-            if not np.isclose(force, self.forces).any():
-                raise ValueError(f"reported must be among the forces {self.forces}, got {force}")
+        if self.cells % 2 or self.cells < 8:
+            raise ValueError(f"cells must be even and at least 8, got {self.cells}")
+        if not self.decades[0] < self.decades[1]:
+            raise ValueError(f"decades must be two powers of ten, ascending, got {self.decades}")
+        if self.refined_per_decade < 1 or self.per_decade % self.refined_per_decade:
+            raise ValueError(f"refined_per_decade must divide {self.per_decade}, got {self.refined_per_decade}")
+        if not 3 <= self.refined <= self.surfaces:
+            raise ValueError(f"refined must be from 3 to the {self.surfaces} surfaces, got {self.refined}")
 
     @property
     def forces(self) -> tuple[float, ...]:
@@ -55,43 +51,57 @@ class FractalPunch:
         first, last = self.decades
         return tuple(10.0 ** (first + i / self.per_decade) for i in range((last - first) * self.per_decade + 1))
 
-    def spectrum(self, hurst: float) -> mdr.SelfAffine:
+    @property
+    def refined_forces(self) -> tuple[float, ...]:
+        """Those of them at which grids are compared."""
+        return self.forces[:: self.per_decade // self.refined_per_decade]
+
+    @property
+    def grids(self) -> tuple[int, int, int]:
+        """Cells on a side, coarse to fine; the middle one is that of all surfaces."""
+        return self.cells // 2, self.cells, 2 * self.cells
+
+    def roughness(self, hurst: float) -> Roughness:
         """The band is the same on every grid and in both methods."""
-        return mdr.SelfAffine(hurst=hurst, q_min=2 * np.pi, q_max=self.cells // 4 * 2 * np.pi, rms=self.height)
+        return Roughness(hurst=hurst, waves=(1, self.cells // 4), height=self.height, seed=self.seed)
 
+    def surface(self, hurst: float, realisation: int, cells: int) -> Surface:
+        """One of the solves: at all forces on the middle grid, at fewer on the others."""
+        forces = self.forces if cells == self.cells else self.refined_forces
+        if cells != self.cells and realisation >= self.refined:
+            forces = tuple(force for force in forces if force <= self.light * (1 + 1e-9))
+        return Surface(
+            roughness=self.roughness(hurst),
+            realisation=realisation,
+            cells=cells,
+            forces=forces,
+            tolerance=self.tolerance,
+        )
 
-@dataclass(frozen=True, kw_only=True)
-class Surface:
-    """One rough punch on one grid, pressed with several forces."""
-
-    case: FractalPunch
-    hurst: float
-    realisation: int
-    cells: int
-    forces: tuple[float, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Profiles:
-    """All rough profiles of one Hurst exponent on one number of springs, in a 1D model of length L_1D."""
-
-    case: FractalPunch
-    hurst: float
-    points: int
-    length: float
+    def springs(self, hurst: float, points: int, length: float) -> Profiles:
+        """All profiles of one Hurst exponent, in a 1D model of length L_1D."""
+        return Profiles(
+            roughness=self.roughness(hurst),
+            realisations=self.profiles,
+            points=points,
+            length=length,
+            forces=self.forces,
+        )
 
 
 @dataclass(frozen=True)
 class Ensemble:
     """Outcomes for one Hurst exponent: rows of their arrays are realisations, columns are forces.
 
-    bem, mdr: at all forces; refined: the first surfaces on cells half as wide, at the reported forces;
+    bem, mdr: at all forces; coarser, finer: on half and on twice the cells a side, at fewer forces, NaN where they were
+    not pressed;
     coarse, long: springs twice as wide, and a 1D model of length 1.1523 L.
     """
 
     hurst: float
     bem: Outcome
-    refined: Outcome
+    coarser: Outcome
+    finer: Outcome
     mdr: Outcome
     coarse: Outcome
     long: Outcome
@@ -108,89 +118,31 @@ class FractalPunchResult:
 
 def run(case: FractalPunch, engine: Engine = SERIAL) -> FractalPunchResult:
     """Press all surfaces and all profiles with equal forces."""
-    surfaces = [
-        Surface(case=case, hurst=hurst, realisation=i, cells=case.cells, forces=case.forces)
+    groups = {
+        (hurst, cells): [case.surface(hurst, i, cells) for i in range(case.surfaces)]
         for hurst in case.hursts
-        for i in range(case.surfaces)
-    ]
-    refined = [
-        Surface(case=case, hurst=hurst, realisation=i, cells=2 * case.cells, forces=case.reported)
-        for hurst in case.hursts
-        for i in range(case.refined)
-    ]
-    long = closed_forms.SQUARE_PUNCH
-    profiles = [
-        Profiles(case=case, hurst=hurst, points=points, length=length)
-        for hurst in case.hursts
-        for points, length in ((case.points, 1.0), (case.points // 2, 1.0), (case.points, long))
-    ]
-    bem, fine = engine.map(press_surface, surfaces), engine.map(press_surface, refined)
-    springs = engine.map(press_profiles, profiles)
-    ensembles = []
-    for h, hurst in enumerate(case.hursts):
-        mine = bem[h * case.surfaces : (h + 1) * case.surfaces]
-        finer = fine[h * case.refined : (h + 1) * case.refined]
-        same, coarse, longer = springs[3 * h : 3 * h + 3]
-        ensembles.append(
-            Ensemble(hurst=hurst, bem=_stacked(mine), refined=_stacked(finer), mdr=same, coarse=coarse, long=longer)
+        for cells in case.grids
+    }
+    # without the surfaces that are to be pressed at no force
+    surfaces = [surface for group in groups.values() for surface in group if surface.forces]
+    outcomes = engine.map(press_surface, surfaces)
+    pressed = iter(outcomes)
+    bem = {key: stacked([next(pressed) for surface in group if surface.forces]) for key, group in groups.items()}
+    models = ((case.points, 1.0), (case.points // 2, 1.0), (case.points, closed_forms.SQUARE_PUNCH))
+    springs = iter(
+        engine.map(press_profiles, [case.springs(hurst, *model) for hurst in case.hursts for model in models])
+    )
+    coarser, cells, finer = case.grids
+    ensembles = [
+        Ensemble(
+            hurst,
+            bem[hurst, cells],
+            bem[hurst, coarser],
+            bem[hurst, finer],
+            mdr=next(springs),
+            coarse=next(springs),
+            long=next(springs),
         )
-    unconverged = tuple(
-        f"surface {s.realisation}, H = {s.hurst:g}, {s.cells}² cells, Fbar = {force:.3g}: residual {residual:.2g}"
-        for s, o in zip(surfaces + refined, bem + fine, strict=True)
-        for force, residual in zip(s.forces, o["residual"], strict=True)
-        if not residual <= case.tolerance
-    )
-    return FractalPunchResult(case, ensembles, unconverged)
-
-
-def press_surface(surface: Surface) -> Outcome:
-    """Boundary elements: stiffness and true contact area at each force, each contact starting from the last."""
-    case, cells = surface.case, surface.cells
-    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
-    height = bem3d.rough_surface(
-        case.spectrum(surface.hurst).c2d,
-        shape=half_space.shape,
-        spacing=half_space.spacing,
-        rng=generator(case.seed, SURFACES, _key(surface.hurst), surface.realisation),
-        rms=case.height,
-    )
-    path = bem3d.indent(
-        half_space,
-        -height,
-        forces=case.height * np.array(surface.forces),
-        stiffness=True,
-        tolerance=case.tolerance,
-        raise_on_failure=False,
-    )
-    rows = []
-    with warnings.catch_warnings():
-        # the punch ends where its grid does, and the figure marks what stands on few cells
-        warnings.simplefilter("ignore", bem3d.ContactWarning)
-        for contact in path:
-            found = (contact.stiffness(), contact.area, contact.approach) if contact.converged else LOST
-            rows.append((*found, contact.residual))
-    return dict(zip(("stiffness", "area", "approach", "residual"), np.array(rows).T, strict=True))
-
-
-def press_profiles(profiles: Profiles) -> Outcome:
-    """Springs: stiffness and contact fraction of every profile at each force, one sort a profile."""
-    case = profiles.case
-    c1d = case.spectrum(profiles.hurst).c1d
-    force = case.height * np.array(case.forces)
-    stiffness, approach = np.empty((2, case.profiles, force.size))
-    for i in range(case.profiles):
-        rng = generator(case.seed, PROFILES, _key(profiles.hurst), i)
-        height = mdr.rough_profile(c1d, length=1.0, points=profiles.points, rng=rng, rms=case.height)
-        points = mdr.load_curve(height, length=profiles.length, modulus=1.0).at_force(force)
-        stiffness[i], approach[i] = points.stiffness, points.approach
-    return {"stiffness": stiffness, "area": stiffness / profiles.length, "approach": approach}
-
-
-def _stacked(outcomes: list[Outcome]) -> Outcome:
-    """One row a realisation."""
-    return {name: np.array([outcome[name] for outcome in outcomes]) for name in outcomes[0]}
-
-
-def _key(hurst: float) -> int:
-    """Address of a Hurst exponent, so that adding one leaves the others their random numbers."""
-    return round(1000 * hurst)
+        for hurst in case.hursts
+    ]
+    return FractalPunchResult(case, ensembles, lost(surfaces, outcomes))

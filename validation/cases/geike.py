@@ -151,11 +151,13 @@ def evidence(result: GeikeResult) -> Evidence:
             f"(in one dimension by {100 * (_sum_over_profile(case)[0] / isotropic[0] - 1):.1f} % here): ensembles that "
             "are normalised by the rms height prescribe it.",
         ),
-        caption=(
-            "(a) Spectra: Geike's 1D spectrum and the line trace, with what was measured on drawn profiles and along "
-            "lines of drawn surfaces (every mode in the CSV, some in the figure). (b) Share of the n-th moment of the "
-            "surface that each keeps."
-        ),
+        captions={
+            "geike": (
+                "(a) Spectra: Geike's 1D spectrum and the line trace, with what was measured on drawn profiles and "
+                "along lines of drawn surfaces (every mode in the CSV, some in the figure). (b) Share of the n-th "
+                "moment of the surface that each keeps."
+            )
+        },
     )
 
 

@@ -153,11 +153,13 @@ def evidence(result: SquarePunchResult) -> Evidence:
             f"A 1D model of length L saturates {100 * (1 - short / exact):.1f} % too soft; "
             "with 1.1523 L it saturates alike, by choice of the length.",
         ),
-        caption=(
-            "(a) Stiffness against the cell size: the square over E* L, with the extrapolation and both 1D lengths; "
-            "the circle over 2 E* a. (b) Pressure under the square along its middle, finest grid, over its mean: "
-            "singular at the edges."
-        ),
+        captions={
+            "square_punch": (
+                "(a) Stiffness against the cell size: the square over E* L, with the extrapolation and both 1D "
+                "lengths; the circle over 2 E* a. (b) Pressure under the square along its middle, finest grid, over "
+                "its mean: singular at the edges."
+            )
+        },
     )
 
 

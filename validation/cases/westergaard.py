@@ -135,11 +135,13 @@ def evidence(result: WestergaardResult) -> Evidence:
             f"cell; at least {100 * min(_share_of_edges(o) for o in finest):.0f} % of its square sits in the two cells "
             "at the edges.",
         ),
-        caption=(
-            "(a) Pressure at each mean pressure, finest grid, some of its cells. (b) Relative L2 error of the pressure "
-            "against cells: of first order at 0.5 p*, where the edges fall between cells; elsewhere it rises and falls "
-            "with where the edge cuts its cell."
-        ),
+        captions={
+            "westergaard": (
+                "(a) Pressure at each mean pressure, finest grid, some of its cells. (b) Relative L2 error of the "
+                "pressure against cells: of first order at 0.5 p*, where the edges fall between cells; elsewhere it "
+                "rises and falls with where the edge cuts its cell."
+            )
+        },
     )
 
 

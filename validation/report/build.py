@@ -11,7 +11,7 @@ import jinja2
 
 from bem3d import ConvergenceError
 from validation.cases import CASES, RACE, Profile
-from validation.ensemble import Engine
+from validation.ensemble import LOCAL, Engine
 from validation.evidence import Evidence, NotConvergedError, Number, Role, Verdict
 from validation.report.figures import DRAW
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
@@ -63,19 +63,20 @@ def build(
     out: Path,
     workers: int,
     seed: int | None,
+    executor: str = LOCAL,
     progress: bool = True,
     tell: Callable[[Section], None] = lambda section: None,
 ) -> list[Section]:
     """Run the cases, write the report folder, return what it holds.
 
     names: of cases in `CASES`, or "race"; profile: "quick" or "full"; out: a new folder or an earlier report;
-    workers: processes; seed: for every case that draws, None for the seed of each case;
-    progress: bars, on a terminal only; tell: called with each case as it is finished.
+    workers: processes; seed: for every case that draws, None for the seed of each case; executor: see `Engine`;
+    progress: a bar on a terminal, lines in a log; tell: called with each case as it is finished.
     Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
-    Raises ValueError for a folder that holds something else.
+    Raises ValueError for a folder that holds something else, or an executor that is none.
     """
+    engine = Engine(workers=workers, store=out / REALISATIONS, progress=progress, executor=executor)
     folder = Folder(out)
-    engine = Engine(workers=workers, store=out / REALISATIONS, progress=progress)
     sections, seconds = [], {}
     for name in names:
         start = time.perf_counter()
@@ -86,14 +87,15 @@ def build(
     for section in sections:
         if section.evidence is None:
             continue
-        figure = drawn(DRAW[section.name], section.evidence)
-        pictures[section.name] = svg(figure)
-        folder.write(f"figures/{section.name}.svg", pictures[section.name])
-        folder.write(f"figures/{section.name}.pdf", pdf(figure))
+        for name in section.evidence.captions:
+            figure = drawn(DRAW[name], section.evidence, profile)
+            pictures[name] = svg(figure)
+            folder.write(f"figures/{name}.svg", pictures[name])
+            folder.write(f"figures/{name}.pdf", pdf(figure))
         for table in section.evidence.tables:
             folder.write(f"data/{section.name}-{table.name}.csv", as_csv(table))
     seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
-    about = provenance(profile, seeds, workers, seconds)
+    about = provenance(profile, seeds, engine, seconds)
     folder.write("provenance.json", as_json(about))
     # times differ from run to run: the results are to be the same to the byte without them
     folder.write(RESULTS, as_json(_results([s for s in sections if s.name != RACING], profile)))

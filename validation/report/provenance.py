@@ -6,19 +6,22 @@ import platform
 import subprocess
 from pathlib import Path
 
+from validation.ensemble import LOCAL, Engine
+
 ROOT = Path(__file__).parents[2]
 LIBRARIES = ("numpy", "scipy", "pyfftw", "matplotlib", "joblib")
 
 
-def provenance(profile: str, seeds: dict[str, object], workers: int, seconds: dict[str, float]) -> dict[str, object]:
+def provenance(profile: str, seeds: dict[str, object], engine: Engine, seconds: dict[str, float]) -> dict[str, object]:
     """Plain values for provenance.json: everything about a run that is no result.
 
-    seeds: of the cases that draw; seconds: this run took for each case, less where it found finished solves.
+    seeds: of the cases that draw; engine: what ran them; seconds: this run took for each case,
+    less where it found finished solves.
     """
     return {
         "profile": profile,
         "seeds": seeds,
-        "workers": workers,
+        "workers": engine.workers if engine.executor == LOCAL else "those of a dask scheduler",
         "seconds": {name: round(value, 2) for name, value in seconds.items()},
         "commit": _commit(),
         "version": importlib.metadata.version("mdr-validation"),

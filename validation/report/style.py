@@ -20,7 +20,15 @@ BEM: Style = {"color": "#0072B2", "marker": "o", "markersize": 4, "linestyle": "
 MDR: Style = {"color": "#D55E00", "marker": "s", "markersize": 4, "markerfacecolor": "none", "linestyle": "none"}
 MDR_LINE: Style = {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4}
 MDR_OTHER: Style = {"color": "#009E73", "linestyle": "--", "linewidth": 1.4}
+MARKERS = "osD^v<>ph*"
 GUIDE: Style = {"color": "#555555", "linestyle": ":", "linewidth": 1.3}
+
+
+def graded(i: int, count: int) -> Style:
+    """The i-th of several curves in their order: from dark to light, each with a marker of its own."""
+    color = matplotlib.colormaps["cividis"](0.88 * i / max(count - 1, 1))
+    return {"color": color, "marker": MARKERS[i % len(MARKERS)], "markersize": 4, "linewidth": 1.0}
+
 
 SETTINGS: Any = {
     "svg.hashsalt": "validation",
@@ -43,7 +51,7 @@ def panels(
     width: float = 9.0,
     height: float = 3.4,
     sharex: bool = False,
-    sharey: Literal["none", "row"] = "none",
+    sharey: Literal["none", "row", "all"] = "none",
 ) -> tuple[Figure, list[Axes]]:
     """A figure of lettered panels, row by row."""
     figure = Figure(figsize=(width, height), layout="constrained")
@@ -53,10 +61,13 @@ def panels(
     return figure, axes
 
 
-def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence) -> Figure:
-    """A case's figure in this style."""
+def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:
+    """A case's figure in this style, stamped where it is not the real size."""
     with matplotlib.rc_context(SETTINGS):
-        return draw(evidence)
+        figure = draw(evidence)
+        if profile != "full":
+            figure.text(1, 0, f"profile: {profile} ", ha="right", va="bottom", fontsize=7, color="#555555")
+    return figure
 
 
 def svg(figure: Figure) -> bytes:

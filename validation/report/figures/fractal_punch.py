@@ -1,53 +1,157 @@
-"""Figure of the fractal punch: Fig. 14.1 of the book and the means that belong to it."""
+"""Figures of the fractal punch: Fig. 14.1 of the book, both methods laid over each other, what is between them."""
+
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.cases.fractal_punch_evidence import FEW_CELLS
+from validation.cases.fractal_punch_decades import QUANTITIES
+from validation.cases.fractal_punch_evidence import CLAIMED, FEW_CELLS, PUBLISHED
 from validation.evidence import Evidence, Table
-from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, panels
+from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels
+
+FORCE = "force Fbar = F / (E* h L)"
+SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
 def draw(evidence: Evidence) -> Figure:
-    """A column for each Hurst exponent: mean stiffness above, relative standard deviation below."""
+    """As in the book: the relative deviation of every Hurst exponent, (a) in three dimensions, (b) in one."""
     curves = evidence.table("curves")
+    figure, axes = panels(1, 2, height=4.0, sharey="row")
     hursts = np.unique(curves["H"])
-    figure, axes = panels(2, len(hursts), height=5.6, sharex=True, sharey="row")
-    for column, hurst in enumerate(hursts):
-        mine = curves.where(H=hurst)
-        above, below = axes[column], axes[len(hursts) + column]
-        _compare(above, mine, "mean stiffness")
-        _compare(below, mine, "relative deviation")
-        above.set_title(f"H = {hurst:g}")
-        below.set_xlabel("force Fbar = F / (E* h L)")
-        force, stiffness = mine["Fbar"], mine["bem3d mean stiffness"]
-        power = force ** (1 / (1 + hurst))
-        pinned = np.argmin(np.abs(np.log(force / 0.1)))
-        unsaturated = force <= 1
-        guide = stiffness[pinned] * power / power[pinned]
-        above.plot(force[unsaturated], guide[unsaturated], label="slope 1 / (1 + H)", **GUIDE)
-    axes[0].set_ylabel("mean stiffness kbar = k / (E* L)")
-    axes[len(hursts)].set(ylabel="relative standard deviation of k", ylim=(5e-4, 1))
-    axes[0].legend(loc="lower right")
+    for axis, method, title in zip(axes, ("bem3d", "mdr"), ("boundary elements", "MDR"), strict=True):
+        for i, hurst in enumerate(hursts):
+            mine = curves.where(H=hurst)
+            value = _positive(mine[f"{method} relative deviation"])
+            few = mine["bem3d cells in contact"] < FEW_CELLS if method == "bem3d" else np.zeros(value.size, dtype=bool)
+            style = graded(i, hursts.size)
+            axis.plot(mine["Fbar"], value, label=f"H = {hurst:g}", **style)
+            axis.plot(mine["Fbar"][few], value[few], **{**style, "linestyle": "none", "markerfacecolor": "white"})
+        axis.set(xscale="log", xlabel=FORCE, title=title, ylim=(0, None))
+        axis.legend(loc="lower left")
+    axes[0].set_ylabel("relative standard deviation of the stiffness")
+    return figure
+
+
+def draw_overlay(evidence: Evidence) -> Figure:
+    """The relative deviation, a panel for each Hurst exponent."""
+    return _by_hurst(evidence, _overlay, "relative standard deviation", loc="lower left")
+
+
+def _overlay(axis: Axes, evidence: Evidence, hurst: float) -> None:
+    _compare(axis, evidence.table("curves").where(H=hurst), "relative deviation")
+    axis.set(yscale="log", ylim=(1e-3, 1))
+
+
+def draw_difference(evidence: Evidence) -> Figure:
+    """MDR over boundary elements: level by level, and decade by decade with the verdict."""
+    return _by_hurst(evidence, _difference, "deviation, MDR over boundary elements", loc="upper right")
+
+
+def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
+    curves = evidence.table("curves").where(H=hurst)
+    near = 10 ** (QUANTITIES["relative deviation"].tolerance / 20)
+    axis.axhspan(1 / near, near, color="#bbbbbb", linewidth=0)
+    for side in (-1, 1):
+        label = f"{CLAIMED:g} dB" if side > 0 else None
+        axis.axhline(10 ** (side * CLAIMED / 20), label=label, **GUIDE)
+    _with_bars(axis, curves, "mdr over bem3d relative deviation", "at each force")
+    for row in _rows(evidence.table("decades").where(H=hurst, quantity="relative deviation")):
+        if not row["verdict"]:
+            continue
+        half = row["± sample"] + row["± grid"]
+        middle, low, high = (
+            10 ** (v / 20) for v in (row["difference"], row["difference"] - half, row["difference"] + half)
+        )
+        ends = row["Fbar from"], row["Fbar to"]
+        axis.fill_between(ends, [low] * 2, [high] * 2, facecolor="none", edgecolor="#000000", linewidth=0.8)
+        label = "over a decade" if ends[0] == evidence.table("decades")["Fbar from"].min() else None
+        axis.plot(ends, [middle] * 2, color="#000000", linewidth=2, label=label)
+        centre = np.sqrt(ends[0] * ends[1])
+        axis.annotate(SIGN[row["verdict"]], (centre, 0.31), ha="center", va="bottom", fontsize=11, annotation_clip=True)
+    axis.set(yscale="log", ylim=(0.3, 3))
+    axis.set_yticks([0.3, 0.5, 0.7, 1, 1.5, 2, 3], ["0.3", "0.5", "0.7", "1", "1.5", "2", "3"])
+    axis.minorticks_off()
+
+
+def draw_mean(evidence: Evidence) -> Figure:
+    """The mean stiffness, a panel for each Hurst exponent."""
+    return _by_hurst(evidence, _mean, "mean stiffness kbar = k / (E* L)", loc="lower right")
+
+
+def _mean(axis: Axes, evidence: Evidence, hurst: float) -> None:
+    curves = evidence.table("curves").where(H=hurst)
+    _compare(axis, curves, "mean stiffness")
+    force, stiffness = curves["Fbar"], curves["bem3d mean stiffness"]
+    power = force ** (1 / (1 + hurst))
+    pinned = force.size // 2
+    unsaturated = force <= 1
+    guide = stiffness[pinned] * power / power[pinned]
+    axis.plot(force[unsaturated], guide[unsaturated], label="slope 1 / (1 + H)", **GUIDE)
+    axis.set_yscale("log")
+
+
+def draw_exponent(evidence: Evidence) -> Figure:
+    """The local exponent, a panel for each Hurst exponent."""
+    return _by_hurst(evidence, _exponent, "exponent d ln k / d ln F", loc="lower left")
+
+
+def _exponent(axis: Axes, evidence: Evidence, hurst: float) -> None:
+    axis.axhspan(*PUBLISHED, color="#dddddd", linewidth=0)
+    _compare(axis, evidence.table("curves").where(H=hurst), "exponent")
+    axis.axhline(1 / (1 + hurst), label="1 / (1 + H)", **GUIDE)
+    axis.set_ylim(0, 1)
+
+
+def _by_hurst(evidence: Evidence, one: Callable[[Axes, Evidence, float], None], quantity: str, *, loc: str) -> Figure:
+    """A panel for each Hurst exponent on common axes, four in a row, the legend in a place of its own."""
+    hursts = np.unique(evidence.table("curves")["H"])
+    columns = min(4, hursts.size + 1)
+    rows = -(-(hursts.size + 1) // columns)
+    figure, axes = panels(rows, columns, width=11.0, height=3.0 * rows, sharex=True, sharey="all")
+    for axis, hurst in zip(axes, hursts, strict=False):
+        one(axis, evidence, hurst)
+        axis.set_title(f"H = {hurst:g}")
+        axis.set_xscale("log")
+        axis.tick_params(labelbottom=True)
+    for axis in axes[hursts.size :]:
+        axis.set_axis_off()
+        axis.set_title("", loc="left")
+    for row in range(rows):
+        axes[row * columns].set_ylabel(quantity)
+    for axis in axes[max(0, hursts.size - columns) : hursts.size]:
+        axis.set_xlabel(FORCE)
+    axes[hursts.size].legend(*axes[0].get_legend_handles_labels(), loc="center", fontsize=9)
     return figure
 
 
 def _compare(axis: Axes, curves: Table, name: str) -> None:
+    _with_bars(axis, curves, f"bem3d {name}", "boundary elements")
     force = curves["Fbar"]
-    value, low, high = (_drawn(curves[f"bem3d {name}{end}"]) for end in ("", " low", " high"))
-    for few, face in ((False, BEM["color"]), (True, "white")):
-        drawn = (curves["bem3d cells in contact"] < FEW_CELLS) == few
-        bars = [(value - low)[drawn], (high - value)[drawn]]
-        label = "_" if few else "boundary elements"
-        axis.errorbar(force[drawn], value[drawn], yerr=bars, capsize=2, label=label, markerfacecolor=face, **BEM)
-    axis.plot(force, _drawn(curves[f"mdr {name}"]), label="MDR, L_1D = L", **MDR_LINE)
-    low, high = _drawn(curves[f"mdr {name} low"]), _drawn(curves[f"mdr {name} high"])
+    axis.plot(force, _positive(curves[f"mdr {name}"]), label="MDR, L_1D = L", **MDR_LINE)
+    low, high = _positive(curves[f"mdr {name} low"]), _positive(curves[f"mdr {name} high"])
     axis.fill_between(force, low, high, color=MDR_LINE["color"], alpha=0.25, linewidth=0)
-    axis.plot(force, _drawn(curves[f"mdr 1.1523 L {name}"]), label="MDR, L_1D = 1.1523 L", **MDR_OTHER)
-    axis.set(xscale="log", yscale="log")
+    axis.plot(force, _positive(curves[f"mdr 1.1523 L {name}"]), label="MDR, L_1D = 1.1523 L", **MDR_OTHER)
 
 
-def _drawn(values: np.ndarray) -> np.ndarray:
+def _with_bars(axis: Axes, curves: Table, column: str, label: str) -> None:
+    """Circles with their 95 % intervals, open where contacts have few cells."""
+    force = curves["Fbar"]
+    value, low, high = (_positive(curves[f"{column}{end}"]) for end in ("", " low", " high"))
+    few = curves["bem3d cells in contact"] < FEW_CELLS
+    for drawn, face, name in ((~few, BEM["color"], label), (few, "white", f"{label}, few cells")):
+        if drawn.any():
+            bars = [(value - low)[drawn], (high - value)[drawn]]
+            style = {**BEM, "markerfacecolor": face, "markersize": 3}
+            axis.errorbar(force[drawn], value[drawn], yerr=bars, capsize=1.5, elinewidth=0.8, label=name, **style)
+
+
+def _rows(table: Table) -> list[dict[str, Any]]:
+    return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
+
+
+def _positive(values: np.ndarray) -> np.ndarray:
     """Zero, as in saturation, has no place on a logarithmic axis."""
     return np.where(np.isfinite(values) & (values > 0), values, np.nan)

@@ -1,0 +1,132 @@
+"""What the cases of rough punches rest on: draws and their heights, the roll-off, and what MDR does not model."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.oracles import rms_scatter_of_gaussian_draws
+from validation import closed_forms
+from validation.cases import mdr_limits, normalisation
+from validation.cases.mdr_limits import MdrLimits, MdrLimitsResult
+from validation.cases.normalisation import EACH, ENSEMBLE, FIXED, METHODS, Normalisation
+from validation.evidence import Verdict
+from validation.rough_punch import Profiles, Roughness, Surface, press_profiles, press_surface
+
+CASE = Normalisation(hursts=(0.4, 1.0), cells=16, points=64)
+LIMITS = MdrLimits(roll_offs=(1, 4), cells=32, surfaces=6, refined=3, profiles=60, points=256)
+
+
+def draws(roughness, method, count):
+    return [roughness.surface(16, i) if method == "bem3d" else roughness.profile(64, i) for i in range(count)]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("hurst", CASE.hursts)
+def test_heights_are_normalised_as_they_say(method, hurst):
+    """Fixed amplitudes and those normalised each: h in every draw. Of the ensemble: h^2 in the mean of 2000, within
+    four of its standard errors, and with the scatter of the waves that carry it, which 2000 draws tell to some 5 %."""
+    h = CASE.height
+    for variant in (FIXED, EACH):
+        for height in draws(CASE.roughness(hurst, variant), method, 20):
+            assert height.std() == pytest.approx(h, rel=1e-12)
+    squares = [(height.std() / h) ** 2 for height in draws(CASE.roughness(hurst, ENSEMBLE), method, 2000)]
+    expected = rms_scatter_of_gaussian_draws(hurst, last=4, dimensions=2 if method == "bem3d" else 1)
+    assert np.mean(squares) == pytest.approx(1, abs=4 * expected / math.sqrt(2000))
+    assert np.std(squares) == pytest.approx(expected, rel=0.2)
+    assert normalisation.scatter(CASE, hurst, method) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_two_gaussian_ways_draw_the_same_shapes():
+    each, whole = (CASE.roughness(0.4, variant) for variant in (EACH, ENSEMBLE))
+    for height, other in zip(draws(each, "bem3d", 5), draws(whole, "bem3d", 5), strict=True):
+        np.testing.assert_allclose(height, other * CASE.height / other.std(), rtol=1e-12, atol=1e-18)
+    for height, other in zip(draws(each, "mdr", 5), draws(whole, "mdr", 5), strict=True):
+        np.testing.assert_allclose(height, other * CASE.height / other.std(), rtol=1e-12, atol=1e-18)
+
+
+def test_normalisation_is_a_change_of_the_load():
+    """A surface s times as high under Fbar is the same contact as under Fbar / s: kbar is homogeneous."""
+    rough = CASE.roughness(0.4, EACH)
+    surface = Surface(roughness=rough, realisation=1, cells=16, forces=(0.1, 0.5), tolerance=1e-8)
+    high = replace(surface, roughness=replace(rough, height=2 * rough.height), forces=(0.05, 0.25))
+    # the same force on a surface twice as high is half of Fbar
+    low, doubled = press_surface(surface), press_surface(replace(high, forces=(0.1, 0.5)))
+    np.testing.assert_allclose(low["stiffness"], doubled["stiffness"], rtol=1e-5)
+    np.testing.assert_allclose(2 * low["gap"], doubled["gap"], rtol=1e-5)
+    assert press_surface(high)["stiffness"][0] < low["stiffness"][0]
+
+
+@pytest.mark.parametrize("roll_off", [1, 4])
+def test_no_wave_is_longer_than_the_roll_off_says(roll_off):
+    rough = LIMITS.roughness(roll_off)
+    modes = np.rint(np.fft.fftfreq(32) * 32)
+    power = np.abs(np.fft.fft2(rough.surface(32, 0))) ** 2
+    waves = np.hypot(modes[:, np.newaxis], modes)
+    inside = (waves > roll_off - 1e-9) & (waves < 8 + 1e-9)
+    assert power[~inside].max() < 1e-20 * power.max()
+    assert power[inside].min() > 1e-6 * power.max()
+    profile = np.abs(np.fft.rfft(rough.profile(256, 0))) ** 2
+    assert np.flatnonzero(profile > 1e-12 * profile.max()).tolist() == list(range(roll_off, 9))
+
+
+def test_a_heavy_load_closes_every_gap():
+    """Full contact on coarse cells: area one, gap zero, stiffness of the flat punch of that grid; springs alike."""
+    rough = Roughness(hurst=0.7, waves=(1, 2), seed=3)
+    surface = Surface(roughness=rough, realisation=0, cells=8, forces=(0.01, 100.0), tolerance=1e-8)
+    found = press_surface(surface)
+    assert found["area"].tolist()[1] == 1.0
+    assert found["gap"][1] == pytest.approx(0, abs=1e-6 * rough.height)
+    assert found["gap"][0] > 0.5 * rough.height
+    # first order in the cell: -0.35 / n
+    assert found["stiffness"][1] / closed_forms.SQUARE_PUNCH == pytest.approx(1 - 0.35 / 8, abs=0.02)
+    springs = press_profiles(Profiles(roughness=rough, realisations=3, points=64, length=1.0, forces=(100.0,)))
+    np.testing.assert_allclose(springs["area"], 1)
+    np.testing.assert_allclose(springs["gap"], 0, atol=1e-12)
+
+
+def synthetic(exponent, *, area=1.0, refined=1.0):
+    """Interfaces with k_i ~ F^exponent in series with the flat punch, the same in every draw but for some noise."""
+    rng = np.random.default_rng(0)
+    force = np.array(LIMITS.forces)
+
+    def outcome(flat, count):
+        interface = 0.5 * force**exponent * (1 + 1e-3 * rng.standard_normal((count, 1)))
+        stiffness = 1 / (1 / interface + 1 / flat)
+        return {"stiffness": stiffness, "area": area * stiffness, "gap": stiffness, "gradient": np.full(count, 1e-2)}
+
+    bem = {r: outcome(closed_forms.SQUARE_PUNCH, LIMITS.surfaces) for r in LIMITS.roll_offs}
+    finer = {r: {n: refined * v[: LIMITS.refined] for n, v in bem[r].items()} for r in bem}
+    mdr = {r: outcome(1.0, LIMITS.profiles) for r in LIMITS.roll_offs}
+    return mdr_limits.evidence(MdrLimitsResult(LIMITS, bem, finer, mdr, ()))
+
+
+@pytest.mark.parametrize("exponent", [1.0, 0.8])
+def test_the_exponent_of_the_interface_is_found_behind_the_punch(exponent):
+    found = [n for n in synthetic(exponent).numbers if n.label.startswith("exponent of the interface")]
+    assert len(found) == 2 * 2 * 2
+    for n in found:
+        assert n.value == pytest.approx(exponent, abs=1e-9)
+        assert n.verdict is (Verdict.AGREE if exponent == 1 else Verdict.DIFFER)
+
+
+def test_what_finer_cells_change_is_in_the_error_bar_twice():
+    for n in synthetic(1.0, refined=1.05).numbers:
+        if n.label.startswith("contact fraction"):
+            assert n.grid == pytest.approx(2 * 20 * np.log10(1.05), rel=1e-6)
+
+
+def test_persson():
+    """Proportional to the load at small ones, sqrt(8 / pi) p / (E* h'), and full at large ones."""
+    light = np.array([1e-6])
+    assert mdr_limits.persson(light, 0.1)[0] == pytest.approx(math.sqrt(8 / math.pi) * 1e-6 / 0.1, rel=1e-6)
+    assert mdr_limits.persson(np.array([1.0]), 0.1)[0] == pytest.approx(1.0)
+
+
+def test_a_lost_surface_is_named(monkeypatch):
+    case = replace(LIMITS, tolerance=1e-30)
+    surface = Surface(
+        roughness=case.roughness(1), realisation=0, cells=16, forces=case.forces[-1:], tolerance=case.tolerance
+    )
+    assert np.isnan(press_surface(surface)["gap"]).all()

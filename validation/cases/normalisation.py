@@ -1,0 +1,289 @@
+"""Fixed or Gaussian amplitudes, the rms height of each draw or of the ensemble: what the fluctuations owe to them."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from validation.ensemble import SERIAL, Engine, Outcome, generator
+from validation.evidence import Evidence, Number, Role, Table
+from validation.rough_punch import Profiles, Roughness, Surface, enough, lost, press_profiles, press_surface, stacked
+from validation.statistics import (
+    DECIBEL,
+    THREE_PER_CENT,
+    Estimate,
+    Sample,
+    at,
+    change,
+    decade_weights,
+    log_deviation_over,
+    log_relative_deviation,
+    sample,
+)
+
+Row = dict[str, float | str]
+Amplitudes = Literal["fixed", "gaussian"]
+Normalised = Literal["each", "ensemble"]
+
+FIXED, EACH, ENSEMBLE = "fixed amplitudes", "Gaussian, rms of each draw", "Gaussian, rms of the ensemble"
+VARIANTS: dict[str, tuple[Amplitudes, Normalised]] = {
+    FIXED: ("fixed", "each"),
+    EACH: ("gaussian", "each"),
+    ENSEMBLE: ("gaussian", "ensemble"),
+}
+METHODS = ("bem3d", "mdr")
+BOOTSTRAP, PAIRS = 3, 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class Normalisation:
+    """The punches of Fig. 14.1 drawn in three ways.
+
+    hursts; cells: on a side; surfaces, profiles: realisations; decades: powers of ten of the first and the last Fbar,
+    per_decade: steps of force in one; points: springs of a profile; height: h / L; tolerance: residual of the solver;
+    seed: zero or positive.
+    """
+
+    hursts: tuple[float, ...] = (0.4, 0.7, 1.0)
+    cells: int = 64
+    surfaces: int = 60
+    profiles: int = 500
+    decades: tuple[int, int] = (-2, 0)
+    per_decade: int = 2
+    points: int = 1024
+    height: float = 1e-3
+    tolerance: float = 1e-4
+    seed: int = 141
+
+    @property
+    def forces(self) -> tuple[float, ...]:
+        """Levels of Fbar, ascending."""
+        first, last = self.decades
+        return tuple(10.0 ** (first + i / self.per_decade) for i in range((last - first) * self.per_decade + 1))
+
+    def roughness(self, hurst: float, variant: str) -> Roughness:
+        """Of one way to draw."""
+        amplitudes, normalised = VARIANTS[variant]
+        return Roughness(
+            hurst=hurst,
+            waves=(1, self.cells // 4),
+            height=self.height,
+            amplitudes=amplitudes,
+            normalised=normalised,
+            seed=self.seed,
+        )
+
+
+@dataclass(frozen=True)
+class NormalisationResult:
+    """Outcomes by Hurst exponent, variant and method: rows of their arrays are realisations, columns are forces."""
+
+    case: Normalisation
+    outcomes: dict[tuple[float, str, str], Outcome]
+    unconverged: tuple[str, ...]
+
+
+def run(case: Normalisation, engine: Engine = SERIAL) -> NormalisationResult:
+    """Press all of them with both methods."""
+    ways = [(hurst, variant, case.roughness(hurst, variant)) for hurst in case.hursts for variant in VARIANTS]
+    surfaces = [
+        Surface(roughness=roughness, realisation=i, cells=case.cells, forces=case.forces, tolerance=case.tolerance)
+        for _, _, roughness in ways
+        for i in range(case.surfaces)
+    ]
+    profiles = [
+        Profiles(roughness=roughness, realisations=case.profiles, points=case.points, length=1.0, forces=case.forces)
+        for _, _, roughness in ways
+    ]
+    pressed, springs = engine.map(press_surface, surfaces), engine.map(press_profiles, profiles)
+    outcomes = {}
+    for w, (hurst, variant, _) in enumerate(ways):
+        outcomes[hurst, variant, "bem3d"] = stacked(pressed[w * case.surfaces : (w + 1) * case.surfaces])
+        outcomes[hurst, variant, "mdr"] = springs[w]
+    return NormalisationResult(case, outcomes, lost(surfaces, pressed))
+
+
+def evidence(result: NormalisationResult) -> Evidence:
+    """The relative deviation of each way over that of the one before, and of one method over the other.
+
+    Raises NotConvergedError where too few surfaces have converged at one of the forces.
+    """
+    case = result.case
+    enough([o for (_, _, method), o in result.outcomes.items() if method == "bem3d"], result.unconverged)
+    samples = {
+        key: sample(outcome["stiffness"], generator(case.seed, BOOTSTRAP, i))
+        for i, (key, outcome) in enumerate(result.outcomes.items())
+    }
+    pairs = {
+        (hurst, m): _pairs(result.outcomes[hurst, EACH, m], result.outcomes[hurst, ENSEMBLE, m], case, (i, j))
+        for i, hurst in enumerate(case.hursts)
+        for j, m in enumerate(METHODS)
+    }
+    numbers = []
+    for power in range(*case.decades):
+        found = {key: _deviation(case, mine, 10.0**power) for key, mine in samples.items()}
+        decade = f"Fbar = {10.0**power:g} to {10.0 ** (power + 1):g}"
+        for hurst in case.hursts:
+            where = f"H = {hurst:g}, {decade}"
+            for m in METHODS:
+                gaussian = found[hurst, EACH, m].minus(found[hurst, FIXED, m])
+                over = change(log_deviation_over(decade_weights(case.forces, 10.0**power)))
+                numbers += [
+                    _number(f"{where}, {m}: {EACH} over {FIXED}", gaussian),
+                    _number(f"{where}, {m}: {ENSEMBLE} over {EACH}", pairs[hurst, m].estimate(over)),
+                ]
+            numbers += [
+                _number(f"{where}, {v}: mdr over bem3d", found[hurst, v, "mdr"].minus(found[hurst, v, "bem3d"]))
+                for v in VARIANTS
+            ]
+    return Evidence(
+        title="Normalisation: what the fluctuations owe to the way of drawing",
+        compared=(
+            "The punches of Fig. 14.1 drawn in three ways: amplitudes fixed by the spectrum as in (14.8), phases "
+            "random, where every draw has the rms height h exactly; Gaussian amplitudes, scaled to h draw by draw; and "
+            "Gaussian amplitudes that have h in the mean of the ensemble. "
+            f"{case.surfaces} surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs; "
+            "Fbar = F / (E* h L) with the h of the ensemble. The two Gaussian ways are compared on the same draws. "
+            "No grid error: the same grid on "
+            "both sides of every ratio of one method; across methods see Fig. 14.1."
+        ),
+        numbers=tuple(numbers),
+        tables=(_curves(case, samples), _heights(result)),
+        shown=(_matrix(case, samples),),
+        conclusions=tuple(_conclusions(result, samples)),
+        captions={
+            "normalisation": (
+                "Relative standard deviation of the stiffness in three ways to draw, a column each; 95 % intervals. "
+                "Circles: boundary elements; line in a band: MDR. Fig. 14.1 is the first column."
+            )
+        },
+        unconverged=result.unconverged,
+    )
+
+
+def _pairs(each: Outcome, whole: Outcome, case: Normalisation, key: tuple[int, int]) -> Sample:
+    """The same draws, normalised in two ways."""
+    both = np.concatenate([each["stiffness"], whole["stiffness"]], axis=1)
+    lost_in_one = np.isnan(both).any(axis=1, keepdims=True)
+    return sample(np.where(lost_in_one, np.nan, both), generator(case.seed, PAIRS, *key))
+
+
+def _deviation(case: Normalisation, mine: Sample, first: float) -> Estimate:
+    return mine.estimate(log_deviation_over(decade_weights(case.forces, first)))
+
+
+def _number(label: str, apart: Estimate) -> Number:
+    """A difference of logarithms in decibels."""
+    return Number(
+        label=label,
+        value=DECIBEL * apart.value,
+        reference=0.0,
+        source="no change",
+        tolerance=THREE_PER_CENT,
+        unit="dB",
+        reason="3 %, as in Fig. 14.1",
+        sample=DECIBEL * apart.half_width,
+        role=Role.FINDING,
+    )
+
+
+def _curves(case: Normalisation, samples: dict[tuple[float, str, str], Sample]) -> Table:
+    rows: list[Row] = []
+    for (hurst, variant, method), mine in samples.items():
+        for level, force in enumerate(case.forces):
+            found = mine.estimate(at(level, log_relative_deviation))
+            low, high = found.value - found.half_width, found.value + found.half_width
+            rows.append(
+                {
+                    "H": hurst,
+                    "drawn with": variant,
+                    "method": method,
+                    "Fbar": force,
+                    "relative deviation": math.exp(found.value),
+                    "low": math.exp(low),
+                    "high": math.exp(high),
+                }
+            )
+    return Table("curves", {name: [row[name] for row in rows] for name in rows[0]})
+
+
+def _heights(result: NormalisationResult) -> Table:
+    """Scatter of the mean square height, measured and by the number of waves that carry it."""
+    rows: list[Row] = []
+    for (hurst, variant, method), outcome in result.outcomes.items():
+        square = (outcome["height"] / result.case.height) ** 2
+        rows.append(
+            {
+                "H": hurst,
+                "drawn with": variant,
+                "method": method,
+                "mean of h² / h0²": float(square.mean()),
+                "deviation of h² / h0²": float(square.std(ddof=1)),
+                "expected": scatter(result.case, hurst, method) if variant == ENSEMBLE else 0.0,
+            }
+        )
+    return Table("heights", {name: [row[name] for row in rows] for name in rows[0]})
+
+
+def scatter(case: Normalisation, hurst: float, method: str) -> float:
+    """Relative standard deviation of the mean square height of Gaussian draws: sqrt(sum w^2) / sum w.
+
+    w: the mean square of each independent wave, whose power is distributed exponentially; the few longest carry it.
+    """
+    last = case.cells // 4
+    if method == "mdr":
+        power = np.arange(1, last + 1.0) ** (-2 * hurst - 1)
+    else:
+        i, j = np.meshgrid(np.arange(-last, last + 1.0), np.arange(0, last + 1.0), indexing="ij")
+        waves = np.hypot(i, j)
+        # of a wave and its mirror image, one
+        independent = (waves > 0) & (waves <= last) & ((j > 0) | (i > 0))
+        power = waves[independent] ** (-2 * hurst - 2)
+    return float(np.sqrt((power**2).sum()) / power.sum())
+
+
+def _matrix(case: Normalisation, samples: dict[tuple[float, str, str], Sample]) -> Table:
+    """On the page: MDR over boundary elements, a row a Hurst exponent and a decade, a column a way to draw."""
+    columns: dict[str, list[object]] = {"H": [], "Fbar": [], **{variant: [] for variant in VARIANTS}}
+    for hurst in case.hursts:
+        for power in range(*case.decades):
+            columns["H"].append(hurst)
+            columns["Fbar"].append(f"{10.0**power:g} to {10.0 ** (power + 1):g}")
+            for variant in VARIANTS:
+                deviations = [_deviation(case, samples[hurst, variant, m], 10.0**power) for m in METHODS]
+                bem, mdr = deviations
+                apart = mdr.minus(bem)
+                columns[variant].append(
+                    f"{math.exp(bem.value):.3f}, {math.exp(mdr.value):.3f}: {100 * math.expm1(apart.value):+.0f} % "
+                    f"({100 * math.expm1(apart.value - apart.half_width):+.0f} to "
+                    f"{100 * math.expm1(apart.value + apart.half_width):+.0f})"
+                )
+    return Table("relative deviation of boundary elements and MDR, and their difference", columns)
+
+
+def _conclusions(result: NormalisationResult, samples: dict[tuple[float, str, str], Sample]) -> list[str]:
+    case = result.case
+    last = case.decades[1] - 1
+    sentences = []
+    for method in METHODS:
+        found = []
+        for hurst in case.hursts:
+            each, whole = (_deviation(case, samples[hurst, v, method], 10.0**last) for v in (EACH, ENSEMBLE))
+            found.append(f"{math.exp(whole.value - each.value):.2f} at H = {hurst:g}")
+        sentences.append(
+            f"{method}: from Fbar = {10.0**last:g} to {10.0 ** (last + 1):g}, a rms height that only the ensemble has "
+            f"multiplies the deviation by {', '.join(found)}."
+        )
+    spread = "; ".join(
+        f"H = {hurst:g}: {scatter(case, hurst, 'bem3d'):.2f} and {scatter(case, hurst, 'mdr'):.2f}"
+        for hurst in case.hursts
+    )
+    return [
+        *sentences,
+        "With q_min = 2π/L the few longest waves carry the height, in one dimension fewer than in two: the mean square "
+        f"height of Gaussian draws has a relative deviation, on surfaces and on profiles, of {spread}.",
+        "Fig. 14.1 draws with fixed amplitudes, because (14.8) does, and because Fbar counts the force by the height: "
+        "with a height of its own in every draw, one Fbar is another load for each, and its scatter, larger in one "
+        "dimension, would be counted as one of the contact.",
+    ]

@@ -1,0 +1,47 @@
+"""Figure of what MDR does not model."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from validation.evidence import Evidence, Table
+from validation.report.style import GUIDE, graded, panels
+
+
+def draw(evidence: Evidence) -> Figure:
+    """Contact fraction, mean gap, stiffness of the interface over force, relative deviation; all roll-offs in each."""
+    curves = evidence.table("curves")
+    figure, axes = panels(2, 2, height=6.4, sharex=True)
+    area, gap, interface, deviation = axes
+    _draw(area, curves, "contact fraction")
+    last = curves.where(**{"q_r L / 2π": curves["q_r L / 2π"].max()})
+    area.plot(last["Fbar"], last["Persson contact fraction"], label="Persson", **GUIDE)
+    area.set(yscale="log", ylabel="contact fraction")
+    _draw(gap, curves, "mean gap")
+    gap.set(yscale="log", ylim=(0.02, None), ylabel="mean gap / h")
+    _draw(interface, curves, "interface", over_force=True)
+    interface.set(yscale="log", ylabel="stiffness of the interface k_i / (E* L) / Fbar")
+    _draw(deviation, curves, "relative deviation")
+    deviation.set(yscale="log", ylabel="relative standard deviation of k")
+    for axis in (interface, deviation):
+        axis.set_xlabel("force Fbar = F / (E* h L)")
+    area.set_xscale("log")
+    area.legend(loc="center left", bbox_to_anchor=(0.0, 0.42), fontsize=7)
+    return figure
+
+
+def _draw(axis: Axes, curves: Table, name: str, over_force: bool = False) -> None:
+    roll_offs = np.unique(curves["q_r L / 2π"])
+    for i, roll_off in enumerate(roll_offs):
+        mine = curves.where(**{"q_r L / 2π": roll_off})
+        style = graded(i, roll_offs.size)
+        force = mine["Fbar"]
+        unit = force if over_force else np.ones(force.size)
+        value, low, high = (mine[f"bem3d {name}{end}"] / unit for end in ("", " low", " high"))
+        points = {**style, "linestyle": "none"}
+        bars = [value - low, high - value]
+        axis.errorbar(force, value, yerr=bars, capsize=2, label=f"boundary elements, {roll_off:g}", **points)
+        value, low, high = (mine[f"mdr {name}{end}"] / unit for end in ("", " low", " high"))
+        line = ("-", "--", "-.")[i % 3]
+        axis.plot(force, value, color=style["color"], linestyle=line, label=f"MDR, {roll_off:g}")
+        axis.fill_between(force, low, high, color=style["color"], alpha=0.2, linewidth=0)
