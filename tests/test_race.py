@@ -117,7 +117,7 @@ def test_evidence(result):
     assert not evidence.unconverged
     assert all(number.verdict is Verdict.AGREE for number in evidence.numbers)
     assert sum("too small for an exponent" in sentence for sentence in evidence.conclusions) == 3
-    assert len(evidence.shown["problem"]) == 4
+    assert len(evidence.shown[0]["problem"]) == 4
     assert (scaling["peak memory [MiB]"] > 1).all()
     for name in ("bem3d", "bem3d, textbook"):
         mine = heats.where(contestant=name)

@@ -107,7 +107,7 @@ def test_the_exponent_of_the_interface_is_found_behind_the_punch(exponent):
     found = [n for n in synthetic(exponent).numbers if n.label.startswith("exponent of the interface")]
     assert len(found) == 2 * 2 * 2
     for n in found:
-        assert n.value == pytest.approx(exponent, abs=1e-9)
+        assert n.value == pytest.approx(exponent, abs=1e-6)
         assert n.verdict is (Verdict.AGREE if exponent == 1 else Verdict.DIFFER)
 
 

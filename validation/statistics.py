@@ -115,8 +115,14 @@ def at(level: int, statistic: Statistic) -> Statistic:
 
 
 def combined(weights: FloatArray, statistic: Statistic) -> Statistic:
-    """sum_l w_l s_l of a statistic s of each level: with weights that sum to one, its mean over levels."""
-    return lambda mean, deviation: np.asarray(np.tensordot(weights, statistic(mean, deviation), (0, 0)))
+    """sum_l w_l s_l of a statistic s of each level: with weights that sum to one, its mean over levels.
+
+    A level without weight need not have the statistic.
+    """
+    used = weights != 0
+    return lambda mean, deviation: np.asarray(
+        np.tensordot(weights[used], statistic(mean[used], deviation[used]), (0, 0))
+    )
 
 
 def decade_weights(forces: Sequence[float], first: float) -> FloatArray:

@@ -19,7 +19,7 @@ SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 def draw(evidence: Evidence) -> Figure:
     """As in the book: the relative deviation of every Hurst exponent, (a) in three dimensions, (b) in one."""
     curves = evidence.table("curves")
-    figure, axes = panels(1, 2, height=4.0, sharey="row")
+    figure, axes = panels(1, 2, height=4.0, sharex=True, sharey="row")
     hursts = np.unique(curves["H"])
     for axis, method, title in zip(axes, ("bem3d", "mdr"), ("boundary elements", "MDR"), strict=True):
         for i, hurst in enumerate(hursts):

@@ -26,7 +26,7 @@ def draw(evidence: Evidence) -> Figure:
     for axis in (interface, deviation):
         axis.set_xlabel("force Fbar = F / (E* h L)")
     area.set_xscale("log")
-    area.legend(loc="center left", bbox_to_anchor=(0.0, 0.42), fontsize=7)
+    figure.legend(*area.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -41,7 +41,12 @@ def _draw(axis: Axes, curves: Table, name: str, over_force: bool = False) -> Non
         points = {**style, "linestyle": "none"}
         bars = [value - low, high - value]
         axis.errorbar(force, value, yerr=bars, capsize=2, label=f"boundary elements, {roll_off:g}", **points)
-        value, low, high = (mine[f"mdr {name}{end}"] / unit for end in ("", " low", " high"))
+        value, low, high = (_positive(mine[f"mdr {name}{end}"]) / unit for end in ("", " low", " high"))
         line = ("-", "--", "-.")[i % 3]
         axis.plot(force, value, color=style["color"], linestyle=line, label=f"MDR, {roll_off:g}")
         axis.fill_between(force, low, high, color=style["color"], alpha=0.2, linewidth=0)
+
+
+def _positive(values: np.ndarray) -> np.ndarray:
+    """What is left of it, on a logarithmic axis."""
+    return np.where(values > 1e-6, values, np.nan)
