@@ -1,40 +1,35 @@
 """The race: the same contact problems, the same residual, one thread each, one after the other in turns."""
 
 import itertools
-import multiprocessing
-import os
-import resource
-import signal
 import time
 import warnings
-from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 import bem3d
 import mdr
+from validation.alone import one_thread, own_process, peak_memory, timed
 from validation.ensemble import SERIAL, Engine, Outcome, generator
 from validation.peers import CONTESTANTS, Contestant, Run, Solve, Task
+from validation.rough_punch import Roughness, Surface, press_surface
 
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
-SPHERE, ROUGH = "sphere", "rough"
+SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
 SPHERE_LOAD = 4 / 3 / 4**3
 """The force of Hertz for a = L/4 and R = L, over E* L^2."""
 FINISHED = "finished"
 FEWEST_RUNS, MOST_RUNS = 5, 15
-T = TypeVar("T")
 
 
 @dataclass(frozen=True)
 class Course:
     """A surface pressed on an n x n grid of unit side: a sphere with a = n/4 cells, or a self-affine surface.
 
-    Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; load: F / (E* L^2).
+    Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; the punch of Fig. 14.1 alike, with its own
+    height; load: F / (E* L^2).
     """
 
     surface: str
@@ -55,6 +50,8 @@ class Course:
         if self.surface == SPHERE:
             x = (np.arange(n) + 0.5) / n - 0.5
             return -(x[:, np.newaxis] ** 2 + x**2) / 2
+        if self.surface == PUNCH:
+            return punch(n, self.seed).surface(n, 0)
         band = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * n / 4, rms=0.01)
         return bem3d.rough_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=generator(self.seed), rms=0.01)
 
@@ -66,12 +63,54 @@ class Course:
         return Task(height, 1 / self.cells, 1.0, self.periodic, self.load, approach)
 
 
+def punch(cells: int, seed: int) -> Roughness:
+    """One of those of Fig. 14.1, with four cells to its shortest wave."""
+    return Roughness(hurst=0.7, waves=(1, cells // 4), seed=seed)
+
+
+@dataclass(frozen=True)
+class Errand:
+    """The work of Fig. 14.1, a sample of it.
+
+    cells: on a side; forces: Fbar of a load path, ascending; sampled: those of them that everyone solves, cold;
+    tolerance: residual; paths: surfaces that we press along the whole path; contacts: so many has the full figure.
+    """
+
+    cells: int = 64
+    forces: tuple[float, ...] = tuple(10.0 ** (-3 + i / 6) for i in range(25))
+    sampled: tuple[int, ...] = (0, 12, 24)
+    tolerance: float = 1e-4
+    paths: int = 1
+
+    def heats(self, seed: int, slow: float) -> list["Heat"]:
+        """The sampled forces, one cold solve each."""
+        height = punch(self.cells, seed).height
+        return [
+            Heat(Course(PUNCH, self.forces[i] * height, self.cells, False, seed), self.tolerance, slow)
+            for i in self.sampled
+        ]
+
+    def surfaces(self, seed: int) -> list[Surface]:
+        """Our load paths."""
+        return [
+            Surface(
+                roughness=punch(self.cells, seed),
+                realisation=i,
+                cells=self.cells,
+                forces=self.forces,
+                tolerance=self.tolerance,
+            )
+            for i in range(self.paths)
+        ]
+
+
 @dataclass(frozen=True)
 class Race:
     """All courses.
 
     cells: grids; loads: of the rough surfaces; residual: to be reached by everyone, see `bem3d.residual`;
-    slow: a contestant that takes longer is timed once [s]; scaling: grids on which our solver alone is measured.
+    slow: a contestant that takes longer is timed once [s]; scaling: grids on which our solver alone is measured;
+    errand: a sample of the work of Fig. 14.1.
     """
 
     cells: tuple[int, ...] = (64, 128)
@@ -79,6 +118,7 @@ class Race:
     residual: float = 1e-8
     slow: float = 5.0
     scaling: tuple[int, ...] = (64, 128, 256)
+    errand: Errand = Errand()
     seed: int = 20261121
 
     def courses(self) -> list[Course]:
@@ -109,13 +149,16 @@ class Measured:
 
 @dataclass(frozen=True)
 class RaceResult:
-    """The race and what was measured: one outcome a heat, and one a grid."""
+    """The race and what was measured: one outcome a heat, one a grid, one a load path; the errand's heats apart."""
 
     race: Race
     heats: list[Heat]
     outcomes: list[Outcome]
     measured: list[Measured]
     costs: list[Outcome]
+    errands: list[Heat]
+    errand_outcomes: list[Outcome]
+    paths: list[Outcome]
     began: float = 0.0
 
     @property
@@ -138,7 +181,18 @@ def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
         )
         for n in race.scaling
     ]
-    result = RaceResult(race, heats, alone.map(run_heat, heats), measured, alone.map(measure, measured), began)
+    errands = race.errand.heats(race.seed, race.slow)
+    result = RaceResult(
+        race,
+        heats,
+        alone.map(run_heat, heats),
+        measured,
+        alone.map(measure, measured),
+        errands,
+        alone.map(run_heat, errands),
+        alone.map(measure_path, race.errand.surfaces(race.seed)),
+        began,
+    )
     # a race that was interrupted goes on; one that is over is run anew the next time
     for file in engine.store.glob("race-*.npz") if engine.store else ():
         file.unlink()
@@ -156,8 +210,8 @@ def run_heat(heat: Heat) -> Outcome:
         stack.enter_context(warnings.catch_warnings())
         warnings.simplefilter("ignore", bem3d.EdgeWarning)  # a rough surface is pressed as far as its grid goes
         task = heat.course.task()
-        stack.enter_context(_one_thread())
-        lanes = [stack.enter_context(_process()) for _ in CONTESTANTS]
+        stack.enter_context(one_thread())
+        lanes = [stack.enter_context(own_process()) for _ in CONTESTANTS]
         rows = [
             _qualify(lane, contestant, task, heat.residual) for lane, contestant in zip(lanes, CONTESTANTS, strict=True)
         ]
@@ -183,12 +237,6 @@ class Row:
         """Whether one more run would make the median better: until five, and a second in all."""
         enough = len(self.seconds) >= FEWEST_RUNS and sum(self.seconds) >= 1.0
         return self.status == FINISHED and self.seconds[0] < slow and not enough
-
-
-def _process() -> ProcessPoolExecutor:
-    """A fresh process, which leaves an interruption to its parent."""
-    spawn = multiprocessing.get_context("spawn")
-    return ProcessPoolExecutor(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
 
 
 def _qualify(lane: ProcessPoolExecutor, contestant: Contestant, task: Task, residual: float) -> Row:
@@ -274,12 +322,12 @@ def _differences(pressure: np.ndarray | None, ours: np.ndarray | None) -> tuple[
 
 def measure(measured: Measured) -> Outcome:
     """Seconds and peak memory of a solve in a process of its own, and the seconds of one application."""
-    with _one_thread(), _process() as lane:
+    with one_thread(), own_process() as lane:
         return lane.submit(_measure, measured).result()
 
 
 def _measure(measured: Measured) -> Outcome:
-    idle, course = _peak(), measured.course
+    idle, course = peak_memory(), measured.course
     task = Task(course.height(), 1 / course.cells, 1.0, course.periodic, course.load, 0.0)
     half_space = task.half_space()
 
@@ -287,12 +335,12 @@ def _measure(measured: Measured) -> Outcome:
         return bem3d.solve(half_space, task.gap, force=task.force, tolerance=measured.residual)
 
     warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
-    contact, first = _timed(solve)
-    peak = _peak()
+    contact, first = timed(solve)
+    peak = peak_memory()
     # what the plans cost is nothing beside a solve that takes so long
-    seconds = sorted(_timed(solve)[1] for _ in range(3)) if first < 5 else [first]
+    seconds = sorted(timed(solve)[1] for _ in range(3)) if first < 5 else [first]
     half_space.displacement(contact.pressure)
-    application = sorted(_timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5))
+    application = sorted(timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5))
     return {
         "seconds": np.array(seconds[len(seconds) // 2]),
         "first": np.array(first),
@@ -305,32 +353,16 @@ def _measure(measured: Measured) -> Outcome:
     }
 
 
-def _timed(function: Callable[[], T]) -> tuple[T, float]:
-    begin = time.perf_counter()
-    result = function()
-    return result, time.perf_counter() - begin
+def measure_path(surface: Surface) -> Outcome:
+    """Seconds of a whole load path with its stiffnesses, and the operator applications of each contact."""
+    with one_thread(), own_process() as lane:
+        return lane.submit(_measure_path, surface).result()
 
 
-def _peak() -> float:
-    """Largest memory of this process so far [bytes]."""
-    status = Path("/proc/self/status")
-    if status.exists():
-        # the figure of getrusage is inherited from the parent
-        line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
-        return 1024.0 * float(line.split()[1])
-    return 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-
-
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """Processes started meanwhile compute with one thread."""
-    before = {name: os.environ.get(name) for name in THREADS}
-    os.environ.update(dict.fromkeys(THREADS, "1"))
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+def _measure_path(surface: Surface) -> Outcome:
+    outcome, seconds = timed(lambda: press_surface(surface))
+    return {
+        "seconds": np.array(seconds),
+        "applications": outcome["applications"] + outcome["frozen applications"],
+        "failed": outcome["failed"],
+    }

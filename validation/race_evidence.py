@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from validation.ensemble import Outcome
 from validation.evidence import Evidence, Number, Table
 from validation.peers import CONTESTANTS
-from validation.race import FINISHED, RaceResult
+from validation.race import FINISHED, Heat, RaceResult
 
 # the residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells
 AGREEMENT = (
@@ -34,8 +35,11 @@ def evidence(result: RaceResult) -> Evidence:
             + "."
         ),
         numbers=tuple(_agreement(result)),
-        tables=(_heats(result), _scaling(result)),
-        shown=(_times(result),),
+        tables=(_heats(result.heats, result.outcomes, "heats"), _scaling(result), _errand(result)),
+        shown=(
+            _times(result.heats, result.outcomes, "Seconds"),
+            _times(result.errands, result.errand_outcomes, "The same for some of the loads of Fig. 14.1"),
+        ),
         conclusions=tuple(_conclusions(result)),
         captions={
             "race": (
@@ -54,7 +58,11 @@ def evidence(result: RaceResult) -> Evidence:
     )
 
 
-def _heats(result: RaceResult) -> Table:
+def _errand(result: RaceResult) -> Table:
+    return _heats(result.errands, result.errand_outcomes, "errand")
+
+
+def _heats(heats: list[Heat], outcomes: list[Outcome], title: str) -> Table:
     names = (
         ("seconds", 0, "median [s]"),
         ("seconds", 1, "fastest [s]"),
@@ -68,7 +76,7 @@ def _heats(result: RaceResult) -> Table:
         ("difference", 2, "area difference to ours"),
     )
     rows: dict[str, list[object]] = {}
-    for heat, outcome in zip(result.heats, result.outcomes, strict=True):
+    for heat, outcome in zip(heats, outcomes, strict=True):
         course = heat.course
         for i, contestant in enumerate(CONTESTANTS):
             facts: dict[str, object] = {
@@ -84,13 +92,13 @@ def _heats(result: RaceResult) -> Table:
                 facts[name] = float(outcome[key][i] if column is None else outcome[key][i, column])
             for name, value in facts.items():
                 rows.setdefault(name, []).append(value)
-    return Table("heats", rows)
+    return Table(title, rows)
 
 
-def _times(result: RaceResult) -> Table:
+def _times(heats: list[Heat], outcomes: list[Outcome], title: str) -> Table:
     """Seconds as they stand on the page: median, from the fastest to the slowest, and set-up."""
     rows: dict[str, list[object]] = {"problem": [], "area": []}
-    for heat, outcome in zip(result.heats, result.outcomes, strict=True):
+    for heat, outcome in zip(heats, outcomes, strict=True):
         rows["problem"].append(heat.course.label)
         rows["area"].append(f"{float(outcome['area']):.1%}")
         for i, contestant in enumerate(CONTESTANTS):
@@ -98,7 +106,7 @@ def _times(result: RaceResult) -> Table:
             cell = f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {outcome['setup'][i]:.2g} s"
             done = outcome["status"][i] == FINISHED
             rows.setdefault(contestant.name, []).append(cell if done else str(outcome["status"][i]))
-    return Table("times", rows)
+    return Table(f"{title}: median (from the fastest to the slowest run)", rows)
 
 
 def _scaling(result: RaceResult) -> Table:
@@ -147,15 +155,43 @@ def _conclusions(result: RaceResult) -> list[str]:
     sentences = [_standing(result, periodic, *against) for periodic in (True, False) for against in AGAINST]
     sentences += [
         f"Not finished: {heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}."
-        for heat, outcome in zip(result.heats, result.outcomes, strict=True)
+        for heat, outcome in zip(
+            [*result.heats, *result.errands], [*result.outcomes, *result.errand_outcomes], strict=True
+        )
         for i in OTHERS
         if outcome["status"][i].startswith("failed")
     ]
     if result.resumed:
         sentences.append(f"{result.resumed} of {len(result.heats)} heats were run before this race was interrupted.")
+    sentences.append(_work(result))
     table = _scaling(result)
     problems = list(dict.fromkeys(table["problem"].tolist()))
     return sentences + [_growth(problem, table.where(problem=problem)) for problem in problems]
+
+
+def _work(result: RaceResult) -> str:
+    """What a contact of Fig. 14.1 costs us, and what it would cost the fastest peer."""
+    errand = result.race.errand
+    seconds = sum(float(path["seconds"]) for path in result.paths) / (len(result.paths) * len(errand.forces))
+    applications = float(np.mean([path["applications"] for path in result.paths]))
+    ours = (
+        f"The work of Fig. 14.1 on {errand.cells}² cells to a residual of {errand.tolerance:g}: a contact with its "
+        f"stiffness takes us {1e3 * seconds:.1f} ms and {applications:.1f} operator applications, on load paths of "
+        f"{len(errand.forces)} forces ({len(result.paths)} surfaces, H = 0.7, everything included)"
+    )
+    times = {}
+    for i in OTHERS:
+        finished = all(outcome["status"][i] == FINISHED for outcome in result.errand_outcomes)
+        if finished:
+            times[CONTESTANTS[i].name] = float(np.mean([o["seconds"][i, 0] for o in result.errand_outcomes]))
+    if not times:
+        return f"{ours}; no peer has finished all of the sampled loads."
+    fastest = min(times, key=lambda name: times[name])
+    return (
+        f"{ours}. The fastest peer that solves all of {len(errand.sampled)} sampled loads, {fastest}, takes "
+        f"{1e3 * times[fastest]:.0f} ms for one of them in the mean, from a cold start, and has no stiffness: with two "
+        f"loads for a difference, {2 * times[fastest] / seconds:.0f} times as long as ours."
+    )
 
 
 def _growth(problem: str, rows: Table) -> str:

@@ -40,7 +40,11 @@ class Entry:
 RACE = Entry(
     "The race: our solver beside the peers that are installed, same problems, same residual",
     race.Race(),
-    race.Race(cells=(256, 512, 1024), scaling=(128, 256, 512, 1024, 2048, 4096)),
+    race.Race(
+        cells=(256, 512, 1024),
+        scaling=(128, 256, 512, 1024, 2048, 4096),
+        errand=race.Errand(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
+    ),
     race.run,
     race_evidence.evidence,
 )

@@ -279,8 +279,18 @@ def _conclusions(result: NormalisationResult, samples: dict[tuple[float, str, st
         f"H = {hurst:g}: {scatter(case, hurst, 'bem3d'):.2f} and {scatter(case, hurst, 'mdr'):.2f}"
         for hurst in case.hursts
     )
+    together = []
+    for variant in VARIANTS:
+        apart = [
+            _deviation(case, samples[hurst, variant, "mdr"], 10.0**last).value
+            - _deviation(case, samples[hurst, variant, "bem3d"], 10.0**last).value
+            for hurst in case.hursts
+        ]
+        together.append(f"{100 * math.expm1(float(np.mean(apart))):+.0f} % with {variant}")
     return [
         *sentences,
+        f"So it decides how far the methods agree: MDR over boundary elements there, in the mean over H, is "
+        f"{', '.join(together)}.",
         "With q_min = 2π/L the few longest waves carry the height, in one dimension fewer than in two: the mean square "
         f"height of Gaussian draws has a relative deviation, on surfaces and on profiles, of {spread}.",
         "Fig. 14.1 draws with fixed amplitudes, because (14.8) does, and because Fbar counts the force by the height: "

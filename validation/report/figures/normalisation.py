@@ -20,12 +20,13 @@ def draw(evidence: Evidence) -> Figure:
         axis.errorbar(bem["Fbar"], value, yerr=bars, capsize=2, label="boundary elements", **BEM)
         axis.plot(mdr["Fbar"], mdr["relative deviation"], label="MDR, L_1D = L", **MDR_LINE)
         axis.fill_between(mdr["Fbar"], mdr["low"], mdr["high"], color=MDR_LINE["color"], alpha=0.25, linewidth=0)
-        axis.set(xscale="log", ylim=(0, None))
+        axis.set_xscale("log")
         if i < len(ways):
             axis.set_title(way)
         if i % len(ways) == 0:
             axis.set_ylabel(f"H = {hurst:g}\nrelative deviation of k")
         if i >= len(ways) * (len(hursts) - 1):
             axis.set_xlabel("force Fbar = F / (E* h L)")
+    axes[0].set_ylim(0, 1.05 * curves["high"].max())
     axes[0].legend(loc="lower left")
     return figure

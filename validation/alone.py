@@ -1,0 +1,53 @@
+"""A process of its own with one thread, for what is to be timed; its time and its memory."""
+
+import multiprocessing
+import os
+import resource
+import signal
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TypeVar
+
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
+T = TypeVar("T")
+
+
+def own_process() -> ProcessPoolExecutor:
+    """A fresh process, which leaves an interruption to its parent."""
+    spawn = multiprocessing.get_context("spawn")
+    return ProcessPoolExecutor(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
+
+
+def timed(function: Callable[[], T]) -> tuple[T, float]:
+    """Result and seconds."""
+    begin = time.perf_counter()
+    result = function()
+    return result, time.perf_counter() - begin
+
+
+def peak_memory() -> float:
+    """Largest memory of this process so far [bytes]."""
+    status = Path("/proc/self/status")
+    if status.exists():
+        # the figure of getrusage is inherited from the parent
+        line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
+        return 1024.0 * float(line.split()[1])
+    return 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Processes started meanwhile compute with one thread."""
+    before = {name: os.environ.get(name) for name in THREADS}
+    os.environ.update(dict.fromkeys(THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
