@@ -217,7 +217,9 @@ def test_a_folder_with_something_else_in_it_is_refused(tmp_path, capsys):
 
 def test_old_figures_do_not_stay(small, tmp_path):
     report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1")
+    (tmp_path / "realisations" / "killed.part").write_bytes(b"half of")
     report("--only", "geike", "--out", str(tmp_path), "--workers", "1")
+    assert not list(tmp_path.rglob("*.part"))
     assert [f.name for f in sorted((tmp_path / "figures").iterdir())] == ["geike.pdf", "geike.svg"]
     assert all(f.name.startswith("geike") for f in (tmp_path / "data").iterdir())
 

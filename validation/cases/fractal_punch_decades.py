@@ -62,7 +62,7 @@ def _deviation(forces: Forces, first: float) -> Statistic:
     return log_deviation_over(decade_weights(forces, first))
 
 
-def exponent(forces: Forces, first: float) -> Statistic:
+def _exponent(forces: Forces, first: float) -> Statistic:
     """d ln k / d ln F of the mean stiffness over the decade."""
     return combined(decade_slope(forces, first), log_mean)
 
@@ -75,7 +75,7 @@ QUANTITIES = {
     "relative deviation, L_1D = 1.1523 L": Quantity(LONG, _deviation, THREE_PER_CENT, "dB", FIGURE),
     "mean stiffness": Quantity(MDR, _mean, FIVE_PER_CENT, "dB", LEVEL),
     "mean stiffness, L_1D = 1.1523 L": Quantity(LONG, _mean, FIVE_PER_CENT, "dB", LEVEL),
-    "exponent": Quantity(MDR, exponent, 0.02, "-", DIGITS),
+    "exponent": Quantity(MDR, _exponent, 0.02, "-", DIGITS),
 }
 
 
@@ -108,6 +108,11 @@ class Comparison:
         return 2 * self.finer.value
 
     @property
+    def extrapolated(self) -> Estimate:
+        """Boundary elements on cells of no size, with the error of the sample."""
+        return Estimate(self.bem.value + self.correction, self.bem.error, self.bem.samples)
+
+    @property
     def left(self) -> float:
         """How far the extrapolations of two pairs of grids lie apart; what few surfaces leave open; the springs."""
         apart = abs(self.correction - self.coarser.value)
@@ -116,14 +121,14 @@ class Comparison:
     @property
     def number(self) -> Number | None:
         """What is left between the two is the model's; None where one of them has no such statistic."""
-        quantity, apart = self.quantity, self.springs.minus(self.bem)
-        if not np.isfinite([apart.value, apart.error, self.correction, self.left]).all():
+        quantity, apart = self.quantity, self.springs.minus(self.extrapolated)
+        if not np.isfinite([apart.value, apart.error, self.left]).all():
             return None
         of = "mean over H" if self.hurst is None else f"H = {self.hurst:g}"
         methods = "mdr over bem3d" if quantity.unit == "dB" else "mdr less bem3d"
         return Number(
             label=f"{self.name} at {of}, Fbar = {self.first:g} to {10 * self.first:g}: {methods}",
-            value=quantity.scale * (apart.value - self.correction),
+            value=quantity.scale * apart.value,
             reference=0.0,
             source="bem3d, extrapolated",
             tolerance=quantity.tolerance,
@@ -216,7 +221,7 @@ def data_row(comparison: Comparison) -> dict[str, object]:
         "Fbar to": 10 * comparison.first,
         "mdr": value(comparison.springs.value),
         "bem3d": value(comparison.bem.value),
-        "bem3d extrapolated": value(comparison.bem.value + comparison.correction),
+        "bem3d extrapolated": value(comparison.extrapolated.value),
         "unit of the difference": quantity.unit,
         "difference": math.nan if number is None else number.value,
         "± sample": math.nan if number is None else number.sample,

@@ -17,7 +17,6 @@ from validation.cases.fractal_punch_decades import (
     Samples,
     compare,
     data_row,
-    exponent,
     matrix,
     mean_over_hursts,
     resampled,
@@ -56,6 +55,7 @@ def evidence(result: FractalPunchResult) -> Evidence:
     samples = [resampled(case, h, ensemble) for h, ensemble in enumerate(result.ensembles)]
     comparisons = _comparisons(case, samples)
     numbers = [n for c in comparisons if (n := c.number) is not None]
+    laws = _laws(case, comparisons)
     criteria = (
         _convex(result, BEM),
         _convex(result, MDR),
@@ -67,12 +67,11 @@ def evidence(result: FractalPunchResult) -> Evidence:
     return Evidence(
         title="Fractal punch (Fig. 14.1)",
         compared=_compared(case),
-        numbers=(*criteria, *_claimed(numbers), *numbers),
+        numbers=(*criteria, *_claimed(numbers), *laws, *numbers),
         tables=(_table("curves", curves), _table("decades", list(map(data_row, comparisons))), _table("grids", grids)),
-        shown=tuple(matrix(case, name, comparisons) for name in QUANTITIES),
+        shown=(*(matrix(case, name, comparisons) for name in QUANTITIES), _law_table(case, laws)),
         conclusions=(
             *(summary(name, comparisons) for name in QUANTITIES),
-            *_exponents(result, samples),
             *_saturation(curves),
             _cost(result),
         ),
@@ -255,23 +254,50 @@ def _table(name: str, rows: list[Row] | list[dict[str, object]]) -> Table:
     return Table(name, {column: [row[column] for row in rows] for column in rows[0]})
 
 
-def _exponents(result: FractalPunchResult, samples: list[Samples]) -> tuple[str, ...]:
-    """Where the law of the theory should hold best: away from the last asperity and from saturation."""
-    case = result.case
+def _laws(case: FractalPunch, comparisons: list[Comparison]) -> list[Number]:
+    """Exponents beside 1 / (1 + H), where the law should hold best: off the last asperity and off saturation."""
     decades = [10.0**power for power in range(*case.decades)]
     first = min(decades, key=lambda force: abs(math.log(force / 0.01)))
-    slope = exponent(case.forces, first)
-    found = []
-    for ensemble, mine in zip(result.ensembles, samples, strict=True):
-        bem, mdr = (mine.methods[method].estimate(slope) for method in (BEM, MDR))
-        found.append(
-            f"H = {ensemble.hurst:g}: {bem.value:.3f} ± {bem.half_width:.3f}, {mdr.value:.3f} ± {mdr.half_width:.3f}, "
-            f"{1 / (1 + ensemble.hurst):.3f}"
-        )
-    return (
-        f"Exponent of the mean stiffness from Fbar = {first:g} to {10 * first:g}, boundary elements, MDR, 1 / (1 + H): "
-        + "; ".join(found)
-        + f". Published: {PUBLISHED[0]} to {PUBLISHED[1]} for fractal dimensions 2 to 3.",
+    mine = [c for c in comparisons if c.name == "exponent" and c.hurst is not None and c.first == first]
+    return [number for c in mine for number in (_law(c, BEM), _law(c, MDR))]
+
+
+def _law(comparison: Comparison, method: str) -> Number:
+    hurst, first = comparison.hurst or 0.0, comparison.first
+    found, grid = (
+        (comparison.extrapolated, comparison.left)
+        if method == BEM
+        else (comparison.springs, abs(comparison.refined_springs.value))
+    )
+    return Number(
+        label=f"exponent at H = {hurst:g}, Fbar = {first:g} to {10 * first:g}: {method}",
+        value=found.value,
+        reference=1 / (1 + hurst),
+        source="1 / (1 + H)",
+        tolerance=QUANTITIES["exponent"].tolerance,
+        reason=QUANTITIES["exponent"].reason,
+        grid=grid,
+        sample=found.half_width,
+        role=Role.FINDING,
+    )
+
+
+def _law_table(case: FractalPunch, laws: list[Number]) -> Table:
+    """On the page: a row a Hurst exponent."""
+
+    def column(numbers: list[Number]) -> list[object]:
+        return [f"{n.value:.3f} ± {n.uncertainty:.3f}: {n.verdict}" for n in numbers]
+
+    first, *_ = (n.label.split(", ")[1].split(":")[0] for n in laws)
+    return Table(
+        f"exponent of the mean stiffness beside 1 / (1 + H), {first}; published for fractal dimensions 2 to 3: "
+        f"{PUBLISHED[0]} to {PUBLISHED[1]}",
+        {
+            "H": [f"{hurst:g}" for hurst in case.hursts],
+            "1 / (1 + H)": [f"{n.reference:.3f}" for n in laws[::2]],
+            "boundary elements, extrapolated": column(laws[::2]),
+            "MDR, L_1D = L": column(laws[1::2]),
+        },
     )
 
 

@@ -41,11 +41,13 @@ class Folder:
         self._written.add(self.path / name)
 
     def clear_old(self) -> None:
-        """Remove figures and data that an earlier report left and this one has not written."""
+        """Remove figures and data that an earlier report left, and what a killed run had begun to write."""
         for room in ("figures", "data"):
             for file in (self.path / room).glob("*.*"):
                 if file not in self._written:
                     file.unlink()
+        for begun in self.path.rglob("*.part"):
+            begun.unlink(missing_ok=True)
 
 
 def as_json(value: object) -> bytes:
