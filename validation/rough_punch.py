@@ -21,6 +21,12 @@ PROFILES, SURFACES = 1, 2
 LOST = (np.nan,) * 4
 
 
+def force_levels(decades: tuple[int, int], per_decade: int) -> tuple[float, ...]:
+    """Fbar from one power of ten to another, ascending, so many equal steps of its logarithm in each decade."""
+    first, last = decades
+    return tuple(10.0 ** (first + i / per_decade) for i in range((last - first) * per_decade + 1))
+
+
 @dataclass(frozen=True, kw_only=True)
 class Roughness:
     """Self-affine roughness on a side L, in units of L = 1, the same on every grid and for both methods.

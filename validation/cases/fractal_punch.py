@@ -4,7 +4,16 @@ from dataclasses import dataclass
 
 from validation import closed_forms
 from validation.ensemble import SERIAL, Engine, Outcome
-from validation.rough_punch import Profiles, Roughness, Surface, lost, press_profiles, press_surface, stacked
+from validation.rough_punch import (
+    Profiles,
+    Roughness,
+    Surface,
+    force_levels,
+    lost,
+    press_profiles,
+    press_surface,
+    stacked,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,8 +57,7 @@ class FractalPunch:
     @property
     def forces(self) -> tuple[float, ...]:
         """Levels of Fbar, ascending."""
-        first, last = self.decades
-        return tuple(10.0 ** (first + i / self.per_decade) for i in range((last - first) * self.per_decade + 1))
+        return force_levels(self.decades, self.per_decade)
 
     @property
     def refined_forces(self) -> tuple[float, ...]:

@@ -8,7 +8,17 @@ import numpy as np
 
 from validation.ensemble import SERIAL, Engine, Outcome, generator
 from validation.evidence import Evidence, Number, Role, Table
-from validation.rough_punch import Profiles, Roughness, Surface, enough, lost, press_profiles, press_surface, stacked
+from validation.rough_punch import (
+    Profiles,
+    Roughness,
+    Surface,
+    enough,
+    force_levels,
+    lost,
+    press_profiles,
+    press_surface,
+    stacked,
+)
 from validation.statistics import (
     DECIBEL,
     THREE_PER_CENT,
@@ -59,8 +69,7 @@ class Normalisation:
     @property
     def forces(self) -> tuple[float, ...]:
         """Levels of Fbar, ascending."""
-        first, last = self.decades
-        return tuple(10.0 ** (first + i / self.per_decade) for i in range((last - first) * self.per_decade + 1))
+        return force_levels(self.decades, self.per_decade)
 
     def roughness(self, hurst: float, variant: str) -> Roughness:
         """Of one way to draw."""
