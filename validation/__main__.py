@@ -96,7 +96,7 @@ def _tell(section: Section) -> None:
     found = ", ".join(f"{section.findings(v)} {v}" for v in Verdict if section.findings(v))
     print(f"{section.name:15s} {'no result' if section.failure else met}" + (f"; findings: {found}" if found else ""))
     for number in section.missed:
-        print(f"    missed: {number.label} = {number.value:.6g}, {number.verdict} with {number.reference:.6g}")
+        print(f"    missed: {number.sentence}")
     for solve in section.unconverged:
         print(f"    not converged: {solve}", flush=True)
     if section.name == "race" and section.evidence:
@@ -126,7 +126,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="mdr-validation",
         description="Reduced contact models beside three-dimensional boundary elements.",
-        epilog="Exit status: 0 all criteria met; 1 a criterion failed; 2 bad usage or input; "
+        epilog="Exit status: 0 all criteria met; 1 a criterion failed, or could not be decided; 2 bad usage or input; "
         "3 something did not converge; 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=importlib.metadata.version("mdr-validation"))

@@ -85,6 +85,15 @@ class Number:
         return ratio * ratio
 
     @property
+    def sentence(self) -> str:
+        """All of it in a line."""
+        unit = "" if self.unit == "-" else f" {self.unit}"
+        return (
+            f"{self.label} = {self.value:.6g}{unit} ± {self.uncertainty:.2g}{unit}, {self.verdict} with "
+            f"{self.reference:.6g}{unit} within {self.tolerance:.2g}{unit}"
+        )
+
+    @property
     def met(self) -> bool:
         """False for a criterion that does not agree."""
         return self.role is Role.FINDING or self.verdict is Verdict.AGREE

@@ -1,6 +1,7 @@
 """How far a long run is: a bar on a terminal, plain lines in a log."""
 
 import sys
+import threading
 import time
 from types import TracebackType
 
@@ -14,14 +15,16 @@ class Progress:
     """Counts what is done, stored and failed, with the rate and the time left.
 
     name: of the work; total: solves; stored: of these were found finished; failed: of those stored have failed;
-    shown: False says nothing.
+    shown: False says nothing. Lines come also while nothing is finished, since that is worth knowing too.
     """
 
     def __init__(self, name: str, *, total: int, stored: int, failed: int, shown: bool):
         self.name, self.total, self.stored, self.failed = name, total, stored, failed
         self.done = stored
-        self._began = self._told = time.monotonic()
+        self._began = time.monotonic()
         self._lines = shown and not sys.stderr.isatty()
+        self._over = threading.Event()
+        self._clock = threading.Thread(target=self._tick, daemon=True)
         self._bar = tqdm(
             total=total,
             initial=stored,
@@ -33,6 +36,7 @@ class Progress:
         self._bar.set_postfix_str(self._counts, refresh=False)
 
     def __enter__(self) -> "Progress":
+        self._clock.start()
         return self
 
     def step(self, failed: bool) -> None:
@@ -41,29 +45,37 @@ class Progress:
         self.failed += failed
         self._bar.set_postfix_str(self._counts, refresh=False)
         self._bar.update()
-        if self._lines and time.monotonic() - self._told >= EVERY:
-            self._tell()
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self._over.set()
+        self._clock.join()
         self._bar.close()
-        if self._lines:
-            self._tell()
+        self._tell()
 
     @property
     def line(self) -> str:
         """As it stands in a log."""
         seconds = time.monotonic() - self._began
         rate = (self.done - self.stored) / seconds if seconds > 0 else 0.0
-        left = f"{(self.total - self.done) / rate:.0f} s left" if rate > 0 else "time left unknown"
-        return f"{self.name}: {self.done} of {self.total} done, {self._counts}; {rate:.3g} a second, {left}"
+        counts = f"{self.name}: {self.done} of {self.total} done, {self._counts}"
+        if self.done == self.total:
+            return f"{counts}; {rate:.3g} a second"
+        return f"{counts}; {rate:.3g} a second, " + (
+            f"{(self.total - self.done) / rate:.0f} s left" if rate > 0 else "time left unknown"
+        )
 
     @property
     def _counts(self) -> str:
         return f"{self.stored} were stored, {self.failed} failed"
 
+    def _tick(self) -> None:
+        while not self._over.wait(EVERY):
+            self._bar.refresh()
+            self._tell()
+
     def _tell(self) -> None:
-        self._told = time.monotonic()
-        sys.stderr.write(self.line + "\n")
-        sys.stderr.flush()
+        if self._lines:
+            sys.stderr.write(self.line + "\n")
+            sys.stderr.flush()

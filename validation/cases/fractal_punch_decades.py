@@ -279,10 +279,11 @@ def summary(name: str, comparisons: Sequence[Comparison]) -> str:
     quantity = QUANTITIES[name]
     near = _text(quantity.tolerance, quantity.unit).lstrip("+")
     apart = [n.value for n in numbers]
-    means = "; ".join(f"{_interval(n)} from Fbar = {first:g} to {10 * first:g} ({n.verdict})" for first, n in together)
+    means = "; ".join(f"{_interval(n)} from Fbar = {first:g} to {10 * first:g}: {n.verdict}" for first, n in together)
     return (
-        f"{name[0].upper()}{name[1:]}, MDR beside boundary elements within {near}: {counts}, from "
-        f"{_text(min(apart), quantity.unit)} to {_text(max(apart), quantity.unit)}. Mean over H: {means}."
+        f"{name[0].upper()}{name[1:]}, MDR beside boundary elements within {near}. Mean over H: {means}. Of the single "
+        f"comparisons {counts}; they lie from {_text(min(apart), quantity.unit)} to "
+        f"{_text(max(apart), quantity.unit)}."
     )
 
 

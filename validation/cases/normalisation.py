@@ -57,8 +57,8 @@ class Normalisation:
 
     hursts: tuple[float, ...] = (0.4, 0.7, 1.0)
     cells: int = 64
-    surfaces: int = 60
-    profiles: int = 500
+    surfaces: int = 30
+    profiles: int = 300
     decades: tuple[int, int] = (-2, 0)
     per_decade: int = 2
     points: int = 1024

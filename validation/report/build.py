@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import jinja2
+from markupsafe import Markup, escape
 
 from bem3d import ConvergenceError
 from validation.cases import CASES, RACE, Profile
@@ -19,6 +20,7 @@ from validation.report.provenance import provenance
 from validation.report.style import drawn, pdf, svg
 
 RACING = "race"
+SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
 
 
 @dataclass(frozen=True)
@@ -146,6 +148,15 @@ def _resolved(value: float, tolerance: float) -> str:
     return f"{value:.{min(digits, 7)}f}"
 
 
+def _badged(cell: object) -> Markup:
+    """Text of a table with its verdict, if it has one, as it looks elsewhere on the page."""
+    text = escape(str(cell))
+    for verdict, symbol in SYMBOL.items():
+        badge = Markup('<br><span class="verdict {0}">{1} {0}</span>').format(verdict, symbol)
+        text = text.replace(f": {verdict}", badge)
+    return text
+
+
 def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, bytes], about: dict[str, object]) -> bytes:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -155,6 +166,7 @@ def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, byt
         lstrip_blocks=True,
     )
     environment.filters["resolved"] = _resolved
+    environment.filters["badged"] = _badged
     environment.filters["small"] = lambda value: f"{value:.2g}"
     page = environment.get_template("page.html").render(
         sections=sections,
@@ -163,6 +175,6 @@ def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, byt
         about=about,
         verdicts=list(Verdict),
         zip=zip,
-        symbol={"agree": "✓", "differ": "≠", "undecided": "?"},
+        symbol=SYMBOL,
     )
     return (page + "\n").encode()

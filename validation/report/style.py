@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from validation.evidence import Evidence
 
@@ -26,7 +27,7 @@ GUIDE: Style = {"color": "#555555", "linestyle": ":", "linewidth": 1.3}
 
 def graded(i: int, count: int) -> Style:
     """The i-th of several curves in their order: from dark to light, each with a marker of its own."""
-    color = matplotlib.colormaps["cividis"](0.88 * i / max(count - 1, 1))
+    color = matplotlib.colormaps["cividis"](0.78 * i / max(count - 1, 1))
     return {"color": color, "marker": MARKERS[i % len(MARKERS)], "markersize": 4, "linewidth": 1.0}
 
 
@@ -65,7 +66,10 @@ def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) 
     """A case's figure in this style, stamped where it is not the real size."""
     with matplotlib.rc_context(SETTINGS):
         figure = draw(evidence)
-        if profile != "full":
+        engine = figure.get_layout_engine()
+        if profile != "full" and isinstance(engine, ConstrainedLayoutEngine):
+            room = 0.12 / figure.get_figheight()
+            engine.set(rect=(0, room, 1, 1 - room))
             figure.text(1, 0, f"profile: {profile} ", ha="right", va="bottom", fontsize=7, color="#555555")
     return figure
 

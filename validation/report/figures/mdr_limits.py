@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from validation.cases.fractal_punch_evidence import FEW_CELLS
 from validation.evidence import Evidence, Table
 from validation.report.style import GUIDE, graded, panels
 
@@ -14,19 +15,26 @@ def draw(evidence: Evidence) -> Figure:
     figure, axes = panels(2, 2, height=6.4, sharex=True)
     area, gap, interface, deviation = axes
     _draw(area, curves, "contact fraction")
-    last = curves.where(**{"q_r L / 2π": curves["q_r L / 2π"].max()})
-    area.plot(last["Fbar"], last["Persson contact fraction"], label="Persson", **GUIDE)
+    for i, roll_off in enumerate(roll_offs := np.unique(curves["q_r L / 2π"])):
+        mine = curves.where(**{"q_r L / 2π": roll_off})
+        style = {**GUIDE, "color": graded(i, roll_offs.size)["color"]}
+        area.plot(mine["Fbar"], mine["Persson contact fraction"], label="_" if i else "Persson", **style)
     area.set(yscale="log", ylabel="contact fraction")
     _draw(gap, curves, "mean gap")
     gap.set(yscale="log", ylim=(0.02, None), ylabel="mean gap / h")
     _draw(interface, curves, "interface", over_force=True)
-    interface.set(yscale="log", ylabel="stiffness of the interface k_i / (E* L) / Fbar")
+    interface.set(yscale="log", ylabel="stiffness of the interface over force\nk_i / (E* L) / Fbar")
+    interface.set_yticks([1, 2, 5, 10, 20, 50, 100], ["1", "2", "5", "10", "20", "50", "100"])
+    interface.minorticks_off()
     _draw(deviation, curves, "relative deviation")
     deviation.set(yscale="log", ylabel="relative standard deviation of k")
+    titles = ("contact fraction", "mean gap", "interface: level if k ~ F", "fluctuation of the punch")
+    for axis, title in zip(axes, titles, strict=True):
+        axis.set_title(title)
     for axis in (interface, deviation):
         axis.set_xlabel("force Fbar = F / (E* h L)")
     area.set_xscale("log")
-    figure.legend(*area.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    figure.legend(*area.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
 
@@ -40,10 +48,17 @@ def _draw(axis: Axes, curves: Table, name: str, over_force: bool = False) -> Non
         value, low, high = (mine[f"bem3d {name}{end}"] / unit for end in ("", " low", " high"))
         points = {**style, "linestyle": "none"}
         bars = [value - low, high - value]
-        axis.errorbar(force, value, yerr=bars, capsize=2, label=f"boundary elements, {roll_off:g}", **points)
+        few = mine["bem3d cells in contact"] < FEW_CELLS
+        for drawn, face in ((~few, style["color"]), (few, "white")):
+            label = f"boundary elements, q_r L / 2π = {roll_off:g}" if face != "white" else "_"
+            some = {**points, "markerfacecolor": face}
+            mine_bars = [bar[drawn] for bar in bars]
+            axis.errorbar(force[drawn], value[drawn], yerr=mine_bars, capsize=2, label=label, **some)
         value, low, high = (_positive(mine[f"mdr {name}{end}"]) / unit for end in ("", " low", " high"))
         line = ("-", "--", "-.")[i % 3]
-        axis.plot(force, value, color=style["color"], linestyle=line, label=f"MDR, {roll_off:g}")
+        axis.plot(
+            force, value, color=style["color"], linestyle=line, linewidth=1.6, label=f"MDR, q_r L / 2π = {roll_off:g}"
+        )
         axis.fill_between(force, low, high, color=style["color"], alpha=0.2, linewidth=0)
 
 
