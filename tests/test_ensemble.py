@@ -74,6 +74,33 @@ def test_damaged_and_foreign_files_are_computed_anew(problems, tmp_path):
     assert files[0].read_bytes() == whole
 
 
+def test_every_damaged_bit_is_seen(problems, tmp_path):
+    """One bit of each byte of a stored file turned over: never taken, never an error."""
+    store = tmp_path / "store"
+    whole = Engine(store=store).map(toy, problems[:1])
+    (path,) = store.iterdir()
+    contents = path.read_bytes()
+    key = f"{toy.__module__}.{toy.__qualname__}({problems[0]!r}) {ensemble._numerics()}"
+    assert same([ensemble._load(path, key)], whole)
+    for i in range(len(contents)):
+        path.write_bytes(contents[:i] + bytes([contents[i] ^ (1 << i % 8)]) + contents[i + 1 :])
+        assert ensemble._load(path, key) is None
+    np.save(tmp_path / "foreign.npy", np.ones(3))
+    path.write_bytes((tmp_path / "foreign.npy").read_bytes())
+    assert ensemble._load(path, key) is None
+
+
+def explode(problem):
+    raise FloatingPointError("too steep")
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_solve_that_raises_is_named(problems, workers):
+    with pytest.raises(FloatingPointError, match="too steep") as caught:
+        Engine(workers=workers).map(explode, problems)
+    assert any(note.startswith("in explode(Toy(number=") for note in caught.value.__notes__)
+
+
 def test_other_numerics_do_not_reuse_results(problems, tmp_path, monkeypatch):
     engine = Engine(store=tmp_path / "store")
     engine.map(toy, problems)
@@ -166,7 +193,7 @@ def test_a_killed_run_goes_on_where_it_stopped(tmp_path):
 
 @pytest.fixture
 def cluster():
-    """A real scheduler on loopback and worker processes of their own; yields its address and how to start workers."""
+    """A real scheduler on loopback: its address, how to start worker processes, and its own process."""
     started = []
 
     def start(module, *words):
@@ -177,12 +204,12 @@ def cluster():
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
+    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
 
     def worker(threads=1):
         return start("dask_worker", f"tcp://127.0.0.1:{port}", "--nthreads", str(threads), "--no-nanny")
 
-    yield f"dask://127.0.0.1:{port}", worker
+    yield f"dask://127.0.0.1:{port}", worker, scheduler
     for process in reversed(started):
         process.kill()
         process.wait()
@@ -190,7 +217,7 @@ def cluster():
 
 def test_workers_of_a_scheduler_give_the_same_bits_and_one_may_die(cluster, tmp_path):
     """One of three workers is killed in the middle: all results come, each as a single process would have it."""
-    address, worker = cluster
+    address, worker, _ = cluster
     workers = [worker(), worker(), worker(threads=2)]
     log = str(tmp_path / "log")
     problems = [Slow(i, log) for i in range(24)]
@@ -227,6 +254,24 @@ def test_an_address_where_nobody_answers(problems, monkeypatch):
     monkeypatch.setattr(ensemble, "PATIENCE", 1)
     with pytest.raises(ValueError, match="executor must be a running scheduler"):
         Engine(executor="dask://127.0.0.1:9").map(toy, problems)
+
+
+def test_a_scheduler_that_is_lost(cluster, tmp_path):
+    """A sentence, not a hang; what was finished is kept."""
+    address, worker, scheduler = cluster
+    worker()  # one is enough to compute there and not here
+    store = tmp_path / "store"
+
+    def kill_it():
+        wait_until(lambda: len(list(store.glob("*.npz"))) >= 3)
+        scheduler.kill()
+
+    killer = threading.Thread(target=kill_it)
+    killer.start()
+    with pytest.raises(ConnectionError, match=r"scheduler at \S+ is gone; finished solves are kept"):
+        Engine(store=store, executor=address).map(slow, [Slow(i, str(tmp_path / "log")) for i in range(200)])
+    killer.join()
+    assert len(list(store.glob("*.npz"))) >= 3
 
 
 def test_a_scheduler_without_workers(problems, cluster, monkeypatch):

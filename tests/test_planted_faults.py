@@ -274,8 +274,12 @@ FAULTS = {
         (test_fractal_punch, "press_surface", gap_of_the_rigid_surface),
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
+    "interface and half-space in series": (
+        (mdr_limits.Layer, "log_kappa", lambda layer, stiffness: -np.log(1 / stiffness - 1 / layer.flat)),
+        functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
+    ),
     "the punch taken for its interface": (
-        (mdr_limits, "_flat", lambda method: np.inf),
+        (mdr_limits.Layer, "log_kappa", lambda layer, stiffness: np.log(stiffness)),
         functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
     ),
     "phases on half of the circle": (

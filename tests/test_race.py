@@ -14,7 +14,7 @@ from validation.cases import RACE
 from validation.evidence import Verdict
 from validation.peers import CONTESTANTS, Contestant, Run
 
-HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0)
+HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, entrants=())
 
 
 def dies(task, tolerance):

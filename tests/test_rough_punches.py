@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.oracles import rms_scatter_of_gaussian_draws
+import bem3d
+from tests.oracles import dense_operator, rms_scatter_of_gaussian_draws
 from validation import closed_forms
 from validation.cases import mdr_limits, normalisation
 from validation.cases.mdr_limits import MdrLimits, MdrLimitsResult
@@ -86,35 +87,44 @@ def test_a_heavy_load_closes_every_gap():
     np.testing.assert_allclose(springs["gap"], 0, atol=1e-12)
 
 
+def stiffness_on_a_layer(kappas, cells):
+    """k / (E* L) of a flat punch on a uniform layer: the dense half-space with 1 / kappa on its diagonal."""
+    dense = dense_operator(bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0))
+    ones = np.ones(cells**2)
+    return np.array([np.linalg.solve(dense + np.eye(cells**2) / k, ones).sum() / cells**2 for k in kappas])
+
+
 def synthetic(exponent, *, area=1.0, refined=1.0):
-    """Interfaces with k_i ~ F^exponent in series with the flat punch, the same in every draw but for some noise."""
+    """Interfaces with kappa ~ F^exponent under the punch, the same in every draw but for some noise."""
     rng = np.random.default_rng(0)
-    force = np.array(LIMITS.forces)
+    kappa = 0.5 * np.array(LIMITS.forces) ** exponent
 
-    def outcome(flat, count):
-        interface = 0.5 * force**exponent * (1 + 1e-3 * rng.standard_normal((count, 1)))
-        stiffness = 1 / (1 / interface + 1 / flat)
-        return {"stiffness": stiffness, "area": area * stiffness, "gap": stiffness, "gradient": np.full(count, 1e-2)}
+    def outcome(stiffness, count):
+        values = stiffness * (1 + 1e-3 * rng.standard_normal((count, 1)))
+        return {"stiffness": values, "area": area * values, "gap": values, "gradient": np.full(count, 1e-2)}
 
-    bem = {r: outcome(closed_forms.SQUARE_PUNCH, LIMITS.surfaces) for r in LIMITS.roll_offs}
+    bem = {r: outcome(stiffness_on_a_layer(kappa, LIMITS.cells), LIMITS.surfaces) for r in LIMITS.roll_offs}
     finer = {r: {n: refined * v[: LIMITS.refined] for n, v in bem[r].items()} for r in bem}
-    mdr = {r: outcome(1.0, LIMITS.profiles) for r in LIMITS.roll_offs}
+    mdr = {r: outcome(1 / (1 / kappa + 1), LIMITS.profiles) for r in LIMITS.roll_offs}
     return mdr_limits.evidence(MdrLimitsResult(LIMITS, bem, finer, mdr, ()))
 
 
 @pytest.mark.parametrize("exponent", [1.0, 0.8])
 def test_the_exponent_of_the_interface_is_found_behind_the_punch(exponent):
+    """For the roll-off that is wide enough, in both decades, by both methods; interpolation costs some 1e-3."""
     found = [n for n in synthetic(exponent).numbers if n.label.startswith("exponent of the interface")]
-    assert len(found) == 2 * 2 * 2
+    assert len(found) == 2 * 2
     for n in found:
-        assert n.value == pytest.approx(exponent, abs=1e-6)
+        assert "q_r L / 2π = 4" in n.label
+        assert n.value == pytest.approx(exponent, abs=3e-3)
         assert n.verdict is (Verdict.AGREE if exponent == 1 else Verdict.DIFFER)
 
 
-def test_what_finer_cells_change_is_in_the_error_bar_twice():
-    for n in synthetic(1.0, refined=1.05).numbers:
+def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
+    for n, plain in zip(synthetic(1.0, refined=1.05).numbers, synthetic(1.0).numbers, strict=True):
         if n.label.startswith("contact fraction"):
-            assert n.grid == pytest.approx(2 * 20 * np.log10(1.05), rel=1e-6)
+            assert n.value == pytest.approx(plain.value - 2 * 20 * np.log10(1.05), abs=1e-6)
+            assert n.grid == pytest.approx(20 * np.log10(1.05), rel=1e-6)
 
 
 def test_persson():
@@ -124,7 +134,7 @@ def test_persson():
     assert mdr_limits.persson(np.array([1.0]), 0.1)[0] == pytest.approx(1.0)
 
 
-def test_a_lost_surface_is_named(monkeypatch):
+def test_a_lost_surface_is_named():
     case = replace(LIMITS, tolerance=1e-30)
     surface = Surface(
         roughness=case.roughness(1), realisation=0, cells=16, forces=case.forces[-1:], tolerance=case.tolerance

@@ -4,15 +4,15 @@ import hashlib
 import importlib.metadata
 import io
 import json
+import logging
 import re
-import zlib
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
-from zipfile import BadZipFile
 
 import joblib
 import numpy as np
@@ -29,6 +29,7 @@ NUMERICS = ("mdr", "bem3d", "validation")
 ON_PAPER = ROOT / "validation" / "report"
 LIBRARIES = ("numpy", "scipy", "pyfftw")
 LOCAL = "local"
+SEAL = hashlib.sha256().digest_size
 PATIENCE = 10
 """Seconds in which a scheduler and its first worker must answer."""
 
@@ -51,7 +52,8 @@ class Engine:
     the same; damaged or foreign files are computed anew. A result is stored as soon as it is there, by the worker that
     found it, or, where that may be on another machine without a disk in common, as it comes in here: who is
     interrupted, or killed, loses no finished one.
-    Raises ValueError for any other executor, and where the scheduler or its workers do not answer.
+    Raises ValueError for any other executor, and where the scheduler or its workers do not answer; ConnectionError
+    where the scheduler is lost.
     """
 
     workers: int = 1
@@ -87,16 +89,16 @@ class Engine:
         if not tasks:
             return
         if self.executor == LOCAL:
-            calls = [joblib.delayed(_solve_and_save)(task) for task in tasks]
+            calls = [joblib.delayed(_solve_and_save)(task, _numerics()) for task in tasks]
             with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
                 yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
             return
         by_index = {task.index: task for task in tasks}
-        # whoever joins later finds work waiting
-        everything = {"return_as": "generator_unordered", "batch_size": 1, "pre_dispatch": "all"}
-        calls = [joblib.delayed(_solve)(task.solve, task.problem, task.index, _numerics()) for task in tasks]
-        with _client(self.executor) as client, joblib.parallel_config(backend="dask", client=client, n_jobs=-1):
-            for i, outcome in joblib.Parallel(**everything)(calls):
+        with _client(self.executor) as (client, as_completed):
+            # not by joblib, which computes here what it could give to a single worker
+            futures = [client.submit(_solve, t.solve, t.problem, t.index, _numerics(), pure=False) for t in tasks]
+            for future in as_completed(futures, loop=client.loop):
+                i, outcome = future.result()
                 _save(by_index[i].place, by_index[i].key, outcome)
                 yield i, outcome
 
@@ -121,17 +123,21 @@ class _Task(Generic[P]):
     key: str
 
 
-def _solve_and_save(task: _Task[P]) -> tuple[int, Outcome]:
-    outcome = task.solve(task.problem)
+def _solve_and_save(task: _Task[P], numerics: str) -> tuple[int, Outcome]:
+    i, outcome = _solve(task.solve, task.problem, task.index, numerics)
     _save(task.place, task.key, outcome)
-    return task.index, outcome
+    return i, outcome
 
 
 def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome]:
     """On a worker, perhaps on another machine: only if its numerics are those of who asks."""
     if _numerics() != numerics:
-        raise ValueError("a worker has another version of the numerics or of their libraries: install the same there")
-    return i, solve(problem)
+        raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
+    try:
+        return i, solve(problem)
+    except Exception as error:
+        error.add_note(f"in {solve.__name__}({problem!r})")
+        raise
 
 
 def _failed(outcome: Outcome) -> bool:
@@ -139,10 +145,10 @@ def _failed(outcome: Outcome) -> bool:
 
 
 @contextmanager
-def _client(executor: str) -> Iterator[Any]:
-    """A connection to a scheduler that has a worker."""
+def _client(executor: str) -> Iterator[tuple[Any, Any]]:
+    """A connection to a scheduler that has a worker, and what hands out results as they come."""
     try:
-        from distributed import Client
+        from distributed import Client, as_completed
     except ImportError:
         raise ValueError(f"executor {executor} needs the extra dask: pip install 'mdr-validation[dask]'") from None
     address = executor.replace("dask://", "tcp://")
@@ -152,12 +158,22 @@ def _client(executor: str) -> Iterator[Any]:
         )
     except (OSError, ValueError) as error:
         raise ValueError(f"executor must be a running scheduler, got {executor}: {error}") from None
-    with client:
-        try:
+    logger = logging.getLogger("distributed.client")
+    level = logger.level
+    # what it would log, with tracebacks, is said in a sentence below
+    logger.setLevel(logging.CRITICAL)
+    try:
+        with client:
             client.wait_for_workers(1, timeout=PATIENCE)
-        except TimeoutError:
-            raise ValueError(f"executor must have workers, got {executor} without any") from None
-        yield client
+            yield client, as_completed
+    except TimeoutError:
+        raise ValueError(f"executor must have workers, got {executor} without any") from None
+    except CancelledError:
+        raise ConnectionError(
+            f"the scheduler at {executor} is gone; finished solves are kept, the same command goes on from there"
+        ) from None
+    finally:
+        logger.setLevel(level)
 
 
 def _load(path: Path | None, key: str) -> Outcome | None:
@@ -165,13 +181,15 @@ def _load(path: Path | None, key: str) -> Outcome | None:
     if path is None:
         return None
     try:
-        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as archive:
-            contents = {name: archive[name] for name in archive.files}
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile, zlib.error):
+        whole = path.read_bytes()
+    except OSError:
         return None
-    if str(contents.pop("key", "")) != key:
+    archive, seal = whole[:-SEAL], whole[-SEAL:]
+    if hashlib.sha256(archive).digest() != seal:
         return None
-    return contents
+    with np.load(io.BytesIO(archive), allow_pickle=False) as arrays:
+        contents = {name: arrays[name] for name in arrays.files}
+    return contents if str(contents.pop("key", "")) == key else None
 
 
 def _save(path: Path | None, key: str, outcome: Outcome) -> None:
@@ -179,7 +197,9 @@ def _save(path: Path | None, key: str, outcome: Outcome) -> None:
         return
     archive = io.BytesIO()
     np.savez(archive, **{"key": np.array(key), **outcome})  # type: ignore[arg-type]  # stubs take a name for a flag
-    write_whole(path, archive.getvalue())
+    contents = archive.getvalue()
+    # behind an archive a seal disturbs no reader of archives
+    write_whole(path, contents + hashlib.sha256(contents).digest())
 
 
 @cache
@@ -192,3 +212,7 @@ def _numerics() -> str:
                 digest.update(source.read_bytes())
     digest.update(json.dumps({name: importlib.metadata.version(name) for name in LIBRARIES}).encode())
     return digest.hexdigest()
+
+
+# taken when the code is: whoever edits it while it runs does not make old results new
+_numerics()

@@ -86,7 +86,7 @@ class Errand:
         """The sampled forces, one cold solve each."""
         height = punch(self.cells, seed).height
         return [
-            Heat(Course(PUNCH, self.forces[i] * height, self.cells, False, seed), self.tolerance, slow)
+            Heat(Course(PUNCH, self.forces[i] * height, self.cells, False, seed), self.tolerance, slow, entrants())
             for i in self.sampled
         ]
 
@@ -132,11 +132,12 @@ class Race:
 
 @dataclass(frozen=True)
 class Heat:
-    """One course, run by everyone."""
+    """One course, run by everyone in the version that is installed."""
 
     course: Course
     residual: float
     slow: float
+    entrants: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -167,11 +168,16 @@ class RaceResult:
         return sum(float(outcome["time"]) < self.began for outcome in self.outcomes)
 
 
+def entrants() -> tuple[str, ...]:
+    """Names and versions: a race that goes on after something was installed begins anew."""
+    return tuple(f"{contestant.name} {contestant.version}" for contestant in CONTESTANTS)
+
+
 def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
     """Run all heats, one at a time whatever the engine's workers, so that nobody is disturbed."""
     alone = Engine(workers=1, store=engine.store, progress=engine.progress)
     began = time.time()
-    heats = [Heat(course, race.residual, race.slow) for course in race.courses()]
+    heats = [Heat(course, race.residual, race.slow, entrants()) for course in race.courses()]
     measured = [
         Measured(Course(surface, load, n, periodic, race.seed), race.residual)
         for surface, load, periodic in (

@@ -46,6 +46,12 @@ class Estimate:
         return Estimate(self.value - other.value, error, samples)
 
 
+def mean_of(estimates: Sequence[Estimate]) -> Estimate:
+    """Of independent estimates."""
+    error = math.sqrt(sum(e.error**2 for e in estimates)) / len(estimates)
+    return Estimate(sum(e.value for e in estimates) / len(estimates), error, sum(e.samples for e in estimates))
+
+
 @dataclass(frozen=True)
 class Sample:
     """Realisations, each at all levels, and as many resamples of them as an error bar takes.

@@ -23,6 +23,7 @@ from validation.statistics import (
     decade_weights,
     log_deviation_over,
     log_mean,
+    mean_of,
     sample,
 )
 
@@ -197,17 +198,12 @@ def mean_over_hursts(comparisons: Sequence[Comparison]) -> Comparison:
         comparisons[0].name,
         None,
         comparisons[0].first,
-        springs=_mean_of([c.springs for c in comparisons]),
-        bem=_mean_of([c.bem for c in comparisons]),
-        coarser=_mean_of([c.coarser for c in comparisons]),
-        finer=_mean_of([c.finer for c in comparisons]),
-        refined_springs=_mean_of([c.refined_springs for c in comparisons]),
+        springs=mean_of([c.springs for c in comparisons]),
+        bem=mean_of([c.bem for c in comparisons]),
+        coarser=mean_of([c.coarser for c in comparisons]),
+        finer=mean_of([c.finer for c in comparisons]),
+        refined_springs=mean_of([c.refined_springs for c in comparisons]),
     )
-
-
-def _mean_of(estimates: Sequence[Estimate]) -> Estimate:
-    error = math.sqrt(sum(e.error**2 for e in estimates)) / len(estimates)
-    return Estimate(float(np.mean([e.value for e in estimates])), error, sum(e.samples for e in estimates))
 
 
 def data_row(comparison: Comparison) -> dict[str, object]:

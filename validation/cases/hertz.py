@@ -181,7 +181,7 @@ def evidence(result: HertzResult) -> Evidence:
                 f"(a) Load curve, {n[1]} cells in the largest contact radius. "
                 "(b) Pressure along a row of cells next to the centre, "
                 f"{n[1]} of them in the contact radius. (c) Relative error of the force at a given "
-                "approach against cells in the contact radius; the grey line falls with the second power."
+                "approach against cells in the contact radius; the dotted line falls with the second power."
             )
         },
     )

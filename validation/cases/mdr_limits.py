@@ -4,10 +4,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse.linalg import LinearOperator, cg
 
-from validation import closed_forms
+import bem3d
 from validation.ensemble import SERIAL, Engine, Outcome, generator
-from validation.evidence import Evidence, Number, Role, Table
+from validation.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict
 from validation.rough_punch import (
     Profiles,
     Roughness,
@@ -44,6 +45,10 @@ BEM, MDR = "bem3d", "mdr"
 METHODS = (BEM, MDR)
 MEASURED = {"stiffness": "stiffness", "area": "contact fraction", "gap": "mean gap"}
 BOOTSTRAP = 3
+FEW_CELLS = 30
+"""A contact of fewer cells is under-resolved."""
+WIDE = 4
+"""A roll-off q_r L / 2 pi from which on the interface is a matter of its own."""
 CLOSED = 1e-12
 """A mean gap over L that counts as none."""
 
@@ -135,6 +140,7 @@ def run(case: MdrLimits, engine: Engine = SERIAL) -> MdrLimitsResult:
 class Samples:
     """What was measured at one roll-off, resampled: by method and quantity; and by quantity, pairs of grids."""
 
+    roll_off: int
     by_method: dict[tuple[str, str], Sample]
     grids: dict[str, Sample]
 
@@ -143,19 +149,25 @@ class Samples:
         mean, _ = self.by_method[MDR, "gap"].moments
         return bool((mean[weights > 0] > CLOSED).all())
 
+    def extrapolated(self, quantity: str, statistic: Statistic) -> tuple[Estimate, float]:
+        """Boundary elements on cells of no size, to first order, and what that leaves open: half of the way there."""
+        bem = self.by_method[BEM, quantity].estimate(statistic)
+        finer = self.grids[quantity].estimate(change(statistic))
+        return Estimate(bem.value + 2 * finer.value, bem.error, bem.samples), abs(finer.value) + 2 * finer.half_width
+
     def apart(self, label: str, quantity: str, statistic: Statistic) -> Number:
-        """MDR over boundary elements in decibels; grid: what cells half as wide would go on to change."""
-        mdr, bem = (self.by_method[method, quantity].estimate(statistic) for method in (MDR, BEM))
-        apart, finer = mdr.minus(bem), self.grids[quantity].estimate(change(statistic))
+        """MDR over boundary elements in decibels."""
+        bem, grid = self.extrapolated(quantity, statistic)
+        apart = self.by_method[MDR, quantity].estimate(statistic).minus(bem)
         return Number(
             label=f"{label}: mdr over bem3d",
             value=DECIBEL * apart.value,
             reference=0.0,
-            source="bem3d",
+            source="bem3d, extrapolated",
             tolerance=FIVE_PER_CENT,
             unit="dB",
-            reason="5 %, as in Fig. 14.1",
-            grid=DECIBEL * 2 * (abs(finer.value) + finer.half_width),
+            reason="5 %: 0.4 dB, less than a third-octave level resolves",
+            grid=DECIBEL * grid,
             sample=DECIBEL * apart.half_width,
             role=Role.FINDING,
         )
@@ -169,6 +181,7 @@ def evidence(result: MdrLimitsResult) -> Evidence:
     case = result.case
     enough((*result.bem.values(), *result.refined.values()), result.unconverged)
     samples = {roll_off: _samples(result, roll_off) for roll_off in case.roll_offs}
+    layers = {BEM: layer_on_half_space(case.cells), MDR: SPRINGS}
     numbers = []
     for power in range(*case.decades):
         first = 10.0**power
@@ -181,9 +194,10 @@ def evidence(result: MdrLimitsResult) -> Evidence:
                 if quantity != "gap" or mine.open(weights)
             ]
             numbers.append(mine.apart(f"relative deviation, {where}", "stiffness", log_deviation_over(weights)))
-            numbers += [n for method in METHODS if (n := _proportional(case, mine, method, first, where))]
-    curves = [row for roll_off, mine in samples.items() for row in _curve(result, roll_off, mine)]
-    longest = case.roll_offs[-1]
+            if roll_off >= WIDE:
+                slopes = [_proportional(case, mine, layers, method, first) for method in METHODS]
+                numbers += [slope for slope in slopes if slope is not None]
+    curves = [row for roll_off, mine in samples.items() for row in _curve(result, layers, mine)]
     return Evidence(
         title="Where MDR must fail: contact area, mean gap, roughness with a roll-off",
         compared=(
@@ -191,21 +205,22 @@ def evidence(result: MdrLimitsResult) -> Evidence:
             f"{', '.join(map(str, case.roll_offs[1:]))}, all to {case.cells // 4} waves on a side. {case.surfaces} "
             f"surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs, equal forces. True "
             "contact area over L² beside springs in contact over all; mean gap between the faces over h; stiffness, "
-            "its relative deviation, and the exponent of the stiffness of the rough interface alone, k_i, in series "
-            "with the flat punch: 1/k = 1/k_i + 1/k_flat. Grid error: twice what cells half as wide change on "
-            f"{case.refined} surfaces, and twice the interval of that."
+            "its relative deviation; and, where there is a roll-off, the exponent of the stiffness of the rough "
+            "interface alone: of the uniform layer under a flat punch that makes it as stiff. Boundary elements are "
+            f"extrapolated to first order from {case.cells}² and {2 * case.cells}² cells on {case.refined} surfaces; "
+            "± grid is half of that way, and the interval of what it rests on."
         ),
         numbers=tuple(numbers),
         tables=(Table("curves", {name: [row[name] for row in curves] for name in curves[0]}),),
-        conclusions=tuple(_conclusions(result, samples)),
+        conclusions=tuple(_conclusions(result, samples, numbers)),
         captions={
             "mdr_limits": (
-                "Circles: boundary elements, 95 % intervals of the sample; lines in bands: MDR, L_1D = L. (a) Contact "
-                "fraction; dotted: Persson's erf(√2 p / (E* h')) for the mean pressure p and the rms slope h' of the "
-                f"surfaces with q_r L / 2π = {longest}. (b) Mean gap over h. (c) Stiffness of the interface alone over "
-                "force, k_i / Fbar: level where the stiffness is proportional to the load. (d) Relative deviation of "
-                "the stiffness of the punch. Dark to light: q_r L / 2π = "
-                f"{', '.join(map(str, case.roll_offs))}."
+                f"Symbols: boundary elements on {case.cells}² cells, 95 % intervals of the sample, open where the mean "
+                f"contact has fewer than {FEW_CELLS} cells; lines in bands: MDR, L_1D = L. (a) Contact fraction; "
+                "dotted: Persson's erf(√2 p / (E* h')) for the mean pressure p and the rms slope h' of the surfaces. "
+                "(b) Mean gap over h. (c) Stiffness of the interface alone over the force: level where it is "
+                "proportional to the load. (d) Relative deviation of the stiffness of the punch. Dark to light: "
+                f"q_r L / 2π = {', '.join(map(str, case.roll_offs))}."
             )
         },
         unconverged=result.unconverged,
@@ -225,39 +240,78 @@ def _samples(result: MdrLimitsResult, roll_off: int) -> Samples:
         both = np.where(np.isfinite(coarse) & np.isfinite(fine), 1.0, np.nan)
         pairs = np.concatenate([both * coarse, both * fine], axis=1)
         grids[quantity] = sample(pairs, generator(case.seed, BOOTSTRAP, roll_off, i, 2))
-    return Samples(by_method, grids)
+    return Samples(roll_off, by_method, grids)
 
 
-def _flat(method: str) -> float:
-    """k / (E* L) of the flat punch."""
-    return closed_forms.SQUARE_PUNCH if method == BEM else 1.0
+@dataclass(frozen=True)
+class Layer:
+    """A flat punch on a uniform elastic layer of stiffness kappa an area, over E* / L: the rough interface alone.
 
+    In one dimension the layer is in series with every spring, k = 1 / (1/kappa + 1). On the half-space it is not in
+    series with the whole punch, since a soft layer presses evenly and a stiff one as the flat punch does: there k
+    belongs to (K + 1 / kappa) p = 1. excess: ln kappa less that of the series, at part: k over k_flat, ascending.
+    """
 
-def _log_interface(method: str) -> Statistic:
-    """ln of the stiffness of the interface alone, from the mean stiffness of the punch; NaN beyond the flat punch."""
+    flat: float
+    part: FloatArray
+    excess: FloatArray
 
-    def of_levels(mean: FloatArray, deviation: FloatArray) -> FloatArray:
+    def log_kappa(self, stiffness: FloatArray) -> FloatArray:
+        """ln kappa of a punch of this k / (E* L); NaN where it is as stiff as the flat one."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.asarray(-np.log(1 / mean - 1 / _flat(method)))
+            series = -np.log(1 / stiffness - 1 / self.flat)
+        return np.where(np.isfinite(series), series + np.interp(stiffness / self.flat, self.part, self.excess), np.nan)
 
-    return of_levels
+
+SPRINGS = Layer(1.0, np.array([0.0, 1.0]), np.zeros(2))
 
 
-def _proportional(case: MdrLimits, mine: Samples, method: str, first: float, where: str) -> Number | None:
-    """d ln k_i / d ln F over a decade; None where the punch is as stiff as the flat one, or stiffer."""
-    slope = combined(decade_slope(case.forces, first), _log_interface(method))
-    found = mine.by_method[method, "stiffness"].estimate(slope)
-    finer = mine.grids["stiffness"].estimate(change(slope)) if method == BEM else Estimate(0.0, 0.0, found.samples)
-    if not np.isfinite([found.value, found.error, finer.value, finer.error]).all():
+def layer_on_half_space(cells: int) -> Layer:
+    """k of kappa on so many cells a side, by conjugate gradients."""
+    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
+    ones = np.ones(half_space.shape)
+    flat = bem3d.press_frozen(half_space, ones > 0).stiffness
+    kappas, stiffness = np.geomspace(1e-3, 1e3, 37), []
+    pressure = ones.ravel()
+    for kappa in kappas:
+
+        def displacement(p: FloatArray, kappa: float = kappa) -> FloatArray:
+            return half_space.displacement(p.reshape(cells, cells)).ravel() + p / kappa
+
+        operator = LinearOperator((cells**2, cells**2), matvec=displacement, dtype=np.float64)
+        pressure, status = cg(operator, ones.ravel(), x0=kappa * pressure, rtol=1e-6)
+        if status:
+            raise NotConvergedError(f"the flat punch on a layer of stiffness {kappa:g} did not converge")
+        stiffness.append(float(pressure.sum()) / cells**2)
+        pressure = pressure / kappa
+    found = np.array(stiffness)
+    series = -np.log(1 / found - 1 / flat)
+    return Layer(
+        flat, np.append(found / flat, 1.0), np.append(np.log(kappas) - series, np.log(kappas[-1]) - series[-1])
+    )
+
+
+def _interface(layer: Layer) -> Statistic:
+    """ln of the stiffness of the interface alone, from the mean stiffness of the punch, level by level."""
+    return lambda mean, deviation: layer.log_kappa(mean)
+
+
+def _proportional(case: MdrLimits, mine: Samples, layers: dict[str, Layer], method: str, first: float) -> Number | None:
+    """d ln kappa / d ln F over a decade; None where the punch is as stiff as the flat one."""
+    slope = combined(decade_slope(case.forces, first), _interface(layers[method]))
+    found, grid = mine.by_method[method, "stiffness"].estimate(slope), 0.0
+    if method == BEM:
+        found, grid = mine.extrapolated("stiffness", slope)
+    if not np.isfinite([found.value, found.error, grid]).all():
         return None
     return Number(
-        label=f"exponent of the interface, {where}: {method}",
+        label=f"exponent of the interface, q_r L / 2π = {mine.roll_off}, Fbar = {first:g} to {10 * first:g}: {method}",
         value=found.value,
         reference=1.0,
         source="stiffness proportional to load: Pastewka et al. (2013), for q_r L / 2π >> 1",
         tolerance=0.115,
         reason="half of the way to 0.77, the largest exponent published for roughness without a roll-off",
-        grid=2 * (abs(finer.value) + finer.half_width),
+        grid=grid,
         sample=found.half_width,
         role=Role.FINDING,
     )
@@ -268,9 +322,10 @@ def persson(pressure: FloatArray, gradient: float) -> FloatArray:
     return np.array([math.erf(math.sqrt(2) * p / gradient) for p in pressure])
 
 
-def _curve(result: MdrLimitsResult, roll_off: int, mine: Samples) -> list[Row]:
+def _curve(result: MdrLimitsResult, layers: dict[str, Layer], mine: Samples) -> list[Row]:
     """One row a force."""
-    case, outcome = result.case, result.bem[roll_off]
+    case, roll_off = result.case, mine.roll_off
+    outcome = result.bem[roll_off]
     rows = []
     for level, force in enumerate(case.forces):
         row = {"q_r L / 2π": float(roll_off), "Fbar": force}
@@ -281,8 +336,8 @@ def _curve(result: MdrLimitsResult, roll_off: int, mine: Samples) -> list[Row]:
                 row |= _interval(f"{method} {name}", found, unit)
             stiffness = mine.by_method[method, "stiffness"]
             row |= _interval(f"{method} relative deviation", stiffness.estimate(at(level, log_relative_deviation)))
-            row |= _interval(f"{method} interface", stiffness.estimate(at(level, _log_interface(method))))
-            slope = combined(local_slope(case.forces, level), _log_interface(method))
+            row |= _interval(f"{method} interface", stiffness.estimate(at(level, _interface(layers[method]))))
+            slope = combined(local_slope(case.forces, level), _interface(layers[method]))
             row[f"{method} exponent of the interface"] = stiffness.estimate(slope).value
         row["Persson contact fraction"] = float(
             persson(np.array([case.height * force]), float(outcome["gradient"].mean()))[0]
@@ -297,22 +352,49 @@ def _interval(name: str, found: Estimate, unit: float = 1.0) -> Row:
     return {f"{name}{end}": math.exp(value) / unit for end, value in zip(("", " low", " high"), ends, strict=True)}
 
 
-def _conclusions(result: MdrLimitsResult, samples: dict[int, Samples]) -> list[str]:
+def _conclusions(result: MdrLimitsResult, samples: dict[int, Samples], numbers: list[Number]) -> list[str]:
+    """In words, and at one force; and how proportional the stiffness is."""
     case = result.case
     level = int(np.argmin(np.abs(np.log(np.array(case.forces) / 0.1))))
-    sentences = []
+    units = {"area": 1.0, "gap": case.height, "stiffness": 1.0}
+    of_no_meaning = [n for n in numbers if n.label.startswith((MEASURED["area"], MEASURED["gap"]))]
+    confirmed = "" if all(n.verdict is Verdict.DIFFER for n in of_no_meaning) else "Not confirmed at every load here: "
+    sentences = [
+        f"{confirmed}MDR is no model of contact area and gap: more springs are in contact than there is true contact, "
+        "and their gap is smaller than that of the faces and closes while these are still apart."
+    ]
     for roll_off, mine in samples.items():
-        value = {key: math.exp(s.estimate(at(level, log_mean)).value) for key, s in mine.by_method.items()}
-        scatter = [
-            math.exp(mine.by_method[m, "stiffness"].estimate(at(level, log_relative_deviation)).value) for m in METHODS
-        ]
+        beside = {
+            quantity: f"{_with_interval(*mine.extrapolated(quantity, at(level, log_mean)), units[quantity])} and "
+            f"{math.exp(mine.by_method[MDR, quantity].estimate(at(level, log_mean)).value) / units[quantity]:.3g}"
+            for quantity in units
+        }
         pressure = np.array([case.height * case.forces[level]])
         law = persson(pressure, float(result.bem[roll_off]["gradient"].mean()))[0]
-        area, gap, stiffness = ([value[m, quantity] for m in METHODS] for quantity in ("area", "gap", "stiffness"))
+        deviation = at(level, log_relative_deviation)
         sentences.append(
-            f"q_r L / 2π = {roll_off}, Fbar = {case.forces[level]:.2g}, boundary elements and MDR: contact fraction "
-            f"{area[0]:.4f} and {area[1]:.3f} (Persson {law:.4f}), mean gap {gap[0] / case.height:.2f} h and "
-            f"{gap[1] / case.height:.2f} h, stiffness {stiffness[0]:.3f} and {stiffness[1]:.3f} E* L, its relative "
-            f"deviation {scatter[0]:.3f} and {scatter[1]:.3f}."
+            f"q_r L / 2π = {roll_off}, Fbar = {case.forces[level]:.2g}, boundary elements (extrapolated, with their "
+            f"interval) and MDR: contact fraction {beside['area']} (Persson {law:.2g}), mean gap {beside['gap']} h, "
+            f"stiffness {beside['stiffness']} E* L, relative deviation "
+            f"{_with_interval(*mine.extrapolated('stiffness', deviation), 1.0)} and "
+            f"{math.exp(mine.by_method[MDR, 'stiffness'].estimate(deviation).value):.3g}."
         )
+    slopes = [n for n in numbers if n.label.startswith("exponent of the interface")]
+    for method in METHODS:
+        found = "; ".join(
+            f"{n.label.removeprefix('exponent of the interface, ').removesuffix(f': {method}')}: {n.value:.2f} ± "
+            f"{n.uncertainty:.2f} ({n.verdict})"
+            for n in slopes
+            if n.label.endswith(method)
+        )
+        if found:
+            sentences.append(
+                f"Stiffness of the interface as a power of the load, {method}, 1 if proportional: {found}."
+            )
     return sentences
+
+
+def _with_interval(found: Estimate, grid: float, unit: float) -> str:
+    half = found.half_width + grid
+    middle, low, high = (math.exp(value) / unit for value in (found.value, found.value - half, found.value + half))
+    return f"{middle:.3g} ({low:.2g} to {high:.2g})"

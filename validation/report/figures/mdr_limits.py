@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.cases.fractal_punch_evidence import FEW_CELLS
+from validation.cases.mdr_limits import FEW_CELLS
 from validation.evidence import Evidence, Table
 from validation.report.style import GUIDE, graded, panels
 
