@@ -192,8 +192,10 @@ def test_a_killed_run_goes_on_where_it_stopped(tmp_path):
 
 
 @pytest.fixture
-def cluster():
+def cluster(monkeypatch):
     """A real scheduler on loopback: its address, how to start worker processes, and its own process."""
+    # a machine that is busy starts processes slowly
+    monkeypatch.setattr(ensemble, "PATIENCE", 60)
     started = []
 
     def start(module, *words):
