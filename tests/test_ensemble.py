@@ -277,7 +277,7 @@ def test_a_scheduler_that_is_lost(cluster, tmp_path):
 
 
 def test_a_scheduler_without_workers(problems, cluster, monkeypatch):
-    monkeypatch.setattr(ensemble, "PATIENCE", 5)
+    monkeypatch.setattr(ensemble, "PATIENCE", 15)
     with pytest.raises(ValueError, match="executor must have workers"):
         Engine(executor=cluster[0]).map(toy, problems)
 
