@@ -164,10 +164,11 @@ def _client(executor: str) -> Iterator[tuple[Any, Any]]:
     logger.setLevel(logging.CRITICAL)
     try:
         with client:
-            client.wait_for_workers(1, timeout=PATIENCE)
+            try:
+                client.wait_for_workers(1, timeout=PATIENCE)
+            except TimeoutError:
+                raise ValueError(f"executor must have workers, got {executor} without any") from None
             yield client, as_completed
-    except TimeoutError:
-        raise ValueError(f"executor must have workers, got {executor} without any") from None
     except CancelledError:
         raise ConnectionError(
             f"the scheduler at {executor} is gone; finished solves are kept, the same command goes on from there"
