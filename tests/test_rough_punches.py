@@ -11,9 +11,9 @@ from tests.oracles import dense_operator, rms_scatter_of_gaussian_draws
 from validation import closed_forms
 from validation.cases import mdr_limits, normalisation
 from validation.cases.mdr_limits import MdrLimits, MdrLimitsResult
-from validation.cases.normalisation import EACH, ENSEMBLE, FIXED, METHODS, Normalisation
+from validation.cases.normalisation import EACH, ENSEMBLE, FIXED, Normalisation
 from validation.evidence import Verdict
-from validation.rough_punch import Profiles, Roughness, Surface, press_profiles, press_surface
+from validation.rough_punch import METHODS, Profiles, Roughness, Surface, press_profiles, press_surface
 
 CASE = Normalisation(hursts=(0.4, 1.0), cells=16, points=64)
 LIMITS = MdrLimits(roll_offs=(1, 4), cells=32, surfaces=6, refined=3, profiles=60, points=256)
@@ -129,9 +129,9 @@ def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
 
 def test_persson():
     """Proportional to the load at small ones, sqrt(8 / pi) p / (E* h'), and full at large ones."""
-    light = np.array([1e-6])
-    assert mdr_limits.persson(light, 0.1)[0] == pytest.approx(math.sqrt(8 / math.pi) * 1e-6 / 0.1, rel=1e-6)
-    assert mdr_limits.persson(np.array([1.0]), 0.1)[0] == pytest.approx(1.0)
+    fraction = closed_forms.persson_contact_fraction
+    assert fraction(1e-6, gradient=0.1) == pytest.approx(math.sqrt(8 / math.pi) * 1e-6 / 0.1, rel=1e-6)
+    assert fraction(1.0, gradient=0.1) == pytest.approx(1.0)
 
 
 def test_a_lost_surface_is_named():

@@ -108,3 +108,12 @@ def _positive(**values: float) -> None:
     for name, value in values.items():
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be finite and positive, got {value}")
+
+
+def persson_contact_fraction(pressure: float, *, gradient: float) -> float:
+    """True contact area of a rough surface over its nominal area, without adhesion: erf(sqrt(2) p / (E* h')).
+
+    pressure: mean pressure p over E*, zero or positive; gradient: rms slope h', positive.
+    Source: Persson, J. Chem. Phys. 115, 3840 (2001), full form.
+    """
+    return math.erf(math.sqrt(2) * pressure / gradient)

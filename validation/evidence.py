@@ -120,6 +120,11 @@ class Table:
         return Table(self.name, {name: self[name][keep].tolist() for name in self.columns})
 
 
+def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
+    """Of rows with the same columns, one at least."""
+    return Table(name, {column: [row[column] for row in rows] for column in rows[0]})
+
+
 @dataclass(frozen=True, kw_only=True)
 class Evidence:
     """What a case shows: how it was compared, its numbers, the tables behind its figures, what follows from them.

@@ -15,8 +15,12 @@ from validation.evidence import NotConvergedError
 
 FloatArray = NDArray[np.float64]
 
-# the spawn keys under which each kind of roughness draws
-PROFILES, SURFACES = 1, 2
+BEM, MDR = "bem3d", "mdr"
+METHODS = (BEM, MDR)
+# the spawn keys under which each kind of roughness draws, and what is drawn again to tell the error of a sample
+PROFILES, SURFACES, BOOTSTRAP = 1, 2, 3
+FEW_CELLS = 30
+"""A contact of fewer cells is under-resolved."""
 # stiffness, area, approach and mean gap of a load that did not converge
 LOST = (np.nan,) * 4
 

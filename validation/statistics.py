@@ -32,6 +32,11 @@ class Estimate:
     samples: int
 
     @property
+    def interval(self) -> tuple[float, float, float]:
+        """The value, and both ends of its 95 % interval."""
+        return self.value, self.value - self.half_width, self.value + self.half_width
+
+    @property
     def half_width(self) -> float:
         """Half of the 95 % interval: Student's quantile times the standard error."""
         return float(stats.t.ppf(0.975, self.samples - 1)) * self.error
@@ -101,6 +106,12 @@ def sample(realisations: FloatArray, rng: np.random.Generator) -> Sample:
     return Sample(_moments(rows), resampled.bootstrap_distribution, int(known.sum(axis=0).min()))
 
 
+def pairs(coarse: FloatArray, fine: FloatArray, rng: np.random.Generator) -> Sample:
+    """The same realisations on two grids, side by side for `change`; what one of them lacks counts in neither."""
+    both = np.where(np.isfinite(coarse) & np.isfinite(fine), 1.0, np.nan)
+    return sample(np.concatenate([both * coarse, both * fine], axis=1), rng)
+
+
 def _moments(rows: FloatArray, axis: int = -1) -> FloatArray:
     return np.stack([np.nanmean(rows, axis=axis), np.nanstd(rows, axis=axis, ddof=1)])
 
@@ -154,8 +165,12 @@ def local_slope(forces: Sequence[float], level: int) -> FloatArray:
 
 def decade_slope(forces: Sequence[float], first: float) -> FloatArray:
     """Those from F = first to 10 first, both among the levels."""
-    levels = np.log10(np.array(forces) / first)
-    return slope_weights(forces, int(np.argmin(np.abs(levels))), int(np.argmin(np.abs(levels - 1))))
+    return slope_weights(forces, nearest(forces, first), nearest(forces, 10 * first))
+
+
+def nearest(forces: Sequence[float], force: float) -> int:
+    """The level that is nearest to a force, by their ratio."""
+    return int(np.argmin(np.abs(np.log(np.array(forces) / force))))
 
 
 def log_deviation_over(weights: FloatArray) -> Statistic:

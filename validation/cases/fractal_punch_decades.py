@@ -9,12 +9,12 @@ import numpy as np
 from validation.cases.fractal_punch import Ensemble, FractalPunch
 from validation.ensemble import generator
 from validation.evidence import Number, Role, Table, Verdict
+from validation.rough_punch import BEM, BOOTSTRAP, MDR
 from validation.statistics import (
     DECIBEL,
     FIVE_PER_CENT,
     THREE_PER_CENT,
     Estimate,
-    FloatArray,
     Sample,
     Statistic,
     change,
@@ -24,14 +24,13 @@ from validation.statistics import (
     log_deviation_over,
     log_mean,
     mean_of,
+    pairs,
     sample,
 )
 
 Forces = tuple[float, ...]
 
-BEM, MDR, LONG = "bem3d", "mdr", "mdr 1.1523 L"
-# the spawn key of the bootstrap; profiles and surfaces have theirs
-BOOTSTRAP = 3
+LONG = "mdr 1.1523 L"
 OUT_OF_REACH = 100.0
 """Times the sample; what would take more is as good as undecidable."""
 
@@ -154,25 +153,20 @@ class Samples:
 def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> Samples:
     """All of one Hurst exponent, the h-th of the case."""
     realisations = (ensemble.bem, ensemble.mdr, ensemble.long)
-    middle = ensemble.bem["stiffness"][:, np.isin(case.forces, case.refined_forces)]
+    coarser, finer = ensemble.coarser["stiffness"], ensemble.finer["stiffness"]
+    middle = ensemble.bem["stiffness"][: len(finer), np.isin(case.forces, case.refined_forces)]
 
     def draws(key: int) -> np.random.Generator:
         return generator(case.seed, BOOTSTRAP, h, key)
-
-    def pairs(coarse: FloatArray, fine: FloatArray, key: int) -> Sample:
-        fewest = min(len(coarse), len(fine))
-        coarse, fine = coarse[:fewest], fine[:fewest]
-        both = np.where(np.isfinite(coarse) & np.isfinite(fine), 1.0, np.nan)
-        return sample(np.concatenate([both * coarse, both * fine], axis=1), draws(key))
 
     return Samples(
         {
             method: sample(outcome["stiffness"], draws(key))
             for key, (method, outcome) in enumerate(zip((BEM, MDR, LONG), realisations, strict=True))
         },
-        coarser=pairs(ensemble.coarser["stiffness"], middle, 3),
-        finer=pairs(middle, ensemble.finer["stiffness"], 4),
-        springs=pairs(ensemble.coarse["stiffness"], ensemble.mdr["stiffness"], 5),
+        coarser=pairs(coarser, middle, draws(3)),
+        finer=pairs(middle, finer, draws(4)),
+        springs=pairs(ensemble.coarse["stiffness"], ensemble.mdr["stiffness"], draws(5)),
     )
 
 

@@ -9,9 +9,7 @@ import numpy as np
 from validation import closed_forms
 from validation.cases.fractal_punch import Ensemble, FractalPunch, FractalPunchResult
 from validation.cases.fractal_punch_decades import (
-    BEM,
     LONG,
-    MDR,
     QUANTITIES,
     Comparison,
     Samples,
@@ -23,8 +21,8 @@ from validation.cases.fractal_punch_decades import (
     summary,
 )
 from validation.ensemble import Outcome
-from validation.evidence import Evidence, Number, Role, Table
-from validation.rough_punch import enough
+from validation.evidence import Evidence, Number, Role, Table, table_of
+from validation.rough_punch import BEM, FEW_CELLS, MDR, enough
 from validation.statistics import (
     Estimate,
     at,
@@ -32,12 +30,11 @@ from validation.statistics import (
     local_slope,
     log_mean,
     log_relative_deviation,
+    nearest,
 )
 
 Row = dict[str, float]
 
-FEW_CELLS = 30
-"""A contact of fewer cells is under-resolved."""
 PUBLISHED = (0.51, 0.77)
 """Exponents of fractal dimensions 2 to 3; Pohrt and Popov, Phys. Rev. Lett. 108, 104301 (2012), abstract."""
 CLAIMED = 3.0
@@ -67,8 +64,12 @@ def evidence(result: FractalPunchResult) -> Evidence:
     return Evidence(
         title="Fractal punch (Fig. 14.1)",
         compared=_compared(case),
-        numbers=(*criteria, *_claimed(numbers), *laws, *numbers),
-        tables=(_table("curves", curves), _table("decades", list(map(data_row, comparisons))), _table("grids", grids)),
+        numbers=(*criteria, *_claimed(comparisons), *laws, *numbers),
+        tables=(
+            table_of("curves", curves),
+            table_of("decades", list(map(data_row, comparisons))),
+            table_of("grids", grids),
+        ),
         shown=(*(matrix(case, name, comparisons) for name in QUANTITIES), _law_table(case, laws)),
         conclusions=(
             *(summary(name, comparisons) for name in QUANTITIES),
@@ -182,7 +183,7 @@ def _bounded(result: FractalPunchResult, flat: float) -> Number:
 def _resolved(result: FractalPunchResult, comparison: Comparison) -> bool:
     """A mean stiffness in a decade whose lightest contacts have cells enough at every Hurst exponent."""
     case = result.case
-    level = int(np.argmin(np.abs(np.log(np.array(case.forces) / comparison.first))))
+    level = nearest(case.forces, comparison.first)
     cells = [float(np.nanmean(e.bem["area"][:, level])) * case.cells**2 for e in result.ensembles]
     heaviest = comparison.first == 10.0 ** (case.decades[1] - 1)
     return comparison.name == "mean stiffness" and (min(cells) >= FEW_CELLS or heaviest)
@@ -200,9 +201,9 @@ def _no_factor_lost(numbers: list[Number]) -> Number:
     )
 
 
-def _claimed(numbers: list[Number]) -> tuple[Number, ...]:
+def _claimed(comparisons: list[Comparison]) -> tuple[Number, ...]:
     """The fluctuations, where they are farthest apart, beside what is claimed of rolling."""
-    deviations = [n for n in numbers if n.label.startswith("relative deviation at")]
+    deviations = [n for c in comparisons if c.name == "relative deviation" and (n := c.number) is not None]
     if not deviations:
         return ()
     farthest = max(deviations, key=lambda number: abs(number.value) + number.uncertainty)
@@ -243,8 +244,7 @@ def _curve(case: FractalPunch, ensemble: Ensemble, samples: Samples) -> list[Row
 
 
 def _interval(name: str, found: Estimate, value: Callable[[float], float]) -> Row:
-    low, high = found.value - found.half_width, found.value + found.half_width
-    return {name: float(value(found.value)), f"{name} low": float(value(low)), f"{name} high": float(value(high))}
+    return {f"{name}{end}": float(value(v)) for end, v in zip(("", " low", " high"), found.interval, strict=True)}
 
 
 def _grids(case: FractalPunch, ensemble: Ensemble, samples: Samples) -> list[Row]:
@@ -262,10 +262,6 @@ def _grids(case: FractalPunch, ensemble: Ensemble, samples: Samples) -> list[Row
             row[f"{name}, extrapolated"] = math.exp(2 * values[2] - values[1])
         rows.append(row)
     return rows
-
-
-def _table(name: str, rows: list[Row] | list[dict[str, object]]) -> Table:
-    return Table(name, {column: [row[column] for row in rows] for column in rows[0]})
 
 
 def _laws(case: FractalPunch, comparisons: list[Comparison]) -> list[Number]:

@@ -7,9 +7,15 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, cg
 
 import bem3d
+from validation import closed_forms
 from validation.ensemble import SERIAL, Engine, Outcome, generator
-from validation.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict
+from validation.evidence import Evidence, NotConvergedError, Number, Role, Verdict, table_of
 from validation.rough_punch import (
+    BEM,
+    BOOTSTRAP,
+    FEW_CELLS,
+    MDR,
+    METHODS,
     Profiles,
     Roughness,
     Surface,
@@ -36,17 +42,14 @@ from validation.statistics import (
     log_deviation_over,
     log_mean,
     log_relative_deviation,
+    nearest,
+    pairs,
     sample,
 )
 
 Row = dict[str, float]
 
-BEM, MDR = "bem3d", "mdr"
-METHODS = (BEM, MDR)
 MEASURED = {"stiffness": "stiffness", "area": "contact fraction", "gap": "mean gap"}
-BOOTSTRAP = 3
-FEW_CELLS = 30
-"""A contact of fewer cells is under-resolved."""
 WIDE = 4
 """A roll-off q_r L / 2 pi from which on the interface is a matter of its own."""
 CLOSED = 1e-12
@@ -197,7 +200,7 @@ def evidence(result: MdrLimitsResult) -> Evidence:
             if roll_off >= WIDE:
                 slopes = [_proportional(case, mine, layers, method, first) for method in METHODS]
                 numbers += [slope for slope in slopes if slope is not None]
-    curves = [row for roll_off, mine in samples.items() for row in _curve(result, layers, mine)]
+    curves = [row for mine in samples.values() for row in _curve(result, layers, mine)]
     return Evidence(
         title="Where MDR must fail: contact area, mean gap, roughness with a roll-off",
         compared=(
@@ -211,7 +214,7 @@ def evidence(result: MdrLimitsResult) -> Evidence:
             "± grid is half of that way, and the interval of what it rests on."
         ),
         numbers=tuple(numbers),
-        tables=(Table("curves", {name: [row[name] for row in curves] for name in curves[0]}),),
+        tables=(table_of("curves", curves),),
         conclusions=tuple(_conclusions(result, samples, numbers)),
         captions={
             "mdr_limits": (
@@ -237,9 +240,7 @@ def _samples(result: MdrLimitsResult, roll_off: int) -> Samples:
             values = np.maximum(outcome[quantity], CLOSED)
             by_method[method, quantity] = sample(values, generator(case.seed, BOOTSTRAP, roll_off, i, j))
         coarse, fine = outcomes[BEM][quantity][: case.refined], result.refined[roll_off][quantity]
-        both = np.where(np.isfinite(coarse) & np.isfinite(fine), 1.0, np.nan)
-        pairs = np.concatenate([both * coarse, both * fine], axis=1)
-        grids[quantity] = sample(pairs, generator(case.seed, BOOTSTRAP, roll_off, i, 2))
+        grids[quantity] = pairs(coarse, fine, generator(case.seed, BOOTSTRAP, roll_off, i, 2))
     return Samples(roll_off, by_method, grids)
 
 
@@ -317,11 +318,6 @@ def _proportional(case: MdrLimits, mine: Samples, layers: dict[str, Layer], meth
     )
 
 
-def persson(pressure: FloatArray, gradient: float) -> FloatArray:
-    """Contact fraction erf(sqrt(2) p / (E* h')), p over E*: Persson, J. Chem. Phys. 115 (2001), full form."""
-    return np.array([math.erf(math.sqrt(2) * p / gradient) for p in pressure])
-
-
 def _curve(result: MdrLimitsResult, layers: dict[str, Layer], mine: Samples) -> list[Row]:
     """One row a force."""
     case, roll_off = result.case, mine.roll_off
@@ -339,8 +335,8 @@ def _curve(result: MdrLimitsResult, layers: dict[str, Layer], mine: Samples) -> 
             row |= _interval(f"{method} interface", stiffness.estimate(at(level, _interface(layers[method]))))
             slope = combined(local_slope(case.forces, level), _interface(layers[method]))
             row[f"{method} exponent of the interface"] = stiffness.estimate(slope).value
-        row["Persson contact fraction"] = float(
-            persson(np.array([case.height * force]), float(outcome["gradient"].mean()))[0]
+        row["Persson contact fraction"] = closed_forms.persson_contact_fraction(
+            case.height * force, gradient=float(outcome["gradient"].mean())
         )
         row["bem3d cells in contact"] = row["bem3d contact fraction"] * case.cells**2
         rows.append(row)
@@ -348,14 +344,14 @@ def _curve(result: MdrLimitsResult, layers: dict[str, Layer], mine: Samples) -> 
 
 
 def _interval(name: str, found: Estimate, unit: float = 1.0) -> Row:
-    ends = (found.value, found.value - found.half_width, found.value + found.half_width)
-    return {f"{name}{end}": math.exp(value) / unit for end, value in zip(("", " low", " high"), ends, strict=True)}
+    named = zip(("", " low", " high"), found.interval, strict=True)
+    return {f"{name}{end}": math.exp(value) / unit for end, value in named}
 
 
 def _conclusions(result: MdrLimitsResult, samples: dict[int, Samples], numbers: list[Number]) -> list[str]:
     """In words, and at one force; and how proportional the stiffness is."""
     case = result.case
-    level = int(np.argmin(np.abs(np.log(np.array(case.forces) / 0.1))))
+    level = nearest(case.forces, 0.1)
     units = {"area": 1.0, "gap": case.height, "stiffness": 1.0}
     of_no_meaning = [n for n in numbers if n.label.startswith((MEASURED["area"], MEASURED["gap"]))]
     confirmed = "" if all(n.verdict is Verdict.DIFFER for n in of_no_meaning) else "Not confirmed at every load here: "
@@ -369,8 +365,9 @@ def _conclusions(result: MdrLimitsResult, samples: dict[int, Samples], numbers: 
             f"{math.exp(mine.by_method[MDR, quantity].estimate(at(level, log_mean)).value) / units[quantity]:.3g}"
             for quantity in units
         }
-        pressure = np.array([case.height * case.forces[level]])
-        law = persson(pressure, float(result.bem[roll_off]["gradient"].mean()))[0]
+        law = closed_forms.persson_contact_fraction(
+            case.height * case.forces[level], gradient=float(result.bem[roll_off]["gradient"].mean())
+        )
         deviation = at(level, log_relative_deviation)
         sentences.append(
             f"q_r L / 2π = {roll_off}, Fbar = {case.forces[level]:.2g}, boundary elements (extrapolated, with their "

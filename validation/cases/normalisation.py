@@ -7,8 +7,10 @@ from typing import Literal
 import numpy as np
 
 from validation.ensemble import SERIAL, Engine, Outcome, generator
-from validation.evidence import Evidence, Number, Role, Table
+from validation.evidence import Evidence, Number, Role, Table, table_of
 from validation.rough_punch import (
+    BOOTSTRAP,
+    METHODS,
     Profiles,
     Roughness,
     Surface,
@@ -43,8 +45,8 @@ VARIANTS: dict[str, tuple[Amplitudes, Normalised]] = {
     EACH: ("gaussian", "each"),
     ENSEMBLE: ("gaussian", "ensemble"),
 }
-METHODS = ("bem3d", "mdr")
-BOOTSTRAP, PAIRS = 3, 4
+# the spawn key of what is drawn again of pairs
+PAIRS = 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +117,7 @@ def run(case: Normalisation, engine: Engine = SERIAL) -> NormalisationResult:
 
 
 def evidence(result: NormalisationResult) -> Evidence:
-    """The relative deviation of each way over that of the one before, and of one method over the other.
+    """The relative deviation of each way over that of the one before; methods side by side, without a verdict.
 
     Raises NotConvergedError where too few surfaces have converged at one of the forces.
     """
@@ -195,20 +197,19 @@ def _curves(case: Normalisation, samples: dict[tuple[float, str, str], Sample]) 
     rows: list[Row] = []
     for (hurst, variant, method), mine in samples.items():
         for level, force in enumerate(case.forces):
-            found = mine.estimate(at(level, log_relative_deviation))
-            low, high = found.value - found.half_width, found.value + found.half_width
+            value, low, high = map(math.exp, mine.estimate(at(level, log_relative_deviation)).interval)
             rows.append(
                 {
                     "H": hurst,
                     "drawn with": variant,
                     "method": method,
                     "Fbar": force,
-                    "relative deviation": math.exp(found.value),
-                    "low": math.exp(low),
-                    "high": math.exp(high),
+                    "relative deviation": value,
+                    "low": low,
+                    "high": high,
                 }
             )
-    return Table("curves", {name: [row[name] for row in rows] for name in rows[0]})
+    return table_of("curves", rows)
 
 
 def _heights(result: NormalisationResult) -> Table:
@@ -226,7 +227,7 @@ def _heights(result: NormalisationResult) -> Table:
                 "expected": scatter(result.case, hurst, method) if variant == ENSEMBLE else 0.0,
             }
         )
-    return Table("heights", {name: [row[name] for row in rows] for name in rows[0]})
+    return table_of("heights", rows)
 
 
 def scatter(case: Normalisation, hurst: float, method: str) -> float:
@@ -254,13 +255,9 @@ def _matrix(case: Normalisation, samples: dict[tuple[float, str, str], Sample]) 
             columns["H"].append(hurst)
             columns["Fbar"].append(f"{10.0**power:g} to {10.0 ** (power + 1):g}")
             for variant in VARIANTS:
-                deviations = [_deviation(case, samples[hurst, variant, m], 10.0**power) for m in METHODS]
-                bem, mdr = deviations
-                apart = mdr.minus(bem)
+                bem, mdr = (_deviation(case, samples[hurst, variant, m], 10.0**power) for m in METHODS)
                 columns[variant].append(
-                    f"{math.exp(bem.value):.3f}, {math.exp(mdr.value):.3f}: {100 * math.expm1(apart.value):+.0f} % "
-                    f"({100 * math.expm1(apart.value - apart.half_width):+.0f} to "
-                    f"{100 * math.expm1(apart.value + apart.half_width):+.0f})"
+                    f"{math.exp(bem.value):.3f}, {math.exp(mdr.value):.3f}: {_percent(mdr.minus(bem))}"
                 )
     return Table("relative deviation of boundary elements and MDR, and their difference", columns)
 
@@ -305,6 +302,5 @@ def _conclusions(result: NormalisationResult, samples: dict[tuple[float, str, st
 
 
 def _percent(found: Estimate) -> str:
-    ends = (found.value, found.value - found.half_width, found.value + found.half_width)
-    middle, low, high = (f"{100 * math.expm1(value):+.0f}" for value in ends)
+    middle, low, high = (f"{100 * math.expm1(value):+.0f}" for value in found.interval)
     return f"{middle} % ({low} to {high})"

@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.cases.fractal_punch_decades import QUANTITIES
-from validation.cases.fractal_punch_evidence import CLAIMED, FEW_CELLS, PUBLISHED
+from validation.cases.fractal_punch_evidence import CLAIMED, PUBLISHED
 from validation.evidence import Evidence, Table
 from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels
+from validation.rough_punch import FEW_CELLS
 
 FORCE = "force Fbar = F / (E* h L)"
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
