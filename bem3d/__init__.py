@@ -11,8 +11,10 @@ from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
 from bem3d.plain import solve_plain
 from bem3d.problem import Problem
+from bem3d.rolling import Rolling, RollingContact, roll, rolling_force
 from bem3d.solver import solve
 from bem3d.surface import rough_surface
+from bem3d.track import Track
 
 __all__ = [
     "Contact",
@@ -23,10 +25,15 @@ __all__ = [
     "HalfSpace",
     "Problem",
     "ResolutionWarning",
+    "Rolling",
+    "RollingContact",
     "Status",
+    "Track",
     "indent",
     "press_frozen",
     "residual",
+    "roll",
+    "rolling_force",
     "rough_surface",
     "solve",
     "solve_plain",

@@ -17,6 +17,8 @@ PLANNER = threading.Lock()
 """FFTW has one planner, and one memory of what it has measured, in a process."""
 COLUMNS = 16
 """Columns transformed at a time: few enough to stay in the cache, forwards, times the symbol, and back."""
+SMALL = 2**15
+"""A spectrum of no more numbers stays in the cache as a whole, and is transformed in one go."""
 
 
 class Convolution(ABC):
@@ -110,20 +112,22 @@ class PaddedConvolution(Convolution):
         half = symbol.T / (padded[0] * padded[1])
         self._symbol = np.concatenate([half, half[:, (padded[0] - 1) // 2 : 0 : -1]], axis=1)
         self._spectrum = pyfftw.empty_aligned((shape[0], padded[1] // 2 + 1), dtype=np.complex128)
-        self._columns = pyfftw.empty_aligned((COLUMNS, padded[0]), dtype=np.complex128)
+        small = padded[0] * (padded[1] // 2 + 1) <= SMALL
+        self._block = padded[1] // 2 + 1 if small else COLUMNS
+        self._columns = pyfftw.empty_aligned((self._block, padded[0]), dtype=np.complex128)
         self._forward, self._inverse = self._plan(self._rows, self._spectrum, (1,))
         self._down, self._up = self._plan(self._columns, self._columns, (1,))
 
     def _convolve(self) -> None:
         self._forward()
         filled = self.shape[0]
-        for first in range(0, self._spectrum.shape[1], COLUMNS):
-            some = self._spectrum[:, first : first + COLUMNS]
+        for first in range(0, self._spectrum.shape[1], self._block):
+            some = self._spectrum[:, first : first + self._block]
             columns = self._columns[: some.shape[1]]
             columns[:, :filled] = some.T
             columns[:, filled:] = 0.0
             self._down()
-            columns *= self._symbol[first : first + COLUMNS]
+            columns *= self._symbol[first : first + self._block]
             self._up()
             some[:] = columns[:, :filled].T
         self._inverse()

@@ -119,4 +119,4 @@ class HalfSpace:
 
 def _doubled(points: int) -> int:
     """An even and fast FFT length without images: at least 2n - 1."""
-    return 2 * int(fft.next_fast_len(points, real=True))
+    return 2 * int(fft.next_fast_len(points))

@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from bem3d.border import BoolArray, FloatArray
 from bem3d.contact import residual
-from bem3d.window import Candidates, dot
+from bem3d.window import dot
 
 MEMORY = 3
 """Steps remembered, with their images: what conjugacy and truncation need, measured on rough contacts."""
@@ -109,7 +110,23 @@ class Step:
     cut: bool
 
 
-def projected_cg(cells: Candidates, pressure: FloatArray, separation: FloatArray, load: Load) -> Iterator[State]:
+class Operator(Protocol):
+    """K and its approximate inverse on vectors over the cells that may touch."""
+
+    @property
+    def stiffness(self) -> float:
+        """Pressure on a cell alone that moves it by a unit [Pa/m]."""
+
+    def displacement(self, pressure: FloatArray) -> FloatArray:
+        """u = K p."""
+
+    def inverse(self, displacement: FloatArray) -> FloatArray:
+        """Nearly the pressure that makes this displacement, were it zero elsewhere."""
+
+
+def projected_cg(
+    cells: Operator, pressure: FloatArray, separation: FloatArray, load: Load, length: float = FIRST_STEP
+) -> Iterator[State]:
     """Iterate towards p >= 0, w = g + u - s >= 0, p w = 0; the caller decides when to stop.
 
     Free cells are those under pressure and those that overlap. On them the preconditioned residual, made conjugate to
@@ -120,11 +137,11 @@ def projected_cg(cells: Candidates, pressure: FloatArray, separation: FloatArray
     Ends, without a solution, where no direction leads down any more.
 
     cells: K and its approximate inverse on vectors over the candidate cells; pressure, separation g + u: to begin with;
-    load: what is prescribed.
+    load: what is prescribed; length: of the first step, in units of the preconditioned residual.
     Source: the projection and the free cells as in Polonsky and Keer, Wear 231 (1999) 206; going on without restart as
     in Bugnicourt et al., Tribol. Lett. 66 (2018) 29; one application an iteration by the memory is ours.
     """
-    memory, length = Memory(), FIRST_STEP
+    memory = Memory()
     while True:
         s = load.overlap_of(pressure, separation)
         w = separation - s
@@ -144,7 +161,7 @@ def projected_cg(cells: Candidates, pressure: FloatArray, separation: FloatArray
 
 
 def _downhill(
-    cells: Candidates, pressure: FloatArray, w: FloatArray, load: Load, memory: Memory, length: float
+    cells: Operator, pressure: FloatArray, w: FloatArray, load: Load, memory: Memory, length: float
 ) -> Step | None:
     """The first of three steps that gains energy: conjugate, preconditioned, plain. None if none does."""
     free = (pressure > 0) | (w < 0)

@@ -1,0 +1,228 @@
+"""A sphere above a rough strip, and the frame that moves along with it."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from bem3d.border import BoolArray, FloatArray, IndexArray, field, grid_spacing, positive
+from bem3d.halfspace import HalfSpace
+from bem3d.window import Box
+
+SIDES = (8, 10, 14, 16, 20, *(m * 2**k for k, m in product(range(8), (25, 28, 30, 32, 35, 40))))
+"""Sides of frames, in cells: those whose transforms are fastest, measured, and as many that few are needed."""
+
+Span = tuple[int, int]
+Spans = tuple[Span, Span]
+"""Rows from, to, counted from the wheel's cell; columns from, to, of the strip."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Track:
+    """A strip of roughness, periodic along axis 0, and a rigid sphere of which the lowest point runs along its middle.
+
+    Undeformed separation at the wheel's position i, at the centres of the cells:
+    g = ((x - x_i)^2 + y^2) / (2 R) - h(x, y),  y = 0 in the middle of axis 1.
+
+    height: shape (nx, ny), positive towards the other body [m]; spacing: one number or (dx, dy) [m]; radius: R [m];
+    modulus: E* [Pa].
+    Raises ValueError or TypeError naming the argument that is out of range.
+    """
+
+    height: FloatArray
+    spacing: float | tuple[float, float]
+    radius: float
+    modulus: float
+
+    def __post_init__(self) -> None:
+        shape = np.shape(self.height)
+        if len(shape) != 2 or 0 in shape:
+            raise ValueError(f"height must have shape (nx, ny) with cells along both axes, got shape {shape}")
+        object.__setattr__(self, "height", np.ascontiguousarray(field("height", self.height, (shape[0], shape[1]))))
+        object.__setattr__(self, "spacing", grid_spacing(self.spacing))
+        object.__setattr__(self, "radius", positive("radius", self.radius))
+        object.__setattr__(self, "modulus", positive("modulus", self.modulus))
+
+    @cached_property
+    def highest(self) -> float:
+        """The highest point of the strip [m]."""
+        return float(self.height.max())
+
+    @property
+    def cell_area(self) -> float:
+        """dx dy [m^2]."""
+        return self.steps[0] * self.steps[1]
+
+    @property
+    def steps(self) -> tuple[float, float]:
+        """Spacing along both axes (dx, dy) [m]."""
+        dx, dy = self.spacing  # type: ignore[misc]
+        return dx, dy
+
+    def half_space(self, shape: tuple[int, int]) -> HalfSpace:
+        """The half-space under a frame of that shape; all are kept, with their plans."""
+        if shape not in self._half_spaces:
+            self._half_spaces[shape] = HalfSpace(shape=shape, spacing=self.spacing, modulus=self.modulus)
+        return self._half_spaces[shape]
+
+    @cached_property
+    def _half_spaces(self) -> dict[tuple[int, int], HalfSpace]:
+        return {}
+
+    def sphere(self, rows: IndexArray, columns: IndexArray) -> FloatArray:
+        """r^2 / (2 R) at cells `rows` ahead of the wheel and columns of the strip, broadcast [m]."""
+        x, y = self.along(rows), self.across(columns)
+        return np.asarray((x**2 + y**2) / (2 * self.radius))
+
+    def along(self, rows: IndexArray) -> FloatArray:
+        """x of cells so many rows ahead of the wheel [m]."""
+        return np.asarray(rows * self.steps[0])
+
+    def across(self, columns: IndexArray) -> FloatArray:
+        """y of columns of the strip [m]."""
+        return np.asarray((columns - (self.height.shape[1] - 1) / 2) * self.steps[1])
+
+    def reach(self, approach: float) -> tuple[int, int]:
+        """How many rows ahead, and how many columns to a side, a cell can overlap at this approach [m]."""
+        r = np.sqrt(2 * self.radius * max(approach + self.highest, 0.0))
+        dx, dy = self.steps
+        return int(r / dx), int(r / dy + 0.5)
+
+    def widened(self, spans: Spans, margin: int) -> Spans:
+        """Spans that hold these and a margin, of sides that transform fast; refused where the track is too short."""
+        nx, ny = self.height.shape
+        (first, last), across = spans[0], _widened(spans[1], margin, ny)
+        if last - first > nx:
+            raise ValueError(
+                f"height must be longer along the track than the contact and what is next to touch, {last - first} "
+                f"cells, got {nx}"
+            )
+        start = min(max(across[0], 0), ny - (across[1] - across[0]))
+        return _widened(spans[0], margin, nx), (start, start + across[1] - across[0])
+
+
+class Frame:
+    """A window that moves with the wheel: the only cells that are solved on.
+
+    spans: rows from, to, counted from the wheel's cell; columns from, to, of the strip.
+    """
+
+    def __init__(self, track: Track, spans: Spans):
+        self.track, self.spans = track, spans
+        self.rows, self.columns = spans
+        self.shape = self.rows[1] - self.rows[0], self.columns[1] - self.columns[0]
+        self.half_space = track.half_space(self.shape)
+        self._ahead, self._across = np.arange(*self.rows), np.arange(*self.columns)
+        self._sphere = track.sphere(self._ahead[:, np.newaxis], self._across)
+        self._limit = -np.inf
+
+    def box(self, spans: Spans) -> Box:
+        """Where a part of it lies in its fields."""
+        rows, columns = spans
+        return (
+            slice(rows[0] - self.rows[0], rows[1] - self.rows[0]),
+            slice(columns[0] - self.columns[0], columns[1] - self.columns[0]),
+        )
+
+    def take(self, field: FloatArray, frame: "Frame") -> FloatArray:
+        """A field of another frame under the same wheel, zero where that one does not reach."""
+        if frame is self:
+            return field
+        here = np.zeros(self.shape)
+        common = common_part(self.spans, frame.spans)
+        here[self.box(common)] = field[frame.box(common)]
+        return here
+
+    def gap(self, position: int) -> FloatArray:
+        """Undeformed separation in the frame [m]."""
+        rows = self.track.height.take(self._ahead + position, axis=0, mode="wrap")
+        return np.asarray(self._sphere - rows[:, slice(*self.columns)])
+
+    def spans_of(self, marked: BoolArray) -> Spans:
+        """Of all marked cells, one at least."""
+        ahead, across = np.flatnonzero(marked.any(axis=1)), np.flatnonzero(marked.any(axis=0))
+        return (
+            (int(ahead[0]) + self.rows[0], int(ahead[-1]) + 1 + self.rows[0]),
+            (int(across[0]) + self.columns[0], int(across[-1]) + 1 + self.columns[0]),
+        )
+
+    def at_edge(self, pressure: FloatArray) -> bool:
+        """Whether a first or last column of the strip carries pressure, beyond which nothing is known."""
+        first = self.columns[0] == 0 and bool(pressure[:, 0].any())
+        return first or (self.columns[1] == self.track.height.shape[1] and bool(pressure[:, -1].any()))
+
+    def outside(self, position: int, approach: float, pressure: FloatArray) -> Spans | None:
+        """Spans of the frame and of cells outside that may touch; None where none does.
+
+        A force F, whose pressure has its centre at c and the variance s^2 about it, moves the surface at r by
+        u >= F / (pi E* sqrt(|r - c|^2 + s^2)), whatever its distribution: the mean of 1/X is at least 1 over the mean
+        of X, and that at least 1 over the root mean square. Where g + u > d even so, there is no contact.
+        """
+        if approach > self._limit:
+            self._survey(approach)
+        if not self._rim_sphere.size:
+            return None
+        track = self.track
+        force, centre, variance = self._moments(pressure)
+        distance = np.sqrt((self._rim_x - centre[0]) ** 2 + (self._rim_y - centre[1]) ** 2 + variance)
+        least = force / (np.pi * track.modulus) / distance
+        height = track.height.reshape(-1).take(self._rim + position * track.height.shape[1], mode="wrap")
+        touching = np.flatnonzero(self._rim_sphere - height + least < approach)
+        if not touching.size:
+            return None
+        ny = track.height.shape[1]
+        ahead, across = self._rim[touching] // ny, self._rim[touching] % ny
+        found = (int(ahead.min()), int(ahead.max()) + 1), (int(across.min()), int(across.max()) + 1)
+        return joined((self.rows, self.columns), found)
+
+    def _survey(self, approach: float) -> None:
+        """List the cells outside that overlap somewhere along the track, up to a little more than this approach."""
+        track, ny = self.track, self.track.height.shape[1]
+        self._limit = approach + 0.05 * abs(approach)
+        most = track.reach(self._limit)
+        if 2 * most[0] + 1 > track.height.shape[0]:
+            most = (track.height.shape[0] - 1) // 2, most[1]
+        ahead = np.arange(-most[0], most[0] + 1)[:, np.newaxis]
+        across = np.arange(ny)
+        inside = (ahead >= self.rows[0]) & (ahead < self.rows[1])
+        inside = inside & (across >= self.columns[0]) & (across < self.columns[1])
+        rim = np.nonzero(~inside & (track.sphere(ahead, across) < self._limit + track.highest))
+        rows, columns = rim[0] - most[0], rim[1]
+        self._rim = rows * ny + columns
+        self._rim_x, self._rim_y = track.along(rows), track.across(columns)
+        self._rim_sphere = track.sphere(rows, columns)
+
+    def _moments(self, pressure: FloatArray) -> tuple[float, tuple[float, float], float]:
+        """Force [N], its centre [m] and the mean square distance from it [m^2]; each cell pressed evenly."""
+        total = float(pressure.sum())
+        if total == 0:
+            return 0.0, (0.0, 0.0), 1.0
+        dx, dy = self.track.steps
+        centre, variance = [], (dx**2 + dy**2) / 12
+        for axis, places in ((1, self.track.along(self._ahead)), (0, self.track.across(self._across))):
+            share = pressure.sum(axis=axis) / total
+            mean = float((share * places).sum())
+            centre.append(mean)
+            variance += float((share * (places - mean) ** 2).sum())
+        return total * dx * dy, (centre[0], centre[1]), variance
+
+
+def joined(spans: Spans, others: Spans) -> Spans:
+    """The smallest spans that hold both."""
+    rows, columns = ((min(a[0], b[0]), max(a[1], b[1])) for a, b in zip(spans, others, strict=True))
+    return rows, columns
+
+
+def common_part(spans: Spans, others: Spans) -> Spans:
+    """What both hold."""
+    rows, columns = ((max(a[0], b[0]), min(a[1], b[1])) for a, b in zip(spans, others, strict=True))
+    return rows, columns
+
+
+def _widened(span: Span, margin: int, most: int) -> Span:
+    """A span widened on both sides to a length that transforms fast, as far as there are cells."""
+    wanted = span[1] - span[0] + 2 * margin
+    length = min(next((side for side in SIDES if side >= wanted), most), most)
+    first = span[0] - (length - (span[1] - span[0])) // 2
+    return first, first + length
