@@ -1,5 +1,6 @@
 """The answer to a contact problem, with the problem it answers, and its residual."""
 
+import math
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -108,10 +109,13 @@ def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
     w: gap + u - approach, with u from a fresh operator application on that pressure [m].
     """
     total = float(pressure.sum())
-    if not np.isfinite(total):
-        return float("nan")
+    if not math.isfinite(total):
+        return math.nan
     if overlap <= 0:
-        return 0.0 if total == 0 else float("inf")
+        return 0.0 if total == 0 else math.inf
     open_under_pressure = float((pressure * np.abs(w)).sum()) / total if total > 0 else 0.0
-    # not the built-in max, which loses a NaN
-    return float(np.max([open_under_pressure, -float(w.min()), 0.0])) / overlap
+    penetration = -float(w.min())
+    # the built-in max loses a NaN
+    if math.isnan(open_under_pressure) or math.isnan(penetration):
+        return math.nan
+    return max(open_under_pressure, penetration, 0.0) / overlap

@@ -18,7 +18,7 @@ PLANNER = threading.Lock()
 COLUMNS = 16
 """Columns transformed at a time: few enough to stay in the cache, forwards, times the symbol, and back."""
 SMALL = 2**15
-"""A spectrum of no more numbers stays in the cache as a whole, and is transformed in one go."""
+"""A spectrum of no more numbers stays in the cache as a whole: `CachedConvolution`."""
 
 
 class Convolution(ABC):
@@ -112,22 +112,51 @@ class PaddedConvolution(Convolution):
         half = symbol.T / (padded[0] * padded[1])
         self._symbol = np.concatenate([half, half[:, (padded[0] - 1) // 2 : 0 : -1]], axis=1)
         self._spectrum = pyfftw.empty_aligned((shape[0], padded[1] // 2 + 1), dtype=np.complex128)
-        small = padded[0] * (padded[1] // 2 + 1) <= SMALL
-        self._block = padded[1] // 2 + 1 if small else COLUMNS
-        self._columns = pyfftw.empty_aligned((self._block, padded[0]), dtype=np.complex128)
+        self._columns = pyfftw.empty_aligned((COLUMNS, padded[0]), dtype=np.complex128)
         self._forward, self._inverse = self._plan(self._rows, self._spectrum, (1,))
         self._down, self._up = self._plan(self._columns, self._columns, (1,))
 
     def _convolve(self) -> None:
         self._forward()
         filled = self.shape[0]
-        for first in range(0, self._spectrum.shape[1], self._block):
-            some = self._spectrum[:, first : first + self._block]
+        for first in range(0, self._spectrum.shape[1], COLUMNS):
+            some = self._spectrum[:, first : first + COLUMNS]
             columns = self._columns[: some.shape[1]]
             columns[:, :filled] = some.T
             columns[:, filled:] = 0.0
             self._down()
-            columns *= self._symbol[first : first + self._block]
+            columns *= self._symbol[first : first + COLUMNS]
             self._up()
             some[:] = columns[:, :filled].T
         self._inverse()
+
+
+class CachedConvolution(Convolution):
+    """With padding, on a grid so small that its spectrum stays in the cache; no row that is zero is transformed.
+
+    symbol: quadrant of the real Fourier transform of the kernel, shape (padded[0] // 2 + 1, padded[1] // 2 + 1).
+    """
+
+    def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
+        super().__init__(shape, padded, planning)
+        self._symbol = np.concatenate([symbol, symbol[(padded[0] - 1) // 2 : 0 : -1]]) / (padded[0] * padded[1])
+        self._spectrum = pyfftw.empty_aligned(self._symbol.shape, dtype=np.complex128)
+        filled = self._spectrum[: shape[0]]
+        self._forward, self._inverse = self._plan(self._rows, filled, (1,))
+        self._down, self._up = self._plan(self._spectrum, self._spectrum, (0,))
+
+    def _convolve(self) -> None:
+        self._forward()
+        self._spectrum[self.shape[0] :] = 0.0
+        self._down()
+        np.multiply(self._spectrum, self._symbol, out=self._spectrum)
+        self._up()
+        self._inverse()
+
+
+def padded_convolution(
+    symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning
+) -> Convolution:
+    """The faster of the two for this grid."""
+    small = padded[0] * (padded[1] // 2 + 1) <= SMALL
+    return (CachedConvolution if small else PaddedConvolution)(symbol, shape=shape, padded=padded, planning=planning)

@@ -11,7 +11,7 @@ from scipy import fft
 
 from bem3d import kernel
 from bem3d.border import FloatArray, field, grid_shape, grid_spacing, positive
-from bem3d.convolution import Convolution, PaddedConvolution, PlainConvolution, Planning
+from bem3d.convolution import Convolution, PlainConvolution, Planning, padded_convolution
 
 KEEPING = threading.Lock()
 RELATIVES = 4
@@ -87,7 +87,7 @@ class HalfSpace:
         padded = _doubled(self.shape[0]), _doubled(self.shape[1])
         table = kernel.love_table((padded[0] // 2 + 1, padded[1] // 2 + 1), self.steps[1] / self.steps[0])
         symbol = kernel.free_space_symbol(table, self.steps, self.modulus)
-        return PaddedConvolution(symbol, shape=self.shape, padded=padded, planning=self.planning)
+        return padded_convolution(symbol, shape=self.shape, padded=padded, planning=self.planning)
 
     @cached_property
     def inverse(self) -> Convolution:

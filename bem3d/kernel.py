@@ -6,6 +6,9 @@ from scipy import fft
 
 from bem3d.border import FloatArray
 
+UNIFORM = 0.3
+"""The wave, as a part of the longest, to whose pressure a contact yields about as to a uniform one."""
+
 
 def corner(x: ArrayLike, y: ArrayLike) -> FloatArray:
     """int_0^y int_0^x ds dt / sqrt(s^2 + t^2) = x asinh(y/|x|) + y asinh(x/|y|).
@@ -62,14 +65,14 @@ def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulu
 
 
 def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
-    """E*/2 sqrt(q^2 + (2 pi/L)^2), the quadrant of a symbol that nearly inverts the half-space [Pa/m].
+    """E*/2 sqrt(q^2 + q_0^2), the quadrant of a symbol that nearly inverts the half-space [Pa/m].
 
-    L is the longer side: a half-space in free space yields to a uniform pressure as if to its longest wave.
-    Without padding its images touch, which a preconditioner may ignore.
+    q_0 is a part of 2 pi over the longer side: a half-space in free space yields to a uniform pressure as if to a wave
+    longer than the grid. Without padding its images touch, which a preconditioner may ignore.
     Source: the inverse of Stanley and Kato's symbol, as used by Vollebregt, J. Comput. Phys. 257 (2014) 269.
     """
     longest = max(shape[0] * spacing[0], shape[1] * spacing[1])
-    return np.asarray(modulus / 2 * np.hypot(wavenumbers(shape, spacing), 2 * np.pi / longest))
+    return np.asarray(modulus / 2 * np.hypot(wavenumbers(shape, spacing), UNIFORM * 2 * np.pi / longest))
 
 
 def wavenumbers(shape: tuple[int, int], spacing: tuple[float, float]) -> FloatArray:

@@ -87,7 +87,7 @@ def _press_window(
         # a fresh residual takes the place of the running one of the same pressure
         attempt.history = attempt.history[:-1]
         attempt.judge(residual(pressure, w, attempt.overlap), tolerance, max_iterations)
-        known, marked = marked, marked | _may_touch(pressure, w)
+        known, marked = marked, marked | may_touch(pressure, w)
         gained = attempt.history[-1] <= confirmed / 2 and attempt.history[-1] < confirmed
         stuck = not math.isnan(confirmed) and not gained
         if attempt.status is None and stuck and (marked == known).all():
@@ -124,7 +124,7 @@ def _iterate(
     return cells.spread(state.pressure)
 
 
-def _may_touch(pressure: FloatArray, w: FloatArray) -> BoolArray:
+def may_touch(pressure: FloatArray, w: FloatArray) -> BoolArray:
     """Cells in contact, and those that are no further from it than the error that the start still has."""
     touching = (pressure > 0) | (w < 0)
     error = float(np.abs(w[touching]).max(initial=0.0))

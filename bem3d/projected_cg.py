@@ -8,7 +8,7 @@ import numpy as np
 
 from bem3d.border import BoolArray, FloatArray
 from bem3d.contact import residual
-from bem3d.window import dot
+from bem3d.window import dot, dots
 
 MEMORY = 3
 """Steps remembered, with their images: what conjugacy and truncation need, measured on rough contacts."""
@@ -65,40 +65,58 @@ class State:
 
 
 class Memory:
-    """The last steps s_i and their images y_i = K s_i."""
+    """The last steps s_i and their images y_i = K s_i, as rows."""
 
-    def __init__(self) -> None:
+    def __init__(self, size: int) -> None:
+        self._rows = np.empty((2, MEMORY, size))
         self.forget()
 
     def forget(self) -> None:
         """Begin anew."""
-        self._steps: list[FloatArray] = []
-        self._images: list[FloatArray] = []
-        self._gram = np.zeros((0, 0))
+        self._count = self._next = 0
+        self._gram = np.zeros((MEMORY, MEMORY))
 
     def add(self, step: FloatArray, image: FloatArray) -> None:
-        """Remember a step, in units of its largest pressure."""
+        """Remember a step, in units of its largest pressure, in the place of the oldest."""
         scale = float(np.abs(step).max())
-        forgotten = max(len(self._steps) + 1 - MEMORY, 0)
-        self._steps = [*self._steps[forgotten:], step / scale]
-        self._images = [*self._images[forgotten:], image / scale]
-        newest = [dot(self._steps[-1], other) for other in self._images]
-        gram = np.empty((len(newest), len(newest)))
-        gram[:-1, :-1] = self._gram[forgotten:, forgotten:]
-        gram[-1], gram[:, -1] = newest, newest
-        self._gram = gram
+        steps, images = self._rows
+        np.divide(step, scale, out=steps[self._next])
+        np.divide(image, scale, out=images[self._next])
+        self._count = min(self._count + 1, MEMORY)
+        known = slice(0, self._count)
+        self._gram[self._next, known] = dots(images[known], steps[self._next])
+        self._gram[known, self._next] = self._gram[self._next, known]
+        self._next = (self._next + 1) % MEMORY
 
     def improve(self, direction: FloatArray, downhill: FloatArray) -> FloatArray:
         """The direction made conjugate to what is remembered, plus the step among that which gains the most energy."""
-        if not self._steps:
+        if self._count == 0:
             return direction
-        remembered = list(zip(self._steps, self._images, strict=True))
-        wanted = np.array([dot(step, downhill) - dot(image, direction) for step, image in remembered])
-        weights = np.linalg.lstsq(self._gram, wanted, rcond=1e-10)[0]
-        improved = direction.copy()
-        for weight, step in zip(weights, self._steps, strict=True):
-            improved += weight * step
-        return improved
+        known = slice(0, self._count)
+        steps, images = self._rows[:, known]
+        wanted = dots(steps, downhill) - dots(images, direction)
+        weights = solved(self._gram[known, known].tolist(), wanted.tolist())
+        return np.asarray(direction + np.einsum("i,ij->j", weights, steps))
+
+
+def solved(gram: list[list[float]], wanted: list[float]) -> list[float]:
+    """The small system G x = b, G symmetric and nearly singular at worst: an unknown that adds nothing stays zero."""
+    count = len(wanted)
+    left = [gram[i][i] for i in range(count)]
+    for k in range(count):
+        if not gram[k][k] > 1e-10 * left[k]:
+            for i in range(count):
+                gram[i][k] = gram[k][i] = 0.0
+            gram[k][k], wanted[k] = 1.0, 0.0
+            continue
+        for i in range(k + 1, count):
+            factor = gram[i][k] / gram[k][k]
+            wanted[i] -= factor * wanted[k]
+            for j in range(k, count):
+                gram[i][j] -= factor * gram[k][j]
+    for k in reversed(range(count)):
+        wanted[k] = (wanted[k] - sum(gram[k][j] * wanted[j] for j in range(k + 1, count))) / gram[k][k]
+    return wanted
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +159,7 @@ def projected_cg(
     Source: the projection and the free cells as in Polonsky and Keer, Wear 231 (1999) 206; going on without restart as
     in Bugnicourt et al., Tribol. Lett. 66 (2018) 29; one application an iteration by the memory is ours.
     """
-    memory = Memory()
+    memory = Memory(pressure.size)
     while True:
         s = load.overlap_of(pressure, separation)
         w = separation - s
@@ -165,8 +183,8 @@ def _downhill(
 ) -> Step | None:
     """The first of three steps that gains energy: conjugate, preconditioned, plain. None if none does."""
     free = (pressure > 0) | (w < 0)
-    downhill = np.where(free, -w, 0.0)
-    preconditioned = length * load.balanced(np.where(free, cells.inverse(downhill), 0.0), pressure)
+    downhill = -w * free
+    preconditioned = length * load.balanced(cells.inverse(downhill) * free, pressure)
     step = _step(memory.improve(preconditioned, downhill), pressure, w, free, load)
     if not step.gain > 0:
         memory.forget()
@@ -180,7 +198,7 @@ def _downhill(
 
 def _step(direction: FloatArray, pressure: FloatArray, w: FloatArray, free: BoolArray, load: Load) -> Step:
     """From the pressure to the projection of pressure + direction."""
-    aim = np.where(free, pressure + direction, 0.0)
+    aim = (pressure + direction) * free
     change = load.scaled(np.maximum(aim, 0.0)) - pressure
     return Step(change, -dot(w, change), bool(aim.min() < 0))
 

@@ -1,31 +1,30 @@
 """A rigid sphere rolled over a rough strip: one contact problem a cell of the track, each begun from those before."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
-from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bem3d.border import FloatArray, count, finite, fraction, positive
+from bem3d.border import BoolArray, FloatArray, count, finite, fraction, positive
 from bem3d.contact import Status, residual
 from bem3d.convergence import ConvergenceError
-from bem3d.halfspace import HalfSpace
-from bem3d.press import Attempt
+from bem3d.press import Attempt, may_touch
 from bem3d.projected_cg import Load, projected_cg
-from bem3d.track import Frame, Spans, Track, joined
+from bem3d.track import Frame, Spans, Track
+from bem3d.window import Candidates, smallest_box
 
-FIRST_STEP = 0.5
-"""A warm start leaves errors at the edge of the contact, where the approximate inverse is too stiff by about two."""
+FIRST_STEP = 1.0
+"""Of a start that is warm, the first step may be as long as the approximate inverse says."""
 PATIENCE = 30
 """Iterations in which the residual has to halve."""
-LATELY = 16
-"""Positions whose contacts the tight window holds, and a margin."""
-REFIT = 64
-"""Positions after which the guard, which else only grows, is laid anew."""
-GUARD = 0.08
-"""How much wider than the tight window the guard begins, on each side, in parts of its side."""
+AHEAD = 2
+"""Rows that a frame has ahead of what it must hold: of these the past two positions tell nothing."""
+MARGIN = 0.07
+"""How much wider than a contact a frame begins, on each side: for cells that `Frame.outside` cannot rule out."""
+REFIT = 32
+"""Positions after which the frame, which else only grows, is fitted anew."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -144,9 +143,8 @@ class RollingContact:
     """A sphere over a strip, solved position by position, at any approach or force.
 
     A position that follows the one before is begun from the pressures of the last two, any other from none.
-    Two windows move with the wheel: a tight one, on whose cells is iterated, and around it the guard, on whose cells a
-    fresh application then gives the residual. Outside the guard no cell can touch, see `Frame.outside`. Both grow at
-    once where they prove too small.
+    On a frame that moves with the wheel, cells that may touch are iterated on; a fresh application then gives the
+    residual of all cells of the frame. Outside of it no cell can touch, see `Frame.outside`, or else it grows.
 
     track: strip, sphere and modulus; tolerance, max_iterations: as those of `roll`.
     """
@@ -155,10 +153,8 @@ class RollingContact:
         self.track = track
         self.tolerance = fraction("tolerance", tolerance)
         self.max_iterations = count("max_iterations", max_iterations)
-        self._guard: Frame | None = None
-        self._tight: Spans = (0, 1), (0, 1)
-        self._touched: list[Spans] = []
-        self._past: tuple[FloatArray, ...] = ()
+        self._frame: Frame | None = None
+        self._past: tuple[Pressed, ...] = ()
         self._position = -1
 
     def press(self, position: int, approach: float) -> WheelContact:
@@ -172,164 +168,170 @@ class RollingContact:
         return self._solve(count("position", position, least=0), d, lambda _, area: Load(total=force / area))
 
     def _solve(self, position: int, expected: float, prescribed: Callable[[float, float], Load]) -> WheelContact:
-        """Iterate on the tight window, look at the guard, and enlarge what is too small, until nothing is.
+        """On a frame that grows until no cell outside can touch.
 
         expected: approach, about; prescribed: the load, from the approach of first touch and the area of a cell.
         """
-        if self._guard is None:
-            self._tight = self.track.widened(_smooth_contact(self.track, expected), margin=1)
-            self._guard = self._around_tight()
-        pressure, attempt = self._carried(position), Attempt(np.zeros(0), 0.0)
+        frame = self._frame or self._around(self.track.smooth_contact(expected), MARGIN)
+        start, attempt = self._carried(position), Attempt(np.zeros(0), 0.0)
         while True:
-            guard = self._guard
-            gap = guard.gap(position)
+            gap = frame.gap(position)
             touch = float(gap.min())
             load = prescribed(touch, self.track.cell_area)
-            near, box = gap - touch, guard.box(self._tight)
-            if load.overlap is not None and load.overlap <= 0:
-                pressure, w = np.zeros(guard.shape), near - load.overlap
-                attempt.overlap, attempt.status = load.overlap, Status.CONVERGED
-                attempt.history.append(0.0)
-            else:
-                start = _cold(guard, near, expected - touch) if pressure is None else pressure
-                pressure = np.zeros(guard.shape)
-                pressure[box] = self._iterated(near[box], load.scaled(start[box]), load, attempt)
-                w = self._judged(near, pressure, load, attempt)
-            if not self._enlarged(position, touch + attempt.overlap, pressure, w, attempt):
+            pressed = self._pressed(frame, gap - touch, load, start, expected - touch, attempt)
+            spans = frame.outside(position, touch + attempt.overlap, pressed.pressure)
+            if spans is None or attempt.status is not Status.CONVERGED:
                 break
-            pressure = self._guard.take(pressure, guard)
-        self._remember(position, pressure, attempt.status)
+            frame = self._around(spans)
+            start, attempt.status = Pressed.by(frame, frame.take(pressed.pressure, pressed.frame)), None
+            attempt.operator_applications += 1
+        if frame.at_edge(pressed.pressure):
+            raise ValueError(
+                f"height must be wider than the contact, which reaches the edge of the strip of "
+                f"{self.track.height.shape[1]} cells at position {position}"
+            )
+        self._remember(position, pressed, attempt.status)
         return WheelContact(
-            force=float(pressure.sum()) * self.track.cell_area,
+            force=float(pressed.pressure.sum()) * self.track.cell_area,
             approach=touch + attempt.overlap,
-            area=int(np.count_nonzero(pressure)) * self.track.cell_area,
+            area=int(np.count_nonzero(pressed.pressure)) * self.track.cell_area,
             history=tuple(attempt.history),
             operator_applications=attempt.operator_applications,
             status=attempt.status or Status.BREAKDOWN,
         )
 
-    def _iterated(self, near: FloatArray, start: FloatArray, load: Load, attempt: Attempt) -> FloatArray:
-        """The pressure on the tight window at which the running residual is small enough, or nothing more is gained."""
-        half_space = self.track.half_space((near.shape[0], near.shape[1]))
-        if not start.any():
-            start = load.scaled(np.ones(near.shape))
-        separation = near + half_space.apply(start)
-        best, since = np.inf, 0
-        for state in projected_cg(WholeWindow(half_space), start.ravel(), separation.ravel(), load, FIRST_STEP):
+    def _pressed(
+        self, frame: Frame, near: FloatArray, load: Load, start: "Pressed | None", expected: float, attempt: Attempt
+    ) -> "Pressed":
+        """The contact on a frame: iterate on cells that may touch, until a fresh application finds no others.
+
+        near: gap from the first touch; start: a pressure to begin with, None where there is none; expected: overlap.
+        """
+        if load.overlap is not None and load.overlap <= 0:
+            attempt.overlap = load.overlap
+            attempt.judge(0.0, self.tolerance, self.max_iterations)
+            return Pressed.nowhere(frame)
+        if start is None:
+            start = Pressed.by(frame, load.scaled(_cold(frame, near, expected)))
             attempt.operator_applications += 1
+        if load.total is not None:
+            start = start.times(load.total / float(start.pressure.sum()))
+        marked, confirmed = np.zeros(frame.shape, dtype=np.bool_), math.inf
+        while True:
+            separation = near + start.displacement
+            attempt.overlap = load.overlap_of(start.pressure, separation)
+            w = separation - attempt.overlap
+            if attempt.history:
+                # a fresh residual takes the place of the running one of the same pressure
+                attempt.history = attempt.history[:-1]
+                attempt.judge(residual(start.pressure, w, attempt.overlap), self.tolerance, self.max_iterations)
+                gained, confirmed = attempt.history[-1] <= confirmed / 2, attempt.history[-1]
+            known, marked = marked, marked | may_touch(start.pressure, w) | (start.pressure < 0)
+            if attempt.history and attempt.status is None and not gained and (marked == known).all():
+                attempt.status = Status.STAGNATION
+            if attempt.status is not None:
+                return start
+            start = Pressed.by(frame, self._iterated(frame, marked, start.pressure, separation, load, attempt))
+            attempt.operator_applications += 1
+
+    def _iterated(
+        self,
+        frame: Frame,
+        marked: BoolArray,
+        pressure: FloatArray,
+        separation: FloatArray,
+        load: Load,
+        attempt: Attempt,
+    ) -> FloatArray:
+        """The pressure at which the running residual on the marked cells is small enough, or nothing more is gained."""
+        box = smallest_box(frame.half_space, marked)
+        window = self.track.half_space((box[0].stop - box[0].start, box[1].stop - box[1].start))
+        cells = Candidates(window, marked[box])
+        p, g = cells.compress(pressure[box]), cells.compress(separation[box])
+        if p.min() < 0:
+            p, g = _pressing(cells, p, g, load)
+            attempt.operator_applications += 1
+        best, since = np.inf, 0
+        for state in projected_cg(cells, p, g, load, FIRST_STEP):
             attempt.judge(state.residual, 0.0, self.max_iterations)
             best, since = (state.residual, 0) if state.residual < best / 2 else (best, since + 1)
             if state.residual <= self.tolerance or attempt.status is not None or since > PATIENCE:
                 break
-        return state.pressure.reshape(near.shape)
-
-    def _judged(self, near: FloatArray, pressure: FloatArray, load: Load, attempt: Attempt) -> FloatArray:
-        """w on the guard from a fresh application; its residual takes the place of the running one."""
-        separation = near + self.track.half_space((near.shape[0], near.shape[1])).apply(pressure)
-        attempt.operator_applications += 1
-        attempt.overlap = load.overlap_of(pressure, separation)
-        w = separation - attempt.overlap
-        attempt.history = attempt.history[:-1]
-        attempt.judge(residual(pressure, w, attempt.overlap), self.tolerance, self.max_iterations)
-        attempt.status = attempt.status or Status.STAGNATION
-        return w
-
-    def _enlarged(self, position: int, approach: float, pressure: FloatArray, w: FloatArray, attempt: Attempt) -> bool:
-        """Whether tight window or guard had to grow, since cells outside overlap or cannot be ruled out."""
-        guard = cast(Frame, self._guard)
-        missed = w < -self.tolerance * attempt.overlap
-        missed[guard.box(self._tight)] = False
-        if missed.any():
-            self._tighten(joined(self._tight, guard.spans_of(missed)))
-            attempt.status = None
-            return True
-        if attempt.status is not Status.CONVERGED:
-            return False
-        if guard.at_edge(pressure):
-            raise ValueError(
-                f"height must be wider than the contact, which reaches the edge of the strip of "
-                f"{self.track.height.shape[1]} cells at position {position}"
-            )
-        spans = guard.outside(position, approach, pressure)
-        if spans is None:
-            return False
-        self._guarded(Frame(self.track, self.track.widened(spans, margin=2)))
+            attempt.operator_applications += 1
         attempt.status = None
-        return True
+        found = np.zeros(frame.shape)
+        found[box] = cells.spread(state.pressure)
+        return found
 
-    def _tighten(self, spans: Spans) -> None:
-        """Iterate on these cells, and let the guard hold them."""
-        guard = cast(Frame, self._guard)
-        self._tight = self.track.widened(spans, margin=1)
-        if joined(self._tight, guard.spans) != guard.spans:
-            self._guarded(Frame(self.track, self.track.widened(joined(self._tight, guard.spans), margin=0)))
+    def _carried(self, position: int) -> "Pressed | None":
+        """The secant through the last two pressures, which stay where they are on the ground as the wheel goes on.
 
-    def _guarded(self, frame: Frame) -> None:
-        """Take another guard, and what is known with it."""
-        old, self._guard = cast(Frame, self._guard), frame
-        self._past = tuple(frame.take(past, old) for past in self._past)
-
-    def _around_tight(self) -> Frame:
-        """A guard as the bound of `Frame.outside` needs it around most contacts."""
-        margin = int(GUARD * max(span[1] - span[0] for span in self._tight)) + 1
-        return Frame(self.track, self.track.widened(self._tight, margin))
-
-    def _carried(self, position: int) -> FloatArray | None:
-        """The secant through the last two pressures, which stay where they are on the ground as the wheel goes on."""
-        if position != self._position + 1 or not self._past or not self._past[-1].any():
+        It may pull where the contact closes behind the wheel. Its displacement needs no application.
+        """
+        if position != self._position + 1 or not self._past or not self._past[-1].pressure.any():
             return None
-        last = _behind(self._past[-1], 1)
+        last = self._past[-1].behind(1)
         if len(self._past) == 1:
             return last
-        return np.maximum(2 * last - _behind(self._past[0], 2), 0.0)
+        before = self._past[0].behind(2)
+        return Pressed(last.frame, 2 * last.pressure - before.pressure, 2 * last.displacement - before.displacement)
 
-    def _remember(self, position: int, pressure: FloatArray, status: Status | None) -> None:
-        """What the next position begins with, and which cells: those that were in contact of late, and a margin."""
-        guard = cast(Frame, self._guard)
-        if status is not Status.CONVERGED:
-            self._past = ()
-        else:
-            self._past = (*self._past[-1:], pressure) if position == self._position + 1 else (pressure,)
-        self._position = position
-        if not pressure.any():
-            return
-        self._touched = [*self._touched[1 - LATELY :], guard.spans_of(pressure > 0)]
-        self._tighten(reduce(joined, self._touched))
-        if position % REFIT == 0:
-            self._guarded(self._around_tight())
+    def _remember(self, position: int, pressed: "Pressed", status: Status | None) -> None:
+        """What the next position begins with; now and then, on a frame that fits anew."""
+        frame = pressed.frame
+        past = [p for p in self._past[-1:] if position == self._position + 1 and p.frame is frame]
+        self._past = (*past, pressed) if status is Status.CONVERGED else ()
+        if position % REFIT == 0 and pressed.pressure.any():
+            fitting = self._around(frame.spans_of(pressed.pressure > 0), MARGIN)
+            if fitting.shape != frame.shape and fitting.within(frame):
+                frame, self._past = fitting, tuple(p.on(fitting) for p in self._past)
+        self._frame, self._position = frame, position
+
+    def _around(self, spans: Spans, more: float = 0.0) -> Frame:
+        """A frame that holds these cells, and so many more on each side, in parts of that, and rows ahead."""
+        (first, last), columns = spans
+        margin = int(more * max(last - first, columns[1] - columns[0]))
+        ahead = max(min(last + AHEAD, first + self.track.height.shape[0]), last)
+        return Frame(self.track, self.track.widened(((first, ahead), columns), margin))
 
 
-@dataclass(frozen=True)
-class WholeWindow:
-    """K and its approximate inverse on vectors over all cells of a window."""
+@dataclass(frozen=True, eq=False)
+class Pressed:
+    """A pressure on a frame, and the displacement that it makes there."""
 
-    half_space: HalfSpace
+    frame: Frame
+    pressure: FloatArray
+    displacement: FloatArray
 
-    @property
-    def stiffness(self) -> float:
-        """Pressure on a cell alone that moves it by a unit [Pa/m]."""
-        return 1 / self.half_space.self_compliance
+    @classmethod
+    def by(cls, frame: Frame, pressure: FloatArray) -> "Pressed":
+        """By one application of the operator."""
+        return cls(frame, pressure, frame.half_space.apply(pressure))
 
-    def displacement(self, pressure: FloatArray) -> FloatArray:
-        """u = K p."""
-        return self.half_space.convolution(pressure.reshape(self.half_space.shape)).reshape(-1)
+    @classmethod
+    def nowhere(cls, frame: Frame) -> "Pressed":
+        """No contact."""
+        return cls(frame, np.zeros(frame.shape), np.zeros(frame.shape))
 
-    def inverse(self, displacement: FloatArray) -> FloatArray:
-        """Nearly the pressure that makes this displacement, were it zero elsewhere."""
-        return self.half_space.inverse(displacement.reshape(self.half_space.shape)).reshape(-1)
+    def on(self, frame: Frame) -> "Pressed":
+        """On a frame that is part of this one."""
+        return Pressed(frame, frame.take(self.pressure, self.frame), frame.take(self.displacement, self.frame))
+
+    def times(self, factor: float) -> "Pressed":
+        """So many times as hard."""
+        return Pressed(self.frame, factor * self.pressure, factor * self.displacement)
+
+    def behind(self, rows: int) -> "Pressed":
+        """Where it is on the ground when the wheel is so many rows further; ahead, as deep as in the last row known."""
+        pressure, displacement = np.zeros(self.frame.shape), np.empty(self.frame.shape)
+        pressure[:-rows], displacement[:-rows] = self.pressure[rows:], self.displacement[rows:]
+        displacement[-rows:] = self.displacement[-1]
+        return Pressed(self.frame, pressure, displacement)
 
 
 def hertz_approach(track: Track, force: float) -> float:
     """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth sphere, from where a force is prescribed [m]."""
     return float(np.cbrt(9 / 16 / track.radius) * np.cbrt(force / track.modulus) ** 2)
-
-
-def _smooth_contact(track: Track, approach: float) -> Spans:
-    """Cells under the smooth sphere, one at least, as far as the strip has them."""
-    (nx, ny), (dx, dy) = track.height.shape, track.steps
-    a = np.sqrt(track.radius * max(approach, 0.0))
-    ahead, across = min(int(a / dx), (nx - 1) // 2), min(int(a / dy) + 1, ny // 2)
-    return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
 
 
 def _cold(frame: Frame, gap: FloatArray, approach: float) -> FloatArray:
@@ -340,11 +342,18 @@ def _cold(frame: Frame, gap: FloatArray, approach: float) -> FloatArray:
     return overlap * float((overlap**2).sum() / (overlap * frame.half_space.apply(overlap)).sum())
 
 
-def _behind(pressure: FloatArray, rows: int) -> FloatArray:
-    """What was under the wheel, so many rows further back."""
-    moved = np.zeros_like(pressure)
-    moved[:-rows] = pressure[rows:]
-    return moved
+def _pressing(
+    cells: Candidates, pressure: FloatArray, separation: FloatArray, load: Load
+) -> tuple[FloatArray, FloatArray]:
+    """From a pressure that pulls somewhere, one preconditioned step to one that does not, and its separation."""
+    w = separation - load.overlap_of(pressure, separation)
+    free = (pressure > 0) | (w < 0)
+    step = FIRST_STEP * load.balanced(cells.inverse(-w * free), pressure)
+    pressing = np.maximum((pressure + step) * free, 0.0)
+    if load.total is not None and not pressing.any():
+        pressing[:] = 1.0
+    pressing = load.scaled(pressing)
+    return pressing, separation + cells.displacement(pressing - pressure)
 
 
 def _wide_enough(track: Track, approach: float) -> None:

@@ -2,16 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 
 import numpy as np
 
 from bem3d.border import BoolArray, FloatArray, IndexArray, field, grid_spacing, positive
 from bem3d.halfspace import HalfSpace
-from bem3d.window import Box
-
-SIDES = (8, 10, 14, 16, 20, *(m * 2**k for k, m in product(range(8), (25, 28, 30, 32, 35, 40))))
-"""Sides of frames, in cells: those whose transforms are fastest, measured, and as many that few are needed."""
+from bem3d.window import Box, fast_side
 
 Span = tuple[int, int]
 Spans = tuple[Span, Span]
@@ -83,6 +79,13 @@ class Track:
         """y of columns of the strip [m]."""
         return np.asarray((columns - (self.height.shape[1] - 1) / 2) * self.steps[1])
 
+    def smooth_contact(self, approach: float) -> Spans:
+        """Of the cells under the smooth sphere, one at least, as far as the strip has them."""
+        (nx, ny), (dx, dy) = self.height.shape, self.steps
+        a = np.sqrt(self.radius * max(approach, 0.0))
+        ahead, across = min(int(a / dx), (nx - 1) // 2), min(int(a / dy) + 1, ny // 2)
+        return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
+
     def reach(self, approach: float) -> tuple[int, int]:
         """How many rows ahead, and how many columns to a side, a cell can overlap at this approach [m]."""
         r = np.sqrt(2 * self.radius * max(approach + self.highest, 0.0))
@@ -116,6 +119,10 @@ class Frame:
         self._ahead, self._across = np.arange(*self.rows), np.arange(*self.columns)
         self._sphere = track.sphere(self._ahead[:, np.newaxis], self._across)
         self._limit = -np.inf
+
+    def within(self, other: "Frame") -> bool:
+        """Whether all of it is part of another frame."""
+        return joined(self.spans, other.spans) == other.spans
 
     def box(self, spans: Spans) -> Box:
         """Where a part of it lies in its fields."""
@@ -222,7 +229,6 @@ def common_part(spans: Spans, others: Spans) -> Spans:
 
 def _widened(span: Span, margin: int, most: int) -> Span:
     """A span widened on both sides to a length that transforms fast, as far as there are cells."""
-    wanted = span[1] - span[0] + 2 * margin
-    length = min(next((side for side in SIDES if side >= wanted), most), most)
+    length = fast_side(span[1] - span[0] + 2 * margin, most)
     first = span[0] - (length - (span[1] - span[0])) // 2
     return first, first + length
