@@ -11,11 +11,13 @@ from mdr.foundation import (
     press_sphere,
 )
 from mdr.profile import rough_profile, sphere_profile
+from mdr.rolling import Rolling, roll, rolling_force
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
 
 __all__ = [
     "LoadCurve",
     "LoadPoint",
+    "Rolling",
     "SelfAffine",
     "SphereContact",
     "geike",
@@ -23,6 +25,8 @@ __all__ = [
     "line_trace",
     "load_curve",
     "press_sphere",
+    "roll",
+    "rolling_force",
     "rough_profile",
     "sphere_profile",
 ]

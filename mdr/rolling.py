@@ -1,0 +1,228 @@
+"""The wheel on the spring foundation: contact force along a periodic rough track."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.border import FloatArray, finite_array, positive
+
+BLOCK = 1024
+"""Positions at a time: few enough to stay in the cache, and to see little of the range of the heights."""
+MOST_STEPS = 200
+
+Contact = Literal["one-sided", "full", "linear"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rolling:
+    """A wheel at each point of its track: arrays of shape (points,).
+
+    force [N]; approach: to the plane of height zero [m]; stiffness: dF/dd of the springs in contact [N/m];
+    examined: springs of each position that were looked at one by one, since they might or might not touch.
+    """
+
+    force: FloatArray
+    approach: FloatArray
+    stiffness: FloatArray
+    examined: FloatArray
+
+
+def roll(
+    height: ArrayLike,
+    *,
+    spacing: float,
+    radius: float,
+    modulus: float,
+    approach: float | ArrayLike | None = None,
+    force: float | None = None,
+    contact: Contact = "one-sided",
+) -> Rolling:
+    """Roll a wheel of profile x^2 / R along a rough track of springs, quasi-statically.
+
+    F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0), the wheel over each of the springs in turn.
+
+    height: shape (points,), positive towards the wheel, periodic [m]; spacing: dx of the springs [m]; radius: R [m];
+    modulus: E* [Pa]; exactly one of approach, positive [m], or one at each point, of any sign; and force, positive [N];
+    contact: "one-sided", as above: springs pull nowhere;
+    "full": all springs within the Hertz radius a = sqrt(R d) of the smooth wheel, and no others, (14.5);
+    "linear": the filter (14.11) with that radius, whose transfer function from height to force is 2 E* sin(q a) / q.
+
+    Under a prescribed force the approach of the one-sided contact is found by Newton's method, which ends exactly,
+    since the force is convex and piecewise linear in the approach.
+    Springs that must touch come from prefix sums, springs that cannot are left out; `examined` counts the rest.
+    Raises ValueError for a track that is not longer than the contact, and for values out of range.
+    Source: Popov and Hess, (14.2), (14.5) and (14.11).
+    """
+    track = _Track(height, spacing, radius, modulus)
+    if (approach is None) == (force is None):
+        raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
+    if contact not in ("one-sided", "full", "linear"):
+        raise ValueError(f'contact must be "one-sided", "full" or "linear", got {contact!r}')
+    if force is not None:
+        d, prescribed = _smooth_approach(track, positive("force", force)), force
+    elif np.ndim(approach) == 0:  # type: ignore[arg-type]
+        d, prescribed = positive("approach", approach), None
+    else:
+        return _one_sided_along(track, finite_array("approach", approach, ndim=1), contact)  # type: ignore[arg-type]
+    track.longer_than(2 * math.sqrt(track.radius * d))
+    if contact == "linear":
+        return _linear(track, d, prescribed)
+    if contact == "full":
+        return _full(track, d, prescribed)
+    if prescribed is None:
+        return _one_sided(track, np.full(track.height.size, d))
+    return _one_sided_under(track, prescribed, d)
+
+
+def rolling_force(
+    height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
+) -> FloatArray:
+    """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
+    return roll(height, spacing=spacing, radius=radius, modulus=modulus, approach=approach).force
+
+
+class _Track:
+    """Heights of the springs along the track, and the wheel."""
+
+    def __init__(self, height: ArrayLike, spacing: float, radius: float, modulus: float):
+        self.height = finite_array("height", height, ndim=1)
+        self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
+        self.modulus = positive("modulus", modulus)
+        self.spring = self.modulus * self.spacing
+
+    def longer_than(self, contact: float) -> None:
+        """Refuse a track that the wheel covers as a whole."""
+        length = self.height.size * self.spacing
+        if length <= contact:
+            raise ValueError(f"height must be longer than the contact, {contact:.6g} m, got a track of {length:.6g} m")
+
+    def wheel(self, j: int | FloatArray) -> float | FloatArray:
+        """x^2 / R of the wheel, j springs from its middle."""
+        return (j * self.spacing) ** 2 / self.radius
+
+    def reach(self, level: float) -> int:
+        """Springs to each side at which the wheel's profile stays below a level; -1 where nowhere."""
+        if level <= 0:
+            return -1
+        j = int(math.sqrt(level * self.radius) / self.spacing)
+        # by the profile as it is rounded, not by its root
+        while self.wheel(j) >= level:
+            j -= 1
+        while self.wheel(j + 1) < level:
+            j += 1
+        return j
+
+
+def _linear(track: _Track, d: float, force: float | None) -> Rolling:
+    """Hertz and (14.11), sum over q of 2 E* sin(q a) / q h(q) exp(i q x): 2 E* a sinc(q a)."""
+    a, points = math.sqrt(track.radius * d), track.height.size
+    k = 2 * track.modulus * a
+    q = 2 * np.pi * np.fft.rfftfreq(points, track.spacing)
+    change = np.fft.irfft(k * np.sinc(q * a / np.pi) * np.fft.rfft(track.height), points)
+    return _of_linear(2 / 3 * k * d + change, d, np.full(points, k), force)
+
+
+def _full(track: _Track, d: float, force: float | None) -> Rolling:
+    """E* dx sum of d - x^2 / R + h over the springs with |x| < a, from prefix sums."""
+    m, points = track.reach(d), track.height.size
+    j = np.arange(-m, m + 1)
+    smooth = float(np.sum(d - track.wheel(j.astype(np.float64))))
+    near = _moving_sum(np.pad(track.height, m, mode="wrap"), 2 * m + 1)
+    k = track.spring * (2 * m + 1)
+    return _of_linear(track.spring * (smooth + near), d, np.full(points, k), force)
+
+
+def _of_linear(at_d: FloatArray, d: float, stiffness: FloatArray, force: float | None) -> Rolling:
+    """The forces at approach d; or, under a force, the approaches at which a contact of this stiffness has it."""
+    if force is None:
+        return Rolling(force=at_d, approach=np.full(at_d.size, d), stiffness=stiffness, examined=np.zeros(at_d.size))
+    return Rolling(
+        force=np.full(at_d.size, force),
+        approach=d + (force - at_d) / stiffness,
+        stiffness=stiffness,
+        examined=np.zeros(at_d.size),
+    )
+
+
+def _one_sided_along(track: _Track, approach: FloatArray, contact: Contact) -> Rolling:
+    if contact != "one-sided":
+        raise ValueError(f'approach must be one number where contact is "{contact}", got {approach.size} of them')
+    if approach.size != track.height.size:
+        raise ValueError(f"approach must be one number or one a point, {track.height.size}, got {approach.size}")
+    track.longer_than(2 * math.sqrt(track.radius * max(float(approach.max()), 0.0)))
+    return _one_sided(track, approach)
+
+
+def _one_sided(track: _Track, approach: FloatArray) -> Rolling:
+    """At given approaches, block by block."""
+    force, count, examined = np.empty((3, approach.size))
+    for first in range(0, approach.size, BLOCK):
+        block = slice(first, min(first + BLOCK, approach.size))
+        near = _around(track, block, float(approach[block].max()))
+        force[block], count[block], examined[block] = _pressed(track, near, approach[block])
+    return Rolling(force=track.spring * force, approach=approach, stiffness=track.spring * count, examined=examined)
+
+
+def _one_sided_under(track: _Track, force: float, d: float) -> Rolling:
+    """At the approaches that bear a force: Newton from where every wheel is too deep, so that none loses contact."""
+    approach, stiffness, examined = np.empty((3, track.height.size))
+    for first in range(0, track.height.size, BLOCK):
+        block = slice(first, min(first + BLOCK, track.height.size))
+        mine, count, looked = _borne(track, block, force / track.spring, d)
+        approach[block], stiffness[block], examined[block] = mine, track.spring * count, looked
+    return Rolling(force=np.full(approach.size, force), approach=approach, stiffness=stiffness, examined=examined)
+
+
+def _borne(track: _Track, block: slice, wanted: float, d: float) -> tuple[FloatArray, FloatArray, float]:
+    """Approaches at which sum_j max(d - x_j^2 / R + h_j, 0) is as wanted, springs in contact, springs looked at."""
+    approach, looked = np.full(block.stop - block.start, d - float(track.height.min())), 0.0
+    for _ in range(MOST_STEPS):
+        found, count, more = _pressed(track, _around(track, block, float(approach.max())), approach)
+        looked += more
+        change = (wanted - found) / count
+        approach = approach + change
+        if (np.abs(change) <= 1e-14 * d).all():
+            return approach, count, looked
+    raise ArithmeticError(f"Newton's method did not end within {MOST_STEPS} steps")
+
+
+def _around(track: _Track, block: slice, approach: float) -> FloatArray:
+    """The heights from the first position of a block less the reach of the wheel to the last one plus it."""
+    reach = max(track.reach(approach + float(track.height.max())), 0)
+    return track.height.take(np.arange(block.start - reach, block.stop + reach), mode="wrap")
+
+
+def _pressed(track: _Track, near: FloatArray, approach: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+    """sum_j max(d - x_j^2 / R + h_j, 0) of each position, springs in contact, and how many of them were looked at.
+
+    near: heights, as many beyond the positions on each side as the wheel can reach; approach: of each position.
+    """
+    middle = (near.size - approach.size) // 2
+    sure = min(track.reach(float(approach.min()) + float(near.min())), middle)
+    possible = min(track.reach(float(approach.max()) + float(near.max())), middle)
+    total, count = np.zeros((2, approach.size))
+    if sure >= 0:
+        j = np.arange(-sure, sure + 1, dtype=np.float64)
+        heights = _moving_sum(near[middle - sure : near.size - middle + sure], j.size)
+        total += j.size * approach - float(np.sum(track.wheel(j))) + heights
+        count += j.size
+    for i in (i for side in range(sure + 1, possible + 1) for i in {-side, side}):
+        compression = approach - track.wheel(i) + near[middle + i : middle + i + approach.size]
+        total += np.maximum(compression, 0.0)
+        count += compression > 0
+    return total, count, float(2 * possible + 1 - max(2 * sure + 1, 0))
+
+
+def _moving_sum(values: FloatArray, length: int) -> FloatArray:
+    """Sums of so many neighbours, from prefix sums about the mean, which keeps them small."""
+    mean = float(values.mean())
+    sums = np.concatenate([[0.0], np.cumsum(values - mean)])
+    return np.asarray(sums[length:] - sums[:-length] + length * mean)
+
+
+def _smooth_approach(track: _Track, force: float) -> float:
+    """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth wheel."""
+    return math.cbrt(9 / 16 / track.radius) * math.cbrt(force / track.modulus) ** 2
