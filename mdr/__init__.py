@@ -12,6 +12,7 @@ from mdr.foundation import (
 )
 from mdr.profile import rough_profile, sphere_profile
 from mdr.rolling import Rolling, roll, rolling_force
+from mdr.rolling_spectrum import rolling_spectrum
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
 
 __all__ = [
@@ -27,6 +28,7 @@ __all__ = [
     "press_sphere",
     "roll",
     "rolling_force",
+    "rolling_spectrum",
     "rough_profile",
     "sphere_profile",
 ]

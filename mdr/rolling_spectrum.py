@@ -1,0 +1,72 @@
+"""What a wheel on springs must be fed, so that its force has the level that it has on the half-space."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.border import FloatArray, Spectrum, density, finite_array, positive
+
+NODES = 24
+WIDEST = 1.4
+"""Largest ratio of both ends of a panel of the quadrature, for power laws."""
+
+
+def rolling_spectrum(
+    q: ArrayLike, c2d: Spectrum, *, edges: Sequence[float], contact_radius: float = math.inf
+) -> FloatArray:
+    """The 1D spectrum with which (14.12) has the level, along the track, of an isotropic surface on the half-space.
+
+    C_1D(q) = int_{-inf}^{inf} e(s a) / e(q a) C_2D(s) dk,  s^2 = q^2 + k^2,  e(t) = 1 / (1 + t^2).
+
+    A wave of wavenumber s that crosses the track at an angle shows a longer one, q, along it, but acts on the circle of
+    contact as what it is, 4 E*^2 sin^2(s a) / s^2, where a spring model sees 4 E*^2 sin^2(q a) / q^2. Over their
+    oscillation both go as e: level where q a << 1, as 1 / q^2 where q a >> 1. So the rule is the line trace for
+    contacts small beside all waves; q^2 / s^2 times it for large ones, the default, which needs no radius and for an
+    unbounded power law is Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)) times Geike's; and depends on the radius between.
+    It keeps neither the height nor the gradient: it is for rolling alone.
+
+    q: along the track, any sign, not zero unless there is a contact radius [rad/m]; c2d: callable of |q|, smooth
+    between the edges, zero outside [m^4]; edges: of its band and of its pieces, ascending, positive [rad/m];
+    contact_radius: a, positive, or infinite [m].
+    Returns C_1D, shape of q [m^3]. Raises ValueError for values out of range.
+    Source: linear elasticity of a fixed circle of contact, by reciprocity with the flat punch; ours.
+    """
+    wavenumber, ends = np.abs(finite_array("q", q)), _ascending(edges)
+    if contact_radius != math.inf:
+        positive("contact_radius", contact_radius)
+    elif (wavenumber == 0).any():
+        raise ValueError("q must not be zero where contact_radius is infinite, got a zero wavenumber")
+    if not callable(c2d):
+        raise TypeError(f"c2d must be a callable c2d(q), got {type(c2d).__name__}")
+    flat = 0.0 if contact_radius == math.inf else 1 / contact_radius**2
+    values = [_across(one, c2d, ends, flat) for one in wavenumber.ravel().tolist()]
+    return np.array(values).reshape(wavenumber.shape)
+
+
+def _across(q: float, c2d: Spectrum, edges: list[float], flat: float) -> float:
+    """int (flat + q^2) / (flat + s^2) C_2D(s) dk, over k, where the end point s = q is regular; flat = 1 / a^2."""
+    if q >= edges[-1]:
+        return 0.0
+    ends = np.array(_panels(max(q, edges[0]), edges))
+    k = np.sqrt(np.maximum(ends**2 - q**2, 0.0))
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    half = np.diff(k)[:, np.newaxis] / 2
+    s = np.hypot(q, k[:-1, np.newaxis] + half * (1 + node))
+    return float(2 * np.sum(half * weight * (flat + q**2) / (flat + s**2) * density("c2d", c2d(s))))
+
+
+def _panels(first: float, edges: list[float]) -> list[float]:
+    ends = [first]
+    for edge in edges[1:]:
+        while ends[-1] < edge:
+            ends.append(min(edge, WIDEST * ends[-1]))
+    return ends
+
+
+def _ascending(edges: Sequence[float]) -> list[float]:
+    given = finite_array("edges", edges, ndim=1)
+    if given.size < 2 or given[0] <= 0 or (np.diff(given) <= 0).any():
+        raise ValueError(f"edges must be two or more positive wavenumbers, ascending, got {given.tolist()}")
+    return [float(edge) for edge in given]

@@ -1,0 +1,146 @@
+"""What linear elasticity knows of a wheel that rolls over roughness. The referees: they import neither method.
+
+The contact is a circle that keeps its radius a. A wave of roughness h exp(i k.x) under it then changes the normal force
+by what reciprocity with the flat punch says: dF = (E* / pi) int h dA / sqrt(a^2 - r^2).
+Spectra are two-sided: <F^2> = int_{-inf}^{inf} C_F dq. Wavenumbers in rad/m, C_2D in m^4, C_F in N^2 m.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+Spectrum = Callable[[FloatArray], FloatArray]
+
+NODES = 24
+"""Of Gauss and Legendre, on a panel no longer than half a wave of sin^2."""
+WIDEST = 1.4
+"""Largest ratio of both ends of a panel, on which a power law is a polynomial to rounding."""
+
+
+def response(wavenumber: ArrayLike, *, contact_radius: float, modulus: float) -> FloatArray:
+    """From the height of a wave to the force, 2 E* sin(k a) / k; 2 E* a for the longest [N/m].
+
+    On the half-space: with h = exp(i k x) in the integral over rings of the circle, int J_0(k r) 2 pi r dr /
+    sqrt(a^2 - r^2) = 2 pi sin(k a) / k, whatever the direction of the wave. On springs: E* int_{-a}^{a} exp(i q x) dx.
+    Source: Popov and Hess, (14.11); for the half-space, the flat punch: Johnson, Contact Mechanics, chapter 3.
+    """
+    a, k = _positive("contact_radius", contact_radius), np.asarray(wavenumber, dtype=np.float64)
+    return np.asarray(2 * _positive("modulus", modulus) * a * np.sinc(k * a / np.pi))
+
+
+def force_spectrum_1d(q: ArrayLike, c1d: Spectrum, *, contact_radius: float, modulus: float) -> FloatArray:
+    """C_F(q) = 4 E*^2 sin^2(q a) / q^2 C_1D(q). Source: Popov and Hess, (14.12); ridges across the track in 3D."""
+    q = np.asarray(q, dtype=np.float64)
+    return np.asarray(response(q, contact_radius=contact_radius, modulus=modulus) ** 2 * c1d(q))
+
+
+def mean_force_spectrum_1d(q: ArrayLike, c1d: Spectrum, *, modulus: float) -> FloatArray:
+    """2 E*^2 C_1D(q) / q^2: the mean of (14.12) where q a >> 1. Source: Popov and Hess, (14.14)."""
+    q = np.asarray(q, dtype=np.float64)
+    return np.asarray(2 * _positive("modulus", modulus) ** 2 * c1d(q) / q**2)
+
+
+def force_spectrum_3d(
+    q: ArrayLike, c2d: Spectrum, *, edges: Sequence[float], contact_radius: float, modulus: float
+) -> FloatArray:
+    """Spectrum of the force along the track over an isotropic surface on the half-space.
+
+    C_F(q) = 2 int_q^inf G(s) C_2D(s) s / sqrt(s^2 - q^2) ds = int_{-inf}^{inf} G(s) C_2D(s) dk,  s^2 = q^2 + k^2,
+    G(s) = 4 E*^2 sin^2(s a) / s^2: the surface filtered by `response`, cut along the track. Over k the end point
+    s = q is regular; panels end at edges of the spectrum, and follow power laws and the oscillation.
+
+    q: any sign, any shape; c2d: callable of |q|, smooth between the edges, zero outside; edges: ascending, two or more.
+    """
+
+    def filtered(s: FloatArray) -> FloatArray:
+        return np.asarray(response(s, contact_radius=contact_radius, modulus=modulus) ** 2 * c2d(s))
+
+    return section(q, filtered, edges=edges, period=math.pi / contact_radius)
+
+
+def section(q: ArrayLike, c2d: Spectrum, *, edges: Sequence[float], period: float = math.inf) -> FloatArray:
+    """The spectrum along a line, int_{-inf}^{inf} C_2D(sqrt(q^2 + k^2)) dk.
+
+    q, c2d, edges: as of `force_spectrum_3d`; period: of an oscillation of c2d over its argument.
+    """
+    return np.asarray(np.vectorize(lambda one: _section(abs(one), c2d, edges, period))(np.asarray(q, dtype=np.float64)))
+
+
+def _section(q: float, c2d: Spectrum, edges: Sequence[float], period: float) -> float:
+    ends = np.array(_panels(q, edges, period))
+    if ends.size < 2:
+        return 0.0
+    k = np.sqrt(np.maximum(ends**2 - q**2, 0.0))
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    half, middle = np.diff(k)[:, np.newaxis] / 2, (k[1:] + k[:-1])[:, np.newaxis] / 2
+    values = c2d(np.hypot(q, middle + half * node))
+    return float(2 * np.sum(half * weight * values))
+
+
+def _panels(q: float, edges: Sequence[float], period: float) -> list[float]:
+    """Ends of the panels over s, from q or the first edge to the last."""
+    # the edges themselves belong to the panels below and above, which never touch them
+    ends = [max(q, edges[0])]
+    for edge in edges[1:]:
+        while ends[-1] < edge:
+            ends.append(min(edge, WIDEST * ends[-1], ends[-1] + period))
+    return ends if q < edges[-1] else []
+
+
+def force_variance(c2d: Spectrum, *, edges: Sequence[float], contact_radius: float, modulus: float) -> float:
+    """<dF^2> = 2 pi int_0^inf G(s) C_2D(s) s ds at one position on the half-space [N^2].
+
+    With C_1D = pi q C_2D it is int (14.12) dq too: Geike's rule keeps the variance of the force exactly.
+    """
+    ends = np.array(_panels(edges[0], edges, math.pi / contact_radius))
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
+    s = middle + half * node
+    power = response(s, contact_radius=contact_radius, modulus=modulus) ** 2 * c2d(s) * s
+    return float(2 * math.pi * np.sum(half * weight * power))
+
+
+def level_ratio(hurst: float) -> float:
+    """Mean level of C_F in 3D over that of (14.12) with Geike's spectrum, for q a >> 1 of an unbounded power law [-].
+
+    Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)): with sin^2 = 1/2, 2 int_q^inf s^(-2H-3) / sqrt(s^2 - q^2) ds =
+    q^(-2H-3) sqrt(pi) Gamma(H + 3/2) / Gamma(H + 2), over pi q^(-2H-3).
+    """
+    _positive("hurst", hurst)
+    return math.gamma(hurst + 1.5) / (math.sqrt(math.pi) * math.gamma(hurst + 2))
+
+
+def oscillation(q: ArrayLike, *, hurst: float, contact_radius: float) -> FloatArray:
+    """C_F in 3D over its mean level, for q a >> 1 of an unbounded power law: to first order in (q a)^(-1/2) [-].
+
+    1 - Gamma(H + 2) / Gamma(H + 3/2) cos(2 q a + pi/4) / sqrt(q a): of the part -cos(2 s a) of 2 sin^2, only the end
+    point s = q of the integral is left, int_0^inf cos(2 (q + t) a) t^(-1/2) dt = sqrt(pi / (2 a)) cos(2 q a + pi/4).
+    The zeros of sin^2 fill in, the more the larger q a.
+    """
+    qa = np.asarray(q, dtype=np.float64) * _positive("contact_radius", contact_radius)
+    depth = math.gamma(_positive("hurst", hurst) + 2) / math.gamma(hurst + 1.5)
+    return np.asarray(1 - depth * np.cos(2 * qa + np.pi / 4) / np.sqrt(qa))
+
+
+def linear_force(height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float) -> FloatArray:
+    """The force along a periodic surface as linear theory has it, on the half-space, shape (nx,) [N].
+
+    Hertz, and each wave by `response`, above the middle of axis 1, over the centres of the cells along axis 0.
+    height: shape (nx, ny), positive towards the wheel, periodic [m].
+    """
+    h = np.asarray(height, dtype=np.float64)
+    a = math.sqrt(_positive("radius", radius) * _positive("approach", approach))
+    (nx, ny), dx = h.shape, _positive("spacing", spacing)
+    qx, qy = (2 * np.pi * np.fft.fftfreq(n, dx) for n in (nx, ny))
+    filtered = response(np.hypot(qx[:, np.newaxis], qy), contact_radius=a, modulus=modulus) * np.fft.fft2(h)
+    along = np.fft.ifft(filtered @ np.exp(1j * qy * dx * (ny - 1) / 2) / ny).real
+    return np.asarray(4 / 3 * modulus * a * approach + along)
+
+
+def _positive(name: str, value: float) -> float:
+    if not (math.isfinite(value) and value > 0):
+        raise ValueError(f"{name} must be finite and positive, got {value}")
+    return float(value)
