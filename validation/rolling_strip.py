@@ -6,7 +6,7 @@ Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 
 import math
 import warnings
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Literal
 
 import numpy as np
@@ -196,10 +196,8 @@ def roll_tracks(tracks: Tracks) -> Outcome:
     """
     rows = []
     for i in range(tracks.realisations):
-        settings = {"spacing": 1 / tracks.springs, "radius": 1.0, "modulus": 1.0, "approach": 1.0}
-        height = tracks.track(i)
-        found = mdr.roll(height, **settings)
-        linear = mdr.roll(height, contact="linear", **settings).force / HERTZ
+        roll = partial(mdr.roll, tracks.track(i), spacing=1 / tracks.springs, radius=1.0, modulus=1.0, approach=1.0)
+        found, linear = roll(), roll(contact="linear").force / HERTZ
         force = found.force / HERTZ
         rows.append((*compared(force, linear, 1 / tracks.springs, tracks.bands), found.examined.mean()))
     level, linear_level, cross, mean, variance, linear_variance, examined = (
