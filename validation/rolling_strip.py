@@ -166,25 +166,28 @@ class Tracks:
 
 
 class fed:  # noqa: N801
-    """c1d of a spectrum by a rule; values are kept, since each is a quadrature."""
+    """c1d of a spectrum by a rule, C_1D(q); values are kept, since each is a quadrature.
 
-    def __init__(self, spectrum: PowerLaws, feed: Feed):
-        self._spectrum, self._feed = spectrum, feed
+    contact_radius: which the rule for rolling wants.
+    """
 
-    def __call__(self, q: FloatArray) -> FloatArray:
+    def __init__(self, spectrum: PowerLaws, feed: Feed, contact_radius: float = 1.0):
+        self._settings = spectrum, feed, contact_radius
+
+    def __call__(self, q: NDArray[np.floating]) -> FloatArray:
         """C_1D(q)."""
-        return np.array(_fed(self._spectrum, self._feed, tuple(np.asarray(q).ravel().tolist()))).reshape(np.shape(q))
+        return np.array(_fed(*self._settings, tuple(q.ravel().tolist()))).reshape(q.shape)
 
 
 @cache
-def _fed(spectrum: PowerLaws, feed: Feed, q: tuple[float, ...]) -> tuple[float, ...]:
+def _fed(spectrum: PowerLaws, feed: Feed, contact_radius: float, q: tuple[float, ...]) -> tuple[float, ...]:
     wavenumber = np.array(q)
     if feed == "geike":
         values = mdr.geike(wavenumber, spectrum.c2d)
     elif feed == "line":
         values = section(wavenumber, spectrum.c2d, edges=spectrum.edges)
     else:
-        values = mdr.rolling_spectrum(wavenumber, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0)
+        values = mdr.rolling_spectrum(wavenumber, spectrum.c2d, edges=spectrum.edges, contact_radius=contact_radius)
     return tuple(values.tolist())
 
 
@@ -192,13 +195,17 @@ def roll_tracks(tracks: Tracks) -> Outcome:
     """One-sided springs, and the linear filter on the same tracks: one row a track, forces over that of Hertz.
 
     level, linear level: int C_F dq over each band; cross: its real and imaginary part, (2, tracks, bands); mean,
-    variance, linear variance: of the force; examined: springs of a position that were looked at one by one.
+    variance, linear variance: of the force; examined: springs of a position that were looked at one by one;
+    wavenumber, spectrum: C_F itself, the mean of all tracks.
     """
-    rows = []
+    rows, spectra = [], []
     for i in range(tracks.realisations):
         roll = partial(mdr.roll, tracks.track(i), spacing=1 / tracks.springs, radius=1.0, modulus=1.0, approach=1.0)
         found, linear = roll(), roll(contact="linear").force / HERTZ
         force = found.force / HERTZ
+        narrow = waves(force, spacing=1 / tracks.springs)
+        known = narrow.q < tracks.bands.edges[-1]
+        spectra.append(narrow.spectrum[known])
         rows.append((*compared(force, linear, 1 / tracks.springs, tracks.bands), found.examined.mean()))
     level, linear_level, cross, mean, variance, linear_variance, examined = (
         np.array(column) for column in zip(*rows, strict=True)
@@ -211,6 +218,24 @@ def roll_tracks(tracks: Tracks) -> Outcome:
         "variance": variance,
         "linear variance": linear_variance,
         "examined": examined,
+        "wavenumber": narrow.q[known],
+        "spectrum": np.mean(spectra, axis=0),
+    }
+
+
+def strip_levels(outcomes: list[Outcome], spacing: float, bands: Bands) -> Outcome:
+    """Of strips, what `roll_tracks` has of tracks; NaN in rows of strips with a position that did not converge."""
+    rows = [compared(o["force"], o["linear"], spacing, bands) for o in outcomes]
+    level, linear_level, cross, mean, variance, linear_variance = (
+        np.array(column) for column in zip(*rows, strict=True)
+    )
+    return {
+        "level": level,
+        "linear level": linear_level,
+        "cross": np.stack([cross.real, cross.imag]),
+        "mean": mean,
+        "variance": variance,
+        "linear variance": linear_variance,
     }
 
 

@@ -1,5 +1,6 @@
 """Power spectra of periodic tracks, their levels in one-third octaves, and how alike two of them are."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,7 +24,7 @@ class Waves:
     @property
     def spectrum(self) -> FloatArray:
         """C(q) = |c|^2 / dq, two-sided: <x^2> = int_{-inf}^{inf} C dq."""
-        return np.asarray(np.abs(self.amplitude) ** 2 / self.q[..., 0])
+        return np.asarray(np.abs(self.amplitude) ** 2 / self.q[0])
 
 
 def waves(series: ArrayLike, *, spacing: float) -> Waves:
@@ -42,10 +43,11 @@ class Bands:
     edges: tuple[float, ...]
 
     @classmethod
-    def between(cls, first: float, last: float) -> "Bands":
-        """From one edge, up to the last that does not exceed another."""
-        count = int(np.floor(3 * np.log2(last / first) + 1e-9))
-        return cls(tuple(float(first * 2 ** (i / 3)) for i in range(count + 1)))
+    def around(cls, centre: float, first: float, last: float) -> "Bands":
+        """All that lie between two wavenumbers, one of them with this centre."""
+        low = math.ceil(3 * math.log2(first / centre) + 0.5 - 1e-9)
+        high = math.floor(3 * math.log2(last / centre) - 0.5 + 1e-9)
+        return cls(tuple(centre * 2 ** ((i - 0.5) / 3) for i in range(low, high + 2)))
 
     @property
     def centres(self) -> FloatArray:
@@ -53,12 +55,21 @@ class Bands:
         edges = np.array(self.edges)
         return np.asarray(np.sqrt(edges[1:] * edges[:-1]))
 
-    def sums(self, q: FloatArray, values: NDArray[np.floating | np.complexfloating]) -> NDArray[np.complex128]:
+    def on(self, length: float) -> "Bands":
+        """These, if a track of that length has a wave in each; ValueError otherwise."""
+        waves = 2 * np.pi / length * np.arange(1, int(self.edges[-1] * length / (2 * np.pi)) + 1)
+        if (self.counts(waves) == 0).any():
+            raise ValueError(f"length must be so large that each band has a wave, got {length:g} for {self.edges}")
+        return self
+
+    def sums(
+        self, q: NDArray[np.floating], values: NDArray[np.floating | np.complexfloating]
+    ) -> NDArray[np.complex128]:
         """Of the values, along the last axis, at the wavenumbers in each band."""
         inside = (q[:, np.newaxis] >= self.edges[:-1]) & (q[:, np.newaxis] < self.edges[1:])
         return np.asarray(values @ inside.astype(np.float64))
 
-    def counts(self, q: FloatArray) -> FloatArray:
+    def counts(self, q: NDArray[np.floating]) -> FloatArray:
         """How many of the wavenumbers lie in each."""
         return self.sums(q, np.ones(q.size)).real
 

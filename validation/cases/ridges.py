@@ -189,9 +189,9 @@ def evidence(result: RidgesResult) -> Evidence:
         captions={
             "ridges": (
                 "(a) Response of the force to ridges, line: (14.11), exact in one dimension and in three; circles: "
-                f"boundary elements with {finest} cells to a radius; squares: one-sided springs, {case.springs[-1]:g} "
-                "to a radius; every fourth wave. (b) Errors over the envelope; dotted: what some tenths of a cell at the "
-                "edge of the contact makes, on each grid of boundary elements."
+                f"boundary elements with {finest} cells to a radius; squares: one-sided springs, "
+                f"{case.springs[-1]:g} to a radius; every fourth wave. (b) Errors over the envelope; dotted: what "
+                f"{EDGE:g} of a cell at the edge of the contact makes, on each grid of boundary elements."
             )
         },
         unconverged=result.unconverged,
