@@ -12,6 +12,9 @@ from validation.report.figures import (
     mdr_limits,
     normalisation,
     race,
+    ridges,
+    rolling,
+    rolling_input,
     square_punch,
     westergaard,
 )
@@ -28,5 +31,13 @@ DRAW: dict[str, Callable[[Evidence], Figure]] = {
     "fractal_punch-exponent": fractal_punch.draw_exponent,
     "normalisation": normalisation.draw,
     "mdr_limits": mdr_limits.draw,
+    "ridges": ridges.draw,
+    "rolling-line": rolling.draw_line,
+    "rolling": rolling.draw,
+    "rolling-coherence": rolling.draw_coherence,
+    "rolling-map": rolling.draw_map,
+    "rolling_input": rolling_input.draw,
+    "rolling_input-springs": rolling_input.draw_springs,
+    "rolling_input-punch": rolling_input.draw_punch,
     "race": race.draw,
 }

@@ -1,0 +1,137 @@
+"""Figures of rolling over isotropic roughness: Fig. 14.3, four curves, coherence, the map of validity."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from validation.cases.rolling_evidence import FED_SPRINGS, LINEAR_1D, LINEAR_3D, SPRINGS
+from validation.evidence import Evidence
+from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels
+
+MOST = 12.0
+"""dB at which the colours of the map end."""
+
+
+def draw_line(evidence: Evidence) -> Figure:
+    """Fig. 14.3."""
+    found = evidence.table("spectrum")
+    figure, (axis,) = panels(1, 1, width=6.4, height=4.2)
+    q = found["q a"]
+    axis.plot(q, found["linear 3D"], color="#999999", linewidth=3.0, label="linear theory, 3D")
+    axis.plot(q, found["springs"], color=MDR["color"], marker=".", markersize=2.5, linestyle="none", label="springs")
+    axis.plot(q, _seen(found["(14.12)"]), label="(14.12)", **EXACT)
+    axis.plot(q, _seen(found["(14.14)"]), label="(14.14)", **{**MDR_OTHER, "linewidth": 1.8})
+    top = float(found["linear 3D"].max())
+    axis.set(xscale="log", yscale="log", ylim=(1e-7 * top, 6 * top))
+    axis.set(xlabel="q a", ylabel="C_F / (F_Hertz² a (h/d)²)")
+    _ticks(axis, q)
+    axis.legend(loc="lower left")
+    return figure
+
+
+def draw(evidence: Evidence) -> Figure:
+    """One panel a height: boundary elements, springs, linear theory in 1D and in 3D."""
+    levels = evidence.table("levels")
+    heights = np.unique(levels["h/d"])
+    columns = min(3, heights.size)
+    rows = -(-heights.size // columns)
+    figure, axes = panels(rows, columns, height=0.8 + 2.5 * rows, sharex=True, sharey="all")
+    top = float(levels[f"{LINEAR_3D} [dB]"].max())
+    for axis, height in zip(axes, heights, strict=False):
+        mine = levels.where(**{"h/d": height})
+        q = mine["q a"]
+        axis.plot(q, mine[f"{LINEAR_3D} [dB]"], label="linear theory, 3D", **EXACT)
+        axis.plot(q, _above(mine[f"{LINEAR_1D} [dB]"], top), label="linear theory, 1D (14.12)", **MDR_OTHER)
+        axis.plot(q, _above(mine[f"{SPRINGS} [dB]"], top), label="springs", **MDR)
+        bars = mine["± sample [dB]"] + mine["± grid [dB]"]
+        axis.errorbar(q, mine["bem3d [dB]"], yerr=bars, capsize=2, label="boundary elements", **BEM)
+        axis.axvspan(0.9 * q[0], 1.0, color="#000000", alpha=0.06, linewidth=0)
+        axis.set(xscale="log", ylim=(top - 55, top + 6), xlim=(0.9 * q[0], 1.1 * q[-1]))
+        axis.set_title(f"h/d = {height:g}")
+        _ticks(axis, q)
+    for axis in axes[heights.size :]:
+        axis.set_visible(False)
+    for axis in axes[::columns]:
+        axis.set_ylabel("one-third octave level [dB]")
+    for axis in axes[(rows - 1) * columns :]:
+        axis.set_xlabel("q a")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return figure
+
+
+def draw_coherence(evidence: Evidence) -> Figure:
+    """Coherence with linear theory, departure from it, and the force itself."""
+    levels, forces = evidence.table("levels"), evidence.table("forces")
+    heights = np.unique(levels["h/d"])
+    figure, (coherence, departure, force) = panels(1, 3, width=10.5, height=3.6)
+    for i, height in enumerate(heights):
+        mine, style = levels.where(**{"h/d": height}), graded(i, heights.size)
+        q, inside = mine["q a"], np.isfinite(mine[f"{LINEAR_1D} [dB]"]) & (mine["q a"] > 1)
+        open_ = {**style, "markerfacecolor": "white", "linestyle": ":"}
+        coherence.plot(q, mine["coherence of bem3d"], label=f"h/d = {height:g}", **style)
+        coherence.plot(q[inside], mine["coherence of springs"][inside], **open_)
+        departure.plot(q, -mine[f"{LINEAR_3D} over bem3d [dB]"], **style)
+        springs = mine[f"{SPRINGS} [dB]"] - mine[f"{LINEAR_1D} [dB]"]
+        departure.plot(q[inside], springs[inside], **open_)
+    coherence.set(xscale="log", xlabel="q a", ylabel="coherence", ylim=(-0.03, 1.05), title="with linear theory")
+    departure.set(xscale="log", xlabel="q a", ylabel="nonlinear over linear [dB]", title="level")
+    for axis in (coherence, departure):
+        _ticks(axis, levels["q a"])
+    coherence.legend(fontsize=7, loc="lower left")
+    for i, height in enumerate(heights[[0, heights.size // 2, -1]]):
+        mine = forces.where(**{"h/d": height})
+        x, of_bem, of_linear = mine["x / a"], mine["bem3d"], mine["linear 3D"]
+        step = 3.2 * (2 - i)
+        force.plot(x, (of_bem - of_bem.mean()) / height + step, color=BEM["color"], linewidth=1.2)
+        force.plot(x, (of_linear - of_linear.mean()) / height + step, **{**EXACT, "linestyle": ":", "linewidth": 1.2})
+        force.text(x[0], step + 1.1, f"h/d = {height:g}", fontsize=7)
+    force.set(xlabel="x / a", ylabel="(F - mean) / (F_Hertz h/d), shifted", title="force along the track", yticks=[])
+    return figure
+
+
+def draw_map(evidence: Evidence) -> Figure:
+    """Error of each model over height and wavenumber."""
+    levels = evidence.table("levels")
+    figure, axes = panels(2, 2, height=6.6, sharex=True, sharey="all")
+    heights, q = np.unique(levels["h/d"]), np.unique(levels["q a"])
+    image = None
+    for axis, model in zip(axes, (LINEAR_1D, SPRINGS, LINEAR_3D, FED_SPRINGS), strict=True):
+        errors = levels[f"{model} over bem3d [dB]"].reshape(heights.size, q.size)
+        shown = np.clip(np.where(np.isfinite(errors), errors, -99.0), -MOST, MOST)
+        image = axis.pcolormesh(q, heights, shown, cmap="PuOr", vmin=-MOST, vmax=MOST, shading="nearest")
+        for border, dash in ((1.0, "solid"), (3.0, "dashed")):
+            axis.contour(
+                q,
+                heights,
+                np.clip(shown, -6, 6),
+                levels=[-border, border],
+                colors="black",
+                linestyles=dash,
+                linewidths=1.2 if border == 1 else 1.0,
+            )
+        axis.axvline(1.0, **{**GUIDE, "color": "#000000"})
+        axis.set(xscale="log", yscale="log", title=model)
+        axis.grid(visible=False)
+        _ticks(axis, q)
+    for axis in axes[::2]:
+        axis.set_ylabel("h / d")
+    for axis in axes[2:]:
+        axis.set_xlabel("q a")
+    if image is not None:
+        figure.colorbar(image, ax=axes, label="level over boundary elements [dB]", extend="both", shrink=0.8)
+    return figure
+
+
+def _seen(values: np.ndarray) -> np.ndarray:
+    return np.where(values > 0, values, np.nan)
+
+
+def _above(levels: np.ndarray, top: float) -> np.ndarray:
+    """What is on the axis."""
+    return np.where(levels > top - 60, levels, np.nan)
+
+
+def _ticks(axis: Axes, q: np.ndarray) -> None:
+    ticks = [tick for tick in (0.2, 0.5, 1, 2, 5, 10, 20) if 0.85 * q.min() <= tick <= 1.2 * q.max()]
+    axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axis.xaxis.minorticks_off()
