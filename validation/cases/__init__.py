@@ -115,7 +115,7 @@ CASES = {
         ridges.evidence,
     ),
     "rolling": Entry(
-        "Fig. 14.3: rolling force over isotropic roughness, springs beside boundary elements, and where each model holds",
+        "Fig. 14.3: rolling force over isotropic roughness, springs beside boundary elements, where each model holds",
         rolling.Rolling(),
         rolling.Rolling(
             heights=(0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
