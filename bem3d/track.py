@@ -1,5 +1,6 @@
 """A sphere above a rough strip, and the frame that moves along with it."""
 
+import sys
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -17,6 +18,8 @@ Spans = tuple[Span, Span]
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Track:
     """A strip of roughness, periodic along axis 0, and a rigid sphere of which the lowest point runs along its middle.
+
+    Where the contact reaches further along the track than a period, it meets the same roughness again.
 
     Undeformed separation at the wheel's position i, at the centres of the cells:
     g = ((x - x_i)^2 + y^2) / (2 R) - h(x, y),  y = 0 in the middle of axis 1.
@@ -81,9 +84,9 @@ class Track:
 
     def smooth_contact(self, approach: float) -> Spans:
         """Of the cells under the smooth sphere, one at least, as far as the strip has them."""
-        (nx, ny), (dx, dy) = self.height.shape, self.steps
+        ny, (dx, dy) = self.height.shape[1], self.steps
         a = np.sqrt(self.radius * max(approach, 0.0))
-        ahead, across = min(int(a / dx), (nx - 1) // 2), min(int(a / dy) + 1, ny // 2)
+        ahead, across = int(a / dx), min(int(a / dy) + 1, ny // 2)
         return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
 
     def reach(self, approach: float) -> tuple[int, int]:
@@ -93,16 +96,11 @@ class Track:
         return int(r / dx), int(r / dy + 0.5)
 
     def widened(self, spans: Spans, margin: int) -> Spans:
-        """Spans that hold these and a margin, of sides that transform fast; refused where the track is too short."""
-        nx, ny = self.height.shape
-        (first, last), across = spans[0], _widened(spans[1], margin, ny)
-        if last - first > nx:
-            raise ValueError(
-                f"height must be longer along the track than the contact and what is next to touch, {last - first} "
-                f"cells, got {nx}"
-            )
-        start = min(max(across[0], 0), ny - (across[1] - across[0]))
-        return _widened(spans[0], margin, nx), (start, start + across[1] - across[0])
+        """Spans that hold these and a margin, of sides that transform fast; columns as far as the strip has them."""
+        rows, ny = _widened(spans[0], margin, sys.maxsize), self.height.shape[1]
+        first, last = _widened(spans[1], margin, ny)
+        start = min(max(first, 0), ny - (last - first))
+        return rows, (start, start + last - first)
 
 
 class Frame:
@@ -188,8 +186,6 @@ class Frame:
         track, ny = self.track, self.track.height.shape[1]
         self._limit = approach + 0.05 * abs(approach)
         most = track.reach(self._limit)
-        if 2 * most[0] + 1 > track.height.shape[0]:
-            most = (track.height.shape[0] - 1) // 2, most[1]
         ahead = np.arange(-most[0], most[0] + 1)[:, np.newaxis]
         across = np.arange(ny)
         inside = (ahead >= self.rows[0]) & (ahead < self.rows[1])

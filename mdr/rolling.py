@@ -53,7 +53,8 @@ def roll(
     Under a prescribed force the approach of the one-sided contact is found by Newton's method, which ends exactly,
     since the force is convex and piecewise linear in the approach.
     Springs that must touch come from prefix sums, springs that cannot are left out; `examined` counts the rest.
-    Raises ValueError for a track that is not longer than the contact, and for values out of range.
+    Raises ValueError for a track that is not longer than the contact of the smooth wheel, and for values out of range.
+    Where the roughness makes the contact longer than that, it meets the same roughness again.
     Source: Popov and Hess, (14.2), (14.5) and (14.11).
     """
     track = _Track(height, spacing, radius, modulus)
@@ -184,7 +185,7 @@ def _borne(track: _Track, block: slice, wanted: float, d: float) -> tuple[FloatA
         looked += more
         change = (wanted - found) / count
         approach = approach + change
-        if (np.abs(change) <= 1e-14 * d).all():
+        if (np.abs(change) <= 1e-14 * d + 4 * np.spacing(np.abs(approach))).all():
             return approach, count, looked
     raise ArithmeticError(f"Newton's method did not end within {MOST_STEPS} steps")
 

@@ -21,10 +21,13 @@ def rolling_spectrum(
     C_1D(q) = int_{-inf}^{inf} e(s a) / e(q a) C_2D(s) dk,  s^2 = q^2 + k^2,  e(t) = 1 / (1 + t^2).
 
     A wave of wavenumber s that crosses the track at an angle shows a longer one, q, along it, but acts on the circle of
-    contact as what it is, 4 E*^2 sin^2(s a) / s^2, where a spring model sees 4 E*^2 sin^2(q a) / q^2. Over their
-    oscillation both go as e: level where q a << 1, as 1 / q^2 where q a >> 1. So the rule is the line trace for
-    contacts small beside all waves; q^2 / s^2 times it for large ones, the default, which needs no radius and for an
-    unbounded power law is Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)) times Geike's; and depends on the radius between.
+    contact as what it is, sin^2(s a) / s^2, where a spring model sees sin^2(q a) / q^2. Over their oscillation both go
+    from a^2 for long waves to a half of 1/s^2 for short ones, for which a^2 e stands: exact in level where both waves
+    are long, which is the line trace, or both are short, which is q^2 / s^2 under the integral: the default, which
+    needs no radius and for an unbounded power law is Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)) times Geike's. Between
+    the rule depends on the radius, and is a compromise: where all waves are short, s a >> 1, and are seen along the
+    track as long ones, q a << 1, it leaves out the half and is 3 dB too high; 1 / (1 + 2 t^2) would be right there and
+    3 dB too low where waves of s a = 1 are seen so.
     It keeps neither the height nor the gradient: it is for rolling alone.
 
     q: along the track, any sign, not zero unless there is a contact radius [rad/m]; c2d: callable of |q|, smooth

@@ -14,13 +14,16 @@ import bem3d
 import mdr
 from validation.alone import one_thread, own_process, peak_memory, timed
 from validation.ensemble import SERIAL, Engine, Outcome, generator
+from validation.evidence import Table
 from validation.peers import CONTESTANTS, Contestant, Run, Solve, Task
+from validation.race_rolling import Rolls, measure_rolls
 from validation.rough_punch import Roughness, Surface, press_surface
 
 SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
 SPHERE_LOAD = 4 / 3 / 4**3
 """The force of Hertz for a = L/4 and R = L, over E* L^2."""
 FINISHED = "finished"
+ROLLS = Rolls()
 FEWEST_RUNS, MOST_RUNS = 5, 15
 
 
@@ -110,7 +113,7 @@ class Race:
 
     cells: grids; loads: of the rough surfaces; residual: to be reached by everyone, see `bem3d.residual`;
     slow: a contestant that takes longer is timed once [s]; scaling: grids on which our solver alone is measured;
-    errand: a sample of the work of Fig. 14.1.
+    errand: a sample of the work of Fig. 14.1; rolling: a wheel, by ourselves.
     """
 
     cells: tuple[int, ...] = (64, 128)
@@ -119,6 +122,7 @@ class Race:
     slow: float = 5.0
     scaling: tuple[int, ...] = (64, 128, 256)
     errand: Errand = Errand()
+    rolling: Rolls = ROLLS
     seed: int = 20261121
 
     def courses(self) -> list[Course]:
@@ -160,6 +164,7 @@ class RaceResult:
     errands: list[Heat]
     errand_outcomes: list[Outcome]
     paths: list[Outcome]
+    rolling: list[Table]
     began: float = 0.0
 
     @property
@@ -197,10 +202,11 @@ def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
         errands,
         alone.map(run_heat, errands),
         alone.map(measure_path, race.errand.surfaces(race.seed)),
+        measure_rolls(race.rolling, alone),
         began,
     )
     # a race that was interrupted goes on; one that is over is run anew the next time
-    for file in engine.store.glob("race-*.npz") if engine.store else ():
+    for file in engine.store.glob("race*.npz") if engine.store else ():
         file.unlink()
     return result
 

@@ -35,10 +35,11 @@ def evidence(result: RaceResult) -> Evidence:
             + "."
         ),
         numbers=tuple(_agreement(result)),
-        tables=(_heats(result.heats, result.outcomes, "heats"), _scaling(result), _errand(result)),
+        tables=(_heats(result.heats, result.outcomes, "heats"), _scaling(result), _errand(result), result.rolling[0]),
         shown=(
             _times(result.heats, result.outcomes, "Seconds"),
             _times(result.errands, result.errand_outcomes, "The same for some of the loads of Fig. 14.1"),
+            result.rolling[1],
         ),
         conclusions=tuple(_conclusions(result)),
         captions={
@@ -47,7 +48,13 @@ def evidence(result: RaceResult) -> Evidence:
                 "solver alone against the cells along a side: time of a solve, and n² log n through the largest rough "
                 "one in free space. (c) As (a), over the median of bem3d.solve. (d) Peak memory of its process, less "
                 "that of an idle one."
-            )
+            ),
+            "race-rolling": (
+                "A wheel that rolls, one core: error of its force against positions a second, by residual (1e-3 to "
+                "1e-6 from right to left) and cells to a contact radius. Filled: error of solver and grid, against "
+                f"{result.race.rolling.finest} cells to a radius; open: of the solver alone. Dotted: the fluctuation "
+                "of the force, which is to be resolved."
+            ),
         },
         unconverged=tuple(
             f"{heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}"
@@ -163,7 +170,7 @@ def _conclusions(result: RaceResult) -> list[str]:
     ]
     if result.resumed:
         sentences.append(f"{result.resumed} of {len(result.heats)} heats were run before this race was interrupted.")
-    sentences.append(_work(result))
+    sentences += [_work(result), _rolled(result)]
     table = _scaling(result)
     problems = list(dict.fromkeys(table["problem"].tolist()))
     return sentences + [_growth(problem, table.where(problem=problem)) for problem in problems]
@@ -195,6 +202,29 @@ def _work(result: RaceResult) -> str:
         f"are secants, takes {times[fastest] / seconds:.0f} times as long as ours, with a second load beside each for "
         f"a tangent {2 * times[fastest] / seconds:.0f} times; set-up not counted."
     )
+
+
+def _rolled(result: RaceResult) -> str:
+    """Positions a second of the scene that has a goal."""
+    scenes = result.rolling[1]
+    found = "; ".join(
+        f"h/d = {h:g}: {rate:.0f} positions a second (goal {goal:.0f}), {n:.1f} applications each, "
+        f"{rate / warm:.1f} times as fast as warm solves on one window"
+        for h, rate, goal, n, warm in zip(
+            *(
+                scenes[name]
+                for name in (
+                    "h/d",
+                    "positions a second",
+                    "goal",
+                    "applications a position",
+                    "by warm solves on 3a x 3a",
+                )
+            ),
+            strict=True,
+        )
+    )
+    return f"A rolling wheel, a = 32 cells, residual 1e-4, one core: {found}."
 
 
 def _growth(problem: str, rows: Table) -> str:

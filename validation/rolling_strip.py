@@ -85,6 +85,12 @@ class Strip:
     tolerance: float
     seed: int
 
+    def __post_init__(self) -> None:
+        for name in ("length", "width"):
+            side = getattr(self, name) * self.cells
+            if abs(side - round(side)) > 1e-9 * side:
+                raise ValueError(f"{name} must be a whole number of cells, got {side:g}")
+
     def surface(self) -> FloatArray:
         """Heights at the centres of the cells, all of them; the same surface on every grid."""
         with warnings.catch_warnings():

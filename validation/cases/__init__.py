@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from validation import race, race_evidence
+from validation import race, race_evidence, race_rolling
 from validation.cases import (
     fractal_punch,
     fractal_punch_evidence,
@@ -48,6 +48,7 @@ RACE = Entry(
         cells=(256, 512, 1024),
         scaling=(128, 256, 512, 1024, 2048, 4096),
         errand=race.Errand(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
+        rolling=race_rolling.Rolls(cells=(8, 16, 32), finest=64, positions=1600),
     ),
     race.run,
     race_evidence.evidence,

@@ -476,7 +476,7 @@ def _captions(case: Rolling) -> dict[str, str]:
         ),
         "rolling-map": (
             "Validity: level of each model over that of boundary elements, in dB, over h/d and q a. Solid lines: ± 1 "
-            "dB, dashed: ± 3 dB; below the band, left of the vertical line, springs of Geike's spectrum have next to "
-            "nothing."
+            "dB, dashed: ± 3 dB, hatched: 3 dB too low and more. Left of the vertical line, below the band, springs of "
+            "Geike's spectrum have next to nothing."
         ),
     }

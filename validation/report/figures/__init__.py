@@ -40,4 +40,5 @@ DRAW: dict[str, Callable[[Evidence], Figure]] = {
     "rolling_input-springs": rolling_input.draw_springs,
     "rolling_input-punch": rolling_input.draw_punch,
     "race": race.draw,
+    "race-rolling": race.draw_rolling,
 }

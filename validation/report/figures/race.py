@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from validation.evidence import Evidence
-from validation.report.style import Style, panels
+from validation.report.style import GUIDE, Style, graded, panels
 
 MARKS: dict[str, Style] = {
     "bem3d": {"color": "#0072B2", "marker": "o"},
@@ -57,4 +57,25 @@ def draw(evidence: Evidence) -> Figure:
         axis.set_xticks(n, [str(value) for value in n])
         axis.minorticks_off()
         axis.legend(loc="upper left")
+    return figure
+
+
+def draw_rolling(evidence: Evidence) -> Figure:
+    """Error of the force against positions a second."""
+    rolls = evidence.table("rolling")
+    heights, cells = np.unique(rolls["h/d"]), np.unique(rolls["cells to a radius"])
+    figure, axes = panels(1, heights.size, sharey="all")
+    for axis, height in zip(axes, heights, strict=True):
+        mine = rolls.where(**{"h/d": height})
+        for i, n in enumerate(cells):
+            some = mine.where(**{"cells to a radius": n})
+            asked = some["tolerance"] > some["tolerance"].min()
+            rate, style = some["positions a second"][asked], graded(i, cells.size)
+            both, alone = (some[f"rms error of the force, solver{and_grid}"][asked] for and_grid in (" and grid", ""))
+            axis.loglog(rate, both, label=f"a = {n} cells", **style)
+            axis.loglog(rate, alone, **{**style, "markerfacecolor": "white", "linestyle": "--"})
+        axis.axhline(mine["rms fluctuation of the force"][0], **GUIDE)
+        axis.set(xlabel="positions a second", title=f"h/d = {height:g}")
+    axes[0].set_ylabel("rms error of the force / F_Hertz")
+    axes[0].legend()
     return figure

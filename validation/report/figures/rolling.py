@@ -109,6 +109,8 @@ def draw_map(evidence: Evidence) -> Figure:
                 linestyles=dash,
                 linewidths=1.2 if border == 1 else 1.0,
             )
+        # too low and too high are alike without colour
+        axis.contourf(q, heights, shown, levels=[-2 * MOST, -3], colors="none", hatches=["//"])
         axis.axvline(1.0, **{**GUIDE, "color": "#000000"})
         axis.set(xscale="log", yscale="log", title=model)
         axis.grid(visible=False)
