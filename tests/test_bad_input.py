@@ -303,7 +303,7 @@ def test_a_wheel_that_carries_nothing(function, force):
 def test_tracks_that_are_no_longer_than_the_contact(load, contact):
     """As long as it is refused, longer is answered; at a force, of the smooth wheel that bears it: 4/3 E* a d."""
     for kind in ("one-sided", "full", "linear"):
-        with pytest.raises(ValueError, match="height must be longer than the contact, 4 m, got a track of 3.99"):
+        with pytest.raises(ValueError, match="height must be longer than the contact, 4 m, got"):
             springs(height=np.zeros(8), spacing=0.999 * contact / 8, contact=kind, **load)
         springs(height=np.zeros(8), spacing=1.001 * contact / 8, contact=kind, **load)
     with pytest.raises(ValueError, match="height must be longer than the contact"):

@@ -410,16 +410,16 @@ FAULTS = {
     ),
     "the wheel half a cell ahead": (
         (Track, "along", half_a_cell_ahead),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "approach", "smooth"),
+        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
     ),
     "the wheel half a cell aside": (
         (Track, "across", half_a_cell_aside),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "approach", "smooth"),
+        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
     ),
     "a frame that is trusted": (
         (Frame, "outside", lambda *_: None),
         functools.partial(
-            test_rolling_contact.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, 0.0, "approach"
+            test_rolling_contact.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0
         ),
     ),
     "a bound four times as large": (
