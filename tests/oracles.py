@@ -153,3 +153,20 @@ def rms_scatter_of_gaussian_draws(hurst, *, last, dimensions):
         lengths = [math.hypot(i, j) for i in modes for j in modes if 0 < math.hypot(i, j) <= last]
         power = [q ** (-2 * hurst - 2) for q in lengths]
     return math.sqrt(2 * sum(v**2 for v in power)) / sum(power)
+
+
+def wheel_on_springs(height, *, spacing, radius, approach):
+    """Compressions summed over springs under a wheel at each point of a periodic track, springs one by one.
+
+    Returns sum_j max(d - x_j^2 / R + h_j, 0), and the least and the most that may be in contact, since rounding decides
+    of springs that just touch.
+    """
+    points = len(height)
+    approach = np.broadcast_to(approach, points)
+    reach = math.sqrt(radius * max(approach.max() + height.max(), 0.0)) / spacing
+    j = np.arange(-math.ceil(reach) - 1, math.ceil(reach) + 2)
+    near = height[(np.arange(points)[:, np.newaxis] + j) % points]
+    compression = approach[:, np.newaxis] - (j * spacing) ** 2 / radius + near
+    rounding = 1e-13 * (np.abs(approach).max() + np.abs(height).max())
+    total = np.array([math.fsum(row[row > 0]) for row in compression])
+    return total, (compression > rounding).sum(axis=1), (compression > -rounding).sum(axis=1)

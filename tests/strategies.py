@@ -95,3 +95,45 @@ def pressed(draw, *, most=9, periodic=None, by=("approach", "force")):
         assume(np.ptp(gap) > 0)
         deepest = gap.min() + draw(st.floats(0.01, 0.99)) * (gap.mean() - gap.min())
     return Pressed(half_space, gap, {"approach": float(deepest)})
+
+
+@dataclass(frozen=True)
+class OnSprings:
+    """A wheel over a rough track of springs."""
+
+    height: np.ndarray
+    spacing: float
+    radius: float
+    modulus: float
+    approach: float
+
+    @property
+    def wheel(self):
+        """All but the height and the load."""
+        return {"spacing": self.spacing, "radius": self.radius, "modulus": self.modulus}
+
+    @property
+    def rounding(self):
+        """Of a force: a part in 1e12 of what all springs in reach would bear under the deepest compression of all."""
+        deepest = self.approach + np.abs(self.height).max()
+        springs = 2 * math.sqrt(self.radius * deepest) / self.spacing + 1
+        return 1e-12 * self.modulus * self.spacing * springs * deepest
+
+    def roll(self, **settings):
+        """The wheel along the track, at its approach where nothing else is prescribed."""
+        if "force" not in settings:
+            settings.setdefault("approach", self.approach)
+        return mdr.roll(self.height, **self.wheel, **settings)
+
+
+@st.composite
+def on_springs(draw, *, longest=200):
+    """From less than a spring to a contact radius to twenty; tracks barely longer than the contact; smooth to wild."""
+    springs = draw(st.floats(0.3, 20))
+    points = math.floor(2 * springs) + 1 + draw(st.integers(0, 3) | st.integers(0, longest))
+    spacing, radius = 10 ** draw(st.floats(-6, 3)), 10 ** draw(st.floats(-3, 3))
+    d = (springs * spacing) ** 2 / radius
+    assume(points * spacing > 2 * math.sqrt(radius * d))
+    rms, offset = draw(st.sampled_from([0.0, 1e-6, 0.01, 0.3, 1.0, 3.0, 10.0])), draw(st.sampled_from([0.0, -0.5, 2.0]))
+    noise = np.random.default_rng(draw(st.integers(0, 10**6))).normal(size=points)
+    return OnSprings(d * (offset + rms * noise), spacing, radius, 10 ** draw(st.floats(-3, 12)), d)

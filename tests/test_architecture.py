@@ -34,8 +34,9 @@ def test_methods_stand_alone(package, others):
         assert not rooms(source) & others, source
 
 
-def test_closed_forms_import_neither_method():
-    assert not rooms(ROOT / "validation" / "closed_forms.py") & {"mdr", "bem3d", "validation"}
+@pytest.mark.parametrize("referee", ["closed_forms.py", "rolling_theory.py", "spectra.py"])
+def test_referees_import_neither_method(referee):
+    assert not rooms(ROOT / "validation" / referee) & {"mdr", "bem3d", "validation"}
 
 
 def test_matplotlib_is_imported_only_where_figures_are_drawn():

@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+import importlib
 import types
 
 import numpy as np
@@ -10,8 +11,11 @@ import pytest
 import bem3d
 import mdr
 from bem3d import contact, frozen, halfspace, kernel, press, projected_cg, surface, window
+from bem3d import rolling as wheel_on_strip
+from bem3d.track import Frame, Track
 from mdr import foundation
 from mdr import profile as profile_module
+from mdr import rolling as wheel_on_springs
 from tests import (
     test_contact_properties,
     test_convergence_rates,
@@ -21,11 +25,14 @@ from tests import (
     test_geike_mapping,
     test_load_paths,
     test_operator_against_dense_twin,
+    test_rolling_contact,
+    test_rolling_springs,
+    test_rolling_theory,
     test_rough_punches,
     test_springs_against_brute_force,
     test_windows_and_starts,
 )
-from validation import ensemble, rough_punch, statistics
+from validation import ensemble, rolling_theory, rough_punch, spectra, statistics
 from validation.cases import fractal_punch_decades, mdr_limits
 from validation.evidence import Verdict
 from validation.rough_punch import Roughness
@@ -144,6 +151,53 @@ def gap_of_the_rigid_surface(surface):
     return {**outcome, "gap": -outcome["approach"]}
 
 
+def in_numpy(wrong):
+    """numpy with some names changed."""
+    return types.SimpleNamespace(**{**vars(np), **wrong})
+
+
+def four_times_the_force(frame, pressure):
+    force, centre, variance = moments(frame, pressure)
+    return 4 * force, centre, variance
+
+
+def half_a_cell_ahead(track, rows):
+    return (np.asarray(rows) + 0.5) * track.steps[0]
+
+
+def half_a_cell_aside(track, columns):
+    return (np.asarray(columns) - track.height.shape[1] / 2) * track.steps[1]
+
+
+def half_the_contact(track, level):
+    """Springs within a / 2: a for 2a."""
+    return reach(track, level) // 2
+
+
+def springs_that_pull(track, approach):
+    """All springs under the smooth wheel, in tension too."""
+    return wheel_on_springs._full(track, float(approach[0]), None)
+
+
+def springs_that_pull_at_the_edge(values, least):
+    return values
+
+
+def geike_for_rolling(q, c2d, edges, flat):
+    return float(np.pi * q * c2d(np.array(q)))
+
+
+def line_for_rolling(q, c2d, edges, flat):
+    return float(rolling_theory.section(q, c2d, edges=edges))
+
+
+def one_sided_spectrum(found):
+    return 2 * two_sided(found)
+
+
+moments, reach, two_sided = Frame._moments, wheel_on_springs._Track.reach, spectra.Waves.spectrum.fget
+# the function of this name hides the module in the package
+feed = importlib.import_module("mdr.rolling_spectrum")
 FAULTS = {
     "E for E* in boundary elements": (
         (kernel, "free_space_symbol", scaled(kernel.free_space_symbol, E_FOR_E_STAR)),
@@ -303,6 +357,80 @@ FAULTS = {
     "stiffness to first order in the residual": (
         (bem3d, "press_frozen", sum_of_the_pressure),
         test_load_paths.test_error_of_the_stiffness_is_the_residual_squared,
+    ),
+    "Geike for the line trace in rolling": (
+        (mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
+        functools.partial(test_rolling_theory.test_small_wheels_are_fed_the_line_trace, 0.7),
+    ),
+    "springs that roll fed by Geike": (
+        (feed, "_across", geike_for_rolling),
+        functools.partial(
+            test_rolling_theory.test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space, 0.7, 1.0
+        ),
+    ),
+    "springs that roll fed by the line trace": (
+        (feed, "_across", line_for_rolling),
+        functools.partial(test_rolling_theory.test_large_wheels_are_fed_less_than_geike, 0.7),
+    ),
+    "factor 4 lost in (14.12)": (
+        (rolling_theory, "response", scaled(rolling_theory.response, 0.5)),
+        test_rolling_springs.test_spectrum_of_the_linear_force_is_14_12,
+    ),
+    "factor 4 lost in the spectrum of the half-space": (
+        (rolling_theory, "response", scaled(rolling_theory.response, 0.5)),
+        functools.partial(test_rolling_theory.test_force_spectrum_by_adaptive_quadrature, 3.0, 0.7),
+    ),
+    "factor 2 lost in linear theory, seen by boundary elements": (
+        (test_rolling_contact, "response", scaled(rolling_theory.response, 0.5)),
+        functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
+    ),
+    "a for 2a under the wheel": (
+        (wheel_on_springs._Track, "reach", half_the_contact),
+        test_rolling_springs.test_full_contact_tends_to_the_filter_at_second_order,
+    ),
+    "x^2 / 2R under the wheel": (
+        (wheel_on_springs._Track, "wheel", scaled(wheel_on_springs._Track.wheel, 0.5)),
+        test_rolling_springs.test_force_is_the_sum_over_all_springs,
+    ),
+    "springs that pull under the smooth wheel": (
+        (wheel_on_springs, "_one_sided", springs_that_pull),
+        test_rolling_springs.test_one_sided_force_leaves_the_linear_one_at_second_order,
+    ),
+    "springs that pull wherever they are in doubt": (
+        (wheel_on_springs, "np", in_numpy({"maximum": springs_that_pull_at_the_edge})),
+        test_rolling_springs.test_force_is_the_sum_over_all_springs,
+    ),
+    "one-sided spectrum of the force": (
+        (spectra.Waves, "spectrum", property(one_sided_spectrum)),
+        test_rolling_springs.test_variance_of_the_force_is_that_of_its_spectrum,
+    ),
+    "one-sided spectrum of a track": (
+        (spectra.Waves, "spectrum", property(one_sided_spectrum)),
+        test_rolling_theory.test_spectra_of_profiles_are_the_ones_they_are_drawn_from,
+    ),
+    "the wheel half a cell ahead": (
+        (Track, "along", half_a_cell_ahead),
+        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+    ),
+    "the wheel half a cell aside": (
+        (Track, "across", half_a_cell_aside),
+        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+    ),
+    "a frame that is trusted": (
+        (Frame, "outside", lambda *_: None),
+        functools.partial(
+            test_rolling_contact.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0
+        ),
+    ),
+    "a bound four times as large": (
+        (Frame, "_moments", four_times_the_force),
+        test_rolling_contact.test_cells_that_a_frame_rules_out_are_open,
+    ),
+    "a residual of rolling that is not looked at": (
+        (wheel_on_strip, "residual", lambda *_: 0.0),
+        functools.partial(
+            test_rolling_contact.test_pressures_solve_the_contact_on_all_of_the_strip, "as rough as deep"
+        ),
     ),
 }
 

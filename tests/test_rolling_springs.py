@@ -1,0 +1,248 @@
+"""A wheel on springs: against the sum over all springs, and against what linear theory says of waves."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import mdr
+from tests.oracles import wheel_on_springs
+from tests.strategies import OnSprings, on_springs
+from validation.rolling_theory import force_spectrum_1d
+from validation.spectra import waves
+
+KINDS = ("one-sided", "full", "linear")
+
+
+def rough(points, rms, *, springs, offset=0.0, seed=0):
+    """Radius of contact 1, approach 1, E* = 1."""
+    noise = np.random.default_rng(seed).normal(size=points)
+    return OnSprings(offset + rms * noise, 1 / springs, 1.0, 1.0, 1.0)
+
+
+def assert_is_the_sum(track, found, approach):
+    """Force to the rounding of the sum; stiffness by the springs in contact, but for those that just touch."""
+    total, least, most = wheel_on_springs(track.height, spacing=track.spacing, radius=track.radius, approach=approach)
+    spring = track.modulus * track.spacing
+    assert np.abs(found.force - spring * total).max() <= 1e-12 * spring * total.max() + track.rounding
+    in_contact = found.stiffness / spring
+    assert np.abs(in_contact - np.rint(in_contact)).max() <= 1e-12 * most.max()
+    assert (least <= np.rint(in_contact)).all()
+    assert (np.rint(in_contact) <= most).all()
+
+
+@given(track=on_springs())
+def test_force_is_the_sum_over_all_springs(track):
+    found = track.roll()
+    assert_is_the_sum(track, found, track.approach)
+    assert np.array_equal(found.approach, np.full(track.height.size, track.approach))
+    assert np.array_equal(found.force, mdr.rolling_force(track.height, **track.wheel, approach=track.approach))
+
+
+@given(track=on_springs(), seed=st.integers(0, 1000))
+def test_an_approach_for_each_point(track, seed):
+    """Of any sign: at some points the wheel is lifted off."""
+    approach = track.approach * np.random.default_rng(seed).uniform(-2, 1, track.height.size)
+    found = track.roll(approach=approach)
+    assert_is_the_sum(track, found, approach)
+    assert np.array_equal(found.approach, approach)
+
+
+@pytest.mark.parametrize("rms", [0.0, 1e-3, 0.1, 1.0, 10.0])
+@pytest.mark.parametrize("points", [1023, 1024, 1025, 2500])
+def test_tracks_of_many_blocks(rms, points):
+    track = rough(points, rms, springs=12.3, offset=-0.2)
+    assert_is_the_sum(track, track.roll(), 1.0)
+
+
+@given(track=on_springs(longest=60), share=st.floats(-0.2, 0))
+def test_a_prescribed_force_is_borne_at_every_position(track, share):
+    """Recomputed spring by spring. The approach is rounded, which is worth as much force as the springs are stiff."""
+    hertz = 4 / 3 * track.modulus * math.sqrt(track.radius * track.approach) * track.approach
+    force = 10**share * hertz
+    found = track.roll(force=force)
+    total, least, most = wheel_on_springs(
+        track.height, spacing=track.spacing, radius=track.radius, approach=found.approach
+    )
+    spring = track.modulus * track.spacing
+    assert (found.force == force).all()
+    rounding = 1e-15 * spring * most * (np.abs(found.approach) + np.abs(track.height).max())
+    assert (np.abs(spring * total - force) <= 1e-12 * force + rounding).all()
+    assert (least <= np.rint(found.stiffness / spring)).all()
+    assert (np.rint(found.stiffness / spring) <= most).all()
+
+
+UNENDING = pytest.mark.xfail(raises=ArithmeticError, reason="the last step is below the rounding of the approach")
+
+
+@pytest.mark.parametrize(
+    ("rms", "offset"),
+    [
+        (0.1, 0.0),
+        (1.0, 5.0),
+        (10.0, 0.0),
+        pytest.param(100.0, 0.0, marks=UNENDING),
+        pytest.param(0.1, 100.0, marks=UNENDING),
+        pytest.param(0.0, 1000.0, marks=UNENDING),
+    ],
+)
+def test_newtons_method_ends_on_wild_tracks(rms, offset):
+    """Heights far beyond the approach of the smooth wheel, or counted from a plane far away."""
+    track = rough(1500, rms, springs=12.3, offset=offset)
+    found = track.roll(force=4 / 3)
+    total, _, _ = wheel_on_springs(track.height, spacing=track.spacing, radius=1.0, approach=found.approach)
+    assert np.abs(track.spacing * total / found.force - 1).max() <= 1e-12 * (1 + rms + offset)
+
+
+@pytest.mark.parametrize("kind", ["full", "linear"])
+@given(track=on_springs(), share=st.floats(-3, 0))
+def test_contacts_that_keep_their_springs_yield_by_their_stiffness(kind, track, share):
+    """Under a force the approach differs from that of the smooth wheel by what is missing over the stiffness."""
+    force = 10**share * 4 / 3 * track.modulus * math.sqrt(track.radius * track.approach) * track.approach
+    d = (9 / 16 / track.radius * (force / track.modulus) ** 2) ** (1 / 3)
+    springs = math.sqrt(track.radius * d) / track.spacing
+    assume(abs(springs - round(springs)) > 1e-9)
+    at_d, found = track.roll(approach=d, contact=kind), track.roll(force=force, contact=kind)
+    again = at_d.force + at_d.stiffness * (found.approach - d)
+    assert np.abs(again - force).max() <= 1e-12 * (force + np.abs(at_d.force).max())
+    assert found.stiffness == pytest.approx(at_d.stiffness, rel=1e-14)
+
+
+@given(track=on_springs())
+def test_under_a_force_the_linear_wheel_follows_the_filtered_track(track):
+    """delta d = -dF / (2 E* a), with the force of Hertz."""
+    a = math.sqrt(track.radius * track.approach)
+    stiffness, hertz = 2 * track.modulus * a, 4 / 3 * track.modulus * a * track.approach
+    change = track.roll(contact="linear").force - hertz
+    found = track.roll(contact="linear", force=hertz).approach
+    assert np.abs(found - (track.approach - change / stiffness)).max() <= 1e-12 * (np.abs(found).max() + track.approach)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@given(track=on_springs(), share=st.floats(0, 1))
+def test_a_shift_of_the_track_shifts_the_force(kind, track, share):
+    rows = int(share * track.height.size)
+    shifted = OnSprings(np.roll(track.height, rows), track.spacing, track.radius, track.modulus, track.approach)
+    expected = np.roll(track.roll(contact=kind).force, rows)
+    assert np.abs(shifted.roll(contact=kind).force - expected).max() <= 2 * track.rounding
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@given(track=on_springs(), force=st.floats(-6, 6), length=st.floats(-6, 6))
+def test_units_do_not_matter(kind, track, force, length):
+    """F ~ E* l^2. By powers of two, so that no spring that just touches is lost to rounding."""
+    unit, metre = 2.0 ** int(force), 2.0 ** int(length)
+    other = OnSprings(
+        metre * track.height, metre * track.spacing, metre * track.radius, unit * track.modulus, metre * track.approach
+    )
+    expected = track.roll(contact=kind).force
+    found = other.roll(contact=kind).force / (unit * metre**2)
+    assert np.abs(found - expected).max() <= track.rounding
+
+
+@given(track=on_springs())
+def test_variance_of_the_force_is_that_of_its_spectrum(track):
+    """<F^2> - <F>^2 = int C_F dq over both signs, for odd numbers of points, which have no last wave of their own."""
+    points = track.height.size - 1 + track.height.size % 2
+    force = track.roll().force[:points]
+    if points < 3:
+        return
+    found = waves(force, spacing=track.spacing)
+    both_signs = 2 * float(np.sum(found.spectrum)) * found.q[0]
+    # the variance is a difference of squares of the force
+    assert both_signs == pytest.approx(float(np.var(force)), rel=1e-9, abs=1e-13 * float(np.max(force**2)))
+
+
+@given(track=on_springs())
+def test_spectrum_of_the_linear_force_is_14_12(track):
+    """C_F = 4 E*^2 sin^2(q a) / q^2 C_1D, wave by wave."""
+    if track.height.size < 3:
+        return
+    a = math.sqrt(track.radius * track.approach)
+    height = waves(track.height, spacing=track.spacing)
+    force = waves(track.roll(contact="linear").force, spacing=track.spacing)
+    expected = force_spectrum_1d(height.q, lambda q: height.spectrum, contact_radius=a, modulus=track.modulus)
+    unit = (2 * track.modulus * a * (np.abs(track.height).max() + track.approach)) ** 2 / height.q[0]
+    assert np.abs(force.spectrum - expected).max() <= 1e-13 * unit
+
+
+def wave(springs, *, half=0.5):
+    """A wave three to a track of 8 contact radii, with a radius of so many springs and a half."""
+    spacing = 1 / (springs + half)
+    points = round(8 / spacing)
+    return spacing, np.cos(2 * np.pi * 3 * np.arange(points) / points + 0.3)
+
+
+def test_full_contact_tends_to_the_filter_at_second_order():
+    """A spring to each cell of a contact of 2m + 1 of them, the midpoint rule: error (dx^2 / 24) (F'(a) - F'(-a))."""
+    errors, spacings = [], []
+    for springs in (8, 16, 32, 64):
+        spacing, h = wave(springs)
+        track = OnSprings(0.1 * h, spacing, 1.0, 1.0, 1.0)
+        errors.append(np.abs(track.roll(contact="full").force - track.roll(contact="linear").force).max())
+        spacings.append(spacing)
+    orders = np.diff(np.log(errors)) / np.diff(np.log(spacings))
+    assert orders == pytest.approx(2, abs=0.05)
+
+
+@pytest.mark.parametrize("half", [0.0, 0.125, 0.25, 0.75])
+def test_full_contact_and_the_filter_differ_by_half_a_spring_at_each_edge(half):
+    """Where the contact ends between two springs, or upon one, the error is of first order: E* dx |h| / 2 an edge."""
+    spacing, h = wave(64, half=half)
+    h = 0.1 * np.cos(2 * np.pi * 3 * np.arange(h.size) / h.size)
+    track = OnSprings(h, spacing, 1.0, 1.0, 1.0)
+    error = np.abs(track.roll(contact="full").force - track.roll(contact="linear").force).max()
+    assert error <= spacing * 0.1 + spacing**2
+    # cos(3 pi / 4 + q a) at either edge, so that some position sees both at once
+    assert error >= abs(half - 0.5) * spacing * 0.1
+
+
+def test_one_sided_force_leaves_the_linear_one_at_second_order():
+    """F - F(0) = linear part + E* R / (4 a) (h(x + a)^2 + h(x - a)^2): springs lost and gained at both edges.
+
+    The linear part is that of the same springs, full contact, so that the grid has no part in it, but for one of
+    d / 1000 in the place of the edge. The next order is 1 / d relatively, times a factor of order (q a)^2.
+    """
+    spacing, h = wave(2000)
+    flat = OnSprings(0 * h, spacing, 1.0, 1.0, 1.0)
+    second = []
+    reach = round(1 / spacing)
+    edges = (np.roll(h, reach) ** 2 + np.roll(h, -reach) ** 2) / 4
+    heights = np.array([0.08, 0.04, 0.02])
+    for height in heights:
+        track = OnSprings(height * h, spacing, 1.0, 1.0, 1.0)
+        linear = track.roll(contact="full").force - flat.roll(contact="full").force
+        beyond = track.roll().force - flat.roll().force - linear
+        assert np.abs(beyond / height**2 - edges).max() <= 10 * height * edges.max()
+        second.append(math.sqrt(np.mean(beyond**2)))
+    assert np.diff(np.log(second)) / np.diff(np.log(heights)) == pytest.approx(2, abs=0.1)
+
+
+@given(seed=st.integers(0, 1000))
+def test_the_lightest_roughness_loses_no_spring(seed):
+    """The force of one-sided springs is linear as long as no spring leaves or joins: exactly that of full contact."""
+    track = rough(60, 1e-4, springs=10.5, seed=seed)
+    assert np.abs(track.roll().force - track.roll(contact="full").force).max() <= track.rounding
+
+
+@given(track=on_springs())
+def test_springs_beyond_doubt_are_not_examined(track):
+    """Springs that all heights of the track let touch, and springs that none does."""
+    found = track.roll()
+    far = math.sqrt(track.radius * max(track.approach + track.height.max(), 0.0)) / track.spacing + 1
+    profile = (np.arange(-math.ceil(far), math.ceil(far) + 1) * track.spacing) ** 2 / track.radius
+    rounding = 1e-12 * (track.approach + np.abs(track.height).max())
+    doubtful = (profile > track.approach + track.height.min() - rounding) & (
+        profile < track.approach + track.height.max() + rounding
+    )
+    assert (found.examined <= np.count_nonzero(doubtful)).all()
+    assert not track.roll(contact="full").examined.any()
+
+
+def test_a_smooth_wheel_examines_no_spring():
+    track = rough(50, 0.0, springs=12.3)
+    found = track.roll()
+    assert not found.examined.any()
+    assert found.force == pytest.approx(4 / 3, rel=0.01)

@@ -1,0 +1,362 @@
+"""The referees of rolling against each other, against slow sums, and what springs must be fed to agree with them."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import integrate
+
+import mdr
+from tests.oracles import moment_1d
+from tests.strategies import Bumps, bumps, scales
+from validation.rolling_theory import (
+    force_spectrum_1d,
+    force_spectrum_3d,
+    force_variance,
+    level_ratio,
+    linear_force,
+    mean_force_spectrum_1d,
+    oscillation,
+    response,
+    section,
+)
+from validation.spectra import Bands, Waves, cross_levels, levels, waves
+
+UNIT = {"contact_radius": 1.0, "modulus": 1.0}
+HURSTS = (0.4, 0.7, 1.0)
+
+
+def power_law(hurst, first=1.0, last=20.0):
+    """Of unit height, and its edges."""
+    spectrum = mdr.SelfAffine(hurst=hurst, q_min=first, q_max=last, rms=1.0)
+    return spectrum, (first, last)
+
+
+def lattice_sum(q, c2d, step, most):
+    """sum over ky of G(s) C_2D(s) dk, s^2 = q^2 + ky^2: for smooth spectra the trapezoidal rule, which is spectral."""
+    k = step * np.arange(-round(most / step), round(most / step) + 1)
+    s = np.hypot(q, k)
+    s = s[s > 0]
+    return float(np.sum(4 * np.sin(s) ** 2 / s**2 * c2d(s)) * step)
+
+
+@given(spectrum=bumps(), q=st.floats(0.5, 2), a=st.floats(-1, 1))
+def test_force_spectrum_is_a_sum_over_the_lattice(spectrum, q, a):
+    """Smooth spectra: the trapezoidal rule over ky converges faster than any power.
+
+    One bump about s = 1, 0.2 to 0.6 wide in ln s: nothing is left of it beyond s = 60, and a hundredth resolves it.
+    """
+    one = Bumps(spectrum.level[:1], (0.0,), spectrum.width[:1])
+    wheel = {"contact_radius": 10**a, "modulus": 1.0}
+    found = force_spectrum_3d(q, one.c2d, edges=(one.q_low, one.q_high), **wheel)
+    s = np.hypot(q, 0.01 * np.arange(-6000, 6001))
+    assert float(found) == pytest.approx(0.01 * np.sum(4 * np.sin(s * 10**a) ** 2 / s**2 * one.c2d(s)), rel=1e-6)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+@pytest.mark.parametrize("q", [0.0, 0.3, 1.0, 1.7, math.pi, 10.0, 19.0])
+def test_force_spectrum_by_adaptive_quadrature(hurst, q):
+    """Over k, from the edge of the band to its other edge, panel by panel."""
+    spectrum, edges = power_law(hurst)
+    k = np.sqrt(np.linspace(max(q, edges[0]), edges[1], 30) ** 2 - q**2)
+
+    def power(across):
+        s = math.hypot(q, across)
+        return 8 * math.sin(s) ** 2 / s**2 * float(spectrum.c2d(s))
+
+    expected = sum(integrate.quad(power, low, high, epsabs=0, epsrel=1e-11)[0] for low, high in pairwise(k))
+    assert float(force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT)) == pytest.approx(expected, rel=1e-8)
+    assert float(force_spectrum_3d(-q, spectrum.c2d, edges=edges, **UNIT)) == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_force_spectrum_of_a_power_law_is_a_sum_over_the_lattice(hurst):
+    """The ends of the band are jumps: each costs half a step, the error is bounded by two steps of the largest part."""
+    spectrum, edges = power_law(hurst)
+    for q in (0.5, 2.0, 6.0):
+        step = 1e-4
+        found = float(force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT))
+        largest = 4 * float(spectrum.c2d(max(q, 1.0)))
+        assert found == pytest.approx(lattice_sum(q, spectrum.c2d, step, 21), abs=2 * step * largest)
+
+
+@given(power=st.integers(-30, 30), unit=scales)
+def test_force_spectrum_in_other_units(power, unit):
+    """C_F ~ E*^2 l^5 and C_2D ~ l^4; lengths by powers of two, so that the edges of the band stay where they are."""
+    factor = 2.0**power
+    spectrum, edges = power_law(0.7)
+    q = np.array([0.5, 3.0, 11.0])
+    expected = force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT)
+    found = force_spectrum_3d(
+        q / factor,
+        lambda s: factor**4 * spectrum.c2d(np.clip(s * factor, *edges)),
+        edges=tuple(edge / factor for edge in edges),
+        contact_radius=factor,
+        modulus=unit,
+    )
+    assert found / (unit**2 * factor**5) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("a", [0.05, 1.0, 3.0])
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_geikes_rule_keeps_the_variance_of_the_force(hurst, a):
+    """int C_F dq of the half-space = 2 pi int G C_2D s ds = int (14.12) dq with C_1D = pi q C_2D."""
+    spectrum, edges = power_law(hurst)
+    wheel = {"contact_radius": a, "modulus": 3.0}
+    whole = force_variance(spectrum.c2d, edges=edges, **wheel)
+
+    def springs(q):
+        return force_spectrum_1d(q, spectrum.c1d, **wheel)
+
+    assert moment_1d(springs, 0, *edges) == pytest.approx(whole, rel=1e-9)
+    # C_F has a kink, k ~ sqrt(1 - q^2), where the band begins: panels graded towards it from both sides
+    graded = np.geomspace(1e-9, 1.0, 20)
+    ends = np.concatenate([1 - graded, [1.0], 1 + graded, np.linspace(2, 20, math.ceil(20 * a) + 10)[1:]])
+    node, weight = np.polynomial.legendre.leggauss(12)
+    ends.sort()
+    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
+    values = force_spectrum_3d(middle + half * node, spectrum.c2d, edges=edges, **wheel)
+    total = 2 * float(np.sum(half * weight * values))
+    assert total == pytest.approx(whole, rel=1e-5)
+
+
+@given(spectrum=bumps(), a=st.floats(-2, 2))
+def test_geikes_rule_keeps_the_variance_of_any_spectrum(spectrum, a):
+    wheel = {"contact_radius": 10**a / math.exp(spectrum.centre[0]), "modulus": 1.0}
+    # beyond a hundred radians to the radius the sum below would have to resolve them
+    high = min(spectrum.q_high, 100 / wheel["contact_radius"])
+    whole = force_variance(spectrum.c2d, edges=(spectrum.q_low, high), **wheel)
+
+    def springs(q):
+        return force_spectrum_1d(q, lambda k: mdr.geike(k, spectrum.c2d), **wheel)
+
+    panels = pairwise(np.geomspace(spectrum.q_low, high, 300))
+    assert sum(moment_1d(springs, 0, *ends, nodes=24) for ends in panels) == pytest.approx(whole, rel=1e-9)
+
+
+@pytest.mark.parametrize(("hurst", "ratio"), [(0.4, 0.437), (0.7, 0.402), (1.0, 0.375)])
+def test_levels_of_both_methods_differ_by_a_constant_ratio(hurst, ratio):
+    """The numbers of section 7; and the limit of the quadrature, over whole periods of the oscillation.
+
+    The band ends at 30 q, which leaves out a part 30^(-2H-3) and the like; over a period of an oscillation of
+    (q a)^(-1/2), which fades by a part 1 / (q a), that leaves (q a)^(-3/2).
+    """
+    assert level_ratio(hurst) == pytest.approx(ratio, abs=5e-4)
+    spectrum, edges = power_law(hurst, 1.0, 6e3)
+    q = 200 + np.pi * (np.arange(64) + 0.5) / 64
+    mean = mean_force_spectrum_1d(q, spectrum.c1d, modulus=1.0)
+    surface = force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT) / mean
+    springs = force_spectrum_1d(q, spectrum.c1d, **UNIT) / mean
+    assert springs.mean() == pytest.approx(1, rel=1e-12)
+    assert surface.mean() == pytest.approx(level_ratio(hurst), rel=200**-1.5)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_the_oscillation_is_the_limit_at_an_order(hurst):
+    """The next end-point term of int (q + t)^-n t^(-1/2) cos is of order (q a)^(-3/2)."""
+    spectrum, edges = power_law(hurst, 1.0, 1e4)
+    errors, places = [], np.array([20.0, 80.0, 320.0])
+    for place in places:
+        q = place + np.pi * (np.arange(24) + 0.5) / 24
+        mean = level_ratio(hurst) * mean_force_spectrum_1d(q, spectrum.c1d, modulus=1.0)
+        found = force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT) / mean
+        errors.append(np.abs(found - oscillation(q, hurst=hurst, contact_radius=1.0)).max())
+    orders = -np.diff(np.log(errors)) / np.diff(np.log(places))
+    assert orders == pytest.approx(1.5, abs=0.2)
+
+
+@given(
+    k=st.integers(-6, 6),
+    m=st.integers(-6, 6),
+    phase=st.floats(0, 6.28),
+    approach=st.floats(0.01, 1),
+    odd=st.booleans(),
+)
+def test_a_plane_wave_at_any_angle_acts_by_its_own_length(k, m, phase, approach, odd):
+    """dF = 2 E* sin(|k| a) / |k| cos of its phase under the middle of the wheel."""
+    nx, ny, dx, radius, modulus = 30 + odd, 24 + odd, 0.1, 2.0, 5.0
+    x = np.arange(nx)[:, np.newaxis] * dx
+    y = (np.arange(ny) - (ny - 1) / 2) * dx
+    kx, ky = 2 * np.pi * k / (nx * dx), 2 * np.pi * m / (ny * dx)
+    height = 0.3 * np.cos(kx * x + ky * y + phase)
+    a, s = math.sqrt(radius * approach), math.hypot(kx, ky)
+    gain = 2 * modulus * math.sin(s * a) / s if s else 2 * modulus * a
+    expected = 4 / 3 * modulus * a * approach + 0.3 * gain * np.cos(kx * x[:, 0] + phase)
+    found = linear_force(height, spacing=dx, radius=radius, modulus=modulus, approach=approach)
+    assert found == pytest.approx(expected, abs=1e-12 * (np.abs(expected).max() + 0.3 * 2 * modulus * a))
+
+
+def test_ridges_and_springs_have_the_same_linear_force():
+    """But for Hertz: 4/3 of E* a d on either, and (14.11)."""
+    h = 0.1 * np.random.default_rng(0).normal(size=64)
+    settings = {"spacing": 0.1, "radius": 1.5, "modulus": 2.0, "approach": 0.8}
+    ridged = linear_force(np.repeat(h[:, np.newaxis], 40, axis=1), **settings)
+    assert ridged == pytest.approx(mdr.roll(h, contact="linear", **settings).force, rel=1e-12)
+
+
+def test_the_response_is_that_of_the_flat_punch():
+    """(E* / pi) int J_0(k r) 2 pi r dr / sqrt(a^2 - r^2), and E* int exp(i q x) dx on springs."""
+    a, modulus = 1.3, 2.0
+    angle = (np.arange(400) + 0.5) * np.pi / 800
+    for k in (0.0, 0.5, 2.4, 7.0):
+        around = (np.arange(200) + 0.5) * 2 * np.pi / 200
+        # r = a sin t takes the root away
+        wave = np.cos(k * a * np.sin(angle)[:, np.newaxis] * np.cos(around))
+        ring = modulus / np.pi * np.sum(wave * a * np.sin(angle)[:, np.newaxis]) * (np.pi / 800) * (2 * np.pi / 200)
+        line = modulus * integrate.quad(lambda x, k=k: math.cos(k * x), -a, a)[0]
+        expected = float(response(k, contact_radius=a, modulus=modulus))
+        assert ring == pytest.approx(expected, abs=1e-5 * 2 * modulus * a)
+        assert line == pytest.approx(expected, abs=1e-12 * 2 * modulus * a)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_sections_are_line_traces(hurst):
+    spectrum, edges = power_law(hurst)
+    q = np.array([0.0, 0.5, 0.999, 1.001, 3.0, 19.0, 19.999, 20.0, 21.0])
+    assert section(q, spectrum.c2d, edges=edges) == pytest.approx(spectrum.line(q), rel=1e-9, abs=1e-18)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_small_wheels_are_fed_the_line_trace(hurst):
+    """e = 1 where s a << 1, to second order."""
+    spectrum, edges = power_law(hurst)
+    q = np.array([0.0, 0.5, 1.5, 4.0, 15.0])
+    line = spectrum.line(q)
+    short = []
+    for a in (1e-3, 5e-4):
+        fed = mdr.rolling_spectrum(q, spectrum.c2d, edges=edges, contact_radius=a)
+        assert (np.abs(fed - line) <= (20 * a) ** 2 * line).all()
+        short.append(np.abs(fed - line).max())
+    assert math.log2(short[0] / short[1]) == pytest.approx(2, abs=0.01)
+
+
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_large_wheels_are_fed_less_than_geike(hurst):
+    """By the ratio of levels, for an unbounded power law: its band ends at 1000 q and leaves 1000^(-2H-3) out."""
+    spectrum, edges = power_law(hurst, 1.0, 1e5)
+    q = np.array([1.0, 3.0, 100.0])
+    fed = mdr.rolling_spectrum(q, spectrum.c2d, edges=edges)
+    assert fed / spectrum.c1d(q) == pytest.approx(level_ratio(hurst), rel=1e-6)
+    near = mdr.rolling_spectrum(q, spectrum.c2d, edges=edges, contact_radius=1e4)
+    assert near == pytest.approx(fed, rel=1e-7)
+
+
+@given(share=st.floats(0, 1), a=st.floats(-2, 2), hurst=st.floats(0.05, 1.2))
+def test_the_feed_by_adaptive_quadrature(share, a, hurst):
+    spectrum, edges = power_law(hurst)
+    q, a = 20 * share, 10**a
+    found = float(mdr.rolling_spectrum(q, spectrum.c2d, edges=edges, contact_radius=a))
+    if q > 19.99:
+        return
+    ends = np.sqrt(np.geomspace(max(q, 1.0), 20.0, 8) ** 2 - q**2)
+
+    def power(k):
+        s = math.hypot(q, k)
+        return 2 * (1 + (q * a) ** 2) / (1 + (s * a) ** 2) * float(spectrum.c2d(s))
+
+    expected = sum(integrate.quad(power, low, high, epsabs=0, epsrel=1e-11)[0] for low, high in pairwise(ends))
+    assert found == pytest.approx(expected, rel=1e-7)
+    assert found == float(mdr.rolling_spectrum(-q, spectrum.c2d, edges=edges, contact_radius=a))
+
+
+def test_the_feed_of_a_spectrum_in_pieces():
+    """Edges inside the band: the pieces add up."""
+    spectrum, _ = power_law(0.7)
+    q = np.array([0.5, 2.0, 6.0, 12.0])
+    whole = mdr.rolling_spectrum(q, spectrum.c2d, edges=(1.0, 5.0, 20.0), contact_radius=1.0)
+    assert whole == pytest.approx(
+        mdr.rolling_spectrum(q, spectrum.c2d, edges=(1.0, 20.0), contact_radius=1.0), rel=1e-10
+    )
+    low = mdr.rolling_spectrum(q, spectrum.c2d, edges=(1.0, 5.0), contact_radius=1.0)
+    high = mdr.rolling_spectrum(q, spectrum.c2d, edges=(5.0, 20.0), contact_radius=1.0)
+    assert low + high == pytest.approx(whole, rel=1e-10)
+
+
+def band_levels(values, q, bands):
+    """Sums over each band, of values at many wavenumbers."""
+    inside = [(q >= low) & (q < high) for low, high in pairwise(bands.edges)]
+    return np.array([values[band].sum() for band in inside])
+
+
+@pytest.mark.parametrize("first", [1.0, 2 ** (1 / 6)])
+@pytest.mark.parametrize("hurst", HURSTS)
+def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst, first):
+    """Within 1.75 dB in third octaves of q a = 1 to 20, but where sin^2(q a) is zero and fills in on the half-space.
+
+    Measured: 1.72 dB at H = 0.4. Lower, by up to 7.4 dB, in bands with the first zero, q a = pi, and by up to 3.7 dB in
+    those with the second, or with either at an edge, as the first one has when bands begin at q a = 1.
+    Beyond, a band holds a period and more.
+    """
+    spectrum, edges = power_law(hurst, 1.0, 20.0)
+    bands = Bands.between(first, 20.0)
+    q = np.geomspace(first, 20.0, 400, endpoint=False)
+
+    def fed(k):
+        return mdr.rolling_spectrum(k, spectrum.c2d, edges=edges, contact_radius=1.0)
+
+    springs = band_levels(force_spectrum_1d(q, fed, **UNIT) * q, q, bands)
+    surface = band_levels(force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT) * q, q, bands)
+    geike = band_levels(force_spectrum_1d(q, spectrum.c1d, **UNIT) * q, q, bands)
+    low, high = np.array(bands.edges[:-1]) / 1.02, np.array(bands.edges[1:]) * 1.02
+    zero = ((low < np.pi) & (high > np.pi)) | ((low < 2 * np.pi) & (high > 2 * np.pi))
+    decibels = 10 * np.log10(springs / surface)
+    assert np.abs(decibels[~zero]).max() <= 1.75
+    assert decibels.max() <= 1.75
+    # Geike's spectrum is too loud by the ratio of levels: the rule is needed
+    assert np.median(10 * np.log10(geike / surface)) > 3
+
+
+def test_third_octaves():
+    bands = Bands.between(1.0, 8.0)
+    assert len(bands.edges) == 10
+    assert np.array(bands.edges[::3]) == pytest.approx([1, 2, 4, 8], rel=1e-14)
+    assert bands.centres == pytest.approx(np.array(bands.edges[:-1]) * 2 ** (1 / 6), rel=1e-14)
+    assert Bands.between(1.0, 7.99).edges[-1] < 7.99
+
+
+@given(points=st.integers(1, 60).map(lambda n: 2 * n + 1), seed=st.integers(0, 1000), spacing=scales)
+def test_bands_add_up_to_the_variance(points, seed, spacing):
+    """Parseval for odd numbers of points: <x^2> - <x>^2 = 2 sum |c|^2 over all bands, of positive wavenumbers."""
+    series = np.random.default_rng(seed).normal(1.0, 1.0, size=(3, points))
+    found = waves(series, spacing=spacing)
+    bands = Bands.between(found.q[0] * 0.9, found.q[-1] * 1.5)
+    assert 2 * levels(found, bands).sum(axis=-1) == pytest.approx(series.var(axis=-1), rel=1e-12)
+    assert bands.counts(found.q).sum() == points // 2
+    integral = 2 * found.spectrum.sum(axis=-1) * found.q[0]
+    assert integral == pytest.approx(series.var(axis=-1), rel=1e-12)
+
+
+@pytest.mark.parametrize("points", [64, 65])
+def test_a_wave_is_found_where_it_is(points):
+    """cos(q x): a quarter of its mean square, 1/2, is |c|^2 of the positive wave; the spectrum is two-sided."""
+    x = np.arange(points) * 0.25
+    q = 2 * np.pi * 5 / (points * 0.25)
+    found = waves(3 + np.cos(q * x + 0.7), spacing=0.25)
+    assert found.q[4] == pytest.approx(q)
+    assert found.amplitude[4] == pytest.approx(0.5 * np.exp(0.7j))
+    assert found.spectrum[4] == pytest.approx(0.25 / found.q[0])
+    assert np.delete(np.abs(found.amplitude), 4) == pytest.approx(0, abs=1e-14)
+    assert found.q.size == (points - 1) // 2
+
+
+def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
+    """Two-sided, wave by wave, since the amplitudes are fixed."""
+    spectrum = mdr.SelfAffine(hurst=0.7, q_min=5.0, q_max=60.0, rms=1.0)
+    profile = mdr.rough_profile(spectrum.c1d, length=10.0, points=512, rng=np.random.default_rng(0))
+    found = waves(profile, spacing=10.0 / 512)
+    assert found.spectrum == pytest.approx(spectrum.c1d(found.q), rel=1e-9, abs=1e-15)
+
+
+def test_cross_levels_tell_how_alike_two_series_are():
+    """A series with itself: its level. With a copy of it a quarter of a wave on: as much, by i. With another: less."""
+    rng = np.random.default_rng(1)
+    series, other = waves(rng.normal(size=301), spacing=1.0), waves(rng.normal(size=301), spacing=1.0)
+    bands = Bands.between(0.1, 3.0)
+    assert cross_levels(series, series, bands) == pytest.approx(levels(series, bands), rel=1e-12)
+    turned = Waves(series.q, 2j * series.amplitude)
+    assert cross_levels(turned, series, bands) == pytest.approx(2j * levels(series, bands), rel=1e-12)
+    limit = np.sqrt(levels(series, bands) * levels(other, bands))
+    assert (np.abs(cross_levels(series, other, bands)) <= limit * (1 + 1e-12)).all()
