@@ -15,7 +15,7 @@ import pytest
 
 import bem3d
 from validation import __main__ as command
-from validation.cases import CASES, geike, hertz, mdr_limits, normalisation
+from validation.cases import CASES, geike, hertz, mdr_limits, normalisation, ridges, rolling, rolling_input
 from validation.cases.fractal_punch import FractalPunch
 from validation.ensemble import SERIAL, Engine
 from validation.rough_punch import press_surface
@@ -38,6 +38,24 @@ SMALL = {
     ),
     "mdr_limits": mdr_limits.MdrLimits(
         roll_offs=(1, 2), cells=16, surfaces=6, refined=3, profiles=40, points=64, decades=(-1, 0)
+    ),
+    "ridges": ridges.Ridges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
+    "rolling": rolling.Rolling(
+        heights=(0.01, 0.3), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=4, strips=3, tracks=5, springs=8
+    ),
+    "rolling_input": rolling_input.RollingInput(
+        last=8.0,
+        lowest=0.5,
+        heights=(0.03,),
+        length=32.0,
+        width=12.0,
+        cells=4,
+        strips=3,
+        tracks=5,
+        springs=8,
+        punch_cells=16,
+        surfaces=4,
+        profiles=10,
     ),
 }
 
@@ -73,9 +91,9 @@ def test_two_runs_give_equal_bytes(small, tmp_path):
     one, two = (contents(tmp_path / name, *NUMBERS) for name in ("one", "two"))
     assert one.keys() == two.keys()
     tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 3}
-    tables |= {"normalisation": 2, "mdr_limits": 1}
-    # five figures of the fractal punch, one of each other case, twice each
-    assert len(one) == 1 + sum(tables.values()) + 2 * (4 + len(tables))
+    tables |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
+    # five figures of the fractal punch, four and three of rolling, one of each other case, twice each
+    assert len(one) == 1 + sum(tables.values()) + 2 * (4 + 3 + 2 + len(tables))
     for name in one:
         assert one[name] == two[name], name
     report("--only", *small, "--out", str(tmp_path / "one"), "--workers", "1")
@@ -105,7 +123,7 @@ def test_page_is_self_contained(small, tmp_path):
         assert external not in page
     for name in small:
         assert f'id="{name}"' in page
-    assert page.count("data:image/svg+xml;base64,") == len(CASES) + 4
+    assert page.count("data:image/svg+xml;base64,") == len(CASES) + 4 + 3 + 2
     assert "profile: quick" in page
 
 
@@ -255,7 +273,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
 def test_cases_deal_with_every_warning(name):
     """What a contact warns of is either avoided by the case or what the case is about."""
     entry = CASES[name]
-    case = SMALL[name] if name in ("fractal_punch", "normalisation", "mdr_limits") else entry.quick
+    case = entry.quick if name in ("hertz", "geike") else SMALL.get(name, entry.quick)
     with warnings.catch_warnings():
         warnings.simplefilter("error", bem3d.ContactWarning)
         entry.run(case, SERIAL)

@@ -13,6 +13,7 @@ from validation import alone, peers, race, race_evidence
 from validation.cases import RACE
 from validation.evidence import Verdict
 from validation.peers import CONTESTANTS, Contestant, Run
+from validation.race_rolling import Rolls, interpolated
 
 HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, entrants=())
 
@@ -101,7 +102,8 @@ def test_threads_of_the_contestants_are_one(monkeypatch):
 
 
 def small(**settings):
-    return race.Race(cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), **settings)
+    rolls = Rolls(cells=(4, 6), tolerances=(1e-3, 1e-5), finest=12, goal=(8, 1e-4), positions=20, last=6.0)
+    return race.Race(cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), rolling=rolls, **settings)
 
 
 @pytest.fixture(scope="module")
@@ -117,13 +119,35 @@ def test_evidence(result):
     assert not evidence.unconverged
     assert all(number.verdict is Verdict.AGREE for number in evidence.numbers)
     assert sum("too small for an exponent" in sentence for sentence in evidence.conclusions) == 3
-    assert [len(table["problem"]) for table in evidence.shown] == [4, 3]
+    assert [len(table["problem"]) for table in evidence.shown[:2]] == [4, 3]
     assert (scaling["peak memory [MiB]"] > 1).all()
     for name in ("bem3d", "bem3d, textbook"):
         mine = heats.where(contestant=name)
         assert (mine["median [s]"] > 0).all()
         assert (mine["residual"] <= 1e-8).all()
         assert (mine["pressure difference to ours, L2"] <= 1e-4).all()
+
+
+def test_the_error_of_a_rolling_force_falls_with_the_residual_and_with_the_cells(result):
+    rolls = race_evidence.evidence(result).table("rolling")
+    for height in (0.01, 0.3):
+        for cells in (4, 6):
+            solver = rolls.where(**{"h/d": height, "cells to a radius": cells})["rms error of the force, solver"]
+            assert solver[0] > solver[1] > solver[2] == 0
+    assert (rolls["positions a second"] > 0).all()
+    assert not rolls["not converged"].any()
+    scenes = result.rolling[1]
+    assert (scenes["applications a position"] >= 2).all()
+
+
+def test_series_are_interpolated_by_their_waves():
+    x = np.arange(32) + 0.5
+    wave = np.cos(2 * np.pi * 3 * x / 32 + 0.4) + 2
+    np.testing.assert_allclose(
+        interpolated(wave, 32.0, np.array([0.1, 7.3])),
+        np.cos(2 * np.pi * 3 * np.array([0.1, 7.3]) / 32 + 0.4) + 2,
+        atol=1e-12,
+    )
 
 
 @pytest.mark.parametrize("name", [c.name for c in CONTESTANTS if c.package != "mdr-validation"])
