@@ -77,6 +77,21 @@ def grid_spacing(spacing: object) -> tuple[float, float]:
 
 def field(name: str, values: ArrayLike, shape: tuple[int, int]) -> FloatArray:
     """Finite real values on the cells of a grid."""
+    given = _real(name, values, f"shape {shape}")
+    if given.shape != shape:
+        raise ValueError(f"{name} must have shape {shape}, got {given.shape}")
+    return _finite(name, given)
+
+
+def strip(name: str, values: ArrayLike) -> FloatArray:
+    """Finite real values on the cells of a grid of any shape."""
+    given = _real(name, values, "shape (nx, ny)")
+    if given.ndim != 2 or given.size == 0:
+        raise ValueError(f"{name} must have shape (nx, ny) with cells along both axes, got shape {given.shape}")
+    return _finite(name, given)
+
+
+def _real(name: str, values: ArrayLike, shape: str) -> np.ndarray:
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise ValueError(
             f"{name} must have a value everywhere, got {int(np.ma.getmaskarray(values).sum())} masked ones"
@@ -84,11 +99,13 @@ def field(name: str, values: ArrayLike, shape: tuple[int, int]) -> FloatArray:
     try:
         given = np.asarray(values)
     except ValueError:
-        raise ValueError(f"{name} must have shape {shape}, got rows of different length") from None
+        raise ValueError(f"{name} must have {shape}, got rows of different length") from None
     if given.dtype.kind not in "fiu":
         raise TypeError(f"{name} must hold real numbers, got dtype {given.dtype}")
-    if given.shape != shape:
-        raise ValueError(f"{name} must have shape {shape}, got {given.shape}")
+    return given
+
+
+def _finite(name: str, given: np.ndarray) -> FloatArray:
     array = given.astype(np.float64, copy=False)
     if not np.isfinite(array).all():
         broken = np.count_nonzero(~np.isfinite(array))

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -76,7 +77,7 @@ def roll(
     Raises ValueError or TypeError for input out of range, and where the contact reaches the edge of the strip;
     ConvergenceError with the history of the position that did not converge.
     """
-    track = Track(height=np.asarray(height), spacing=spacing, radius=radius, modulus=modulus)
+    track = Track(height=cast(FloatArray, height), spacing=spacing, radius=radius, modulus=modulus)
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
     prescribed = positive("approach" if force is None else "force", approach if force is None else force)

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from bem3d.border import BoolArray, FloatArray, IndexArray, field, grid_spacing, positive
+from bem3d.border import BoolArray, FloatArray, IndexArray, grid_spacing, positive, strip
 from bem3d.halfspace import HalfSpace
 from bem3d.window import Box, fast_side
 
@@ -35,10 +35,7 @@ class Track:
     modulus: float
 
     def __post_init__(self) -> None:
-        shape = np.shape(self.height)
-        if len(shape) != 2 or 0 in shape:
-            raise ValueError(f"height must have shape (nx, ny) with cells along both axes, got shape {shape}")
-        object.__setattr__(self, "height", np.ascontiguousarray(field("height", self.height, (shape[0], shape[1]))))
+        object.__setattr__(self, "height", np.ascontiguousarray(strip("height", self.height)))
         object.__setattr__(self, "spacing", grid_spacing(self.spacing))
         object.__setattr__(self, "radius", positive("radius", self.radius))
         object.__setattr__(self, "modulus", positive("modulus", self.modulus))

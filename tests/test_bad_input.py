@@ -336,18 +336,14 @@ def test_tracks_that_hold_no_real_numbers(function):
             function(height=height)
 
 
-MASK_LOST = pytest.mark.xfail(reason="bem3d.roll takes np.asarray of the height, which drops the mask")
-RAGGED = pytest.mark.xfail(reason="numpy refuses the height before it is checked, and does not name it")
-
-
-@pytest.mark.parametrize("function", [springs, track, pytest.param(strip, marks=MASK_LOST)])
+@pytest.mark.parametrize("function", [springs, track, strip])
 def test_tracks_with_values_that_are_masked(function):
     height = np.ma.masked_equal(np.arange(8.0 if function is springs else 56.0), 3.0)
     with pytest.raises(ValueError, match="height must have a value everywhere, got 1 masked"):
         function(height=height if function is springs else height.reshape(8, 7))
 
 
-@pytest.mark.parametrize("function", [pytest.param(track, marks=RAGGED), pytest.param(strip, marks=RAGGED)])
+@pytest.mark.parametrize("function", [track, strip])
 def test_strips_with_rows_of_different_length(function):
     with pytest.raises(ValueError, match="height"):
         function(height=[[1.0], [1.0, 2.0]])

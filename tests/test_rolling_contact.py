@@ -274,23 +274,28 @@ def test_a_contact_that_reaches_the_edge_of_the_strip():
     assert bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0, positions=10).converged.all()
 
 
-def test_a_contact_as_long_as_the_track():
-    height = bumpy(row=0)[: 3 * 6]
-    height[9] = 3.0
-    with pytest.raises(ValueError, match="height must be longer along the track"):
-        bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0)
-
-
-@pytest.mark.xfail(reason="cells as far away as half the track, and second images, are not looked at", strict=True)
-@pytest.mark.parametrize("row", [10, 11])
-def test_a_track_that_the_wheel_meets_twice_is_refused(row):
-    """A bump half a track away, or a little more: it touches ahead of the wheel, and its image touches behind."""
+@pytest.mark.parametrize("row", [3, 9, 10, 11])
+def test_a_contact_longer_than_the_track_meets_the_same_roughness_again(row):
+    """A bump half a track away touches ahead of the wheel, and its image behind: as on the track laid down thrice."""
     height = np.zeros((20, 54))
     height[row, 27] = 6.0
-    ahead, behind = (row / 6) ** 2 / 2, ((20 - row) / 6) ** 2 / 2
-    assert max(ahead, behind) < 1 + 6 - 2
-    with pytest.raises(ValueError, match="height must be longer along the track"):
-        bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0, positions=1)
+    once = bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0, tolerance=1e-8, positions=3)
+    thrice = bem3d.roll(np.tile(height, (3, 1)), spacing=1 / 6, **SPHERE, approach=1.0, tolerance=1e-8, positions=3)
+    assert once.force == pytest.approx(thrice.force, rel=1e-6)
+
+
+@pytest.mark.parametrize("prescribed", [{"force": 0.01}, {"approach": 0.05}])
+def test_a_contact_that_the_wheel_leaves_behind(prescribed):
+    """A lone spike carries all; one position on it is gone, and there is nothing to begin with."""
+    height = np.zeros((40, 20))
+    height[20, 10] = 0.5
+    found = bem3d.roll(height, spacing=0.25, **SPHERE, **prescribed, tolerance=1e-8)
+    for position in range(14, 27):
+        cold = bem3d.roll(
+            np.roll(height, -position, axis=0), spacing=0.25, **SPHERE, **prescribed, tolerance=1e-8, positions=1
+        )
+        assert found.force[position] == pytest.approx(cold.force[0], rel=1e-5, abs=1e-9)
+        assert found.approach[position] == pytest.approx(cold.approach[0], rel=1e-5)
 
 
 def test_a_position_that_does_not_converge_is_an_error_with_its_history():

@@ -275,6 +275,11 @@ def test_the_feed_of_a_spectrum_in_pieces():
     assert low + high == pytest.approx(whole, rel=1e-10)
 
 
+def between(first, last):
+    """Bands of which one begins at the first wavenumber."""
+    return Bands.around(first * 2 ** (1 / 6), first, last)
+
+
 def band_levels(values, q, bands):
     """Sums over each band, of values at many wavenumbers."""
     inside = [(q >= low) & (q < high) for low, high in pairwise(bands.edges)]
@@ -291,7 +296,7 @@ def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst
     Beyond, a band holds a period and more.
     """
     spectrum, edges = power_law(hurst, 1.0, 20.0)
-    bands = Bands.between(first, 20.0)
+    bands = between(first, 20.0)
     q = np.geomspace(first, 20.0, 400, endpoint=False)
 
     def fed(k):
@@ -310,11 +315,22 @@ def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst
 
 
 def test_third_octaves():
-    bands = Bands.between(1.0, 8.0)
+    bands = between(1.0, 8.0)
     assert len(bands.edges) == 10
     assert np.array(bands.edges[::3]) == pytest.approx([1, 2, 4, 8], rel=1e-14)
     assert bands.centres == pytest.approx(np.array(bands.edges[:-1]) * 2 ** (1 / 6), rel=1e-14)
-    assert Bands.between(1.0, 7.99).edges[-1] < 7.99
+    assert between(1.0, 7.99).edges[-1] < 7.99
+    around = Bands.around(np.pi, 0.5, 20.0)
+    assert np.abs(around.centres - np.pi).min() < 1e-14
+    assert around.edges[0] >= 0.5 > around.edges[0] / 2 ** (1 / 3)
+    assert around.edges[-1] <= 20.0 < around.edges[-1] * 2 ** (1 / 3)
+
+
+def test_bands_that_hold_no_wave_are_refused():
+    bands = Bands.around(np.pi, 0.5, 20.0)
+    assert bands.on(100.0) is bands
+    with pytest.raises(ValueError, match="length must be so large that each band has a wave, got 12"):
+        bands.on(12.0)
 
 
 @given(points=st.integers(1, 60).map(lambda n: 2 * n + 1), seed=st.integers(0, 1000), spacing=scales)
@@ -322,7 +338,7 @@ def test_bands_add_up_to_the_variance(points, seed, spacing):
     """Parseval for odd numbers of points: <x^2> - <x>^2 = 2 sum |c|^2 over all bands, of positive wavenumbers."""
     series = np.random.default_rng(seed).normal(1.0, 1.0, size=(3, points))
     found = waves(series, spacing=spacing)
-    bands = Bands.between(found.q[0] * 0.9, found.q[-1] * 1.5)
+    bands = between(found.q[0] * 0.9, found.q[-1] * 1.5)
     assert 2 * levels(found, bands).sum(axis=-1) == pytest.approx(series.var(axis=-1), rel=1e-12)
     assert bands.counts(found.q).sum() == points // 2
     integral = 2 * found.spectrum.sum(axis=-1) * found.q[0]
@@ -354,7 +370,7 @@ def test_cross_levels_tell_how_alike_two_series_are():
     """A series with itself: its level. With a copy of it a quarter of a wave on: as much, by i. With another: less."""
     rng = np.random.default_rng(1)
     series, other = waves(rng.normal(size=301), spacing=1.0), waves(rng.normal(size=301), spacing=1.0)
-    bands = Bands.between(0.1, 3.0)
+    bands = between(0.1, 3.0)
     assert cross_levels(series, series, bands) == pytest.approx(levels(series, bands), rel=1e-12)
     turned = Waves(series.q, 2j * series.amplitude)
     assert cross_levels(turned, series, bands) == pytest.approx(2j * levels(series, bands), rel=1e-12)
