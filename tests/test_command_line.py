@@ -41,7 +41,16 @@ SMALL = {
     ),
     "ridges": ridges.Ridges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
     "rolling": rolling.Rolling(
-        heights=(0.01, 0.3), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=4, strips=3, tracks=5, springs=8
+        heights=(0.01, 0.3),
+        last=6.0,
+        lowest=0.5,
+        length=32.0,
+        width=12.0,
+        cells=4,
+        strips=3,
+        rough_strips=3,
+        tracks=5,
+        springs=8,
     ),
     "rolling_input": rolling_input.RollingInput(
         last=8.0,

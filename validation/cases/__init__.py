@@ -126,6 +126,7 @@ CASES = {
             width=32.0,
             cells=16,
             strips=12,
+            rough_strips=24,
             refined=3,
             tracks=400,
         ),

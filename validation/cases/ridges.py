@@ -184,7 +184,8 @@ def evidence(result: RidgesResult) -> Evidence:
             f"{_largest(result, BEM, finest, q <= FAR):.2g} of the envelope up to q a = {FAR:g} and by "
             f"{_largest(result, BEM, finest, q > 0):.2g} up to {q[-1]:.3g}; springs in full contact, "
             f"{case.springs[-1]:g} to a radius, by {_largest(result, FULL, case.springs[-1], q > 0):.2g}; (14.11) "
-            f"itself on the same track by {_largest(result, FILTER, case.springs[-1], q > 0):.1g}.",
+            f"itself on the same track by {_largest(result, FILTER, case.springs[-1], q > 0):.1g}. The phase is right: "
+            f"the part of the response out of phase is at most {_out_of_phase(result, finest):.1g} of the envelope.",
         ),
         captions={
             "ridges": (
@@ -211,6 +212,12 @@ def _off(result: RidgesResult, method: str, cells: float) -> FloatArray:
 
 def _largest(result: RidgesResult, method: str, cells: float, where: NDArray[np.bool_]) -> float:
     return float(_off(result, method, cells)[where].max())
+
+
+def _out_of_phase(result: RidgesResult, cells: int) -> float:
+    """The largest imaginary part of boundary elements over the envelope."""
+    response = result.responses[BEM, cells, "approach"]
+    return float(np.abs(response.imag / np.minimum(1.0, 1 / result.case.wavenumbers)).max())
 
 
 def _bound(method: str, cells: float, q: FloatArray) -> tuple[FloatArray, str]:

@@ -18,6 +18,7 @@ from validation.rolling_strip import (
 from validation.spectra import Bands
 
 FED: tuple[Feed, ...] = ("geike", "rolling")
+ROUGH = 0.3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +26,8 @@ class Rolling:
     """A wheel at the approach d over self-affine roughness, contact radius a, q a from first to last.
 
     hurst; heights: h_rms / d, ascending; first, last: q a of the band; lowest: q a from which on there are bands;
-    length, width: of the periodic surfaces over a; cells: to a contact radius; strips: realisations; refined: of them,
+    length, width: of the periodic surfaces over a; cells: to a contact radius; strips: realisations; rough_strips: of
+    them where h/d is ROUGH or more, and linear theory on the same surface no longer takes the scatter away; refined:
     rolled again on cells half as wide; tracks, springs: realisations of MDR, springs to a radius; seed: zero or more.
     """
 
@@ -38,6 +40,7 @@ class Rolling:
     width: float = 16.0
     cells: int = 8
     strips: int = 6
+    rough_strips: int = 6
     refined: int = 3
     tracks: int = 60
     springs: int = 32
@@ -52,6 +55,10 @@ class Rolling:
     def bands(self) -> Bands:
         """One-third octaves from the lowest to the end of the band, one of them around the first zero of sin(q a)."""
         return Bands.around(math.pi, self.lowest, self.last).on(self.length)
+
+    def strips_at(self, height: float) -> int:
+        """Realisations of boundary elements."""
+        return self.rough_strips if height >= ROUGH else self.strips
 
     def strip(self, height: float, realisation: int, cells: int) -> Strip:
         """Solved the more exactly the lower the roughness, whose waves make the force fluctuate the less."""
@@ -99,7 +106,7 @@ def run(case: Rolling, engine: Engine = SERIAL) -> RollingResult:
     """Roll all strips and tracks. Raises NotConvergedError where fewer than three strips at a height are whole."""
     groups = {
         (height, cells): [
-            case.strip(height, i, cells) for i in range(case.strips if cells == case.cells else case.refined)
+            case.strip(height, i, cells) for i in range(case.strips_at(height) if cells == case.cells else case.refined)
         ]
         for height in case.heights
         for cells in (case.cells, 2 * case.cells)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation import rolling_theory
-from validation.cases.rolling import Rolling, RollingResult
+from validation.cases.rolling import ROUGH, Rolling, RollingResult
 from validation.ensemble import Outcome, generator
 from validation.evidence import Evidence, Number, Role, Table, Verdict, columns, table_of
 from validation.rolling_strip import BOOTSTRAP, HERTZ, Feed, fed
@@ -129,6 +129,7 @@ def evidence(result: RollingResult) -> Evidence:
     found = [_height(result, i) for i in range(len(case.heights))]
     ranges = _ranges(case)
     numbers = [number for mine in found for number in _numbers(mine, ranges)]
+    numbers.append(_louder(case, numbers, list(ranges)[-1]))
     summary = table_of("summary", [_summary(result, mine) for mine in found])
     tables = (
         table_of("levels", [row for mine in found for row in _levels(case, mine)]),
@@ -141,7 +142,8 @@ def evidence(result: RollingResult) -> Evidence:
         title="Rolling over isotropic roughness: where one dimension is some decibels off",
         compared=(
             f"A wheel at a fixed approach d over self-affine roughness, H = {case.hurst:g}, q a = {case.first:g} to "
-            f"{case.last:g}, h_rms / d = {heights}. Boundary elements: {case.strips} surfaces {case.length:g} a long, "
+            f"{case.last:g}, h_rms / d = {heights}. Boundary elements: {case.strips} surfaces {case.length:g} a long "
+            f"({case.rough_strips} from h/d = {ROUGH:g} on), "
             f"{case.cells} cells to a contact radius, and {case.refined} of them with {2 * case.cells}, extrapolated "
             f"to first order; ± grid is half of that way, and the interval of what it rests on. Springs: {case.tracks} "
             "tracks as long, of Geike's spectrum, and of the spectrum that has the level of linear theory in 3D along "
@@ -413,8 +415,52 @@ def _conclusions(case: Rolling, found: list[Height], numbers: list[Number]) -> l
         sentences.append(
             f"What nonlinearity does to the level, springs and boundary elements, {where}, by h/d: {chain}."
         )
-    sentences += [_lasting(found), _variances(numbers), _means(numbers)]
-    return sentences
+    holding = [_holding(model, found, by_label, ranges) for model in MODELS]
+    return [*holding, *sentences, _lasting(found), _variances(numbers), _means(numbers), _scatter(found)]
+
+
+def _holding(model: str, found: list[Height], by_label: dict[str, Number], ranges: list[str]) -> str:
+    """Up to which height a model is within 1 dB of boundary elements, in the mean over each range."""
+    parts = []
+    for where in ranges:
+        upto = "at no height"
+        for mine in found:
+            number = by_label.get(f"{model} over bem3d, h/d = {mine.height:g}, {where}")
+            if number is None or number.verdict is not Verdict.AGREE:
+                break
+            upto = f"up to h/d = {mine.height:g}"
+        parts.append(f"{where}: {upto}")
+    return f"Within {ONE:g} dB of boundary elements, {model}: {'; '.join(parts)}."
+
+
+def _scatter(found: list[Height]) -> str:
+    """What the sample leaves open in single bands."""
+    parts = []
+    for mine in found:
+        errors = [mine.bem_level(np.eye(len(mine.bands.centres))[i])[0].error for i in range(len(mine.bands.centres))]
+        parts.append(f"{mine.height:g}: {POWER * max(errors):.2f} dB, median {POWER * float(np.median(errors)):.2f} dB")
+    return (
+        "Standard error of the sample in single one-third octaves of boundary elements, largest, by h/d: "
+        f"{'; '.join(parts)}."
+    )
+
+
+def _louder(case: Rolling, numbers: list[Number], where: str) -> Number:
+    """By how much Geike's spectrum is too loud along the track, beside the power law without ends."""
+    height = case.heights[0]
+    found = next(n for n in numbers if n.label == f"{LINEAR_1D} over bem3d, h/d = {height:g}, {where}")
+    return Number(
+        label=f"Geike's spectrum, (14.12), over bem3d, h/d = {height:g}, {where}, beside q a >> 1",
+        value=found.value,
+        reference=-POWER * math.log(rolling_theory.level_ratio(case.hurst)),
+        source="sqrt(π) Γ(H + 2) / Γ(H + 3/2), an unbounded power law in linear theory",
+        tolerance=0.5,
+        unit="dB",
+        reason="0.5 dB: the band ends, and q a is not infinite",
+        grid=found.grid,
+        sample=found.sample,
+        role=Role.FINDING,
+    )
 
 
 def _signed(number: Number) -> str:

@@ -34,7 +34,7 @@ from validation.statistics import Estimate, Sample, at, change, combined, log_me
 FloatArray = NDArray[np.float64]
 Row = dict[str, object]
 
-NAMES: dict[Feed, str] = {"geike": "Geike", "line": "line trace", "rolling": "for rolling"}
+NAMES: dict[Feed, str] = {"geike": "Geike's spectrum", "line": "line trace", "rolling": "rolling spectrum"}
 FORD_THOMPSON = 3.0
 """dB in one-third octaves: how near springs come to a 3D analysis. Ford and Thompson, J. Sound Vib. 293 (2006)."""
 
@@ -228,10 +228,11 @@ def evidence(result: RollingInputResult) -> Evidence:
     return Evidence(
         title="What springs should be fed for rolling",
         compared=(
-            "Three inputs to springs for one isotropic surface: Geike's spectrum, the line trace, and the spectrum "
-            "C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k², which has the level along the track: a wave "
-            "s that crosses the track at an angle acts as s and shows as q. First in linear theory, (14.12) beside the "
-            "spectrum in 3D, both by quadrature, in one-third octaves of q a, for power laws and for spectra that the "
+            "Three inputs to springs for one isotropic surface: Geike's spectrum, the line trace, and the rolling "
+            "spectrum C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k², which has the level along the "
+            "track: a wave s that crosses the track at an angle acts as s and shows as q. First in linear theory, "
+            "(14.12) beside the spectrum in 3D, both by quadrature, in one-third octaves of q a, for power laws and "
+            "for spectra that the "
             f"rule was not derived for; then one-sided springs beside boundary elements ({case.strips} surfaces, "
             f"{case.cells} cells to a radius, {case.tracks} tracks) at h_rms / d = "
             f"{' and '.join(f'{h:g}' for h in case.heights)}; then the punches of Fig. 14.1 pressed with each input."
@@ -464,21 +465,28 @@ def _conclusions(result: RollingInputResult, bands: Table, numbers: list[Number]
         + "; ".join(f"{NAMES[feed]}: {sum(inside)} of {len(inside)} bands" for feed, inside in counted.items())
         + ". It is a statement about springs that are fed what a line along the track shows, not about Geike's rule."
     )
+    return [*sentences, _both(result, by_label)]
+
+
+def _both(result: RollingInputResult, by_label: dict[str, Number]) -> str:
+    """Whether one rule serves rolling and Fig. 14.1."""
+    numbers = {
+        feed: by_label[f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[feed]}"] for feed in FEEDS
+    }
     punches = "; ".join(
-        f"{NAMES[feed]}, with {float(result.profiles[feed]['height']):.2f} of the height: "
-        f"{100 * by_label[f'mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[feed]}'].value:+.0f} %"
-        for feed in FEEDS
+        f"{NAMES[feed]}, {float(result.profiles[feed]['height']):.2f} of the height: {100 * number.value:+.0f} ± "
+        f"{100 * number.uncertainty:.0f} % ({number.verdict})"
+        for feed, number in numbers.items()
     )
-    needs = [by_label[f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[f]}"] for f in FEEDS]
-    none = needs[0].verdict is Verdict.AGREE and needs[2].verdict is Verdict.DIFFER
-    sentences.append(
-        f"The punches of Fig. 14.1 at Fbar = 0.1, mean stiffness of MDR over boundary elements, fed with {punches}. "
-        + (
-            "So no rule serves both: the punch needs the height of all waves that meet at one place, whatever their "
-            "direction; rolling needs for each wavenumber along the track what the waves that show it do, and one "
-            "number a wavenumber cannot be both."
-            if none
-            else "Whether one rule could serve both is not decided by this run."
-        )
+    none = numbers["rolling"].verdict is Verdict.DIFFER and numbers["geike"].verdict is not Verdict.DIFFER
+    answer = (
+        "So no rule serves both: the punch needs the height of all waves that meet at one place, whatever their "
+        "direction; rolling needs, for each wavenumber along the track, what the waves that show it do; and one number "
+        "a wavenumber cannot be both."
+        if none
+        else "Whether one rule could serve both is not decided by this run."
     )
-    return sentences
+    return (
+        "The punches of Fig. 14.1 at Fbar = 0.1, mean stiffness of MDR over boundary elements, by input: "
+        f"{punches}. {answer}"
+    )

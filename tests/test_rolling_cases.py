@@ -1,0 +1,189 @@
+"""The cases of rolling: what they draw and roll, and verdicts on planted changes."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from validation import rolling_strip
+from validation.cases import ridges, rolling, rolling_evidence, rolling_input
+from validation.evidence import Verdict
+from validation.rolling_strip import PowerLaws, Strip, Tracks, fed, narrowed, roll_strip, roll_tracks
+from validation.rolling_theory import force_variance, linear_force
+from validation.spectra import Bands
+
+SMALL = rolling.Rolling(
+    heights=(0.01,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=6, strips=4, refined=3, tracks=40, springs=12
+)
+
+
+@pytest.fixture(scope="module")
+def rolled():
+    return rolling.run(SMALL)
+
+
+def strip(**changes):
+    settings = {"spectrum": SMALL.spectrum, "height": 0.1, "realisation": 1, "length": 16.0, "width": 8.0}
+    return Strip(**{**settings, "cells": 8, "tolerance": 1e-6, "seed": 3, **changes})
+
+
+@pytest.mark.parametrize(
+    "spectrum",
+    [
+        *rolling_input.RollingInput().spectra.values(),
+        PowerLaws(edges=(1.0, 3.0), exponents=(2.0,)),
+        PowerLaws(edges=(0.1, 1.0, 2.0, 40.0), exponents=(0.0, 2.0, 3.4)),
+    ],
+)
+def test_power_laws_have_unit_height_and_are_continuous(spectrum):
+    pieces = list(zip(spectrum.edges, spectrum.edges[1:], strict=False))
+    square = sum(integrate.quad(lambda q: 2 * np.pi * q * spectrum.c2d(q), *piece, epsrel=1e-12)[0] for piece in pieces)
+    assert square == pytest.approx(1, rel=1e-9)
+    inner = np.array(spectrum.edges[1:-1])
+    assert spectrum.c2d(inner * (1 - 1e-10)) == pytest.approx(spectrum.c2d(inner * (1 + 1e-10)), rel=1e-8)
+    assert (spectrum.c2d([0.99 * spectrum.edges[0], 1.01 * spectrum.edges[-1]]) == 0).all()
+
+
+def test_a_spectrum_needs_an_exponent_a_piece():
+    with pytest.raises(ValueError, match="edges must be one more than exponents, got 2 and 2"):
+        PowerLaws(edges=(1.0, 2.0), exponents=(1.0, 2.0))
+
+
+def test_a_strip_of_parts_of_cells_is_refused():
+    with pytest.raises(ValueError, match=r"length must be a whole number of cells, got 50\.26"):
+        strip(length=2 * math.pi)
+
+
+def test_strips_are_the_same_surface_on_finer_cells():
+    """The same waves: the coarse heights are those of the fine surface, half a fine cell between its centres."""
+    coarse, fine = strip(cells=8).surface(), strip(cells=24).surface()
+    assert fine[1::3, 1::3] == pytest.approx(coarse, abs=1e-10)
+    assert coarse.std() == pytest.approx(0.1, rel=1e-12)
+
+
+def test_what_is_rolled_over_is_the_middle_of_the_surface():
+    surface = strip().surface()
+    part = narrowed(surface, 1 / 8)
+    cut = (surface.shape[1] - part.shape[1]) / 2
+    assert cut == int(cut) > 0
+    np.testing.assert_array_equal(part, surface[:, int(cut) : -int(cut)])
+    # no cell left out can overlap, not even the highest
+    assert (part.shape[1] / 2 / 8) ** 2 / 2 >= 1 + surface.max()
+
+
+def test_a_low_strip_is_rolled_as_linear_theory_has_it():
+    """Position by position, to the grid: a few per cent of the fluctuation with 12 cells to a radius."""
+    outcome = roll_strip(strip(height=1e-3, cells=12, tolerance=1e-8))
+    force, linear = outcome["force"] - outcome["force"].mean(), outcome["linear"] - outcome["linear"].mean()
+    assert np.abs(force - linear).max() <= 0.06 * linear.std()
+    assert outcome["failed"] == 0
+
+
+def test_tracks_have_the_variance_of_linear_theory():
+    """Of Geike's spectrum: to the part of the band that a wave has, 2 pi / L, for a sum in place of the integral."""
+    tracks = Tracks(
+        spectrum=SMALL.spectrum,
+        feed="geike",
+        height=1e-3,
+        realisations=5,
+        length=256.0,
+        springs=12,
+        bands=SMALL.bands,
+        seed=5,
+    )
+    outcome = roll_tracks(tracks)
+    exact = 1e-6 * force_variance(SMALL.spectrum.c2d, edges=SMALL.spectrum.edges, contact_radius=1.0, modulus=1.0)
+    assert outcome["variance"].mean() == pytest.approx(exact / rolling_strip.HERTZ**2, rel=2 * np.pi / 256)
+    assert outcome["level"].sum(axis=1).mean() * 2 <= outcome["variance"].mean() * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("feed", rolling_strip.FEEDS)
+def test_inputs_are_ordered_along_the_track(feed):
+    """At q a = 4: Geike's most, then the line trace, then the rolling spectrum; below the band Geike's has nothing."""
+    spectrum = rolling_strip.self_affine(0.7)
+    at = {one: fed(spectrum, one)(np.array([4.0, 0.5])) for one in rolling_strip.FEEDS}
+    assert at["geike"][0] > at["line"][0] > at["rolling"][0] > 0
+    assert at["geike"][1] == 0 < at["rolling"][1] < at["line"][1]
+    assert (fed(spectrum, feed)(np.array([[4.0], [0.5]]))[:, 0] == at[feed]).all()
+
+
+def louder(result, factor):
+    """Boundary elements whose fluctuation is so many times as large, on both grids."""
+    changed = {}
+    for name in ("bem", "refined"):
+        outcomes = {h: {**o, "level": factor**2 * o["level"]} for h, o in getattr(result, name).items()}
+        changed[name] = outcomes
+    return replace(result, **changed)
+
+
+def of_linear_theory(result):
+    numbers = rolling_evidence.evidence(result).numbers
+    return [n for n in numbers if n.label.startswith("linear 3D over bem3d")]
+
+
+def test_boundary_elements_agree_with_linear_theory(rolled):
+    """Below the band and in its long waves, at h/d = 0.01, with error bars of coarse grids."""
+    for number in of_linear_theory(rolled)[:2]:
+        assert abs(number.difference) <= 0.3 + number.uncertainty
+
+
+def test_two_decibels_more_are_two_decibels(rolled):
+    before, after = of_linear_theory(rolled), of_linear_theory(louder(rolled, 10 ** (2 / 20)))
+    for one, other in zip(before, after, strict=True):
+        assert one.value - other.value == pytest.approx(2, abs=1e-9)
+        assert other.uncertainty == pytest.approx(one.uncertainty, rel=1e-6)
+    assert after[0].verdict is Verdict.DIFFER
+    assert not after[0].met
+
+
+def test_a_strip_that_was_lost_counts_in_nothing(rolled):
+    height = SMALL.heights[0]
+    bem = {name: values.copy() for name, values in rolled.bem[height].items()}
+    for name, values in bem.items():
+        values[(slice(None), 3) if name == "cross" else 3] = np.nan
+    numbers = rolling_evidence.evidence(replace(rolled, bem={height: bem})).numbers
+    assert np.isfinite([number.value for number in numbers]).all()
+
+
+def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
+    outcome = rolled.bem[SMALL.heights[0]]
+    copied = {
+        **outcome,
+        "level": 4 * outcome["linear level"],
+        "cross": np.stack([2 * outcome["linear level"], 0 * outcome["linear level"]]),
+    }
+    assert rolling_evidence.coherence(copied) == pytest.approx(1)
+    assert rolling_evidence.correlation(copied) == pytest.approx((1, 2))
+    rng = np.random.default_rng(0)
+    strange = rolling_strip.compared(rng.normal(size=4096), rng.normal(size=4096), 1.0, Bands((0.1, 3.0)))
+    names = ("level", "linear level", "cross")
+    parts = dict(zip(names, strange[:3], strict=True))
+    parts["cross"] = np.stack([parts["cross"].real, parts["cross"].imag])[:, np.newaxis]
+    parts |= {name: parts[name][np.newaxis] for name in names[:2]}
+    assert rolling_evidence.coherence(parts) < 0.01
+
+
+def test_ridges_agree_and_a_lost_factor_does_not(monkeypatch):
+    case = ridges.Ridges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5))
+    result = ridges.run(case)
+    numbers = ridges.evidence(result).numbers
+    assert all(number.met for number in numbers)
+    halved = {key: response / 2 for key, response in result.responses.items()}
+    missed = [n for n in ridges.evidence(replace(result, responses=halved)).numbers if not n.met]
+    assert {n.label.split(",")[0] for n in missed} == {"bem3d", "(14.11)", "springs"}
+    # the phase counts as much as the amplitude
+    turned = {key: response * np.exp(0.3j) for key, response in result.responses.items()}
+    assert sum(not n.met for n in ridges.evidence(replace(result, responses=turned)).numbers) >= 5
+
+
+def test_linear_force_of_a_lone_wave_on_a_strip():
+    """Any direction: 2 E* sin(k a) / k under the middle of the strip, between the cells of an even number of them."""
+    nx, ny, dx = 32, 24, 0.25
+    qx, qy = 2 * np.pi * 3 / (nx * dx), 2 * np.pi * 2 / (ny * dx)
+    x, y = np.arange(nx) * dx, (np.arange(ny) - (ny - 1) / 2) * dx
+    height = 1e-3 * np.cos(qx * x[:, np.newaxis] + qy * y + 0.3)
+    k = math.hypot(qx, qy)
+    force = linear_force(height, spacing=dx, radius=1.0, modulus=1.0, approach=1.0)
+    assert force - 4 / 3 == pytest.approx(2 * math.sin(k) / k * 1e-3 * np.cos(qx * x + 0.3), abs=1e-12)
