@@ -35,7 +35,9 @@ class Track:
     modulus: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "height", np.ascontiguousarray(strip("height", self.height)))
+        height = np.array(strip("height", self.height), order="C")
+        height.flags.writeable = False
+        object.__setattr__(self, "height", height)
         object.__setattr__(self, "spacing", grid_spacing(self.spacing))
         object.__setattr__(self, "radius", positive("radius", self.radius))
         object.__setattr__(self, "modulus", positive("modulus", self.modulus))
@@ -86,11 +88,9 @@ class Track:
         ahead, across = int(a / dx), min(int(a / dy) + 1, ny // 2)
         return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
 
-    def reach(self, approach: float) -> tuple[int, int]:
-        """How many rows ahead, and how many columns to a side, a cell can overlap at this approach [m]."""
-        r = np.sqrt(2 * self.radius * max(approach + self.highest, 0.0))
-        dx, dy = self.steps
-        return int(r / dx), int(r / dy + 0.5)
+    def reach(self, approach: float) -> int:
+        """How many rows ahead and behind a cell can overlap at this approach [m]."""
+        return int(np.sqrt(2 * self.radius * max(approach + self.highest, 0.0)) / self.steps[0])
 
     def widened(self, spans: Spans, margin: int) -> Spans:
         """Spans that hold these and a margin, of sides that transform fast; columns as far as the strip has them."""
@@ -183,12 +183,12 @@ class Frame:
         track, ny = self.track, self.track.height.shape[1]
         self._limit = approach + 0.05 * abs(approach)
         most = track.reach(self._limit)
-        ahead = np.arange(-most[0], most[0] + 1)[:, np.newaxis]
+        ahead = np.arange(-most, most + 1)[:, np.newaxis]
         across = np.arange(ny)
         inside = (ahead >= self.rows[0]) & (ahead < self.rows[1])
         inside = inside & (across >= self.columns[0]) & (across < self.columns[1])
         rim = np.nonzero(~inside & (track.sphere(ahead, across) < self._limit + track.highest))
-        rows, columns = rim[0] - most[0], rim[1]
+        rows, columns = rim[0] - most, rim[1]
         self._rim = rows * ny + columns
         self._rim_x, self._rim_y = track.along(rows), track.across(columns)
         self._rim_sphere = track.sphere(rows, columns)
