@@ -198,63 +198,48 @@ def _fed(spectrum: PowerLaws, feed: Feed, contact_radius: float, q: tuple[float,
 
 
 def roll_tracks(tracks: Tracks) -> Outcome:
-    """One-sided springs, and the linear filter on the same tracks: one row a track, forces over that of Hertz.
+    """One-sided springs, and the linear filter on the same tracks: what `compared` has of them.
 
-    level, linear level: int C_F dq over each band; cross: its real and imaginary part, (2, tracks, bands); mean,
-    variance, linear variance: of the force; examined: springs of a position that were looked at one by one;
-    wavenumber, spectrum: C_F itself, the mean of all tracks.
+    examined: springs of a position that were looked at one by one, of each track; wavenumber, spectrum: C_F itself of
+    one-sided springs, the mean of all tracks.
     """
-    rows, spectra = [], []
+    points, spacing = round(tracks.length * tracks.springs), 1 / tracks.springs
+    force, linear = np.empty((2, tracks.realisations, points))
+    examined = np.empty(tracks.realisations)
     for i in range(tracks.realisations):
-        roll = partial(mdr.roll, tracks.track(i), spacing=1 / tracks.springs, radius=1.0, modulus=1.0, approach=1.0)
-        found, linear = roll(), roll(contact="linear").force / HERTZ
-        force = found.force / HERTZ
-        narrow = waves(force, spacing=1 / tracks.springs)
-        known = narrow.q < tracks.bands.edges[-1]
-        spectra.append(narrow.spectrum[known])
-        rows.append((*compared(force, linear, 1 / tracks.springs, tracks.bands), found.examined.mean()))
-    level, linear_level, cross, mean, variance, linear_variance, examined = (
-        np.array(column) for column in zip(*rows, strict=True)
-    )
+        roll = partial(mdr.roll, tracks.track(i), spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
+        found = roll()
+        force[i], linear[i] = found.force / HERTZ, roll(contact="linear").force / HERTZ
+        examined[i] = found.examined.mean()
+    narrow = waves(force, spacing=spacing)
+    known = narrow.q < tracks.bands.edges[-1]
     return {
-        "level": level,
-        "linear level": linear_level,
-        "cross": np.stack([cross.real, cross.imag]),
-        "mean": mean,
-        "variance": variance,
-        "linear variance": linear_variance,
+        **compared(force, linear, spacing, tracks.bands),
         "examined": examined,
         "wavenumber": narrow.q[known],
-        "spectrum": np.mean(spectra, axis=0),
+        "spectrum": narrow.spectrum.mean(axis=0)[known],
     }
 
 
 def strip_levels(outcomes: list[Outcome], spacing: float, bands: Bands) -> Outcome:
-    """Of strips, what `roll_tracks` has of tracks; NaN in rows of strips with a position that did not converge."""
-    rows = [compared(o["force"], o["linear"], spacing, bands) for o in outcomes]
-    level, linear_level, cross, mean, variance, linear_variance = (
-        np.array(column) for column in zip(*rows, strict=True)
-    )
-    return {
-        "level": level,
-        "linear level": linear_level,
-        "cross": np.stack([cross.real, cross.imag]),
-        "mean": mean,
-        "variance": variance,
-        "linear variance": linear_variance,
-    }
+    """What `compared` has of strips; NaN in rows of strips with a position that did not converge."""
+    force, linear = (np.array([outcome[name] for outcome in outcomes]) for name in ("force", "linear"))
+    return compared(force, linear, spacing, bands)
 
 
-def compared(
-    force: FloatArray, linear: FloatArray, spacing: float, bands: Bands
-) -> tuple[FloatArray, FloatArray, NDArray[np.complex128], float, float, float]:
-    """Levels of both in each band, their cross levels; mean of the first, variances of both."""
+def compared(force: FloatArray, linear: FloatArray, spacing: float, bands: Bands) -> Outcome:
+    """Forces beside those of linear theory on the same roughness, one row a realisation, over the force of Hertz.
+
+    level, linear level: int C_F dq over each band, (realisations, bands); cross: real and imaginary part of their cross
+    levels, (2, realisations, bands); mean, variance of the force, linear variance: (realisations,).
+    """
     mine, other = waves(force, spacing=spacing), waves(linear, spacing=spacing)
-    return (
-        levels(mine, bands),
-        levels(other, bands),
-        cross_levels(mine, other, bands),
-        float(force.mean()),
-        float(force.var()),
-        float(linear.var()),
-    )
+    cross = cross_levels(mine, other, bands)
+    return {
+        "level": levels(mine, bands),
+        "linear level": levels(other, bands),
+        "cross": np.stack([cross.real, cross.imag]),
+        "mean": force.mean(axis=1),
+        "variance": force.var(axis=1),
+        "linear variance": linear.var(axis=1),
+    }

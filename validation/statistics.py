@@ -57,6 +57,15 @@ def mean_of(estimates: Sequence[Estimate]) -> Estimate:
     return Estimate(sum(e.value for e in estimates) / len(estimates), error, sum(e.samples for e in estimates))
 
 
+def extrapolated(coarse: Estimate, finer: Estimate) -> tuple[Estimate, float]:
+    """To cells of no size, to first order, and what that leaves open: half of the way there, and its interval.
+
+    finer: the change from these cells to half as long ones, on the same realisations.
+    """
+    value = Estimate(coarse.value + 2 * finer.value, coarse.error, coarse.samples)
+    return value, abs(finer.value) + 2 * finer.half_width
+
+
 @dataclass(frozen=True)
 class Sample:
     """Realisations, each at all levels, and as many resamples of them as an error bar takes.

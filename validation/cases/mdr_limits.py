@@ -38,6 +38,7 @@ from validation.statistics import (
     combined,
     decade_slope,
     decade_weights,
+    extrapolated,
     local_slope,
     log_deviation_over,
     log_mean,
@@ -153,10 +154,9 @@ class Samples:
         return bool((mean[weights > 0] > CLOSED).all())
 
     def extrapolated(self, quantity: str, statistic: Statistic) -> tuple[Estimate, float]:
-        """Boundary elements on cells of no size, to first order, and what that leaves open: half of the way there."""
+        """Boundary elements on cells of no size, and what that leaves open."""
         bem = self.by_method[BEM, quantity].estimate(statistic)
-        finer = self.grids[quantity].estimate(change(statistic))
-        return Estimate(bem.value + 2 * finer.value, bem.error, bem.samples), abs(finer.value) + 2 * finer.half_width
+        return extrapolated(bem, self.grids[quantity].estimate(change(statistic)))
 
     def apart(self, label: str, quantity: str, statistic: Statistic) -> Number:
         """MDR over boundary elements in decibels."""

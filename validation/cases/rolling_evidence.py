@@ -18,6 +18,7 @@ from validation.statistics import (
     at,
     change,
     combined,
+    extrapolated,
     log_mean,
     pairs,
     sample,
@@ -64,15 +65,10 @@ class Height:
         return np.asarray(inside / inside.sum())
 
     def bem_level(self, weights: FloatArray) -> tuple[Estimate, float]:
-        """ln of boundary elements over linear theory in 3D, and what the grid leaves open.
-
-        To first order in the cells, from the same surfaces on two grids; half of the way there is left open.
-        """
-        statistic = combined(weights, log_mean)
-        found, finer = self.bem_over_linear.estimate(change(statistic)), self.finer.estimate(change(statistic))
-        return Estimate(found.value + 2 * finer.value, found.error, found.samples), abs(
-            finer.value
-        ) + 2 * finer.half_width
+        """ln of boundary elements over linear theory in 3D on cells of no size, and what that leaves open."""
+        statistic = change(combined(weights, log_mean))
+        finer = self.finer.estimate(statistic)
+        return extrapolated(self.bem_over_linear.estimate(statistic), finer)
 
     def model_level(self, model: str, weights: FloatArray) -> Estimate:
         """ln of a model over linear theory in 3D."""
