@@ -60,6 +60,19 @@ def doubts_of(contact: BoolArray, *, periodic: bool) -> tuple[Doubt, ...]:
     return tuple(found)
 
 
+def doubts_of_sphere(cells: float) -> tuple[Doubt, ...]:
+    """What to doubt about a sphere whose smooth contact has so many cells, whatever roughness makes of it."""
+    if cells >= FEWEST_CELLS:
+        return ()
+    return (
+        (
+            ResolutionWarning,
+            f"the contact of the smooth sphere has only {cells:.2g} cells: refine the grid "
+            f"({FEWEST_CELLS} cells or more are not warned of)",
+        ),
+    )
+
+
 def doubt_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -> tuple[Doubt, ...]:
     """What to doubt about a spectrum on a grid: values at the wavenumbers q, cells of these sides."""
     cells = 2 * math.pi / (float(q[values > 0].max(initial=0.0)) * max(steps)) if (values > 0).any() else math.inf

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from bem3d.border import BoolArray, FloatArray, count, finite, fraction, positive
 from bem3d.contact import Status, residual
 from bem3d.convergence import ConvergenceError
+from bem3d.doubts import doubts_of_sphere, warn
 from bem3d.press import Attempt, may_touch
 from bem3d.projected_cg import Load, projected_cg
 from bem3d.track import Frame, Spans, Track
@@ -32,7 +33,7 @@ REFIT = 32
 class Rolling:
     """A wheel at each cell of its track: arrays of shape (positions,).
 
-    force: normal force [N]; approach: of the sphere to the mean plane of the strip [m]; area: of the cells in contact
+    force: normal force [N]; approach: of the sphere to the plane of height zero [m]; area: of the cells in contact
     [m^2]; residual: see `contact.residual`, with the deepest overlap in the frame that was solved on;
     operator_applications: of u = K p; converged: whether the residual is within the tolerance.
     """
@@ -74,6 +75,7 @@ def roll(
     Each position is solved on a frame of cells that moves with the wheel, from the pressures of the two before, carried
     along with the ground. The frame is proved large enough at each position, see `Frame.outside`, and grows where it is
     not.
+    Warns (ResolutionWarning) of a smooth contact of few cells.
     Raises ValueError or TypeError for input out of range, and where the contact reaches the edge of the strip;
     ConvergenceError with the history of the position that did not converge.
     """
@@ -83,6 +85,7 @@ def roll(
     prescribed = positive("approach" if force is None else "force", approach if force is None else force)
     smooth = prescribed if force is None else hertz_approach(track, prescribed)
     _wide_enough(track, smooth)
+    warn(doubts_of_sphere(math.pi * radius * smooth / track.cell_area))
     stop = track.height.shape[0] if positions is None else count("positions", positions)
     wheel = RollingContact(track, tolerance=tolerance, max_iterations=max_iterations)
     along = []

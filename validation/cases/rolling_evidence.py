@@ -60,8 +60,9 @@ class Height:
     coherence: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def weights(self, first: float, last: float) -> FloatArray:
-        """The mean over the bands from one wavenumber to another."""
-        inside = (self.bands.centres > first) & (self.bands.centres < last)
+        """The mean over the bands that lie between two wavenumbers."""
+        edges = np.array(self.bands.edges)
+        inside = (edges[:-1] > first * (1 - 1e-9)) & (edges[1:] < last * (1 + 1e-9))
         return np.asarray(inside / inside.sum())
 
     def bem_level(self, weights: FloatArray) -> tuple[Estimate, float]:
@@ -133,6 +134,7 @@ def evidence(result: RollingResult) -> Evidence:
         _narrow(result),
         _forces(result),
     )
+    within = _within(case, found)
     heights = ", ".join(f"{h:g}" for h in case.heights)
     return Evidence(
         title="Rolling over isotropic roughness: where one dimension is some decibels off",
@@ -146,14 +148,15 @@ def evidence(result: RollingResult) -> Evidence:
             "the track (case rolling_input). Linear theory: (14.12) in 1D, and the same filter on the surface in 3D, "
             "in both cases by quadrature. Levels of the force in one-third octaves of q a, as powers in dB; boundary "
             "elements are taken relatively to linear theory on the same surfaces, which removes most of the scatter. "
-            "Means over ranges of bands are resampled as one number."
+            "Means over the bands within a range are resampled as one number; errors of single bands, as at the zeros "
+            "of sin(q a), may cancel in them: the first table below and the map have these."
         ),
         numbers=tuple(numbers),
         tables=tables,
         conclusions=tuple(_conclusions(case, found, numbers)),
         captions=_captions(case),
         unconverged=result.unconverged,
-        shown=(summary,),
+        shown=(within, summary),
     )
 
 
@@ -409,7 +412,8 @@ def _conclusions(case: Rolling, found: list[Height], numbers: list[Number]) -> l
             if n.label.startswith("nonlinear over linear") and where in n.label
         )
         sentences.append(
-            f"What nonlinearity does to the level, springs and boundary elements, {where}, by h/d: {chain}."
+            f"Level of the nonlinear over the linear force, of springs and of boundary elements, {where}, by h/d: "
+            f"{chain}."
         )
     holding = [_holding(model, found, by_label, ranges) for model in MODELS]
     return [*holding, *sentences, _lasting(found), _variances(numbers), _means(numbers), _scatter(found)]
@@ -426,7 +430,7 @@ def _holding(model: str, found: list[Height], by_label: dict[str, Number], range
                 break
             upto = f"up to h/d = {mine.height:g}"
         parts.append(f"{where}: {upto}")
-    return f"Within {ONE:g} dB of boundary elements, {model}: {'; '.join(parts)}."
+    return f"Within {ONE:g} dB of boundary elements in the mean over bands, {model}: {'; '.join(parts)}."
 
 
 def _scatter(found: list[Height]) -> str:
@@ -465,17 +469,35 @@ def _signed(number: Number) -> str:
 
 def _lasting(found: list[Height]) -> str:
     """To which height the force is that of linear theory position by position, not only in its level."""
-    parts = []
-    for mine in found:
-        held = coherence(mine.bem) >= 0.9
-        centres = mine.bands.centres
-        beyond = np.flatnonzero(~held & (centres >= 1))
-        upto = "all bands" if not beyond.size else f"q a = {mine.bands.edges[int(beyond[0])]:.2g}"
-        parts.append(f"{mine.height:g}: {upto}, correlation {correlation(mine.bem)[0]:.3f}")
+    parts = [
+        f"{mine.height:g}: {np.count_nonzero(coherence(mine.bem) >= 0.9)} of {len(mine.bands.centres)} bands, "
+        f"correlation {correlation(mine.bem)[0]:.3f}"
+        for mine in found
+    ]
     return (
-        "Position by position linear theory is lost much earlier than in its level. Coherence with linear theory of "
-        f"0.9 and more, and correlation over all bands, by h/d: {'; '.join(parts)}."
+        "Position by position linear theory is lost much earlier than in its level. Bands in which boundary elements "
+        f"have a coherence of 0.9 and more with it, and correlation over all bands, by h/d: {'; '.join(parts)}."
     )
+
+
+def _within(case: Rolling, found: list[Height]) -> Table:
+    """In how many single one-third octaves each model lies within 1 and 3 dB of boundary elements."""
+    rows: list[Row] = []
+    for mine in found:
+        inside = np.array(mine.bands.edges[1:]) > case.first * (1 + 1e-9)
+        row: Row = {"h / d": mine.height}
+        for model in MODELS:
+            off = np.array([abs(_over(mine, model, i)) for i in range(inside.size)])
+            for where, some in (("band", inside), ("below it", ~inside)):
+                row[f"{model}, {where}"] = f"{(off[some] <= 1).sum()} and {(off[some] <= 3).sum()} of {some.sum()}"
+        rows.append(row)
+    return table_of("bands within 1 and within 3 dB of boundary elements", rows)
+
+
+def _over(mine: Height, model: str, band: int) -> float:
+    """A model over boundary elements in one band, in decibels."""
+    weights = np.eye(len(mine.bands.centres))[band]
+    return POWER * (mine.model_level(model, weights).value - mine.bem_level(weights)[0].value)
 
 
 def _variances(numbers: list[Number]) -> str:

@@ -19,7 +19,7 @@ def draw(evidence: Evidence) -> Figure:
     for method, style, label in ((BEM3D, BEM, "boundary elements"), (SPRINGS, MDR, "springs")):
         some = slice(1 if method == BEM3D else 3, None, 4)
         response.plot(q[some], (found[f"{finest[method]}, real"] * q)[some], label=label, **style)
-    response.set(xlabel="q a", ylabel="response over 2 E* / q", title="amplitude and sign")
+    response.set(xlabel="q a", ylabel="response times q a, over 2 E* a", title="amplitude and sign")
     response.set_ylim(-1.2, 1.6)
     response.legend(loc="upper right", ncols=3)
     grids = [name for name in errors_of if name.startswith(BEM3D)]

@@ -8,6 +8,8 @@ from validation.cases.rolling_evidence import FED_SPRINGS, LINEAR_1D, LINEAR_3D,
 from validation.evidence import Evidence
 from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels
 
+FINE = 12
+"""Places in a cell of the map, for its border lines."""
 MOST = 12.0
 """dB at which the colours of the map end."""
 
@@ -94,34 +96,49 @@ def draw_map(evidence: Evidence) -> Figure:
     levels = evidence.table("levels")
     figure, axes = panels(2, 2, height=6.6, sharex=True, sharey="all")
     heights, q = np.unique(levels["h/d"]), np.unique(levels["q a"])
-    image = None
+    across = np.unique(np.append(levels["from"], levels["to"][-1]))
+    up = _borders(heights)
+    fine_q, fine_h = _inside(across), _inside(up)
     for axis, model in zip(axes, (LINEAR_1D, SPRINGS, LINEAR_3D, FED_SPRINGS), strict=True):
         errors = levels[f"{model} over bem3d [dB]"].reshape(heights.size, q.size)
         shown = np.clip(np.where(np.isfinite(errors), errors, -99.0), -MOST, MOST)
-        image = axis.pcolormesh(q, heights, shown, cmap="PuOr", vmin=-MOST, vmax=MOST, shading="nearest")
+        image = axis.pcolormesh(across, up, shown, cmap="PuOr", vmin=-MOST, vmax=MOST)
+        cells = np.kron(shown, np.ones((FINE, FINE)))
         for border, dash in ((1.0, "solid"), (3.0, "dashed")):
-            axis.contour(
-                q,
-                heights,
-                np.clip(shown, -6, 6),
-                levels=[-border, border],
-                colors="black",
-                linestyles=dash,
-                linewidths=1.2 if border == 1 else 1.0,
-            )
+            levels_at = [-border, border]
+            axis.contour(fine_q, fine_h, cells, levels=levels_at, colors="black", linestyles=dash, linewidths=1.1)
         # too low and too high are alike without colour
-        axis.contourf(q, heights, shown, levels=[-2 * MOST, -3], colors="none", hatches=["//"])
+        axis.contourf(fine_q, fine_h, cells, levels=[-2 * MOST, -3], colors="none", hatches=["//"])
         axis.axvline(1.0, **{**GUIDE, "color": "#000000"})
         axis.set(xscale="log", yscale="log", title=model)
+        axis.set_yticks(heights, [f"{height:g}" for height in heights])
+        axis.yaxis.minorticks_off()
         axis.grid(visible=False)
         _ticks(axis, q)
     for axis in axes[::2]:
         axis.set_ylabel("h / d")
     for axis in axes[2:]:
         axis.set_xlabel("q a")
-    if image is not None:
-        figure.colorbar(image, ax=axes, label="level over boundary elements [dB]", extend="both", shrink=0.8)
+    # a bar beside all four panels is laid out with other last bits in every process
+    for axis in axes[1::2]:
+        beside = axis.inset_axes((1.04, 0.0, 0.04, 1.0))
+        figure.colorbar(image, cax=beside, label="over boundary elements [dB]", extend="both")
     return figure
+
+
+def _borders(values: np.ndarray) -> np.ndarray:
+    """Of cells around values on a logarithmic axis."""
+    logs = np.log(values)
+    middles = (logs[1:] + logs[:-1]) / 2
+    first, last = logs[0] - (middles[0] - logs[0]), logs[-1] + (logs[-1] - middles[-1])
+    return np.asarray(np.exp(np.concatenate([[first], middles, [last]])))
+
+
+def _inside(borders: np.ndarray) -> np.ndarray:
+    """Places in each cell, so that border lines run along cells and not across them."""
+    logs = np.log(borders)
+    part = (np.arange(FINE) + 0.5) / FINE
+    return np.asarray(np.exp((logs[:-1, np.newaxis] + np.diff(logs)[:, np.newaxis] * part).ravel()))
 
 
 def _seen(values: np.ndarray) -> np.ndarray:
