@@ -237,7 +237,8 @@ def evidence(result: RollingInputResult) -> Evidence:
             f"rule was not derived for; then one-sided springs beside boundary elements ({case.strips} surfaces, "
             f"{case.cells} cells to a radius, {case.tracks} tracks) at h_rms / d = "
             f"{' and '.join(f'{h:g}' for h in case.heights)}"
-            "(one grid; what it leaves open is in the case rolling); then the punches of Fig. 14.1 pressed with each input."
+            " (one grid; what it leaves open is in the case rolling); then the punches of Fig. 14.1 pressed with each "
+            "input."
         ),
         numbers=tuple(numbers),
         tables=(bands, rolled, _punches(result), verdicts),

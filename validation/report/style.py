@@ -53,10 +53,15 @@ def panels(
     height: float = 3.4,
     sharex: bool = False,
     sharey: Literal["none", "row", "all"] = "none",
+    within: dict[str, float] | None = None,
 ) -> tuple[Figure, list[Axes]]:
-    """A figure of lettered panels, row by row."""
-    figure = Figure(figsize=(width, height), layout="constrained")
-    axes = list(figure.subplots(rows, columns, squeeze=False, sharex=sharex, sharey=sharey).flat)
+    """A figure of lettered panels, row by row.
+
+    within: left, right, bottom, top, wspace, hspace of the panels; by default they are laid out around their labels,
+    which for panels with a colour bar comes out with other last bits every time.
+    """
+    figure = Figure(figsize=(width, height), layout=None if within else "constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False, sharex=sharex, sharey=sharey, gridspec_kw=within).flat)
     for letter, axis in zip("abcdefghijkl", axes, strict=False):
         axis.set_title(f"({letter})", loc="left")
     return figure, axes
@@ -67,9 +72,10 @@ def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) 
     with matplotlib.rc_context(SETTINGS):
         figure = draw(evidence)
         engine = figure.get_layout_engine()
-        if profile != "full" and isinstance(engine, ConstrainedLayoutEngine):
-            room = 0.12 / figure.get_figheight()
-            engine.set(rect=(0, room, 1, 1 - room))
+        if profile != "full":
+            if isinstance(engine, ConstrainedLayoutEngine):
+                room = 0.12 / figure.get_figheight()
+                engine.set(rect=(0, room, 1, 1 - room))
             figure.text(1, 0, f"profile: {profile} ", ha="right", va="bottom", fontsize=7, color="#555555")
     return figure
 

@@ -94,7 +94,8 @@ def draw_coherence(evidence: Evidence) -> Figure:
 def draw_map(evidence: Evidence) -> Figure:
     """Error of each model over height and wavenumber."""
     levels = evidence.table("levels")
-    figure, axes = panels(2, 2, height=6.6, sharex=True, sharey="all")
+    place = {"left": 0.08, "right": 0.86, "bottom": 0.08, "top": 0.95, "wspace": 0.06, "hspace": 0.14}
+    figure, axes = panels(2, 2, height=6.6, sharex=True, sharey="all", within=place)
     heights, q = np.unique(levels["h/d"]), np.unique(levels["q a"])
     across = np.unique(np.append(levels["from"], levels["to"][-1]))
     up = _borders(heights)
@@ -119,10 +120,8 @@ def draw_map(evidence: Evidence) -> Figure:
         axis.set_ylabel("h / d")
     for axis in axes[2:]:
         axis.set_xlabel("q a")
-    # a bar beside all four panels is laid out with other last bits in every process
-    for axis in axes[1::2]:
-        beside = axis.inset_axes((1.04, 0.0, 0.04, 1.0))
-        figure.colorbar(image, cax=beside, label="over boundary elements [dB]", extend="both")
+    beside = figure.add_axes((0.885, 0.25, 0.02, 0.55))
+    figure.colorbar(image, cax=beside, label="level over boundary elements [dB]", extend="both")
     return figure
 
 
