@@ -69,8 +69,8 @@ def roll(
     height zero [m], and force [N], both positive; positions: how many, from the first, all by default;
     tolerance: the residual to reach; max_iterations: a position;
     raise_on_failure: False goes on, from a cold start, after a position that did not converge, and marks it.
-    The error of the force is about as large as the tolerance, as a part of the force of the smooth sphere: on average
-    0.2 to 2 times, up to ten times at single positions of very rough strips (measured; see the race of the report).
+    The error of the force is about as large as the tolerance, as a part of the force of the smooth sphere: it is of
+    first order in the residual, and larger at single positions of very rough strips (see the race of the report).
 
     Each position is solved on a frame of cells that moves with the wheel, from the pressures of the two before, carried
     along with the ground. The frame is proved large enough at each position, see `Frame.outside`, and grows where it is

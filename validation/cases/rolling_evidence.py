@@ -1,7 +1,7 @@
 """What rolling over isotropic roughness shows: levels, coherence, variance and mean, beside linear theory."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,6 @@ POWER = 10 / math.log(10)
 ONE = 1.0
 LOW = 0.01
 """Heights over d up to which boundary elements must agree with linear theory, or something is wrong with them."""
-RESAMPLES = 499
 LINEAR_1D, SPRINGS, LINEAR_3D, FED_SPRINGS = "linear 1D", "springs", "linear 3D", "springs, fed for rolling"
 MODELS = (LINEAR_1D, SPRINGS, LINEAR_3D, FED_SPRINGS)
 REASON = "1 dB: what a level in a one-third octave repeats to when it is measured"
@@ -57,7 +56,6 @@ class Height:
     springs_over_linear: Sample
     exact_1d: FloatArray
     exact_3d: FloatArray
-    coherence: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def weights(self, first: float, last: float) -> FloatArray:
         """The mean over the bands that lie between two wavenumbers."""
