@@ -11,7 +11,7 @@ from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
 from bem3d.plain import solve_plain
 from bem3d.problem import Problem
-from bem3d.rolling import Rolling, RollingContact, roll, rolling_force
+from bem3d.rolling import Rolling, RollingContact, WheelContact, roll, rolling_force
 from bem3d.solver import solve
 from bem3d.surface import rough_surface
 from bem3d.track import Track
@@ -29,6 +29,7 @@ __all__ = [
     "RollingContact",
     "Status",
     "Track",
+    "WheelContact",
     "indent",
     "press_frozen",
     "residual",

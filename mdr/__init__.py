@@ -14,6 +14,7 @@ from mdr.profile import rough_profile, sphere_profile
 from mdr.rolling import Rolling, roll, rolling_force
 from mdr.rolling_spectrum import rolling_spectrum
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
+from mdr.wheels import Wheels
 
 __all__ = [
     "LoadCurve",
@@ -21,6 +22,7 @@ __all__ = [
     "Rolling",
     "SelfAffine",
     "SphereContact",
+    "Wheels",
     "geike",
     "inverse_geike",
     "line_trace",

@@ -63,7 +63,7 @@ def roll(
     if contact not in ("one-sided", "full", "linear"):
         raise ValueError(f'contact must be "one-sided", "full" or "linear", got {contact!r}')
     if force is not None:
-        d, prescribed = _smooth_approach(track, positive("force", force)), force
+        d, prescribed = smooth_approach(track.radius, positive("force", force) / track.modulus), force
     elif np.ndim(approach) == 0:  # type: ignore[arg-type]
         d, prescribed = positive("approach", approach), None
     else:
@@ -224,6 +224,6 @@ def _moving_sum(values: FloatArray, length: int) -> FloatArray:
     return np.asarray(sums[length:] - sums[:-length] + length * mean)
 
 
-def _smooth_approach(track: _Track, force: float) -> float:
+def smooth_approach(radius: float, force_over_modulus: float) -> float:
     """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth wheel."""
-    return math.cbrt(9 / 16 / track.radius) * math.cbrt(force / track.modulus) ** 2
+    return math.cbrt(9 / 16 / radius) * math.cbrt(force_over_modulus) ** 2

@@ -1,0 +1,80 @@
+"""Steps of an equation of motion y'' = f(place, y): explicit and symplectic Euler, velocity Verlet, Runge and Kutta.
+
+Each is a generator of position, velocity and acceleration at the beginning of every step. Forces are known at whole
+cells of a track alone: one cell a step, two cells a step where half steps are wanted.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+Acceleration = Callable[[int, FloatArray], FloatArray]
+State = tuple[FloatArray, FloatArray, FloatArray]
+
+
+@dataclass(frozen=True)
+class Integrator:
+    """A scheme of motion.
+
+    march(f, y, v, dt): all steps, on and on, dt of one cell; cells: of a step; order: of its error; limit: omega dt of
+    a step up to which a linear vibration stays bounded; evaluations: of f, a step.
+    """
+
+    name: str
+    march: Callable[[Acceleration, FloatArray, FloatArray, float], Iterator[State]]
+    order: int
+    limit: float
+    cells: int = 1
+    evaluations: int = 1
+
+
+def _explicit_euler(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
+    place = 0
+    while True:
+        a = f(place, y)
+        yield y, v, a
+        y, v, place = y + dt * v, v + dt * a, place + 1
+
+
+def _symplectic_euler(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
+    place = 0
+    while True:
+        a = f(place, y)
+        yield y, v, a
+        v = v + dt * a
+        y, place = y + dt * v, place + 1
+
+
+def _velocity_verlet(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
+    place, a = 0, f(0, y)
+    while True:
+        yield y, v, a
+        half = v + dt / 2 * a
+        y, place = y + dt * half, place + 1
+        a = f(place, y)
+        v = half + dt / 2 * a
+
+
+def _runge_kutta(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
+    place, h = 0, 2 * dt
+    while True:
+        a1 = f(place, y)
+        yield y, v, a1
+        v2 = v + dt * a1
+        a2 = f(place + 1, y + dt * v)
+        v3 = v + dt * a2
+        a3 = f(place + 1, y + dt * v2)
+        v4 = v + h * a3
+        a4 = f(place + 2, y + h * v3)
+        y, v, place = y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), place + 2
+
+
+EXPLICIT_EULER = Integrator("explicit Euler", _explicit_euler, order=1, limit=0.0)
+SYMPLECTIC_EULER = Integrator("symplectic Euler", _symplectic_euler, order=1, limit=2.0)
+VELOCITY_VERLET = Integrator("velocity Verlet", _velocity_verlet, order=2, limit=2.0)
+RUNGE_KUTTA = Integrator("Runge-Kutta", _runge_kutta, order=4, limit=2 * math.sqrt(2), cells=2, evaluations=4)
+INTEGRATORS = (EXPLICIT_EULER, SYMPLECTIC_EULER, VELOCITY_VERLET, RUNGE_KUTTA)

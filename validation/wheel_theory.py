@@ -1,0 +1,101 @@
+"""What is known of a wheel on its contact spring: the resonance, its anharmonicity, and what a finite record leaks.
+
+The referees of the dynamic wheel: they import neither method. M z'' = F - F_N, z upward, the approach d downward.
+Frequencies are angular, omega in rad/s; spectra are those of (14.17), two-sided over the frequency f: <x^2> = int A df.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import integrate
+
+FloatArray = NDArray[np.float64]
+
+ANHARMONIC = 1 / 24
+"""Of F ~ d^(3/2): omega = omega_0 (1 - (A / d)^2 / 24) to lowest order."""
+
+
+def eigenfrequency(*, contact_radius: float, modulus: float, mass: float) -> float:
+    """omega_eigen = sqrt(2 a E* / M) [rad/s]. Source: Popov and Hess, section 14.3; k = 2 E* a of Hertz."""
+    return math.sqrt(2 * contact_radius * modulus / mass)
+
+
+def hertz_period(highest: float) -> float:
+    """Period of free vibration on a Hertz contact, over that of a small one, 2 pi / omega_0 [-].
+
+    M d'' = F_N - F_N (d/d_N)^(3/2), released at the approach `highest`, over d_N of static equilibrium, above one. With
+    u = d / d_N and tau = omega_0 t, u'' = (2/3) (1 - u^(3/2)), since omega_0^2 = (3/2) F_N / (M d_N); without contact
+    u'' = 2/3. The energy u'^2 / 2 + V(u) is kept, V = (2/3) ((2/5) max(u, 0)^(5/2) - u), so the period is
+    2 int du / sqrt(2 (V(highest) - V(u))) between both turning points; u = middle - half cos(theta) takes the singular
+    ends away.
+    """
+    if not highest > 1:
+        raise ValueError(f"highest must be above one, got {highest}")
+    top = _potential(highest)
+    lowest = _other_turning_point(top)
+    middle, half = (highest + lowest) / 2, (highest - lowest) / 2
+
+    def density(theta: float) -> float:
+        left = top - _potential(middle - half * math.cos(theta))
+        return half * math.sin(theta) / math.sqrt(2 * left) if left > 0 else 0.0
+
+    rest = math.acos(min(1.0, max(-1.0, middle / half)))
+    found, _ = integrate.quad(
+        density, 0, math.pi, points=[rest] if lowest < 0 else None, epsabs=0, epsrel=1e-11, limit=400
+    )
+    return float(2 * found / (2 * math.pi))
+
+
+def _potential(u: float) -> float:
+    return 2 / 3 * (0.4 * math.pow(max(u, 0.0), 2.5) - u)
+
+
+def _other_turning_point(energy: float) -> float:
+    """The approach below one of this energy: without contact V = -(2/3) u."""
+    if energy >= 0:
+        return -1.5 * energy
+    low, high = 0.0, 1.0
+    while True:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            return middle
+        low, high = (middle, high) if _potential(middle) > energy else (low, middle)
+
+
+def frequency_of_amplitude(amplitude: ArrayLike) -> FloatArray:
+    """omega / omega_0 = 1 - (A / d_N)^2 / 24 of vibration with amplitude A / d_N on a Hertz contact, to second order.
+
+    Source: the expansion of F ~ d^(3/2) to third order; Landau and Lifshitz, Mechanics, section 28.
+    """
+    return np.asarray(1 - ANHARMONIC * np.asarray(amplitude, dtype=np.float64) ** 2)
+
+
+def acceleration_over_force(omega: ArrayLike, *, eigenfrequency: float, mass: float) -> FloatArray:
+    """|a(omega) / dF(omega)|^2 = 1 / (M (1 - (omega_0 / omega)^2))^2 [kg^-2], dF at a fixed approach.
+
+    M z'' = dF - k z without damping: a = -omega^2 z.
+    """
+    ratio = eigenfrequency / np.asarray(omega, dtype=np.float64)
+    return np.asarray(1 / (mass * (1 - ratio**2)) ** 2)
+
+
+def over_frequency(force_spectrum: ArrayLike, *, speed: float) -> FloatArray:
+    """From C_F(q), <F^2> = int C_F dq, to (14.17), <F^2> = int A df: A(q v_0 / (2 pi)) = 2 pi C_F(q) / v_0 [N^2 s]."""
+    return np.asarray(2 * math.pi / speed * np.asarray(force_spectrum, dtype=np.float64))
+
+
+def leakage(omega: ArrayLike, *, jump: ArrayLike, time_step: float, duration: float) -> FloatArray:
+    """What a jump between the end and the beginning of a record adds to (14.17): the floor ~ omega^-2.
+
+    The periodic continuation of a ramp with a jump J has |FFT| = |J| / |2 sin(omega dt / 2)|, so A = J^2 dt^2 /
+    (4 T sin^2(omega dt / 2)), which is J^2 / (omega^2 T) for omega dt << 1.
+    jump: J of each record, or its root mean square, as x; time_step: dt [s]; duration: T [s]. Returns [x^2 s].
+    """
+    half = np.asarray(omega, dtype=np.float64) * time_step / 2
+    return np.asarray(np.asarray(jump) ** 2 * time_step**2 / (4 * duration * np.sin(half) ** 2))
+
+
+def break_exponent(hurst: float) -> float:
+    """omega_break ~ T^(1 / (2 H + 1)): where a floor J^2 / (omega^2 T) meets a spectrum ~ omega^(-2 H - 3) [-]."""
+    return 1 / (2 * hurst + 1)
