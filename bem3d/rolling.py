@@ -172,6 +172,17 @@ class RollingContact:
         d = hertz_approach(self.track, positive("force", force))
         return self._solve(count("position", position, least=0), d, lambda _, area: Load(total=force / area))
 
+    def pressure(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Of the last position: x ahead of the wheel, y beside its middle [m], and the pressure at both [Pa].
+
+        Raises ValueError where there is none, or where it did not converge.
+        """
+        if not self._past:
+            raise ValueError("there is no pressure: no position is solved, or the last one has not converged")
+        last = self._past[-1]
+        x, y = (np.arange(*span) for span in (last.frame.rows, last.frame.columns))
+        return self.track.along(x), self.track.across(y), last.pressure.copy()
+
     def _solve(self, position: int, expected: float, prescribed: Callable[[float, float], Load]) -> WheelContact:
         """On a frame that grows until no cell outside can touch.
 

@@ -5,15 +5,17 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, count, finite_array, positive
+from mdr.border import FloatArray, count, finite_array, not_negative, positive
 from mdr.rolling import smooth_approach
 
 BLOCK = 512
 """Places at a time: few enough to stay in the cache, and to see little of the range of the heights."""
 EXACT = 2.0**53
 """Whole numbers below this are added without rounding."""
-ROOM = 32
-"""Sums of compressions may be so many times as large as under the smooth wheel before they round."""
+ROOM = 4
+"""Sums of compressions may be so many times as large as under the smooth wheel before they round; more where rough."""
+DEVIATIONS = 5
+"""Of the height from its mean that are met on long tracks."""
 SLACK = 0.02
 """How far approaches may move before springs are sorted anew, over the smooth approach."""
 MOST_STEPS = 200
@@ -24,18 +26,20 @@ class Wheels:
 
     F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0), for each wheel over the i-th spring of its track.
 
-    Heights, profile and approaches are rounded to whole multiples of a quantum, 32 * 2 a / dx * 2^-53 of the smooth
+    Heights, profile and approaches are rounded to whole multiples of a quantum, some 20 * 2 a / dx * 2^-53 of the smooth
     approach d, so that no sum rounds: a wheel feels the same force to the last bit whoever rolls beside it, in whatever
     order springs are added. Off the sum of springs that are not rounded it is by at most 3/4 of a quantum over d of the
     force of the smooth wheel for the approach, 5e-13 with a / dx = 100, and less for the heights, which average out.
     Springs that must touch, whichever wheel, come from prefix sums; those that cannot are left out.
     """
 
-    def __init__(self, height: ArrayLike, *, spacing: float, radius: float, modulus: float, force: float):
+    def __init__(self, height: ArrayLike, *, spacing: float, radius: float, modulus: float, force: float, rms: float | None = None):
         """Lay the tracks.
 
         height: shape (points, wheels), positive towards the wheel [m]; spacing: dx of the springs [m]; radius: R [m];
-        modulus: E* [Pa]; force: under which the wheels roll, whose smooth approach sets the quantum [N].
+        modulus: E* [Pa]; force: under which the wheels roll, whose smooth approach sets the quantum [N]; rms: of the
+        heights, for which sums must have room [m], half of that approach by default: no more is needed, and with it the
+        quantum is the smaller the lower the heights; it, not these heights, so that wheels beside each other share it.
         Raises ValueError for tracks that are not longer than the contact of the smooth wheel, and values out of range.
         """
         self.height = finite_array("height", height, ndim=2)
@@ -47,7 +51,10 @@ class Wheels:
         if self.points * self.spacing <= 2 * half:
             length = self.points * self.spacing
             raise ValueError(f"height must be longer than the contact, {2 * half:.6g} m, got a track of {length:.6g} m")
-        self.quantum = ROOM * max(2 * half / self.spacing, 1.0) * self.smooth_approach / EXACT
+        rough = 0.5 if rms is None else not_negative("rms", rms) / self.smooth_approach
+        # springs under the wheel, as root of their depth, times how deep they are
+        room = ROOM * (1 + DEVIATIONS * rough) ** 1.5
+        self.quantum = room * max(2 * half / self.spacing, 1.0) * self.smooth_approach / EXACT
         self._rounded = np.rint(self.height / self.quantum)
         self._block, self._pad = range(0), 0
         self._low, self._high, self._floor = 0.0, -1.0, -math.inf

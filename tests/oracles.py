@@ -4,7 +4,7 @@ import functools
 import math
 
 import numpy as np
-from scipy import linalg, optimize, signal
+from scipy import integrate, linalg, optimize, signal
 
 
 def love_by_logarithms(x, y, dx, dy):
@@ -170,3 +170,43 @@ def wheel_on_springs(height, *, spacing, radius, approach):
     rounding = 1e-13 * (np.abs(approach).max() + np.abs(height).max())
     total = np.array([math.fsum(row[row > 0]) for row in compression])
     return total, (compression > rounding).sum(axis=1), (compression > -rounding).sum(axis=1)
+
+
+def springs_under_a_wheel(height, place, *, spacing, radius, approach):
+    """Compressions of the springs under one wheel over one place of a periodic track, walked outwards one by one.
+
+    Returns sum_j max(d - x_j^2 / R + h_j, 0), and how many may touch, those that just do not included.
+    """
+    points, highest = len(height), max(height)
+    compressions, near, j = [], 0, 0
+    while approach - (j * spacing) ** 2 / radius + highest > -1e-9 * (abs(approach) + abs(highest)):
+        for side in {-j, j}:
+            compression = approach - (side * spacing) ** 2 / radius + height[(place + side) % points]
+            near += compression > -1e-9 * (abs(approach) + abs(highest))
+            if compression > 0:
+                compressions.append(compression)
+        j += 1
+    return math.fsum(compressions), near
+
+
+def free_vibration_by_small_steps(highest, *, turns=None):
+    """u'' = (2/3) (1 - max(u, 0)^(3/2)) released at `highest`, by an adaptive method of eighth order.
+
+    Returns its period over 2 pi; or, with `turns`, u and u' after so many times 2 pi.
+    """
+
+    def motion(_, state):
+        return [state[1], 2 / 3 * (1 - max(state[0], 0.0) ** 1.5)]
+
+    def at_the_top(_, state):
+        return state[1]
+
+    at_the_top.direction = -1
+    settings = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-13}
+    if turns is not None:
+        return integrate.solve_ivp(motion, (0, 2 * math.pi * turns), [highest, 0.0], **settings).y[:, -1]
+    # begun on the way down, so that the event is not met at once
+    begun = integrate.solve_ivp(motion, (0, 0.1), [highest, 0.0], **settings).y[:, -1]
+    long = 20 * math.sqrt(highest) + 20 * highest
+    back = integrate.solve_ivp(motion, (0, long), begun, events=[at_the_top], **settings)
+    return (0.1 + float(back.t_events[0][0])) / (2 * math.pi)

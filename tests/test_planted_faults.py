@@ -16,6 +16,7 @@ from bem3d.track import Frame, Track
 from mdr import foundation
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
+from mdr import wheels as wheels_in_step
 from tests import (
     test_contact_properties,
     test_convergence_rates,
@@ -30,9 +31,21 @@ from tests import (
     test_rolling_theory,
     test_rough_punches,
     test_springs_against_brute_force,
+    test_wheel_motion,
+    test_wheels_on_springs,
     test_windows_and_starts,
 )
-from validation import ensemble, rolling_theory, rough_punch, spectra, statistics
+from validation import (
+    contact_laws,
+    ensemble,
+    integrators,
+    rolling_theory,
+    rough_punch,
+    spectra,
+    statistics,
+    wheel_theory,
+)
+from validation import wheel as wheel_in_motion
 from validation.cases import fractal_punch_decades, mdr_limits
 from validation.evidence import Verdict
 from validation.rough_punch import Roughness
@@ -195,6 +208,81 @@ def one_sided_spectrum(found):
     return 2 * two_sided(found)
 
 
+def profile_half_a_cell_ahead(wheels, springs):
+    x = (np.arange(springs.start, springs.stop) + 0.5) * wheels.spacing
+    return np.rint(x**2 / wheels.radius / wheels.quantum)
+
+
+def springs_that_pull_in_step(values, least, out=None):
+    return values
+
+
+def a_place_late(wheels, place, approach):
+    return force_in_step(wheels, place + 1, approach)
+
+
+def not_rounded(values):
+    """numpy's rint, as if there were no quantum."""
+    return np.asarray(values, dtype=np.float64)
+
+
+def without_load(wheel, law, **settings):
+    """M z'' = F."""
+    weightless = types.SimpleNamespace(load=0.0, mass=wheel.mass, eigenfrequency=wheel.eigenfrequency)
+    return wheel_in_motion.simulate(weightless, law, **settings)
+
+
+def by_another(march):
+    """What `simulate` does where no scheme is asked for."""
+    return {**wheel_in_motion.simulate.__kwdefaults__, "integrator": march}
+
+
+def half_a_step(scheme):
+    """Forces at the right cells, steps of half their length."""
+    return dataclasses.replace(scheme, march=lambda f, y, v, dt: scheme.march(f, y, v, dt / 2))
+
+
+def old_force_in_the_velocity(f, y, v, dt):
+    """Velocity Verlet whose velocity has the force of the beginning alone: d is of first order then."""
+    place = 0
+    while True:
+        a = f(place, y)
+        yield y, v, a
+        y, v, place = y + dt * v + dt**2 / 2 * a, v + dt * a, place + 1
+
+
+def inverted(omega, *, eigenfrequency, mass):
+    """omega / omega_0 for omega_0 / omega."""
+    return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
+
+
+def held_at_the_edge(energy):
+    """A wheel that does not lift off."""
+    return 0.0 if energy >= 0 else other_turning_point(energy)
+
+
+def without_a_jump(motion):
+    return motion.onward - motion.onward
+
+
+def one_copy(wheel, law, **settings):
+    """Shooting that rolls and does not correct."""
+    start = settings.pop("start")
+    for name in ("rounds", "tolerance"):
+        settings.pop(name, None)
+    motion = wheel_in_motion.simulate(wheel, law(1), **settings, approach=start[0], velocity=start[1])
+    return motion.approach, motion.velocity, np.zeros(start[0].shape)
+
+
+def softer_steady(law, time_step):
+    """omega for the 2 sin(omega dt / 2) / dt of leapfrog."""
+    frequency = 2 * np.pi * np.fft.rfftfreq(len(law.change), time_step)[:, np.newaxis]
+    waves = np.fft.rfft(law.change, axis=0) / (law.wheel.stiffness - law.wheel.mass * frequency**2)
+    d = -np.fft.irfft(waves, len(law.change), axis=0)
+    return law.wheel.approach + d[0], (d[1] - d[-1]) / (2 * time_step)
+
+
+force_in_step, other_turning_point = mdr.Wheels.force, wheel_theory._other_turning_point
 moments, reach, two_sided = Frame._moments, wheel_on_springs._Track.reach, spectra.Waves.spectrum.fget
 # the function of this name hides the module in the package
 feed = importlib.import_module("mdr.rolling_spectrum")
@@ -430,6 +518,117 @@ FAULTS = {
         (wheel_on_strip, "residual", lambda *_: 0.0),
         functools.partial(
             test_rolling_contact.test_pressures_solve_the_contact_on_all_of_the_strip, "as rough as deep"
+        ),
+    ),
+    "x^2 / 2R under many wheels": (
+        (mdr.Wheels, "_profile", scaled(mdr.Wheels._profile, 0.5)),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
+    ),
+    "many wheels half a cell ahead": (
+        (mdr.Wheels, "_profile", profile_half_a_cell_ahead),
+        test_wheels_on_springs.test_a_wheel_of_equal_springs_rolls_the_same_in_either_direction,
+    ),
+    "many wheels a cell ahead": (
+        (mdr.Wheels, "force", a_place_late),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
+    ),
+    "springs that pull under many wheels": (
+        (wheels_in_step, "np", in_numpy({"maximum": springs_that_pull_in_step})),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 30.0, 0.1),
+    ),
+    "springs that pull on a wheel in the air": (
+        (wheels_in_step, "np", in_numpy({"maximum": springs_that_pull_in_step})),
+        functools.partial(test_wheels_on_springs.test_far_above_the_track_there_is_no_force, -50.0),
+    ),
+    "E for E* under many wheels": (
+        (mdr.Wheels, "force", scaled(force_in_step, E_FOR_E_STAR)),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
+    ),
+    "E for E* in the force, not in the approach at rest": (
+        (mdr.Wheels, "force", scaled(force_in_step, E_FOR_E_STAR)),
+        test_wheel_motion.test_at_rest_the_wheel_bears_its_load,
+    ),
+    "sums that round": (
+        (wheels_in_step, "np", in_numpy({"rint": not_rounded})),
+        test_wheels_on_springs.test_a_wheel_feels_the_same_force_to_the_last_bit_whoever_rolls_beside_it,
+    ),
+    "load forgotten in the equation of motion": (
+        (test_wheel_motion, "simulate", without_load),
+        functools.partial(
+            test_wheel_motion.test_on_a_smooth_track_a_wheel_stays_at_rest,
+            contact_laws.Hertz(test_wheel_motion.WHEEL, 2),
+            1e-16,
+        ),
+    ),
+    "explicit Euler where nothing is asked for": (
+        (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.EXPLICIT_EULER)),
+        functools.partial(test_wheel_motion.test_time_reversal, 0.05, 0.0),
+    ),
+    "symplectic Euler where nothing is asked for": (
+        (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.SYMPLECTIC_EULER)),
+        functools.partial(test_wheel_motion.test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog, 0.3),
+    ),
+    "the step of a cell for that of two in Runge and Kutta": (
+        (
+            test_wheel_motion,
+            "SCHEMES",
+            {**test_wheel_motion.SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
+        ),
+        functools.partial(test_wheel_motion.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
+    ),
+    "velocity Verlet with the force of the beginning alone": (
+        (
+            test_wheel_motion,
+            "SCHEMES",
+            {
+                **test_wheel_motion.SCHEMES,
+                "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
+            },
+        ),
+        functools.partial(test_wheel_motion.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
+    ),
+    "factor 4 lost in the leakage": (
+        (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
+        functools.partial(test_wheel_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
+    ),
+    "factor 4 lost in the leakage, seen in a motion": (
+        (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
+        test_wheel_motion.test_a_motion_that_repeats_itself_does_not_leak,
+    ),
+    "a period without lift-off": (
+        (wheel_theory, "_other_turning_point", held_at_the_edge),
+        functools.partial(test_wheel_motion.test_period_of_free_vibration_by_small_steps, 2.2),
+    ),
+    "omega / omega_0 for omega_0 / omega": (
+        (wheel_theory, "acceleration_over_force", inverted),
+        test_wheel_motion.test_acceleration_over_force_is_that_of_a_steady_motion,
+    ),
+    "factor 2 pi lost over frequency": (
+        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
+        functools.partial(test_wheel_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
+    ),
+    "one-sided spectrum over frequency": (
+        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 2.0)),
+        functools.partial(test_wheel_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
+    ),
+    "a jump that is not there": (
+        (wheel_in_motion.Motion, "jump", property(without_a_jump)),
+        functools.partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
+    ),
+    "shooting without a correction": (
+        (test_wheel_motion, "repeating", one_copy),
+        test_wheel_motion.test_the_linear_motion_that_repeats_itself_is_the_steady_one,
+    ),
+    "a steady motion in continuous time": (
+        (contact_laws.Linear, "steady", softer_steady),
+        functools.partial(
+            test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1
+        ),
+    ),
+    "factor 2 lost in linear theory, seen by boundary elements in the loop": (
+        (test_wheel_motion, "linear_force", scaled(test_wheel_motion.linear_force, 0.5)),
+        functools.partial(
+            test_wheel_motion.test_boundary_elements_in_the_loop_follow_linear_theory_in_three_dimensions, 6
         ),
     ),
 }

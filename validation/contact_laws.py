@@ -114,12 +114,12 @@ class Linear:
 
 
 class Springs:
-    """One-sided springs, (14.15), on tracks of shape (places, wheels)."""
+    """One-sided springs, (14.15), on tracks of shape (places, wheels); rms: of their heights, see `mdr.Wheels` [m]."""
 
-    def __init__(self, wheel: Wheel, height: FloatArray, spacing: float):
+    def __init__(self, wheel: Wheel, height: FloatArray, spacing: float, rms: float | None = None):
         self.wheel = wheel
         self.foundation = mdr.Wheels(
-            height, spacing=spacing, radius=wheel.radius, modulus=wheel.modulus, force=wheel.load
+            height, spacing=spacing, radius=wheel.radius, modulus=wheel.modulus, force=wheel.load, rms=rms
         )
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:

@@ -18,8 +18,9 @@ class Motion:
     """Wheels at the beginning of each step.
 
     acceleration: z'' upward, shape (steps, wheels) [m/s^2]; time_step: of the record [s]; lowest, highest: approach met
-    by each wheel [m]; airborne: steps of each wheel without contact; approach, velocity, onward: d [m], d' [m/s] and
-    z'' [m/s^2] after the last step; path: d at each step, shape (steps, wheels), None where it was not asked for.
+    by each wheel [m]; airborne: steps of each wheel without contact; started: d' at first [m/s]; approach, velocity,
+    onward: d [m], d' [m/s] and z'' [m/s^2] after the last step; path: d at each step, shape (steps, wheels), None where
+    it was not asked for.
     """
 
     acceleration: FloatArray
@@ -27,6 +28,7 @@ class Motion:
     lowest: FloatArray
     highest: FloatArray
     airborne: NDArray[np.int64]
+    started: FloatArray
     approach: FloatArray
     velocity: FloatArray
     onward: FloatArray
@@ -76,7 +78,7 @@ def simulate(
         return np.asarray(gravity - law.force(place, d) / wheel.mass)
 
     states = integrator.march(acceleration, d, v, time_step)
-    found = np.empty((steps, d.size))
+    found, started = np.empty((steps, d.size)), v
     kept = np.empty((steps, d.size)) if path else None
     lowest, highest = d, d
     for n in range(steps):
@@ -93,6 +95,7 @@ def simulate(
         lowest=lowest,
         highest=highest,
         airborne=airborne,
+        started=started,
         approach=d,
         velocity=v,
         onward=-a,
@@ -107,14 +110,16 @@ def repeating(
     time_step: float,
     steps: int,
     start: tuple[FloatArray, FloatArray],
-    rounds: int = 6,
+    tolerance: float = 1e-9,
+    rounds: int = 12,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Approach and velocity over the first cell of the motion that repeats itself with the track: no free vibration.
 
     By shooting: the state after one round less that before it is to vanish. Its derivative comes from two neighbours of
     each wheel, rolled beside it once, and is kept.
-    law(n): the contact of n copies of all wheels, copy after copy; start: a state to begin with;
-    rounds: after the first. Returns both, and what is left over of the approach, over d_N, of each wheel.
+    law(n): the contact of n copies of all wheels, copy after copy; start: a state to begin with; tolerance: of what is
+    left over of the approach, over d_N; rounds: at most, after the first.
+    Returns both, and what was left over of each wheel: who is not within the tolerance has not converged.
     Best conditioned where the track takes a whole and a half turns of the resonance.
     """
     d, v = (np.array(x, dtype=np.float64) for x in start)
@@ -130,10 +135,13 @@ def repeating(
     turn = np.moveaxis((near[:, 1:] - near[:, :1]) / small, -1, 0)
     correction = np.linalg.inv(np.eye(2) - turn)
     state, image = np.stack([d, v]), near[:, 0]
+    left = np.abs(image - state).max(axis=0) / wheel.approach
     for _ in range(rounds):
+        if (left <= tolerance).all():
+            break
         state = state + np.einsum("wij,jw->iw", correction, image - state)
         image = after(1, *state)[:, 0]
-    left = np.abs(image - state).max(axis=0) / wheel.approach
+        left = np.abs(image - state).max(axis=0) / wheel.approach
     return state[0], omega * state[1], left
 
 

@@ -42,7 +42,7 @@ def hertz_period(highest: float) -> float:
 
     rest = math.acos(min(1.0, max(-1.0, middle / half)))
     found, _ = integrate.quad(
-        density, 0, math.pi, points=[rest] if lowest < 0 else None, epsabs=0, epsrel=1e-11, limit=400
+        density, 0, math.pi, points=[rest] if lowest < 0 else None, epsabs=0, epsrel=1e-10, limit=400
     )
     return float(2 * found / (2 * math.pi))
 
@@ -94,6 +94,16 @@ def leakage(omega: ArrayLike, *, jump: ArrayLike, time_step: float, duration: fl
     """
     half = np.asarray(omega, dtype=np.float64) * time_step / 2
     return np.asarray(np.asarray(jump) ** 2 * time_step**2 / (4 * duration * np.sin(half) ** 2))
+
+
+def mean_square_jump(forced: float, *, eigenfrequency: float, duration: float) -> float:
+    """<J^2> of a wheel from static equilibrium on an open track: (1 + cos^2(omega_0 T)) <a_f^2> [m^2/s^4].
+
+    The record begins with a = 0, where free vibration cancels the forced acceleration a_f = dF / M; it ends with another
+    a_f, and with that vibration turned by omega_0 T. For waves far above the resonance, whose motion is small.
+    forced: <a_f^2>, int A df of linear theory.
+    """
+    return forced * (1 + math.cos(eigenfrequency * duration) ** 2)
 
 
 def break_exponent(hurst: float) -> float:

@@ -18,6 +18,10 @@ from validation.cases import (
     rolling_input,
     square_punch,
     westergaard,
+    wheel,
+    wheel_distance,
+    wheel_distance_evidence,
+    wheel_evidence,
 )
 from validation.ensemble import Engine
 from validation.evidence import Evidence
@@ -150,5 +154,29 @@ CASES = {
         ),
         rolling_input.run,
         rolling_input.evidence,
+    ),
+    "wheel": Entry(
+        "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and what moves them",
+        wheel.Wheel(),
+        wheel.Wheel(realisations=300, varied=100, cells=32, stills=64),
+        wheel.run,
+        wheel_evidence.evidence,
+    ),
+    "wheel_distance": Entry(
+        "Fig. 14.5: the break that moves with the distance, its cause, and what is real in the plateau",
+        wheel_distance.WheelDistance(),
+        wheel_distance.WheelDistance(
+            scene=wheel_distance.TABLE,
+            doublings=6,
+            wheels=300,
+            fewest=40,
+            causes=60,
+            rough=20,
+            heights=(0.125, 0.25, 0.5, 1.0, 2.0, 4.0),
+            releases=(0.0, 0.1, 0.2, 0.4),
+            released=5,
+        ),
+        wheel_distance.run,
+        wheel_distance_evidence.evidence,
     ),
 }

@@ -17,6 +17,8 @@ from validation.report.figures import (
     rolling_input,
     square_punch,
     westergaard,
+    wheel,
+    wheel_distance,
 )
 
 DRAW: dict[str, Callable[[Evidence], Figure]] = {
@@ -39,6 +41,11 @@ DRAW: dict[str, Callable[[Evidence], Figure]] = {
     "rolling_input": rolling_input.draw,
     "rolling_input-springs": rolling_input.draw_springs,
     "rolling_input-punch": rolling_input.draw_punch,
+    "wheel-contact": wheel.draw_contact,
+    "wheel": wheel.draw,
+    "wheel-parameters": wheel.draw_parameters,
+    "wheel_distance": wheel_distance.draw,
+    "wheel_distance-cause": wheel_distance.draw_cause,
     "race": race.draw,
     "race-rolling": race.draw_rolling,
 }

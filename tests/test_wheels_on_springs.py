@@ -1,0 +1,432 @@
+"""Many wheels on springs in step: against the sum over all springs, and the same bits whoever rolls beside."""
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+import mdr
+from mdr.wheels import BLOCK
+from tests.oracles import springs_under_a_wheel
+
+HERTZ = 4 / 3
+"""Of a wheel of radius 1 at an approach of 1 with E* = 1, whose contact has the radius 1."""
+ROOM = 32
+ULP = 2.0**-53
+KINDS = ("rough", "spikes", "plateaus", "zero", "negative")
+
+
+def heights(kind, points, wheels, rms, seed):
+    """Tracks of every kind, over the approach of the smooth wheel."""
+    rng = np.random.default_rng(seed)
+    noise = rng.normal(size=(points, wheels))
+    return (
+        rms
+        * {
+            "rough": noise,
+            "spikes": np.where(rng.random((points, wheels)) < 0.05, 3.0, -0.1),
+            "plateaus": np.rint(noise) / 2,
+            "zero": 0 * noise,
+            "negative": -np.abs(noise) - 0.1,
+        }[kind]
+    )
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """Some tracks of shape (points, wheels), with so many springs to a contact radius of 1."""
+
+    height: np.ndarray
+    springs: float
+
+    @property
+    def quantum(self):
+        """32 * 2 a / dx * 2^-53 of the smooth approach."""
+        return ROOM * max(2 * self.springs, 1.0) * ULP
+
+    def wheels(self, which=slice(None)):
+        return mdr.Wheels(self.height[:, which], spacing=1 / self.springs, radius=1.0, modulus=1.0, force=HERTZ)
+
+    def sum_of(self, wheel, place, approach):
+        """The force spring by spring, and how far rounded heights, profile and approach may be off it.
+
+        Half a quantum each, in every spring that may touch; the sum of the oracle rounds in its terms.
+        """
+        height = self.height[:, wheel].tolist()
+        total, near = springs_under_a_wheel(
+            height, place, spacing=1 / self.springs, radius=1.0, approach=float(approach)
+        )
+        each = 1.5 * self.quantum + 8 * ULP * (abs(float(approach)) + float(np.abs(self.height).max()))
+        return total / self.springs, (near * each + 8 * ULP * total) / self.springs
+
+    def fits(self, approach):
+        """Whether no sum can come near to 2^53 quanta, however it is taken: then nothing may be refused."""
+        highest = float(np.abs(self.height).max())
+        deepest = float(np.max(approach)) + 0.05
+        rows = 2 * self.springs * math.sqrt(max(deepest + highest, 0.0)) + 2
+        return max(rows * (max(deepest, 0.0) + 2 * highest), (BLOCK + rows) * highest) < 0.99 * ROOM * 2 * self.springs
+
+    def overflows(self, approach):
+        """Whether the sum of compressions of some wheel is so large that it rounds, wherever the wheel stands."""
+        overlap = max(float(np.max(approach)) + float(self.height.min()), 0.0)
+        least = (2 * self.springs * math.sqrt(overlap) - 1) * 2 / 3 * overlap
+        return least > 1.1 * ROOM * max(2 * self.springs, 1.0)
+
+
+def rough(rms, *, springs=20.0, points=300, wheels=3, seed=0):
+    return Tracks(rms * np.random.default_rng(seed).normal(size=(points, wheels)), springs)
+
+
+@st.composite
+def tracks(draw, *, fewest=1.0, roughest=3.0, wheels=None):
+    springs = draw(st.sampled_from([fewest, 10.0, 12.3, 50.5]) | st.floats(fewest, 200.0))
+    points = math.floor(2 * springs) + 1 + draw(st.integers(0, 3) | st.integers(0, 700))
+    count = draw(st.integers(1, 4)) if wheels is None else wheels
+    rms = draw(st.sampled_from([0.0, 1e-9, 0.01, roughest]) | st.floats(0, roughest))
+    height = heights(draw(st.sampled_from(KINDS)), points, count, rms, draw(st.integers(0, 10**6)))
+    return Tracks(height, springs)
+
+
+places = st.sampled_from([0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 2 * BLOCK, 10**6]) | st.integers(0, 3000)
+depths = st.sampled_from([1.0, 1.001, 1.1, 0.0, 2.5, 5.0, -1e6, -1e200, 40.0, 500.0]) | st.floats(-3, 3)
+
+
+@st.composite
+def calls(draw, tracks):
+    """A place and an approach a wheel: as deep as that for all, or about first touch over the place, wheel by wheel."""
+    place, depth = draw(places), draw(depths)
+    if draw(st.booleans()):
+        return place, depth + draw(st.sampled_from([0.0, 0.01, 1.0])) * np.arange(tracks.height.shape[1])
+    touch = np.array([-first_touch(tracks.height[:, i], place, tracks.springs) for i in range(tracks.height.shape[1])])
+    return place, touch + draw(st.sampled_from([0.0, 1e-14, -1e-14, 1e-6, -1e-6, 0.3]))
+
+
+def first_touch(height, place, springs):
+    """The largest of h_j - x_j^2 / R."""
+    reach = math.ceil(springs * math.sqrt(float(np.ptp(height)))) + 1
+    j = np.arange(-reach, reach + 1)
+    return float(np.max(height[(place + j) % height.size] - (j / springs) ** 2))
+
+
+@given(data=st.data(), track=tracks())
+def test_force_is_the_sum_over_all_springs(data, track):
+    """Whatever was asked before, however deep, lifted or refused: right, or an ArithmeticError."""
+    wheels = track.wheels()
+    for _ in range(data.draw(st.integers(1, 6))):
+        place, approach = data.draw(calls(track))
+        try:
+            found = wheels.force(place, approach)
+        except ArithmeticError:
+            assert not track.fits(approach)
+            continue
+        assert not track.overflows(approach)
+        assert found.shape == approach.shape
+        for i, d in enumerate(approach):
+            expected, error = track.sum_of(i, place, d)
+            assert abs(found[i] - expected) <= error
+            assert found[i] >= 0
+
+
+@pytest.mark.parametrize("springs", [1.0, 7.3, 30.0, 100.0])
+@pytest.mark.parametrize("rms", [0.0, 1e-3, 0.1])
+def test_force_to_1e_12_of_the_smooth_wheel(springs, rms):
+    """3/4 of a quantum over d at most for the approach, 5e-13 at a / dx = 100; heights and profile average out."""
+    track = rough(rms, springs=springs, points=1200, wheels=2)
+    wheels = track.wheels()
+    for place in (0, 3, 600, 1100, 1250):
+        approach = np.array([1.0, 1.0 + 1e-3 * math.pi])
+        found = wheels.force(place, approach)
+        for i, d in enumerate(approach):
+            assert abs(found[i] - track.sum_of(i, place, d)[0]) <= 1e-12 * HERTZ
+
+
+@pytest.mark.parametrize("depth", [-1e6, -1e200, -50.0])
+def test_far_above_the_track_there_is_no_force(depth):
+    track = rough(1.0)
+    wheels = track.wheels()
+    for place in (0, 100, BLOCK, 5):
+        assert (wheels.force(place, np.full(3, depth)) == 0.0).all()
+        found = wheels.force(place, np.array([1.0, depth, 0.5]))
+        assert found[1] == 0.0
+        assert np.array_equal(found[::2], wheels.force(place, np.array([1.0, 0.0, 0.5]))[::2])
+
+
+@pytest.mark.parametrize("place", [0, BLOCK - 1, BLOCK, 299])
+def test_beyond_its_end_the_track_begins_again(place):
+    track = rough(0.3)
+    wheels, d = track.wheels(), np.array([1.0, 0.4, -0.2])
+    assert np.array_equal(wheels.force(place, d), wheels.force(place + 3 * 300, d))
+    assert np.array_equal(wheels.approach(place, HERTZ), wheels.approach(place + 7 * 300, HERTZ))
+
+
+def ways():
+    """An order of five wheels, and where to part it into groups."""
+    return st.tuples(st.permutations(range(5)), st.lists(st.integers(1, 4), max_size=4))
+
+
+def groups(order, cuts):
+    edges = [0, *sorted(set(cuts)), 5]
+    return [list(order[first:last]) for first, last in itertools.pairwise(edges)]
+
+
+@given(data=st.data(), track=tracks(fewest=10.0, roughest=0.15, wheels=5), way=ways())
+def test_a_wheel_feels_the_same_force_to_the_last_bit_whoever_rolls_beside_it(data, track, way):
+    asked = [data.draw(calls(track)) for _ in range(4)]
+    asked = [(place, approach) for place, approach in asked if track.fits(approach)]
+    together = track.wheels()
+    expected = [together.force(place, approach) for place, approach in asked]
+    for group in groups(*way):
+        alone = track.wheels(group)
+        # in another order of places
+        for (place, approach), force in reversed(list(zip(asked, expected, strict=True))):
+            assert np.array_equal(alone.force(place, approach[group]), force[group])
+
+
+@given(track=tracks(fewest=10.0, roughest=1.0, wheels=5), way=ways(), place=places, share=st.floats(0.3, 2))
+@example(
+    track=Tracks(np.arange(5.0) * np.random.default_rng(0).normal(size=(60, 5)), 20.0),
+    way=(range(5), [1, 3]),
+    place=0,
+    share=1.0,
+)
+def test_the_approach_under_a_force_has_the_same_bits_too(track, way, place, share):
+    expected = track.wheels().approach(place, share * HERTZ)
+    for group in groups(*way):
+        assert np.array_equal(track.wheels(group).approach(place, share * HERTZ), expected[group])
+
+
+@pytest.mark.parametrize("offset", [3.0, 100.0, 1e5])
+def test_heights_from_a_plane_far_away_cost_an_error_or_no_bits(offset):
+    """The approach under a force is a sum of springs as well."""
+    track = Tracks(offset + np.random.default_rng(0).normal(size=(300, 5)), 20.0)
+    try:
+        expected = track.wheels().approach(0, HERTZ)
+    except ArithmeticError:
+        assert offset > 10
+        return
+    assert np.array_equal(np.concatenate([track.wheels([i]).approach(0, HERTZ) for i in range(5)]), expected)
+
+
+@given(track=tracks(), place=places, share=st.floats(0.05, 3))
+@example(track=Tracks(np.zeros((300, 1)), 10.0), place=0, share=1.0)
+@example(track=Tracks(np.zeros((300, 1)), 1.0), place=0, share=1.0)
+def test_a_prescribed_force_is_borne(track, place, share):
+    """Heights and profile are rounded to half a quantum, so the approach is off by a quantum at most."""
+    force = share * HERTZ
+    wheels = track.wheels()
+    approach = wheels.approach(place, force)
+    for i, d in enumerate(approach):
+        found, error = track.sum_of(i, place, d)
+        assert abs(found - force) <= error + 16 * ULP * force
+
+
+@given(track=tracks(), share=st.floats(0.05, 1))
+@example(track=Tracks(np.zeros((60, 2)), 20.0), share=1.0)
+def test_a_prescribed_force_is_that_of_the_wheel_alone(track, share):
+    """Two independent codes: off by a quantum of this one, and what Newton's method leaves of the other."""
+    force = share * HERTZ
+    wheels = track.wheels()
+    points = track.height.shape[0]
+    for i in range(track.height.shape[1]):
+        other = mdr.roll(track.height[:, i], spacing=1 / track.springs, radius=1.0, modulus=1.0, force=force).approach
+        for place in (0, points // 2, points - 1):
+            found = wheels.approach(place, force)[i]
+            error = 1.1 * track.quantum + 2e-14 + 64 * ULP * (abs(found) + np.abs(track.height).max())
+            assert abs(found - other[place]) <= error
+
+
+@given(track=tracks(fewest=4.0, roughest=0.1), length=st.floats(-6, 6), unit=st.floats(-4, 12), place=places)
+def test_units_do_not_matter(track, length, unit, place):
+    """F ~ E* l^2, d ~ l. The quantum is one of the approach, so that no more than its rounding is seen."""
+    metre, newton = 10.0**length, 10.0**unit * 100.0**length
+    approach = np.linspace(0.5, 1.2, track.height.shape[1])
+    if not track.fits(approach):
+        return
+    there = mdr.Wheels(
+        metre * track.height,
+        spacing=metre / track.springs,
+        radius=metre,
+        modulus=10.0**unit,
+        force=newton * HERTZ,
+    )
+    here = track.wheels()
+    found, expected = there.force(place, metre * approach) / newton, here.force(place, approach)
+    for i, d in enumerate(approach):
+        assert abs(found[i] - expected[i]) <= 2 * track.sum_of(i, place, d)[1]
+    moved = there.approach(place, newton * HERTZ) / metre - here.approach(place, HERTZ)
+    assert np.abs(moved).max() <= 3 * track.quantum + 64 * ULP * (1 + np.abs(track.height).max())
+
+
+@given(track=tracks(fewest=4.0, roughest=0.1), unit=st.integers(-40, 40))
+def test_units_of_force_that_are_powers_of_two_change_no_bit(track, unit):
+    approach = np.linspace(0.5, 1.2, track.height.shape[1])
+    if not track.fits(approach):
+        return
+    newton = 2.0**unit
+    there = mdr.Wheels(track.height, spacing=1 / track.springs, radius=1.0, modulus=newton, force=newton * HERTZ)
+    assert np.array_equal(there.force(7, approach) / newton, track.wheels().force(7, approach))
+    assert np.array_equal(there.approach(7, newton), track.wheels().approach(7, 1.0))
+
+
+@pytest.mark.parametrize("springs", [4.0, 10.0, 50.0])
+@pytest.mark.parametrize("rms", [0.1, 0.3, 1.0, 2.0, 3.0])
+def test_a_wheel_that_bears_its_load_is_not_refused(rms, springs):
+    """Its compressions add up to those under the smooth wheel, however rough the track; a 32nd of what may round."""
+    points = 2000
+    place, number = np.arange(points)[:, np.newaxis, np.newaxis], np.arange(1, 60)
+    phase = np.random.default_rng(0).uniform(0, 2 * np.pi, (4, number.size))
+    height = (number**-0.8 * np.cos(2 * np.pi * number * place / points + phase)).sum(axis=2)
+    track = Tracks(rms * height / height.std(axis=0), springs)
+    wheels = track.wheels()
+    for place in range(0, points, 250):
+        approach = wheels.approach(place, HERTZ)
+        found = wheels.force(place, approach)
+        for i, d in enumerate(approach):
+            assert abs(found[i] - HERTZ) <= 2 * track.sum_of(i, place, d)[1]
+
+
+def test_a_wheel_of_equal_springs_rolls_the_same_in_either_direction():
+    """The profile is even, springs are under cell centres: no half cell ahead."""
+    track = rough(0.3, points=301)
+    back = Tracks(track.height[::-1], track.springs)
+    wheels, mirrored, d = track.wheels(), back.wheels(), np.array([1.0, 0.7, 0.2])
+    for place in (0, 17, 300):
+        assert np.array_equal(wheels.force(place, d), mirrored.force(300 - place, d))
+
+
+def test_sums_that_round_are_refused_each_time():
+    """And a refused call leaves nothing behind."""
+    track = rough(0.1)
+    wheels = track.wheels()
+    expected = wheels.force(5, np.ones(3))
+    for _ in range(2):
+        with pytest.raises(ArithmeticError, match="too deep"):
+            wheels.force(5, np.full(3, 400.0))
+    assert np.array_equal(wheels.force(5, np.ones(3)), expected)
+    high = Tracks(1000.0 + track.height, track.springs).wheels()
+    for _ in range(2):
+        with pytest.raises(ArithmeticError, match="about zero"):
+            high.force(5, np.full(3, -999.0))
+
+
+@pytest.mark.parametrize("overlap", [1.0, 2.0, 3.0, 4.0])
+def test_sums_beyond_2_53_are_refused_or_not_seen(overlap):
+    """Springs far above the plane of height zero, the wheel lifted as far: each sum is nearly as large as it may be."""
+    springs, lowest, highest = 1000.0, 12.5, 26.0
+    height = np.where(np.random.default_rng(0).random((9000, 1)) < 0.003, highest, lowest)
+    height += 1e-3 * np.random.default_rng(1).random(height.shape)
+    height[4500] = highest
+    alone, several = (Tracks(np.repeat(height, n, axis=1), springs).wheels() for n in (1, 3))
+    d = overlap - highest + 1e-3 * math.pi
+    try:
+        expected = alone.force(4500, [d])
+    except ArithmeticError:
+        return
+    assert (several.force(4500, [d] * 3) == expected).all()
+
+
+@pytest.mark.parametrize("springs", [3.3, 7.7, 20.5])
+def test_newtons_method_ends_where_a_spring_just_touches(springs):
+    """Forces within a few roundings of one at which the next spring comes into contact."""
+    height = np.random.default_rng(0).normal(size=(80, 20))
+    j = np.arange(-40, 41)
+    for i in range(20):
+        wheels = Tracks(height[:, [i]], springs).wheels()
+        quantum = wheels.quantum
+        level = np.rint(height[(10 + j) % 80, i] / quantum) - np.rint((j / springs) ** 2 / quantum)
+        level = np.sort(level)[::-1]
+        for touching in range(1, 8):
+            force = float(np.sum(level[:touching] - level[touching])) * quantum / springs
+            for roundings in range(-6, 7):
+                approach = float(wheels.approach(10, force * (1 + 2 * roundings * ULP))[0])
+                assert approach == pytest.approx(-level[touching] * quantum, abs=2 * quantum)
+
+
+@pytest.mark.parametrize("wrong", [(-1, 4.0), (5, np.nan), (5, 400.0), (0.5, 4.0)])
+def test_a_refused_call_leaves_nothing_behind(wrong):
+    track = rough(1.0)
+    wheels, untouched = track.wheels(), track.wheels()
+    wheels.force(5, np.ones(3))
+    with pytest.raises((ValueError, TypeError, ArithmeticError)):
+        wheels.force(wrong[0], np.full(3, wrong[1]))
+    assert np.array_equal(wheels.force(5, np.full(3, 4.0)), untouched.force(5, np.full(3, 4.0)))
+
+
+def laid(**changes):
+    settings = {"height": np.zeros((9, 2)), "spacing": 1.0, "radius": 4.0, "modulus": 1.0, "force": 2.0}
+    return mdr.Wheels(**{**settings, **changes})
+
+
+@pytest.mark.parametrize(
+    ("changes", "error", "named"),
+    [
+        *[({name: value}, ValueError, name) for name in ("spacing", "radius", "modulus", "force")
+          for value in (0.0, -1.0, np.nan, np.inf)],
+        *[({name: value}, TypeError, name) for name in ("spacing", "radius", "modulus", "force")
+          for value in (True, "1", None, 1j)],
+        *[({"height": np.full((9, 2), value)}, ValueError, "height") for value in (np.nan, np.inf, -np.inf)],
+        *[({"height": np.zeros(shape)}, ValueError, "height") for shape in ((9,), (9, 2, 1), (0, 2), (9, 0), ())],
+        ({"height": np.zeros((9, 2), dtype=bool)}, TypeError, "height"),
+        ({"height": np.zeros((9, 2), dtype=complex)}, TypeError, "height"),
+        ({"height": np.zeros((2, 2))}, ValueError, "height must be longer than the contact"),
+    ],
+)  # fmt: skip
+def test_tracks_that_are_refused(changes, error, named):
+    with pytest.raises(error, match=named):
+        laid(**changes)
+
+
+@pytest.mark.parametrize("before", [False, True], ids=["at first", "later"])
+@pytest.mark.parametrize(
+    ("place", "error"),
+    [(-1, ValueError), (1.5, TypeError), (2.0, TypeError), (True, TypeError), ("1", TypeError), (None, TypeError)],
+)
+def test_places_that_are_refused(place, error, before):
+    wheels = laid()
+    if before:
+        wheels.force(0, [1.0, 1.0])
+    with pytest.raises(error, match="place"):
+        wheels.force(place, [1.0, 1.0])
+    with pytest.raises(error, match="place"):
+        wheels.approach(place, 2.0)
+
+
+@pytest.mark.parametrize("before", [False, True], ids=["at first", "later"])
+@pytest.mark.parametrize(
+    "approach",
+    [
+        1.0, [1.0], [1.0, 2.0, 3.0], [[1.0, 1.0]], [], [np.nan, 1.0], [1.0, np.inf], [-np.inf, 1.0], [True, False],
+        ["1", "2"], [1j, 1.0], None, np.ma.array([1.0, 2.0], mask=[False, True]),
+    ],
+)  # fmt: skip
+def test_approaches_that_are_refused(approach, before):
+    wheels = laid()
+    if before:
+        wheels.force(0, [1.0, 1.0])
+    with pytest.raises((ValueError, TypeError), match="approach"):
+        wheels.force(0, approach)
+
+
+@pytest.mark.parametrize("force", [0.0, -1.0, np.nan, np.inf, True, "1", None])
+def test_forces_that_are_refused(force):
+    with pytest.raises((ValueError, TypeError), match="force"):
+        laid().approach(0, force)
+
+
+def test_the_tracks_are_a_copy():
+    height = np.zeros((9, 2))
+    wheels = laid(height=height)
+    height += 1.0
+    assert np.array_equal(wheels.force(0, [1.0, 1.0]), laid().force(0, [1.0, 1.0]))
+
+
+def test_a_smooth_wheel_examines_few_springs():
+    """Those within the slack of the approach to both sides, 2 % of d: 1 % of the radius inwards and outwards."""
+    track = rough(0.0, springs=100.5)
+    wheels = track.wheels()
+    wheels.force(0, np.ones(3))
+    assert 0 < wheels.examined <= 2 * (math.ceil(0.021 * 100.5) + 1)

@@ -1,0 +1,155 @@
+"""Fig. 14.4: the spectrum of the acceleration of a rolling wheel, its regions, and what moves them."""
+
+import math
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+from validation.contact_laws import BoundaryElements, Springs
+from validation.ensemble import SERIAL, Engine, Outcome, generator
+from validation.wheel import simulate
+from validation.wheel_ensemble import Rides, roll_wheels, wheel_of
+from validation.wheel_scene import WheelScene, read_scene
+
+FloatArray = NDArray[np.float64]
+
+TABLE = read_scene("table_14_1")
+BASE = "Table 14.1"
+STRIP = 3
+"""The spawn key of the strip in the picture."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wheel:
+    """An ensemble of wheels of a scene on springs, and the same with one parameter changed at a time.
+
+    scene; realisations: of the scene itself; varied: of each variation; groups: into which both are divided for error
+    bars; batch: wheels in step at most; parameters: whether to vary any; cells: to a contact radius of
+    boundary elements in the picture; stills: steps before the picture is taken; seed: zero or positive.
+    """
+
+    scene: WheelScene = TABLE
+    realisations: int = 60
+    varied: int = 20
+    groups: int = 10
+    batch: int = 150
+    parameters: bool = True
+    cells: int = 16
+    stills: int = 24
+    seed: int = 146
+
+    def variations(self) -> Mapping[str, WheelScene]:
+        """Scenes by what is other than in the first."""
+        found = {BASE if self.scene.name == TABLE.name else self.scene.name: self.scene}
+        if self.parameters:
+            found |= _varied(self.scene)
+        return found
+
+    def rides(self, scene: WheelScene, realisations: int) -> list[Rides]:
+        """Batches of equal size."""
+        batches = math.ceil(realisations / self.batch)
+        count, groups = realisations // batches, max(self.groups // batches, 1)
+        return [Rides(scene=scene, first=i * count, count=count, groups=groups, seed=self.seed) for i in range(batches)]
+
+    def of(self, name: str) -> int:
+        """Realisations of a variation."""
+        return self.realisations if name == next(iter(self.variations())) else self.varied
+
+
+@dataclass(frozen=True, kw_only=True)
+class Still:
+    """A picture of one wheel after some steps."""
+
+    scene: WheelScene
+    cells: int
+    steps: int
+    seed: int
+
+
+@dataclass(frozen=True)
+class WheelResult:
+    """Batches of each variation, and the contact of one wheel in one and in three dimensions."""
+
+    case: Wheel
+    batches: Mapping[str, list[Outcome]]
+    still: Outcome
+
+
+def run(case: Wheel, engine: Engine = SERIAL) -> WheelResult:
+    """Roll all wheels of all variations."""
+    rides = {name: case.rides(scene, case.of(name)) for name, scene in case.variations().items()}
+    outcomes = iter(engine.map(roll_wheels, [ride for batches in rides.values() for ride in batches]))
+    found = {name: [next(outcomes) for _ in batches] for name, batches in rides.items()}
+    scene = case.scene
+    still = Still(scene=scene, cells=case.cells, steps=case.stills, seed=case.seed)
+    return WheelResult(case, found, engine.map(picture, [still])[0])
+
+
+def _varied(scene: WheelScene) -> dict[str, WheelScene]:
+    """One parameter at a time, down and up."""
+    found: dict[str, WheelScene] = {}
+    for factor in (0.25, 2.0):
+        found[f"v₀ × {factor:g}"] = replace(scene, speed=factor * scene.speed)
+    for factor in (0.25, 4.0):
+        found[f"F_N × {factor:g}"] = replace(scene, load=factor * scene.load)
+    rail = scene.rail
+    if rail is None:
+        return found
+    for factor in (0.5, 2.0):
+        found[f"q_min × {factor:g}"] = replace(scene, rail=replace(rail, longest=rail.longest / factor))
+    for factor in (0.5, 2.0):
+        found[f"q_max × {factor:g}"] = replace(scene, rail=replace(rail, shortest=rail.shortest / factor))
+    for hurst in (0.4, 1.0):
+        found[f"H = {hurst:g}"] = replace(scene, rail=replace(rail, hurst=hurst))
+    for factor in (0.25, 4.0):
+        found[f"h₀ × {factor:g}"] = replace(scene, rail=replace(rail, rms=factor * rail.rms))
+    return found
+
+
+def picture(still: Still) -> Outcome:
+    """The contact of a wheel as the simulation has it, on springs and on the half-space.
+
+    springs: x from the middle, profile of the wheel at its approach, height of the track, compression, over a and d;
+    x, y: over a; pressure: over the largest of Hertz, in the frame that moves along, (x, y).
+    """
+    scene, wheel = still.scene, wheel_of(still.scene)
+    a, d = scene.contact_radius, scene.approach
+    rides = Rides(scene=scene, seed=still.seed)
+    heights = rides.heights()
+    motion = simulate(wheel, Springs(wheel, heights, scene.spacing, scene.rms), time_step=scene.time_step, steps=still.steps * 4)
+    j = np.arange(-round(1.4 * scene.springs), round(1.4 * scene.springs) + 1)
+    profile = (j * scene.spacing) ** 2 / scene.radius - motion.approach[0]
+    height = heights[:, 0].take(j + 4 * still.steps, mode="wrap")
+    contact = _strip_contact(still)
+    x, y, pressure = contact.pressure()
+    greatest = 2 * scene.modulus / math.pi * math.sqrt(d / scene.radius)
+    return {
+        "springs": np.stack([j * scene.spacing / a, profile / d, height / d, np.maximum(height - profile, 0) / d]),
+        "x": x / a,
+        "y": y / a,
+        "pressure": pressure / greatest,
+    }
+
+
+def _strip_contact(still: Still) -> bem3d.RollingContact:
+    """Rolled by boundary elements over a strip with the isotropic spectrum of the scene, as far as it has waves."""
+    scene, wheel = still.scene, wheel_of(still.scene)
+    spacing = scene.contact_radius / still.cells
+    rough = scene.rail or scene.wheel
+    shape = (12 * still.cells, 6 * still.cells)
+    strip = np.zeros(shape)
+    if rough is not None:
+        cut = replace(rough, shortest=max(rough.shortest, 4 * spacing)).spectrum
+        with warnings.catch_warnings():
+            # a picture of one place: the waves that the cells carry
+            warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+            strip = bem3d.rough_surface(
+                cut.c2d, shape=shape, spacing=spacing, rng=generator(still.seed, STRIP), rms=rough.rms
+            )
+    law = BoundaryElements(wheel, [strip], spacing)
+    simulate(wheel, law, time_step=spacing / scene.speed, steps=still.steps)
+    return law.contacts[0]

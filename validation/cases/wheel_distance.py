@@ -1,0 +1,134 @@
+"""Fig. 14.5: distances, the break, and what is real in the plateau; the peak at large amplitudes."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from validation.ensemble import SERIAL, Engine, Outcome
+from validation.evidence import NotConvergedError
+from validation.wheel_ensemble import Rides, Track, roll_wheels
+from validation.wheel_scene import Roughness, WheelScene, read_scene
+
+TABLE = read_scene("table_14_1")
+SHORT = replace(TABLE, distance=0.16)
+SPRINGS, LINEAR = "springs", "linear"
+
+
+@dataclass(frozen=True, kw_only=True)
+class WheelDistance:
+    """Wheels of one scene on springs, which roll more or less far, on open and closed tracks, over more or less height.
+
+    scene; turns: of the resonance on the shortest distance, whole; doublings: of it; wheels: to a distance up to the middle one, half as many for each
+    doubling beyond, fewest at least; causes: wheels for each way to end a track; rough: wheels for each height;
+    heights: factors on h_0, ascending, with one; releases: amplitudes of free vibration over d, of `released` wheels
+    each; groups: of wheels, for errors; seed: zero or more.
+    """
+
+    scene: WheelScene = SHORT
+    turns: int = 1
+    doublings: int = 4
+    wheels: int = 60
+    fewest: int = 20
+    causes: int = 20
+    rough: int = 10
+    heights: tuple[float, ...] = (0.25, 1.0, 4.0)
+    releases: tuple[float, ...] = (0.0, 0.4)
+    released: int = 4
+    groups: int = 10
+    seed: int = 147
+
+    def distances(self) -> list[Rides]:
+        """Open tracks, each twice as long as the one before."""
+        rides = []
+        for i in range(self.doublings + 1):
+            # all end in the same phase of free vibration: the jump at their end is as large
+            turn = 2 * math.pi * self.scene.speed / self.scene.eigenfrequency
+            scene = replace(self.scene, distance=self.turns * turn * 2**i)
+            count = max(self.fewest, min(self.wheels, round(self.wheels * 2 ** (self.doublings / 2 - i))))
+            count -= count % self.groups
+            rides.append(Rides(scene=scene, count=count, groups=self.groups, seed=self.seed))
+        return rides
+
+    def ends(self) -> dict[str, Rides]:
+        """Every way to end a track."""
+        return {
+            "springs, open": self.ending(SPRINGS, "open", self.causes),
+            "springs, whole turns": self.ending(SPRINGS, "closed", self.causes),
+            "springs, repeating": self.ending(SPRINGS, "steady", self.causes),
+            "linear, open": self.ending(LINEAR, "open", self.causes),
+            "linear, repeating": self.ending(LINEAR, "steady", self.causes),
+        }
+
+    def ending(self, law: str, track: Track, count: int, height: float = 1.0) -> Rides:
+        """One of these, at a height."""
+        return Rides(
+            scene=scaled(self.scene, height),
+            count=count,
+            groups=self.groups,
+            track=track,
+            linear=law == LINEAR,
+            seed=self.seed,
+        )
+
+    def sweep(self) -> dict[tuple[str, float], Rides]:
+        """Open springs, repeating springs and the open linear contact at each height."""
+        kinds: tuple[tuple[str, Track], ...] = ((SPRINGS, "open"), (SPRINGS, "steady"), (LINEAR, "open"))
+        return {
+            (f"{law}, {track}", height): self.ending(law, track, self.rough, height)
+            for law, track in kinds
+            for height in self.heights
+        }
+
+    def vibrations(self) -> dict[float, Rides]:
+        """Wheels that begin so much deeper than in equilibrium."""
+        scene = replace(self.scene, distance=2 * self.scene.distance)
+        return {
+            release: Rides(scene=scene, count=self.released, groups=self.released, release=release, seed=self.seed)
+            for release in self.releases
+        }
+
+
+@dataclass(frozen=True)
+class DistanceResult:
+    """One outcome for each distance, each ending, each height and each release."""
+
+    case: WheelDistance
+    distances: list[Outcome]
+    ends: Mapping[str, Outcome]
+    sweep: Mapping[tuple[str, float], Outcome]
+    vibrations: Mapping[float, Outcome]
+    unconverged: tuple[str, ...]
+
+
+def scaled(scene: WheelScene, factor: float) -> WheelScene:
+    """The scene with all heights times a factor."""
+
+    def times(rough: Roughness | None) -> Roughness | None:
+        return replace(rough, rms=factor * rough.rms) if rough else None
+
+    return replace(scene, rail=times(scene.rail), wheel=times(scene.wheel))
+
+
+def run(case: WheelDistance, engine: Engine = SERIAL) -> DistanceResult:
+    """Roll all wheels. Raises NotConvergedError where nothing repeats itself."""
+    ends, sweep, vibrations, distances = case.ends(), case.sweep(), case.vibrations(), case.distances()
+    # the longest first, so that no worker is left with it alone
+    rides = [*distances[::-1], *ends.values(), *sweep.values(), *vibrations.values()]
+    outcomes = engine.map(roll_wheels, rides)
+    lost = tuple(
+        f"{int(o['failed'])} of {r.count} wheels do not repeat themselves, h₀ = {r.scene.rms:.3g} m"
+        for r, o in zip(rides, outcomes, strict=True)
+        if o["failed"]
+    )
+    if any(o["failed"] > r.count / 2 for r, o in zip(rides, outcomes, strict=True)):
+        raise NotConvergedError("most wheels of an ensemble do not repeat themselves", lost)
+    left = iter(outcomes)
+    found = [next(left) for _ in distances][::-1]
+    return DistanceResult(
+        case,
+        found,
+        {name: next(left) for name in ends},
+        {key: next(left) for key in sweep},
+        {release: next(left) for release in vibrations},
+        lost,
+    )

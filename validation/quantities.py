@@ -1,0 +1,72 @@
+"""Quantities with units, as they stand in scene files: "0.5 m", "210 GPa", "72 km/h"."""
+
+import json
+import math
+from decimal import Context, Decimal, InvalidOperation
+from fractions import Fraction
+from typing import Literal
+
+Dimension = Literal["length", "mass", "force", "pressure", "speed"]
+
+UNITS: dict[Dimension, dict[str, Fraction]] = {
+    "length": {
+        "m": Fraction(1),
+        "mm": Fraction(1, 10**3),
+        "um": Fraction(1, 10**6),
+        "µm": Fraction(1, 10**6),
+        "nm": Fraction(1, 10**9),
+        "km": Fraction(10**3),
+    },
+    "mass": {"kg": Fraction(1), "g": Fraction(1, 10**3), "t": Fraction(10**3)},
+    "force": {"N": Fraction(1), "kN": Fraction(10**3), "MN": Fraction(10**6), "mN": Fraction(1, 10**3)},
+    "pressure": {"Pa": Fraction(1), "kPa": Fraction(10**3), "MPa": Fraction(10**6), "GPa": Fraction(10**9)},
+    "speed": {"m/s": Fraction(1), "mm/s": Fraction(1, 10**3), "km/h": Fraction(10, 36)},
+}
+"""Each unit over the SI unit of its dimension."""
+EXAMPLES: dict[Dimension, str] = {
+    "length": "0.5 m",
+    "mass": "500 kg",
+    "force": "4905 N",
+    "pressure": "210 GPa",
+    "speed": "20 m/s",
+}
+# decimal, so that "0.5 um" is the float nearest to 5e-7; nothing trapped, since what is not finite is refused anyway
+DECIMAL = Context(prec=60, traps=[InvalidOperation])
+
+
+def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = False) -> float:
+    """The float nearest to a quantity of the given dimension, in SI units.
+
+    text: a decimal number and a unit, with a space between them; positive: whether it must be above zero.
+    Raises ValueError naming the quantity that is of another form or dimension, not finite, or not positive.
+    """
+    found = _read(text, dimension)
+    if found is None:
+        accepted = f'a {dimension}, as "{EXAMPLES[dimension]}", in one of {", ".join(UNITS[dimension])}'
+        raise ValueError(f"{name} must be {accepted}, got {_shown(text)}")
+    if not math.isfinite(found):
+        raise ValueError(f"{name} must be finite, got {_shown(text)}")
+    if positive and found <= 0:
+        raise ValueError(f"{name} must be positive, got {_shown(text)}")
+    return found
+
+
+def _read(text: object, dimension: Dimension) -> float | None:
+    """The quantity, or None if the text is of another form or dimension."""
+    words = text.split() if isinstance(text, str) else []
+    # the micro sign and the Greek letter look the same
+    unit = UNITS[dimension].get(words[1].replace("\N{GREEK SMALL LETTER MU}", "µ")) if len(words) == 2 else None
+    if unit is None:
+        return None
+    try:
+        number = DECIMAL.create_decimal(words[0])
+    except InvalidOperation:
+        return None
+    if not number.is_finite():
+        return math.nan
+    return float(DECIMAL.divide(DECIMAL.multiply(number, Decimal(unit.numerator)), Decimal(unit.denominator)))
+
+
+def _shown(text: object) -> str:
+    """What came, on one line: strings in double quotes."""
+    return json.dumps(text, ensure_ascii=False) if isinstance(text, str) else repr(text)
