@@ -114,12 +114,12 @@ class Linear:
 
 
 class Springs:
-    """One-sided springs, (14.15), on tracks of shape (places, wheels); rms: of their heights, see `mdr.Wheels` [m]."""
+    """One-sided springs, (14.15), on tracks of shape (places, wheels)."""
 
-    def __init__(self, wheel: Wheel, height: FloatArray, spacing: float, rms: float | None = None):
+    def __init__(self, wheel: Wheel, height: FloatArray, spacing: float):
         self.wheel = wheel
         self.foundation = mdr.Wheels(
-            height, spacing=spacing, radius=wheel.radius, modulus=wheel.modulus, force=wheel.load, rms=rms
+            height, spacing=spacing, radius=wheel.radius, modulus=wheel.modulus, force=wheel.load
         )
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:

@@ -139,7 +139,9 @@ def repeating(
     for _ in range(rounds):
         if (left <= tolerance).all():
             break
-        state = state + np.einsum("wij,jw->iw", correction, image - state)
+        (r, s), ((a, b), (c, e)) = image - state, np.moveaxis(correction, 0, -1)
+        # who is there stays there, whoever else goes on
+        state = np.where(left > tolerance, state + np.stack([a * r + b * s, c * r + e * s]), state)
         image = after(1, *state)[:, 0]
         left = np.abs(image - state).max(axis=0) / wheel.approach
     return state[0], omega * state[1], left
@@ -151,12 +153,14 @@ def turns(wheel: Wheel, length: float, speed: float) -> float:
 
 
 def _stable(wheel: Wheel, step: float, integrator: Integrator) -> None:
-    turn = wheel.eigenfrequency * step
-    if turn >= max(integrator.limit, 2.0):
+    turn, limit = wheel.eigenfrequency * step, max(integrator.limit, 2.0)
+    if turn >= limit:
+        why = "the motion would grow without bound"
+        if not integrator.limit:
+            why = "the motion grows at any step, and from 2 on it is refused, since nothing is left of it"
         raise ValueError(
-            f"time_step must be below {max(integrator.limit, 2.0):.3g} / omega_eigen = "
-            f"{max(integrator.limit, 2.0) / wheel.eigenfrequency:.3g} s for {integrator.name}, got {step:.3g} s: "
-            f"omega_eigen dt = {turn:.3g}, and the motion would grow without bound"
+            f"time_step must be below {limit:.6g} / omega_eigen = {limit / wheel.eigenfrequency:.6g} s for "
+            f"{integrator.name}, got {step:.6g} s: omega_eigen dt = {turn:.6g}, and {why}"
         )
 
 

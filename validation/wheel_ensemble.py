@@ -133,7 +133,7 @@ def roll_wheels(rides: Rides) -> Outcome:
 def _motion(rides: Rides) -> tuple[Motion, FloatArray]:
     scene, wheel = rides.scene, wheel_of(rides.scene)
     height = rides.heights()
-    law: ContactLaw = _filtered(wheel, height, scene.spacing) if rides.linear else Springs(wheel, height, scene.spacing, scene.rms)
+    law: ContactLaw = _filtered(wheel, height, scene.spacing) if rides.linear else Springs(wheel, height, scene.spacing)
     start, velocity = law.at_rest(0) + rides.release * scene.approach, np.zeros(rides.count)
     left = np.zeros(rides.count)
     if rides.track == "steady" and isinstance(law, Linear):
@@ -141,7 +141,7 @@ def _motion(rides: Rides) -> tuple[Motion, FloatArray]:
     elif rides.track == "steady":
         start, velocity, left = repeating(
             wheel,
-            lambda n: Springs(wheel, np.tile(height, (1, n)), scene.spacing, scene.rms),
+            lambda n: Springs(wheel, np.tile(height, (1, n)), scene.spacing),
             time_step=scene.time_step,
             steps=rides.steps,
             start=(start, velocity),

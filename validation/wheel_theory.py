@@ -5,13 +5,18 @@ Frequencies are angular, omega in rad/s; spectra are those of (14.17), two-sided
 """
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import integrate
+from scipy import special
 
 FloatArray = NDArray[np.float64]
 
+NODES = 100
+"""Of Gauss and Legendre on each part of a period."""
+SLIVER = 1e-6
+"""Of the approach without contact, which no part of a period of its own resolves."""
 ANHARMONIC = 1 / 24
 """Of F ~ d^(3/2): omega = omega_0 (1 - (A / d)^2 / 24) to lowest order."""
 
@@ -28,34 +33,40 @@ def hertz_period(highest: float) -> float:
     u = d / d_N and tau = omega_0 t, u'' = (2/3) (1 - u^(3/2)), since omega_0^2 = (3/2) F_N / (M d_N); without contact
     u'' = 2/3. The energy u'^2 / 2 + V(u) is kept, V = (2/3) ((2/5) max(u, 0)^(5/2) - u), so the period is
     2 int du / sqrt(2 (V(highest) - V(u))) between both turning points; u = middle - half cos(theta) takes the singular
-    ends away.
+    ends away, for Gauss and Legendre.
     """
     if not highest > 1:
         raise ValueError(f"highest must be above one, got {highest}")
-    top = _potential(highest)
-    lowest = _other_turning_point(top)
-    middle, half = (highest + lowest) / 2, (highest - lowest) / 2
+    above = highest - 1
+    energy = _potential(above)
+    below = _other_turning_point(energy)
+    middle, half = (above + below) / 2, (above - below) / 2
+    # where contact is lost the force has no second derivative
+    ends = [0.0, math.acos((middle + 1) / half), math.pi] if below < -1 - SLIVER else [0.0, math.pi]
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    period = 0.0
+    for first, last in pairwise(ends):
+        theta = (first + last) / 2 + (last - first) / 2 * node
+        left = energy - np.vectorize(_potential)(middle - half * np.cos(theta))
+        period += (last - first) / 2 * float(weight @ (2 * half * np.sin(theta) / np.sqrt(2 * left)))
+    return period / (2 * math.pi)
 
-    def density(theta: float) -> float:
-        left = top - _potential(middle - half * math.cos(theta))
-        return half * math.sin(theta) / math.sqrt(2 * left) if left > 0 else 0.0
 
-    rest = math.acos(min(1.0, max(-1.0, middle / half)))
-    found, _ = integrate.quad(
-        density, 0, math.pi, points=[rest] if lowest < 0 else None, epsabs=0, epsrel=1e-10, limit=400
-    )
-    return float(2 * found / (2 * math.pi))
-
-
-def _potential(u: float) -> float:
-    return 2 / 3 * (0.4 * math.pow(max(u, 0.0), 2.5) - u)
+def _potential(x: float) -> float:
+    """V over that of rest at u = 1 + x; by its series where the rest would be lost in rounding."""
+    if x < -1:
+        return -2 / 3 * (x + 0.4)
+    if abs(x) < 0.03:
+        terms = (0.4 * float(special.binom(2.5, k)) * x ** (k - 2) for k in range(2, 14))
+        return 2 / 3 * x * x * math.fsum(terms)
+    return 2 / 3 * (0.4 * (math.pow(1 + x, 2.5) - 1) - x)
 
 
 def _other_turning_point(energy: float) -> float:
-    """The approach below one of this energy: without contact V = -(2/3) u."""
-    if energy >= 0:
-        return -1.5 * energy
-    low, high = 0.0, 1.0
+    """x below rest of this energy; without contact V = -(2/3) (x + 2/5)."""
+    if energy >= _potential(-1.0):
+        return -1.5 * energy - 0.4
+    low, high = -1.0, 0.0
     while True:
         middle = (low + high) / 2
         if middle in (low, high):
@@ -99,8 +110,8 @@ def leakage(omega: ArrayLike, *, jump: ArrayLike, time_step: float, duration: fl
 def mean_square_jump(forced: float, *, eigenfrequency: float, duration: float) -> float:
     """<J^2> of a wheel from static equilibrium on an open track: (1 + cos^2(omega_0 T)) <a_f^2> [m^2/s^4].
 
-    The record begins with a = 0, where free vibration cancels the forced acceleration a_f = dF / M; it ends with another
-    a_f, and with that vibration turned by omega_0 T. For waves far above the resonance, whose motion is small.
+    The record begins with a = 0, where free vibration cancels the forced acceleration a_f = dF / M; it ends with
+    another a_f, and with that vibration turned by omega_0 T. For waves far above the resonance, whose motion is small.
     forced: <a_f^2>, int A df of linear theory.
     """
     return forced * (1 + math.cos(eigenfrequency * duration) ** 2)

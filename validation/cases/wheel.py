@@ -120,7 +120,7 @@ def picture(still: Still) -> Outcome:
     a, d = scene.contact_radius, scene.approach
     rides = Rides(scene=scene, seed=still.seed)
     heights = rides.heights()
-    motion = simulate(wheel, Springs(wheel, heights, scene.spacing, scene.rms), time_step=scene.time_step, steps=still.steps * 4)
+    motion = simulate(wheel, Springs(wheel, heights, scene.spacing), time_step=scene.time_step, steps=still.steps * 4)
     j = np.arange(-round(1.4 * scene.springs), round(1.4 * scene.springs) + 1)
     profile = (j * scene.spacing) ** 2 / scene.radius - motion.approach[0]
     height = heights[:, 0].take(j + 4 * still.steps, mode="wrap")
