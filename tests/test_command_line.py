@@ -132,7 +132,7 @@ def test_page_is_self_contained(small, tmp_path):
         assert external not in page
     for name in small:
         assert f'id="{name}"' in page
-    assert page.count("data:image/svg+xml;base64,") == len(CASES) + 4 + 3 + 2
+    assert page.count("data:image/svg+xml,") == len(CASES) + 4 + 3 + 2
     assert "profile: quick" in page
 
 

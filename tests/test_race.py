@@ -14,6 +14,7 @@ from validation.cases import RACE
 from validation.evidence import Verdict
 from validation.peers import CONTESTANTS, Contestant, Run
 from validation.race_rolling import Rolls, interpolated
+from validation.race_wheel import Steps
 
 HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, entrants=())
 
@@ -101,9 +102,12 @@ def test_threads_of_the_contestants_are_one(monkeypatch):
     assert "MKL_NUM_THREADS" not in os.environ
 
 
+STEPS = Steps(springs=(12, 25), heights=(0.1,), wheels=20, steps=40, cells=8, bem_steps=20)
+
+
 def small(**settings):
     rolls = Rolls(cells=(4, 6), tolerances=(1e-3, 1e-5), finest=12, goal=(8, 1e-4), positions=20, last=6.0)
-    return race.Race(cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), rolling=rolls, **settings)
+    return race.Race(cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), rolling=rolls, wheel=STEPS, **settings)
 
 
 @pytest.fixture(scope="module")
@@ -126,6 +130,16 @@ def test_evidence(result):
         assert (mine["median [s]"] > 0).all()
         assert (mine["residual"] <= 1e-8).all()
         assert (mine["pressure difference to ours, L2"] <= 1e-4).all()
+
+
+def test_steps_of_the_wheel_are_counted_on_the_same_force(result):
+    """The plain sum over all springs is the same force, and slower where only some are in doubt."""
+    rates, goals = race_evidence.evidence(result).table("wheel"), result.wheel[1]
+    assert (rates["difference to the plain sum"] < 1e-12).all()
+    assert (rates["springs examined"] < 2 * 1.5 * rates["a/dx"]).all()
+    assert (rates["wheel-steps a second"] > 0).all()
+    assert goals["goal"].tolist() == ["5e+06", "400"]
+    assert (goals["seconds a simulated metre"].astype(float) > 0).all()
 
 
 def test_the_error_of_a_rolling_force_falls_with_the_residual_and_with_the_cells(result):

@@ -14,6 +14,7 @@ from validation.ensemble import LOCAL
 from validation.evidence import Evidence, Verdict
 from validation.peers import peers_installed
 from validation.report.build import Section, build
+from validation.wheel_scene import read_scene, shipped
 
 RACE_COLUMNS = (
     "problem",
@@ -55,8 +56,10 @@ def main(words: Sequence[str] | None = None) -> int:
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases and write their report."""
     # the race is run last, when nothing else is
-    names = list(dict.fromkeys(arguments.only or [*CASES, *(["race"] if peers_installed() else [])]))
-    out = arguments.out or Path("reports") / "-".join([arguments.profile, *(names if arguments.only else ())])
+    everything = [*CASES, *(["race"] if peers_installed() else [])] if arguments.scene is None else ["wheel"]
+    names = list(dict.fromkeys(arguments.only or everything))
+    some = names if arguments.only or arguments.scene else ()
+    out = arguments.out or Path("reports") / "-".join([arguments.profile, *some])
     return _built(names, out, arguments)
 
 
@@ -74,6 +77,7 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
         out=out,
         workers=arguments.workers,
         seed=arguments.seed,
+        scene=read_scene(arguments.scene) if arguments.scene else None,
         executor=arguments.executor,
         tell=_tell,
     )
@@ -148,12 +152,18 @@ def _parser() -> argparse.ArgumentParser:
         metavar="WHERE",
         help='"local", or dask://HOST:PORT, a scheduler whose workers compute in place of those here (default: local)',
     )
+    making.add_argument(
+        "--scene",
+        metavar="FILE",
+        help="a scene of your own for the cases of the dynamic wheel, TOML as validation/scenes/table_14_1.toml, or "
+        f"the name of a shipped one ({', '.join(shipped())}); alone, it means --only wheel",
+    )
     making.set_defaults(command=report)
     racing = commands.add_parser("race", help="our solver beside the peers that are installed; full takes half an hour")
     racing.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
     racing.add_argument("--out", type=Path, metavar="DIR", help="folder (default: reports/race-quick or reports/race)")
     racing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
-    racing.set_defaults(command=race, workers=1, executor=LOCAL)
+    racing.set_defaults(command=race, workers=1, executor=LOCAL, scene=None)
     listing = commands.add_parser("cases", help="what there is, and which figure or claim each one answers")
     listing.set_defaults(command=cases)
     return parser

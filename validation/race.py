@@ -17,13 +17,14 @@ from validation.ensemble import SERIAL, Engine, Outcome, generator
 from validation.evidence import Table
 from validation.peers import CONTESTANTS, Contestant, Run, Solve, Task
 from validation.race_rolling import Rolls, measure_rolls
+from validation.race_wheel import Steps, measure_wheels
 from validation.rough_punch import Roughness, Surface, press_surface
 
 SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
 SPHERE_LOAD = 4 / 3 / 4**3
 """The force of Hertz for a = L/4 and R = L, over E* L^2."""
 FINISHED = "finished"
-ROLLS = Rolls()
+ROLLS, STEPS = Rolls(), Steps()
 FEWEST_RUNS, MOST_RUNS = 5, 15
 
 
@@ -113,7 +114,8 @@ class Race:
 
     cells: grids; loads: of the rough surfaces; residual: to be reached by everyone, see `bem3d.residual`;
     slow: a contestant that takes longer is timed once [s]; scaling: grids on which our solver alone is measured;
-    errand: a sample of the work of Fig. 14.1; rolling: a wheel, by ourselves.
+    errand: a sample of the work of Fig. 14.1; rolling, wheel: a wheel that rolls,
+    quasi-statically and dynamically, by ourselves.
     """
 
     cells: tuple[int, ...] = (64, 128)
@@ -123,6 +125,7 @@ class Race:
     scaling: tuple[int, ...] = (64, 128, 256)
     errand: Errand = Errand()
     rolling: Rolls = ROLLS
+    wheel: Steps = STEPS
     seed: int = 20261121
 
     def courses(self) -> list[Course]:
@@ -165,6 +168,7 @@ class RaceResult:
     errand_outcomes: list[Outcome]
     paths: list[Outcome]
     rolling: list[Table]
+    wheel: list[Table]
     began: float = 0.0
 
     @property
@@ -203,6 +207,7 @@ def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
         alone.map(run_heat, errands),
         alone.map(measure_path, race.errand.surfaces(race.seed)),
         measure_rolls(race.rolling, alone),
+        measure_wheels(race.wheel, alone),
         began,
     )
     # a race that was interrupted goes on; one that is over is run anew the next time

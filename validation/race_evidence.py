@@ -35,11 +35,18 @@ def evidence(result: RaceResult) -> Evidence:
             + "."
         ),
         numbers=tuple(_agreement(result)),
-        tables=(_heats(result.heats, result.outcomes, "heats"), _scaling(result), _errand(result), result.rolling[0]),
+        tables=(
+            _heats(result.heats, result.outcomes, "heats"),
+            _scaling(result),
+            _errand(result),
+            result.rolling[0],
+            result.wheel[0],
+        ),
         shown=(
             _times(result.heats, result.outcomes, "Seconds"),
             _times(result.errands, result.errand_outcomes, "The same for some of the loads of Fig. 14.1"),
             result.rolling[1],
+            result.wheel[1],
         ),
         conclusions=tuple(_conclusions(result)),
         captions={
@@ -54,6 +61,11 @@ def evidence(result: RaceResult) -> Evidence:
                 "1e-6 from right to left) and cells to a contact radius. Filled: error of solver and grid, against "
                 f"{result.race.rolling.finest} cells to a radius; open: of the solver alone. Dotted: the fluctuation "
                 "of the force, which is to be resolved."
+            ),
+            "race-wheel": (
+                f"A dynamic wheel on springs, {result.race.wheel.wheels} in step on one core: steps of one wheel a "
+                "second against the springs to a contact radius, by roughness h₀/d. Filled: as simulated; open: plain "
+                "sums over all springs. Dotted: 5 million, the goal for Table 14.1 with 100."
             ),
         },
         unconverged=tuple(

@@ -1,7 +1,9 @@
 """Wheels of a scene on springs, each over a track of its own, all in step: one solve of every case about them."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal
 
 import numpy as np
@@ -18,6 +20,7 @@ from validation.wheel_scene import Roughness, WheelScene
 
 FloatArray = NDArray[np.float64]
 Track = Literal["open", "closed", "steady"]
+Feed = Literal["geike", "rolling"]
 
 RAIL, WHEEL = 1, 2
 """The spawn keys under which the roughness of each draws."""
@@ -35,7 +38,8 @@ class Rides:
 
     scene; first, count: which of its realisations; groups: of them, whose mean spectra are kept apart; seed: zero or
     positive; release: how much deeper than in equilibrium they begin, over the smooth approach;
-    linear: the filter (14.11) in place of springs;
+    linear: the filter (14.11) in place of springs; feed: the rule by which springs get the spectrum of the isotropic
+    surface, Geike's, or the one that gives them the level of the force on the half-space, `mdr.rolling_spectrum`;
     track: "open": the end has nothing to do with the beginning; "closed": the end is the beginning, after a whole
     number of turns of the resonance; "steady": closed, and the motion repeats itself, after a number and a half.
     """
@@ -46,6 +50,7 @@ class Rides:
     groups: int = 1
     track: Track = "open"
     linear: bool = False
+    feed: Feed = "geike"
     release: float = 0.0
     seed: int = 0
 
@@ -85,13 +90,26 @@ class Rides:
         return height
 
     def _drawn(self, roughness: Roughness, points: int, kind: int, number: int) -> FloatArray:
+        geike = self.feed == "geike"
         return mdr.rough_profile(
-            roughness.spectrum.c1d,
+            roughness.spectrum.c1d if geike else rolling_feed(roughness, self.scene.contact_radius),
             length=points * self.scene.spacing,
             points=points,
             rng=generator(self.seed, kind, number),
-            rms=roughness.rms,
+            rms=roughness.rms if geike else None,
         )
+
+
+@cache
+def rolling_feed(roughness: Roughness, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
+    """C_1D(q) for springs that roll, of isotropic roughness; values are kept, since each is a quadrature."""
+
+    @cache
+    def values(q: tuple[float, ...]) -> FloatArray:
+        edges = (roughness.q_min, roughness.q_max)
+        return mdr.rolling_spectrum(np.array(q), roughness.spectrum.c2d, edges=edges, contact_radius=contact_radius)
+
+    return lambda q: values(tuple(q.tolist()))
 
 
 def wheel_of(scene: WheelScene) -> Wheel:

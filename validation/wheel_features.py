@@ -24,6 +24,8 @@ which the roughness at the edge of the contact washes out from the end."""
 BEYOND = (1.3, 2.6)
 """Where the floor is measured, over the end of the roughness."""
 FEWEST_PERIODS = 3
+APART = 1.5
+"""So many times the eigenfrequency the jump must be, or it is part of the peak."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,23 +117,27 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
 
 
 def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: FloatArray) -> dict[str, float]:
-    """Those of one mean spectrum; region 3 is looked at where it holds enough periods of the oscillation."""
+    """Those of one mean spectrum, as far as the scene has room for them: a jump apart from the peak, enough periods of
+    the oscillation in region 3, frequencies beyond the roughness."""
     scene, omega = spectrum.scene, spectrum.omega
-    values = {
-        PEAK: regions.peak(omega, hann, math.sqrt(scene.eigenfrequency * scene.jump)),
-        JUMP: regions.jump(omega, hann, math.sqrt(scene.eigenfrequency * scene.jump), 0.5 * scene.cutoff),
-        FLOOR: regions.floor_level(
-            omega, plain, BEYOND[0] * scene.cutoff, BEYOND[1] * scene.cutoff, spectrum.time_step
-        ),
-    }
+    between = math.sqrt(scene.eigenfrequency * scene.jump)
+    apart = scene.jump > APART * scene.eigenfrequency
+    values = {PEAK: regions.peak(omega, hann, between if apart else APART * scene.eigenfrequency)}
+    if apart:
+        values[JUMP] = regions.jump(omega, hann, between, 0.5 * scene.cutoff)
     expect = expected(spectrum, jumps)
-    values[FLOOR + PREDICTED] = values[FLOOR] / expect[FLOOR]
-    period, first, last = expect[PERIOD], AFTER * values[JUMP], BEFORE * scene.cutoff
+    first, last = (beyond * scene.cutoff for beyond in BEYOND)
+    last = min(last, BEFORE * float(omega[-1]))
+    if first < BEFORE * last:
+        values[FLOOR] = regions.floor_level(omega, plain, first, last, spectrum.time_step)
+        values[FLOOR + PREDICTED] = values[FLOOR] / expect[FLOOR]
+    period, first, last = expect[PERIOD], AFTER * values.get(JUMP, scene.jump), BEFORE * scene.cutoff
     if last - first < FEWEST_PERIODS * period:
         return values
     values[SLOPE] = regions.slope(omega, hann, first, last, period)
     values[PERIOD] = regions.oscillation_period(omega, hann, first, HALF * scene.cutoff, FEWEST_PERIODS)
     power = regions.power_level(omega, hann, first, last, period, expect[SLOPE])
-    values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])
-    values[BREAK + PREDICTED] = values[BREAK] / expect[BREAK]
+    if FLOOR in values:
+        values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])
+        values[BREAK + PREDICTED] = values[BREAK] / expect[BREAK]
     return values

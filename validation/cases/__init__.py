@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from validation import race, race_evidence, race_rolling
+from validation import race, race_evidence, race_rolling, race_wheel
 from validation.cases import (
     fractal_punch,
     fractal_punch_evidence,
@@ -19,12 +19,17 @@ from validation.cases import (
     square_punch,
     westergaard,
     wheel,
+    wheel_3d,
+    wheel_3d_evidence,
     wheel_distance,
     wheel_distance_evidence,
     wheel_evidence,
+    wheel_stability,
+    wheel_stability_evidence,
 )
 from validation.ensemble import Engine
 from validation.evidence import Evidence
+from validation.wheel_scene import WheelScene
 
 Profile = Literal["quick", "full"]
 
@@ -39,10 +44,12 @@ class Entry:
     run: Callable[[Any, Engine], Any]
     evidence: Callable[[Any], Evidence]
 
-    def case(self, profile: Profile, seed: int | None) -> Any:
-        """The case of that size, with the seed where it draws anything."""
+    def case(self, profile: Profile, seed: int | None, scene: WheelScene | None = None) -> Any:
+        """The case of that size, with the seed where it draws anything, and the scene where it has one."""
         case = self.quick if profile == "quick" else self.full
-        return replace(case, seed=seed) if seed is not None and hasattr(case, "seed") else case
+        if seed is not None and hasattr(case, "seed"):
+            case = replace(case, seed=seed)
+        return replace(case, scene=scene) if scene is not None and hasattr(case, "scene") else case
 
 
 RACE = Entry(
@@ -53,6 +60,9 @@ RACE = Entry(
         scaling=(128, 256, 512, 1024, 2048, 4096),
         errand=race.Errand(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
         rolling=race_rolling.Rolls(cells=(8, 16, 32), finest=64, positions=1600),
+        wheel=race_wheel.Steps(
+            springs=(12, 25, 50, 100, 200, 400), heights=(0.01, 0.1, 0.3, 1.0), steps=8000, bem_steps=1600
+        ),
     ),
     race.run,
     race_evidence.evidence,
@@ -178,5 +188,41 @@ CASES = {
         ),
         wheel_distance.run,
         wheel_distance_evidence.evidence,
+    ),
+    "wheel_3d": Entry(
+        "Boundary elements inside the time loop: the wheel in three dimensions, beside everything cheaper",
+        wheel_3d.Wheel3D(),
+        wheel_3d.Wheel3D(
+            scene=wheel_3d.TABLE,
+            strips=16,
+            turns=4,
+            width=4,
+            cells=40,
+            shared=10,
+            coarse=30,
+            coarser=3,
+            tolerance=1e-4,
+            short=1,
+            wheels=200,
+        ),
+        wheel_3d.run,
+        wheel_3d_evidence.evidence,
+    ),
+    "wheel_stability": Entry(
+        "Where time stepping and springs fail: steps up to and past the limit, long runs, spacing, lift-off",
+        wheel_stability.WheelStability(),
+        wheel_stability.WheelStability(
+            turns=20,
+            hertz_turns=6,
+            long_steps=1_000_000,
+            rounds=20,
+            heights=(0.03, 0.1, 0.2, 0.3, 0.45, 0.6, 1.0, 3.0),
+            loads=(0.01, 0.02, 0.05, 0.1, 0.2),
+            lift_rounds=2,
+            spacing_heights=(1e-3, 0.064, 1.0),
+            spacing_tracks=4,
+        ),
+        wheel_stability.run,
+        wheel_stability_evidence.evidence,
     ),
 }

@@ -18,10 +18,11 @@ SPRINGS, LINEAR = "springs", "linear"
 class WheelDistance:
     """Wheels of one scene on springs, which roll more or less far, on open and closed tracks, over more or less height.
 
-    scene; turns: of the resonance on the shortest distance, whole; doublings: of it; wheels: to a distance up to the middle one, half as many for each
-    doubling beyond, fewest at least; causes: wheels for each way to end a track; rough: wheels for each height;
-    heights: factors on h_0, ascending, with one; releases: amplitudes of free vibration over d, of `released` wheels
-    each; groups: of wheels, for errors; seed: zero or more.
+    scene; turns: of the resonance on the shortest distance, whole; doublings: of it; wheels: to a distance up to the
+    middle one, half as many for each doubling beyond, fewest at least; causes: wheels for each way to end a track;
+    rough: wheels for each height; heights: factors on h_0, ascending, with a quarter and one among them;
+    releases: amplitudes of free vibration over d, of `released` wheels each; groups: of wheels, for errors; seed: zero
+    or more.
     """
 
     scene: WheelScene = SHORT

@@ -65,7 +65,7 @@ def evidence(result: WheelResult) -> Evidence:
             _marks(spectra[base]),
         ),
         shown=(_regions(features[base]), *([_parameters(features)] if len(features) > 1 else [])),
-        conclusions=tuple(_conclusions(features, base, level)),
+        conclusions=(*_conclusions(features, base, level), *case.scene.doubts()),
         captions=_captions(result),
     )
 
@@ -331,8 +331,10 @@ def _conclusions(features: dict[str, dict[str, Number]], base: str, level: Numbe
 def _said(sentence: str, number: Number | None) -> str:
     if number is None:
         return f"Not found in this run: {sentence}."
+    unit = "" if number.unit == "-" else f" {number.unit}"
     return claim(
-        f"{sentence}: {number.value:.5g} ± {number.uncertainty:.2g} beside {number.reference:.5g} ({number.verdict}).",
+        f"{sentence}: {number.value:.5g} ± {number.uncertainty:.2g} beside {number.reference:.5g}{unit} "
+        f"({number.verdict}).",
         [number],
     )
 

@@ -33,6 +33,7 @@ def graded(i: int, count: int) -> Style:
 
 
 INDENTATION = re.compile(rb"\n +")
+DECIMALS = re.compile(rb"(\d*)\.\d{3,}")
 SETTINGS: Any = {
     "svg.hashsalt": "validation",
     "svg.fonttype": "path",
@@ -87,8 +88,15 @@ def svg(figure: Figure) -> bytes:
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
         FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
-    # a tenth of the file is indentation
-    return INDENTATION.sub(b"\n", buffer.getvalue())
+    # a tenth of the file is indentation, a fifth is places that no printer resolves: points have two, parts of one more
+    return DECIMALS.sub(_printed, INDENTATION.sub(b"\n", buffer.getvalue()))
+
+
+def _printed(number: re.Match[bytes]) -> bytes:
+    """A coordinate with two decimals from one point on, a smaller number as it is."""
+    if number.group(1) in (b"", b"0"):
+        return number.group()
+    return f"{float(number.group()):.2f}".encode()
 
 
 def pdf(figure: Figure) -> bytes:

@@ -18,7 +18,9 @@ from validation.report.figures import (
     square_punch,
     westergaard,
     wheel,
+    wheel_3d,
     wheel_distance,
+    wheel_stability,
 )
 
 DRAW: dict[str, Callable[[Evidence], Figure]] = {
@@ -46,6 +48,10 @@ DRAW: dict[str, Callable[[Evidence], Figure]] = {
     "wheel-parameters": wheel.draw_parameters,
     "wheel_distance": wheel_distance.draw,
     "wheel_distance-cause": wheel_distance.draw_cause,
+    "wheel_3d": wheel_3d.draw,
+    "wheel_stability": wheel_stability.draw,
+    "wheel_stability-rough": wheel_stability.draw_rough,
     "race": race.draw,
     "race-rolling": race.draw_rolling,
+    "race-wheel": race.draw_wheel,
 }

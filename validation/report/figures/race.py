@@ -79,3 +79,22 @@ def draw_rolling(evidence: Evidence) -> Figure:
     axes[0].set_ylabel("rms error of the force / F_Hertz")
     axes[0].legend()
     return figure
+
+
+def draw_wheel(evidence: Evidence) -> Figure:
+    """Wheel-steps a second against springs to a radius."""
+    rates = evidence.table("wheel")
+    heights = np.unique(rates["h0/d"])
+    figure, (axis,) = panels(1, 1, width=5.4)
+    for i, height in enumerate(heights):
+        mine, style = rates.where(**{"h0/d": height}), graded(i, heights.size)
+        springs = mine["a/dx"]
+        axis.loglog(springs, mine["wheel-steps a second"], label=f"h₀/d = {height:g}", **style)
+        open_ = {**style, "markerfacecolor": "white", "linestyle": "--"}
+        axis.loglog(springs, mine["plain sums a second"], **open_)
+        axis.set_xticks(springs, [f"{n:g}" for n in springs])
+    axis.minorticks_off()
+    axis.axhline(5e6, **GUIDE)
+    axis.set(xlabel="springs to a contact radius, a / dx", ylabel="steps of one wheel a second")
+    axis.legend()
+    return figure

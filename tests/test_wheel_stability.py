@@ -1,0 +1,188 @@
+"""Where time stepping and springs fail: verdicts of a small case, and planted changes that must be noticed."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from validation import free_vibration as free
+from validation import rough_springs as rough
+from validation import wheel_theory
+from validation.cases import wheel_stability as case
+from validation.cases import wheel_stability_evidence, wheel_stability_vibration
+from validation.contact_laws import Hertz
+from validation.evidence import Role, Verdict
+from validation.integrators import EXPLICIT_EULER, INTEGRATORS, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
+from validation.report.figures import wheel_stability as figures
+from validation.wheel import simulate
+
+SMALL = case.WheelStability(
+    steps=(0.02, 0.04, 0.5, 1.9, 2.1, 2.8, 2.9),
+    turns=6,
+    hertz_steps=(0.04, 0.08, 0.16),
+    hertz_turns=4,
+    highest=(1.5, 3.0),
+    long_steps=40_000,
+    long_highest=(1.06, 3.0),
+    heights=(0.1, 1.0, 3.0),
+    loads=(0.01, 1.0),
+    lift_rounds=1,
+    wheels=4,
+    spacing_heights=(1e-3, 0.3),
+    spacing_tracks=1,
+)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return case.run(SMALL)
+
+
+def verdicts(result, part):
+    found = [number for number in wheel_stability_evidence.evidence(result).numbers if part in number.label]
+    assert found
+    return [number.verdict for number in found]
+
+
+def test_all_criteria_are_met(result):
+    evidence = wheel_stability_evidence.evidence(result)
+    assert [n.sentence for n in evidence.numbers if not n.met] == []
+    assert evidence.unconverged == ()
+
+
+def test_figures_are_drawn_from_tables(result):
+    evidence = wheel_stability_evidence.evidence(result)
+    assert len(figures.draw(evidence).axes) == 4
+    assert len(figures.draw_rough(evidence).axes) == 6
+
+
+@pytest.mark.parametrize("scheme", INTEGRATORS, ids=lambda scheme: scheme.name)
+def test_limits_are_those_of_the_eigenvalue(scheme):
+    """Bounded just below the limit, growing just above it: to the first order in what lies between."""
+    below, above = np.abs(free.amplification(scheme.name, scheme.limit + np.array([-1e-3, 1e-3])))
+    if scheme.limit:
+        assert below <= 1 + 1e-15
+    assert above > 1 + 1e-7
+
+
+def test_small_steps_turn_as_the_series_of_each_scheme_says():
+    """RK4 loses x^6 / 72 of the energy a step, and its next term is x^8 / 576; Verlet turns by x + x^3 / 24."""
+    x = 0.3
+    loss = 1 - np.abs(free.amplification(RUNGE_KUTTA.name, x)) ** 2
+    assert loss == pytest.approx(x**6 / 72 - x**8 / 576, rel=1e-9)
+    assert np.angle(free.amplification(VELOCITY_VERLET.name, x)) == pytest.approx(x + x**3 / 24, rel=x**4)
+
+
+def test_vibrations_are_those_that_simulate_finds():
+    law, d = Hertz(free.WHEEL), np.array([2 * free.WHEEL.approach])
+    u, _ = free.march(VELOCITY_VERLET, law, 0.1, d, 50)
+    step = 0.1 / free.WHEEL.eigenfrequency
+    motion = simulate(free.WHEEL, law, time_step=step, steps=50, approach=d, velocity=np.zeros(1), path=True)
+    np.testing.assert_array_equal(motion.path / free.WHEEL.approach, u)
+
+
+def test_the_period_of_a_cosine():
+    assert free.period(1 + np.cos(2 * np.pi * np.arange(300) / 37.3)) == pytest.approx(37.3, rel=1e-7)
+
+
+def test_verlet_keeps_its_energy_to_the_fourth_order():
+    """Halving the step divides what is left by sixteen."""
+    law, d = Hertz(free.WHEEL), np.array([1.5 * free.WHEEL.approach])
+    swings = [np.ptp(free.kept_energy(*free.march(VELOCITY_VERLET, law, x, d, round(30 / x)), x)) for x in (0.1, 0.05)]
+    assert np.log2(swings[0] / swings[1]) == pytest.approx(4, abs=0.3)
+
+
+def test_swapped_integrators_are_noticed(result):
+    linear = dict(result.linear)
+    names = VELOCITY_VERLET.name, SYMPLECTIC_EULER.name
+    linear[names[0]], linear[names[1]] = linear[names[1]], linear[names[0]]
+    assert Verdict.DIFFER in verdicts(replace(result, linear=linear), "change of the energy in a turn")
+    linear[names[0]] = result.linear[RUNGE_KUTTA.name]
+    assert Verdict.DIFFER in verdicts(replace(result, linear=linear), "growth of a step")
+
+
+def test_a_wrong_limit_is_noticed(result, monkeypatch):
+    """Every scheme growing from half its limit on."""
+    exact = free.amplification
+    monkeypatch.setattr(wheel_stability_vibration, "amplification", lambda name, x: exact(name, 2 * np.asarray(x)))
+    assert set(verdicts(result, "growth of a step")) == {Verdict.DIFFER}
+
+
+def test_a_wrong_period_is_noticed(result, monkeypatch):
+    exact = wheel_theory.hertz_period
+    monkeypatch.setattr(wheel_theory, "hertz_period", lambda highest: 1.001 * exact(highest))
+    assert set(verdicts(result, "extrapolated")) == {Verdict.DIFFER}
+
+
+def test_a_drift_is_noticed(result):
+    found = result.long[VELOCITY_VERLET.name]
+    drifting = found["kept"] + 1e-9 * np.linspace(0, 1, free.TENTHS)[:, np.newaxis]
+    long = {**result.long, VELOCITY_VERLET.name: {**found, "kept": drifting}}
+    assert verdicts(replace(result, long=long), "drift of the energy") == [Verdict.DIFFER]
+
+
+def test_explicit_euler_in_place_of_verlet_is_noticed(result):
+    rounds = {**result.rounds, VELOCITY_VERLET.name: result.rounds[EXPLICIT_EULER.name]}
+    assert verdicts(replace(result, rounds=rounds), "velocity Verlet, springs: energy") == [Verdict.DIFFER]
+    rounds = {**result.rounds, EXPLICIT_EULER.name: result.rounds[VELOCITY_VERLET.name]}
+    assert verdicts(replace(result, rounds=rounds), "explicit Euler, springs") == [Verdict.DIFFER]
+
+
+def test_springs_that_pull_and_lost_momentum_are_noticed(result):
+    (problem, found), *others = result.lift
+    pulling = replace(result, lift=[(problem, {**found, "lowest": found["lowest"] - 2}), *others])
+    assert verdicts(pulling, "force never negative") == [Verdict.DIFFER]
+    heavy = replace(result, lift=[(problem, {**found, "mean": found["mean"] + 1e-9}), *others])
+    assert verdicts(heavy, "F T - F_N T") == [Verdict.DIFFER]
+
+
+def test_springs_taken_for_a_continuum_are_noticed(result, monkeypatch):
+    exact = rough.linear_response
+    monkeypatch.setattr(rough, "linear_response", lambda track, stride: exact(track, 1))
+    (problem, _), *others = result.spacing
+    spacing = [(problem, rough.coarsen(problem)), *others]
+    assert verdicts(replace(result, spacing=spacing), "less the sum over springs") == [Verdict.DIFFER]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_linear_spacing_holds_for_other_tracks(seed):
+    """Within the five standard deviations of the error model; in them it is neither far too wide nor too narrow."""
+    track = rough.Track(rms=1e-3 * free.WHEEL.approach, seed=seed, waves=9, per_wave=rough.FINE)
+    found = rough.coarsen(rough.Spacings(track=track))
+    carried = found["level"] > 0
+    off = np.log(found["level"][carried] / found["linear"][carried]) / found["spread"][carried]
+    assert 0.1 < np.sqrt(np.mean(off**2)) < 3
+    assert np.abs(off).max() < 5
+
+
+def test_the_ends_of_contact_leave_more_open_where_it_is_rougher():
+    low, high = (rough.Track(rms=h * free.WHEEL.approach, seed=0, per_wave=rough.FINE) for h in (1e-3, 1e-2))
+    assert rough.spread(high, 1) == pytest.approx(10 * rough.spread(low, 1), rel=0.05)
+
+
+@pytest.mark.parametrize("scheme", INTEGRATORS, ids=lambda scheme: scheme.name)
+def test_a_refusal_says_by_how_much(scheme):
+    """2.002 is not 2; and explicit Euler is not said to hold below it."""
+    rows = {row["asked"]: row for row in case.refusals()}
+    answer = rows[f"simulate, {scheme.name}, a step just past its limit"]["answer"]
+    assert f"omega_eigen dt = {1.001 * max(scheme.limit, 2.0):.6g}" in answer
+    assert ("grows at any step" in answer) == (scheme is EXPLICIT_EULER)
+
+
+def test_what_was_not_refused_is_noticed(result):
+    done = case._refusal("a step of nothing", lambda: None)
+    assert done["answer"] == "none: it was done"
+    assert verdicts(replace(result, refusals=[*result.refusals, done]), "refused") == [Verdict.DIFFER]
+
+
+def test_very_rough_tracks_leave_room_for_their_sums(result):
+    found = [outcome for problem, outcome in result.lift if problem.track.rms > 2 * free.WHEEL.approach]
+    assert found
+    for outcome in found:
+        assert (outcome["airborne"] > 0).all() and (outcome["airborne"] < 1).all()
+        assert outcome["failed"] == 0
+
+
+def test_findings_and_criteria_are_told_apart(result):
+    roles = {number.role for number in wheel_stability_evidence.evidence(result).numbers}
+    assert roles == {Role.CRITERION, Role.FINDING}

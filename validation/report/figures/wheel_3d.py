@@ -1,0 +1,51 @@
+"""The acceleration of the wheel in three dimensions, beside everything cheaper."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from validation.evidence import Evidence
+from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, panels
+
+STYLES: dict[str, Style] = {
+    "linear, 3D": {"color": "#aaaaaa", "linewidth": 3.0},
+    "linear, 1D (14.12)": {**EXACT, "linestyle": "--"},
+    "springs, Geike": MDR,
+    "springs, fed for rolling": {
+        "color": "#009E73",
+        "marker": "^",
+        "markersize": 4,
+        "markerfacecolor": "none",
+        "linestyle": "none",
+    },
+}
+LOWEST = -45.0
+"""Decibels under boundary elements that are shown."""
+
+
+def draw(evidence: Evidence) -> Figure:
+    """Levels, their differences, and the oscillation."""
+    figure, (levels, differences, oscillation) = panels(1, 3, width=13.0, height=4.2)
+    table = evidence.table("levels")
+    omega, bem = table["omega [rad/s]"], table["bem3d [dB]"]
+    open_ = table["± sample [dB]"] + table["± grid [dB]"] + np.nan_to_num(table["± solver [dB]"])
+    below = np.isinf(table["linear, 1D (14.12) over bem3d [dB]"])
+    levels.axvspan(0.9 * omega[0], float(table["to [rad/s]"][below][-1]), color="#000000", alpha=0.06, linewidth=0)
+    for name, style in STYLES.items():
+        off = np.where(table[f"{name} over bem3d [dB]"] > LOWEST, table[f"{name} over bem3d [dB]"], np.nan)
+        levels.plot(omega, bem + off, label=name, **style)
+        differences.plot(omega, off, **style)
+    levels.errorbar(omega, bem, yerr=open_, capsize=2, label="boundary elements", **BEM)
+    levels.set(xscale="log", xlabel="ω [rad/s]", ylabel="one-third octave level [dB over (m/s²)²]")
+    levels.legend(loc="lower left", fontsize=7)
+    differences.fill_between(omega, -open_, open_, color=BEM["color"], alpha=0.2, linewidth=0)
+    for border in (-3, -1, 1, 3):
+        differences.axhline(border, **GUIDE)
+    differences.set(xscale="log", xlabel="ω [rad/s]", ylabel="over boundary elements [dB]", ylim=(-12, 12))
+    near = evidence.table("oscillation")
+    x = near["omega [rad/s]"] / 1e3
+    oscillation.plot(x, near["linear, 3D"], label="linear contact, 3D", **STYLES["linear, 3D"])
+    oscillation.plot(x, near["springs, Geike"], color=MDR["color"], linewidth=1.0, label="springs, Geike")
+    oscillation.plot(x, near["bem3d"], color=BEM["color"], linewidth=1.2, linestyle="--", label="boundary elements")
+    oscillation.set(yscale="log", xlabel="ω [1000 rad/s]", ylabel="A [(m/s²)² s]")
+    oscillation.legend(loc="upper right", fontsize=7)
+    return figure
