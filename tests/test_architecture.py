@@ -34,7 +34,9 @@ def test_methods_stand_alone(package, others):
         assert not rooms(source) & others, source
 
 
-@pytest.mark.parametrize("referee", ["closed_forms.py", "rolling_theory.py", "spectra.py"])
+@pytest.mark.parametrize(
+    "referee", ["closed_forms.py", "rolling_theory.py", "spectra.py", "wheel_theory.py", "records.py", "regions.py"]
+)
 def test_referees_import_neither_method(referee):
     assert not rooms(ROOT / "validation" / referee) & {"mdr", "bem3d", "validation"}
 

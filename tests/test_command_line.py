@@ -15,7 +15,20 @@ import pytest
 
 import bem3d
 from validation import __main__ as command
-from validation.cases import CASES, geike, hertz, mdr_limits, normalisation, ridges, rolling, rolling_input
+from validation.cases import (
+    CASES,
+    geike,
+    hertz,
+    mdr_limits,
+    normalisation,
+    ridges,
+    rolling,
+    rolling_input,
+    wheel,
+    wheel_3d,
+    wheel_distance,
+    wheel_stability,
+)
 from validation.cases.fractal_punch import FractalPunch
 from validation.ensemble import SERIAL, Engine
 from validation.rough_punch import press_surface
@@ -66,7 +79,34 @@ SMALL = {
         surfaces=4,
         profiles=10,
     ),
+    "wheel": wheel.Wheel(
+        scene=replace(wheel.TABLE, distance=0.15, springs=40),
+        realisations=6,
+        groups=3,
+        parameters=False,
+        cells=8,
+        stills=8,
+    ),
+    "wheel_distance": wheel_distance.WheelDistance(
+        scene=replace(wheel.TABLE, distance=0.1, springs=40),
+        doublings=2,
+        wheels=4,
+        fewest=4,
+        causes=4,
+        rough=4,
+        heights=(0.25, 1.0),
+        released=2,
+        groups=4,
+    ),
+    "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=9, shared=3, coarse=6, coarser=2, wheels=6, groups=3),
+    "wheel_stability": wheel_stability.WheelStability(
+        turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
+    ),
 }
+
+
+MORE_FIGURES = 4 + 3 + 2 + 1 + 1 + 1
+"""Than one of each case: fractal punch, rolling, its input; the wheel, without its parameters, and two more of it."""
 
 
 @pytest.fixture
@@ -101,8 +141,9 @@ def test_two_runs_give_equal_bytes(small, tmp_path):
     assert one.keys() == two.keys()
     tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 3}
     tables |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
-    # five figures of the fractal punch, four and three of rolling, one of each other case, twice each
-    assert len(one) == 1 + sum(tables.values()) + 2 * (4 + 3 + 2 + len(tables))
+    tables |= {"wheel": 6, "wheel_distance": 5, "wheel_3d": 2, "wheel_stability": 6}
+    # so many figures more than one of each case, twice each
+    assert len(one) == 1 + sum(tables.values()) + 2 * (MORE_FIGURES + len(tables))
     for name in one:
         assert one[name] == two[name], name
     report("--only", *small, "--out", str(tmp_path / "one"), "--workers", "1")
@@ -132,7 +173,7 @@ def test_page_is_self_contained(small, tmp_path):
         assert external not in page
     for name in small:
         assert f'id="{name}"' in page
-    assert page.count("data:image/svg+xml,") == len(CASES) + 4 + 3 + 2
+    assert page.count("data:image/svg+xml,") == len(CASES) + MORE_FIGURES
     assert "profile: quick" in page
 
 

@@ -107,7 +107,9 @@ STEPS = Steps(springs=(12, 25), heights=(0.1,), wheels=20, steps=40, cells=8, be
 
 def small(**settings):
     rolls = Rolls(cells=(4, 6), tolerances=(1e-3, 1e-5), finest=12, goal=(8, 1e-4), positions=20, last=6.0)
-    return race.Race(cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), rolling=rolls, wheel=STEPS, **settings)
+    return race.Race(
+        cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), rolling=rolls, wheel=STEPS, **settings
+    )
 
 
 @pytest.fixture(scope="module")

@@ -140,7 +140,7 @@ CASES = {
             width=32.0,
             cells=16,
             strips=12,
-            rough_strips=24,
+            rough_strips=18,
             refined=3,
             tracks=400,
         ),
@@ -168,7 +168,7 @@ CASES = {
     "wheel": Entry(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and what moves them",
         wheel.Wheel(),
-        wheel.Wheel(realisations=300, varied=100, cells=32, stills=64),
+        wheel.Wheel(realisations=300, varied=100, cells=24, stills=64),
         wheel.run,
         wheel_evidence.evidence,
     ),

@@ -69,7 +69,7 @@ class Rolling:
             length=self.length,
             width=self.width,
             cells=cells,
-            tolerance=min(1e-5, 1e-4 * height),
+            tolerance=1e-4 * height,
             seed=self.seed,
         )
 

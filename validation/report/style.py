@@ -1,7 +1,6 @@
 """How figures look: read without colour, and drawn to the same bytes every time."""
 
 import io
-import re
 from collections.abc import Callable
 from typing import Any, Literal
 
@@ -13,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from validation.evidence import Evidence
+from validation.report.compact import compact
 
 Style = dict[str, Any]
 
@@ -32,8 +32,6 @@ def graded(i: int, count: int) -> Style:
     return {"color": color, "marker": MARKERS[i % len(MARKERS)], "markersize": 4, "linewidth": 1.0}
 
 
-INDENTATION = re.compile(rb"\n +")
-DECIMALS = re.compile(rb"(\d*)\.\d{3,}")
 SETTINGS: Any = {
     "svg.hashsalt": "validation",
     "svg.fonttype": "path",
@@ -88,15 +86,7 @@ def svg(figure: Figure) -> bytes:
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
         FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
-    # a tenth of the file is indentation, a fifth is places that no printer resolves: points have two, parts of one more
-    return DECIMALS.sub(_printed, INDENTATION.sub(b"\n", buffer.getvalue()))
-
-
-def _printed(number: re.Match[bytes]) -> bytes:
-    """A coordinate with two decimals from one point on, a smaller number as it is."""
-    if number.group(1) in (b"", b"0"):
-        return number.group()
-    return f"{float(number.group()):.2f}".encode()
+    return compact(buffer.getvalue().decode()).encode()
 
 
 def pdf(figure: Figure) -> bytes:

@@ -73,10 +73,10 @@ def draw(evidence: Evidence) -> Figure:
 
 
 def _marks(axis: Axes, evidence: Evidence) -> None:
-    top, marks = axis.get_ylim()[1], evidence.table("marks")
+    bottom, marks = axis.get_ylim()[0], evidence.table("marks")
     for name, omega in zip(marks["mark"], marks["omega [rad/s]"], strict=True):
         axis.axvline(omega, **GUIDE)
-        axis.text(omega, 0.6 * top, name, rotation=90, va="top", ha="right", fontsize=7)
+        axis.text(omega, 2 * bottom, name, rotation=90, va="bottom", ha="right", fontsize=7)
 
 
 def draw_parameters(evidence: Evidence) -> Figure:

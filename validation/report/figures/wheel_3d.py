@@ -29,7 +29,9 @@ def draw(evidence: Evidence) -> Figure:
     omega, bem = table["omega [rad/s]"], table["bem3d [dB]"]
     open_ = table["± sample [dB]"] + table["± grid [dB]"] + np.nan_to_num(table["± solver [dB]"])
     below = np.isinf(table["linear, 1D (14.12) over bem3d [dB]"])
-    levels.axvspan(0.9 * omega[0], float(table["to [rad/s]"][below][-1]), color="#000000", alpha=0.06, linewidth=0)
+    if below.any():
+        plateau = 0.9 * float(omega[0]), float(table["to [rad/s]"][below][-1])
+        levels.axvspan(*plateau, color="#000000", alpha=0.06, linewidth=0)
     for name, style in STYLES.items():
         off = np.where(table[f"{name} over bem3d [dB]"] > LOWEST, table[f"{name} over bem3d [dB]"], np.nan)
         levels.plot(omega, bem + off, label=name, **style)

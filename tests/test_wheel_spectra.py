@@ -1,0 +1,385 @@
+"""Spectra of records and their bands against slow sums; the regions of a spectrum found again in synthetic ones."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from validation import records, regions
+
+WINDOWS = ("none", "hann")
+ROUNDING = 1e-12
+
+series = st.tuples(st.integers(3, 40), st.integers(1, 3)).flatmap(
+    lambda shape: arrays(np.float64, shape, elements=st.floats(-1, 1, width=32))
+)
+time_steps = st.floats(1e-6, 1e3)
+
+
+def hann(steps):
+    return (1 - np.cos(2 * np.pi * np.arange(steps) / steps)) / 2
+
+
+def by_slow_sums(x, time_step, window):
+    """|sum_n w_n x_n exp(-2 pi i j n / N)|^2 dt^2 / T over the mean of w^2, of j = 0, ..., N/2."""
+    steps = len(x)
+    n = np.arange(steps)
+    w = hann(steps) if window == "hann" else np.ones(steps)
+    waves = np.exp(-2j * np.pi * np.outer(np.arange(steps // 2 + 1), n) / steps)
+    return np.abs(waves @ (w[:, np.newaxis] * x)) ** 2 * time_step**2 / (steps * time_step) / np.mean(w**2)
+
+
+def mean_square(record, steps, time_step):
+    """sum A / T over positive and negative frequencies; that of Nyquist is its own mirror image."""
+    sides = np.full(len(record.density), 2.0)
+    if steps % 2 == 0:
+        sides[-1] = 1
+    return sides @ record.density / (steps * time_step)
+
+
+# --- (14.17) ----------------------------------------------------------------------------------------------------------
+
+
+@given(x=series, time_step=time_steps)
+def test_parseval_without_window(x, time_step):
+    """<x^2> - <x>^2 = sum A / T over both signs, since frequency zero is left out; rounding of N terms below one."""
+    found = mean_square(records.spectra(x, time_step=time_step), len(x), time_step)
+    assert found == pytest.approx(np.mean(x**2, axis=0) - np.mean(x, axis=0) ** 2, abs=len(x) * ROUNDING)
+
+
+@pytest.mark.parametrize("steps", [24, 25])
+def test_parseval_of_hann_in_expectation(steps):
+    """Over all places at which a record may begin the window weighs all its values alike: exact, no sample needed."""
+    rng, time_step = np.random.default_rng(steps), 0.3
+    x = rng.normal(size=steps)
+    x = np.stack([np.roll(x, n) for n in range(steps)], axis=1)
+    zero = by_slow_sums(x, time_step, "hann")[0] / (steps * time_step)
+    found = mean_square(records.spectra(x, time_step=time_step, window="hann"), steps, time_step) + zero
+    assert found.mean() == pytest.approx(np.mean(x**2), rel=ROUNDING)
+    # not of each record by itself
+    assert np.ptp(found) > 0.1 * found.mean()
+
+
+@pytest.mark.parametrize("window", WINDOWS)
+@pytest.mark.parametrize("steps", [3, 8, 31, 32])
+def test_spectra_by_slow_sums(steps, window):
+    x, time_step = np.random.default_rng(steps).normal(size=(steps, 3)), 0.07
+    record = records.spectra(x, time_step=time_step, window=window)
+    slow = by_slow_sums(x, time_step, window)
+    assert record.density == pytest.approx(slow[1:], abs=steps * ROUNDING * slow.max())
+    assert record.omega == pytest.approx(2 * np.pi * np.arange(1, steps // 2 + 1) / (steps * time_step), rel=ROUNDING)
+
+
+@given(x=series, time_step=time_steps, factor=st.floats(1e-3, 1e3), window=st.sampled_from(WINDOWS))
+def test_spectra_scale_with_squares_and_with_time(x, time_step, factor, window):
+    one = records.spectra(x, time_step=time_step, window=window)
+    louder = records.spectra(factor * x, time_step=time_step, window=window)
+    slower = records.spectra(x, time_step=factor * time_step, window=window)
+    room = len(x) ** 2 * ROUNDING * time_step
+    assert louder.density == pytest.approx(factor**2 * one.density, abs=factor**2 * room)
+    assert slower.density == pytest.approx(factor * one.density, abs=factor * room)
+    assert slower.omega == pytest.approx(one.omega / factor, rel=ROUNDING)
+
+
+@pytest.mark.parametrize("window", WINDOWS)
+def test_white_noise_has_its_variance_times_the_time_step_at_every_line(window):
+    """A = sigma^2 dt: of each line within five standard errors of a mean of 400 squares, but Nyquist's with two."""
+    x = np.random.default_rng(3).normal(size=(64, 400))
+    density = records.spectra(x, time_step=0.25, window=window).density.mean(axis=1)
+    assert density == pytest.approx(np.full(32, 0.25), rel=5 * math.sqrt(2 / 400))
+    assert density.mean() == pytest.approx(0.25, rel=5 * math.sqrt(2 / 400 / 32 * 2))
+
+
+# --- bands ------------------------------------------------------------------------------------------------------------
+
+
+@given(
+    lines=st.integers(1, 40),
+    records_=st.integers(0, 2),
+    edges=st.lists(st.floats(0, 50), min_size=2, max_size=8).map(sorted),
+    line=st.floats(0.01, 100),
+)
+def test_bands_by_a_loop(lines, records_, edges, line):
+    """Half-open bands; sums of positive values, off by the rounding of the sum of all; NaN without any line."""
+    omega = line * np.arange(1, lines + 1)
+    density = np.random.default_rng(lines).exponential(size=(lines, records_) if records_ else lines)
+    edges = line * np.array(edges)
+    levels, means = (f(omega, density, edges) for f in (records.band_levels, records.band_means))
+    assert levels.shape == means.shape == (len(edges) - 1, *density.shape[1:])
+    for i in range(len(edges) - 1):
+        inside = [j for j in range(lines) if edges[i] <= omega[j] < edges[i + 1]]
+        if not inside:
+            assert np.isnan(levels[i]).all()
+            assert np.isnan(means[i]).all()
+            continue
+        total = sum(density[j] for j in inside)
+        room = lines * ROUNDING * density.sum()
+        assert levels[i] == pytest.approx(total * line / (2 * np.pi), abs=room * line)
+        assert means[i] == pytest.approx(total / len(inside), abs=room)
+
+
+@given(first=st.floats(1, 1e5), octaves=st.floats(0.7, 8))
+def test_one_third_octaves_are_those_about_a_thousand_hertz(first, octaves):
+    last = first * 2**octaves
+    edges, step = records.one_third_octaves(first, last), 2 ** (1 / 3)
+    assert edges[1:] / edges[:-1] == pytest.approx(np.full(edges.size - 1, step), rel=ROUNDING)
+    numbers = 3 * np.log2(edges / (2 * np.pi * 1000)) + 0.5
+    assert numbers == pytest.approx(np.rint(numbers), abs=1e-9)
+    assert edges[0] >= first * (1 - 1e-9)
+    assert edges[-1] <= last * (1 + 1e-9)
+    # no other band fits
+    assert edges[0] / step < first
+    assert edges[-1] * step > last
+
+
+def test_bands_that_end_at_the_borders_are_kept():
+    centre = 2 * np.pi * 1000
+    edges = records.one_third_octaves(centre * 2 ** (-1 / 6), centre * 2 ** (5 / 6))
+    assert edges == pytest.approx(centre * 2 ** (np.array([-1, 1, 3, 5]) / 6), rel=ROUNDING)
+
+
+# --- peak -------------------------------------------------------------------------------------------------------------
+
+
+def hann_of_a_tone(place, phase, steps=4096, amplitude=1.0):
+    x = amplitude * np.cos(2 * np.pi * place * np.arange(steps) / steps + phase)
+    return records.spectra(x[:, np.newaxis], time_step=1.0, window="hann")
+
+
+def leak(distance):
+    """Of Hann's window over its lowest main line, that of a tone midway: sin(pi d) / (pi d (1 - d^2)) over 8 / (3 pi)"""
+    return 1 / (np.pi * distance * (distance**2 - 1)) * 3 * np.pi / 8
+
+
+@pytest.mark.parametrize("place", [8.0, 8.2, 8.499, 8.501, 8.77, 30.5, 31.0, 200.35])
+def test_peak_of_a_tone_between_lines(place):
+    """Off by the mirror image, twice its frequency away: it changes r by up to 2 leaks of r, and e by 3 r / (r + 1)^2
+    <= 3/4 of that; and by sines of pi d / N for their arguments, d <= 2."""
+    for phase in np.linspace(0, 2 * np.pi, 7):
+        record = hann_of_a_tone(place, phase)
+        line = record.omega[0]
+        error = 1.5 * leak(2 * place - 1.5) + (2 * np.pi / 4096) ** 2
+        assert error < 1e-3
+        assert regions.peak(record.omega, record.density[:, 0], 1.5) / line == pytest.approx(place, abs=error)
+
+
+@given(place=st.floats(12, 400), amplitude=st.floats(1e-6, 1e6), phase=st.floats(0, 6.3))
+def test_peak_is_that_of_any_amplitude(place, amplitude, phase):
+    record = hann_of_a_tone(place, phase, 1024, amplitude)
+    error = 1.5 * leak(2 * place - 1.5) + (2 * np.pi / 1024) ** 2
+    # nor is a larger one above what is looked at
+    density = record.density[:, 0] + 100 * amplitude**2 * hann_of_a_tone(470, 0.0, 1024).density[:, 0]
+    near = leak(470 - place - 2) * 10 * 1.5
+    found = regions.peak(record.omega, density, 440 * record.omega[0])
+    assert found / record.omega[0] == pytest.approx(place, abs=error + near)
+
+
+# --- jump -------------------------------------------------------------------------------------------------------------
+
+
+def smoothed_step(edge, exponent, lines):
+    """What Hann's window makes in the mean of omega^exponent above an edge, in lines, and nothing below."""
+    fine = edge + (np.arange(40 * lines) + 0.5) / 40
+    law = (fine / edge) ** exponent
+    d = np.arange(1, lines + 1)[:, np.newaxis] - fine
+    with np.errstate(divide="ignore", invalid="ignore"):
+        kernel = np.where(np.abs(np.abs(d) - 1) < 1e-9, 0.25, (np.sinc(d) / (1 - d**2)) ** 2)
+    return kernel @ law / 40 / 1.5 * 4
+
+
+@pytest.mark.parametrize("exponent", [0.0, -2.4, -4.4])
+@pytest.mark.parametrize("edge", [24.0, 40.3, 40.5, 90.8])
+def test_jump_of_a_power_law_with_its_edge_between_lines(edge, exponent):
+    """Half of a band's level behind the edge is met within half a line of it: at the edge itself a symmetric window has
+    half of a flat level; a level up to three bands behind is lower by 2^(-exponent / 4), at most 2.2, which the window
+    has 0.5 of a line earlier, since its main lobe, 1.5 lines wide, has risen from 0.23 to 0.5 there."""
+    omega = np.arange(1.0, 401)
+    found = regions.jump(omega, smoothed_step(edge, exponent, 400), edge / 3, edge * 3)
+    assert found == pytest.approx(edge, abs=0.5)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_jump_of_noise(seed):
+    """200 records of waves beyond an edge, with Hann's window: half a line, and a third of one for noise: means of 200
+    squares scatter by 7 % of the level, four of which are 0.28 / 0.67 of a line at the slope of the lobe, halved."""
+    rng, steps = np.random.default_rng(seed), 4096
+    # waves closer than lines: a record is part of a longer track
+    place = np.arange(60.3, 600, 0.1)
+    amplitude = (place / 60.3) ** -2.2 * np.exp(2j * np.pi * rng.random((200, place.size)))
+    spectrum = np.zeros((200, 10 * steps // 2 + 1), complex)
+    spectrum[:, np.rint(place * 10).astype(int)] = amplitude
+    x = np.fft.irfft(spectrum, axis=1)[:, :steps].T
+    record = records.spectra(x, time_step=1.0, window="hann")
+    found = regions.jump(record.omega, record.density.mean(axis=1), 0.06, 0.6)
+    assert found / record.omega[0] == pytest.approx(60.3, abs=0.5 + 0.28 / 0.67 / 2 + 0.05)
+
+
+# --- region 3 ---------------------------------------------------------------------------------------------------------
+
+PERIOD, LINE = 1.0, 1 / 150.37
+FIRST, LAST = 0.62, 12.3
+
+
+def law(exponent, period=PERIOD, last=14.0):
+    """omega, and omega^exponent sin^2(pi omega / period)."""
+    omega = LINE * np.arange(1, round(last / LINE))
+    return omega, omega**exponent * np.sin(np.pi * omega / period) ** 2
+
+
+def lever():
+    """How much a fit of a slope makes of errors of its values: sum |x| / sum x^2."""
+    omega, density = law(0.0)
+    x = np.log(regions.levelled(omega, density, FIRST, LAST, PERIOD, 0.0)[0])
+    x -= x.mean()
+    return float(np.abs(x).sum() / (x**2).sum())
+
+
+@pytest.mark.parametrize("hurst", [0.1, 0.4, 0.7, 1.0])
+def test_slope_under_an_oscillation(hurst):
+    """A band may have a line more or less than a period: its mean is off by as much as one line has of all of them."""
+    omega, density = law(-2 * hurst - 3)
+    room = lever() * LINE / PERIOD
+    assert room < 0.01
+    assert regions.slope(omega, density, FIRST, LAST, PERIOD) == pytest.approx(-2 * hurst - 3, abs=room)
+
+
+@pytest.mark.parametrize("hurst", [0.1, 0.4, 0.7, 1.0])
+def test_slope_of_means_that_are_not_levelled_is_wrong(hurst):
+    """Negative control: the first band holds frequencies in a ratio of 2.6."""
+    omega, density = law(-2 * hurst - 3)
+    centres, means = regions.levelled(omega, density, FIRST, LAST, PERIOD, 0.0)
+    naive = np.polyfit(np.log(centres), np.log(means), 1)[0]
+    assert abs(naive + 2 * hurst + 3) > 10 * lever() * LINE / PERIOD
+
+
+@given(exponent=st.floats(-6, -2.5))
+def test_slope_of_a_pure_power_law_is_exact(exponent):
+    omega = LINE * np.arange(1, 2000)
+    assert regions.slope(omega, omega**exponent, FIRST, LAST, PERIOD) == pytest.approx(exponent, abs=1e-9)
+
+
+@pytest.mark.parametrize("hurst", [0.4, 0.7, 1.0])
+@pytest.mark.parametrize("period", [0.61, 1.0, 1.37])
+def test_period_of_an_oscillation(hurst, period):
+    """Off by harmonics: the second, half as large, is as many lines away as there are turns, and the mirror image twice
+    as many; and by those harmonics which the lines see as the first, 1 / k of it, k + 1 and k - 1 lines to a period."""
+    omega, density = law(-2 * hurst - 3, period)
+    found = regions.oscillation_period(omega, density, FIRST, LAST, 3)
+    turns = (LAST - FIRST) / period
+    error = 1.5 * (0.5 * leak(turns - 1.5) + leak(2 * turns - 1.5) + 2 * LINE / period)
+    assert error < 0.03 * turns
+    assert turns * period / found == pytest.approx(turns, abs=error + 2 * LINE / period)
+
+
+def test_noise_has_no_period():
+    """Of forty spectra of one record each, whose lines are exponential; a thousand lines exceed 40 medians once in
+    1e9 of them. The same noise under an oscillation hides it not."""
+    rng, (omega, density) = np.random.default_rng(0), law(-4.4)
+    for _ in range(40):
+        noise = rng.exponential(size=omega.size)
+        assert math.isnan(regions.oscillation_period(omega, omega**-4.4 * noise, FIRST, LAST, 3))
+        assert regions.oscillation_period(omega, density * noise, FIRST, LAST, 3) == pytest.approx(PERIOD, rel=0.01)
+
+
+# --- region 4 ---------------------------------------------------------------------------------------------------------
+
+
+@given(floor=st.floats(1e-12, 1e12), time_step=st.floats(1e-3, 0.2))
+def test_floor_level_of_a_leak(floor, time_step):
+    """J^2 / T of |J| dt / |2 sin(omega dt / 2)|, as the periodic continuation of a ramp has it, without a small step."""
+    omega = LINE * np.arange(1, 2000)
+    density = floor * time_step**2 / 4 / np.sin(omega * time_step / 2) ** 2
+    assert regions.floor_level(omega, density, 8.0, 12.0, time_step) == pytest.approx(floor, rel=1e-11)
+    if time_step * 8 > 0.3:
+        assert np.mean((density * omega**2)[omega > 8]) > 1.005 * floor
+
+
+def test_floor_level_of_a_ramp():
+    """Slow truth: a record that rises by J over its length leaks nothing but that."""
+    steps, jump = 512, 3.0
+    x = jump * np.arange(steps)[:, np.newaxis] / steps
+    record = records.spectra(x, time_step=0.1)
+    found = regions.floor_level(record.omega, record.density[:, 0], 1.0, 20.0, 0.1)
+    assert found == pytest.approx(jump**2 / 51.2, rel=1e-9)
+
+
+@given(power=st.floats(1e-9, 1e9), exponent=st.floats(-6, -2.5))
+def test_power_level_of_a_pure_power_law(power, exponent):
+    omega = LINE * np.arange(1, 2000)
+    found = regions.power_level(omega, power * omega**exponent, FIRST, LAST, PERIOD, exponent)
+    assert found == pytest.approx(power, rel=1e-9)
+
+
+def test_power_level_under_an_oscillation_is_half():
+    """Of sin^2, to the part that one line has of a period."""
+    found = regions.power_level(*law(-4.4), FIRST, LAST, PERIOD, -4.4)
+    assert found == pytest.approx(0.5, rel=LINE / PERIOD)
+
+
+@given(where=st.floats(1e-3, 1e6), exponent=st.floats(-6, -2.5), floor=st.floats(1e-9, 1e9))
+def test_crossing_is_where_both_are_equal(where, exponent, floor):
+    power = floor * where ** (-2 - exponent)
+    found = regions.crossing(power, exponent, floor)
+    assert found == pytest.approx(where, rel=1e-9)
+    assert power * found**exponent == pytest.approx(floor * found**-2, rel=1e-9)
+
+
+def test_the_break_of_a_sum_is_where_each_part_is_half():
+    """Power law and floor, each from where it is alone: the other is a part of 1e-4 there."""
+    exponent, floor, time_step = -5.0, 7.0, 1e-4
+    omega = LINE * np.arange(1, 100_000)
+    density = 3e6 * omega**exponent + floor / omega**2
+    level = regions.floor_level(omega, density, 7.5e2, 8e2, time_step)
+    assert level == pytest.approx(floor, rel=3e6 / floor / 7.5e2**3 * 1.01 + (8e2 * time_step) ** 2 / 12)
+    power = regions.power_level(omega, density, 1.0, 3.0, PERIOD, exponent)
+    assert power == pytest.approx(3e6, rel=floor / 3e6 * 27)
+    assert regions.crossing(power, exponent, level) == pytest.approx((3e6 / floor) ** (1 / 3), rel=0.003)
+
+
+# --- scales -----------------------------------------------------------------------------------------------------------
+
+
+def step_and_law():
+    """A peak, nothing, and a power law with an oscillation from FIRST on, with the lines about the edge of Hann."""
+    omega, density = law(-4.4)
+    quiet = 1e-6 * density[omega < FIRST].mean() * np.ones(omega.size)
+    quiet[[9, 10, 11]] += [0.3, 1.0, 0.24]
+    return omega, np.where(omega < FIRST, quiet, density)
+
+
+def all_regions(omega, density, scale=1.0):
+    first, last, period = scale * FIRST, scale * LAST, scale * PERIOD
+    return {
+        "peak": regions.peak(omega, density, 0.3 * scale),
+        "jump": regions.jump(omega, density, 0.2 * scale, 2 * scale),
+        "slope": regions.slope(omega, density, 1.1 * first, last, period),
+        "period": regions.oscillation_period(omega, density, 1.1 * first, last, 3),
+        "floor": regions.floor_level(omega, density, 0.3 * scale, 0.5 * scale, 0.1 / scale),
+        "power": regions.power_level(omega, density, 1.1 * first, last, period, -4.4),
+    }
+
+
+@given(exponent=st.integers(-30, 30))
+def test_no_place_depends_on_the_level(exponent):
+    """Factors of two, which round nothing but logarithms."""
+    omega, density = step_and_law()
+    one, other = all_regions(omega, density), all_regions(omega, density * 2.0**exponent)
+    for name in ("peak", "jump", "slope", "period"):
+        assert other[name] == pytest.approx(one[name], rel=1e-9), name
+    for name in ("floor", "power"):
+        assert other[name] == pytest.approx(one[name] * 2.0**exponent, rel=1e-9), name
+
+
+@given(exponent=st.integers(-20, 20))
+def test_places_scale_with_frequency(exponent):
+    omega, density = step_and_law()
+    scale = 2.0**exponent
+    one, other = all_regions(omega, density), all_regions(omega * scale, density, scale)
+    for name in ("peak", "jump", "period"):
+        assert other[name] == pytest.approx(one[name] * scale, rel=1e-9), name
+    assert other["slope"] == pytest.approx(one["slope"], abs=1e-9)
+    assert other["floor"] == pytest.approx(one["floor"] * scale**2, rel=1e-9)
+    assert other["power"] == pytest.approx(one["power"] * scale**4.4, rel=1e-9)
