@@ -31,7 +31,9 @@ from tests import (
     test_rolling_theory,
     test_rough_punches,
     test_springs_against_brute_force,
+    test_wheel_cases,
     test_wheel_motion,
+    test_wheel_spectra,
     test_wheels_on_springs,
     test_windows_and_starts,
 )
@@ -39,10 +41,14 @@ from validation import (
     contact_laws,
     ensemble,
     integrators,
+    records,
+    regions,
     rolling_theory,
     rough_punch,
     spectra,
     statistics,
+    wheel_ensemble,
+    wheel_scene,
     wheel_theory,
 )
 from validation import wheel as wheel_in_motion
@@ -282,6 +288,53 @@ def softer_steady(law, time_step):
     return law.wheel.approach + d[0], (d[1] - d[-1]) / (2 * time_step)
 
 
+def dt_for_its_square(series, *, time_step, window="none"):
+    """(14.17) with dt / T."""
+    record = spectra_of_records(series, time_step=time_step, window=window)
+    return records.Record(record.omega, record.density / time_step)
+
+
+def one_sided_record(series, *, time_step, window="none"):
+    record = spectra_of_records(series, time_step=time_step, window=window)
+    return records.Record(record.omega, 2 * record.density)
+
+
+def hann_as_it_is(series, *, time_step, window="none"):
+    """Hann's window without its mean square, 3 / 8."""
+    record = spectra_of_records(series, time_step=time_step, window=window)
+    return records.Record(record.omega, record.density * (3 / 8 if window == "hann" else 1))
+
+
+def half_of_the_circumference(scene):
+    """pi R / dx."""
+    return round(np.pi * scene.radius / scene.spacing)
+
+
+def always_open(rides):
+    """Places of an open track, whatever the track."""
+    return places_of(dataclasses.replace(rides, track="open"))
+
+
+def by_geike(rides):
+    return heights_of(dataclasses.replace(rides, feed="geike"))
+
+
+def half_a_line_on(omega, hann, below):
+    return peak(omega, hann, below) + omega[0] / 2
+
+
+def slope_of_what_is_steep(omega, density, first, last, period):
+    centres, means = regions.levelled(omega, density, first, last, period, 0.0)
+    return float(np.polyfit(np.log(centres), np.log(means), 1)[0])
+
+
+def without_resonance(omega, *, eigenfrequency, mass):
+    """a = dF / M."""
+    return np.full(np.shape(omega), mass**-2.0)
+
+
+spectra_of_records, peak = records.spectra, regions.peak
+places_of, heights_of = wheel_ensemble.Rides.places.fget, wheel_ensemble.Rides.heights
 force_in_step, other_turning_point = mdr.Wheels.force, wheel_theory._other_turning_point
 moments, reach, two_sided = Frame._moments, wheel_on_springs._Track.reach, spectra.Waves.spectrum.fget
 # the function of this name hides the module in the package
@@ -630,6 +683,52 @@ FAULTS = {
         functools.partial(
             test_wheel_motion.test_boundary_elements_in_the_loop_follow_linear_theory_in_three_dimensions, 6
         ),
+    ),
+    "dt for dt^2 in (14.17)": (
+        (records, "spectra", dt_for_its_square),
+        functools.partial(test_wheel_spectra.test_spectra_by_slow_sums, 31, "none"),
+    ),
+    "dt for dt^2 in (14.17), seen by Parseval": (
+        (records, "spectra", dt_for_its_square),
+        test_wheel_spectra.test_parseval_without_window,
+    ),
+    "one-sided spectrum of a record": (
+        (records, "spectra", one_sided_record),
+        test_wheel_spectra.test_parseval_without_window,
+    ),
+    "Hann without its mean square": (
+        (records, "spectra", hann_as_it_is),
+        functools.partial(test_wheel_spectra.test_parseval_of_hann_in_expectation, 24),
+    ),
+    "half a line on in the peak": (
+        (regions, "peak", half_a_line_on),
+        functools.partial(test_wheel_spectra.test_peak_of_a_tone_between_lines, 30.5),
+    ),
+    "slope of bands that are not levelled": (
+        (regions, "slope", slope_of_what_is_steep),
+        functools.partial(test_wheel_spectra.test_slope_under_an_oscillation, 0.7),
+    ),
+    "a wheel of half of its circumference": (
+        (wheel_scene.WheelScene, "circumference_points", property(half_of_the_circumference)),
+        test_wheel_cases.test_the_roughness_of_a_wheel_repeats_after_its_circumference,
+    ),
+    "a closed track taken as open": (
+        (wheel_ensemble.Rides, "places", property(always_open)),
+        functools.partial(
+            test_wheel_cases.test_closed_tracks_hold_whole_turns_and_steady_ones_a_half_more, "steady", 0.5, 0.16
+        ),
+    ),
+    "Geike for the rolling feed of springs": (
+        (wheel_ensemble.Rides, "heights", by_geike),
+        test_wheel_cases.test_rolling_feed_has_long_waves_and_geike_has_none,
+    ),
+    "no resonator in the linear spectrum": (
+        (wheel_theory, "acceleration_over_force", without_resonance),
+        test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+    ),
+    "factor 2 pi lost over frequency, seen in an ensemble": (
+        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
+        test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
 }
 

@@ -150,7 +150,7 @@ def hann_of_a_tone(place, phase, steps=4096, amplitude=1.0):
 
 
 def leak(distance):
-    """Of Hann's window over its lowest main line, that of a tone midway: sin(pi d) / (pi d (1 - d^2)) over 8 / (3 pi)"""
+    """Of Hann's window, sin(pi d) / (pi d (1 - d^2)), over the main line of a tone midway, 8 / (3 pi)."""
     return 1 / (np.pi * distance * (distance**2 - 1)) * 3 * np.pi / 8
 
 
@@ -182,23 +182,25 @@ def test_peak_is_that_of_any_amplitude(place, amplitude, phase):
 
 def smoothed_step(edge, exponent, lines):
     """What Hann's window makes in the mean of omega^exponent above an edge, in lines, and nothing below."""
-    fine = edge + (np.arange(40 * lines) + 0.5) / 40
+    fine = edge + (np.arange(20 * lines) + 0.5) / 20
     law = (fine / edge) ** exponent
     d = np.arange(1, lines + 1)[:, np.newaxis] - fine
     with np.errstate(divide="ignore", invalid="ignore"):
         kernel = np.where(np.abs(np.abs(d) - 1) < 1e-9, 0.25, (np.sinc(d) / (1 - d**2)) ** 2)
-    return kernel @ law / 40 / 1.5 * 4
+    return kernel @ law / 20 / 1.5
 
 
 @pytest.mark.parametrize("exponent", [0.0, -2.4, -4.4])
-@pytest.mark.parametrize("edge", [24.0, 40.3, 40.5, 90.8])
+@pytest.mark.parametrize("edge", [60.0, 60.3, 75.5, 90.8])
 def test_jump_of_a_power_law_with_its_edge_between_lines(edge, exponent):
-    """Half of a band's level behind the edge is met within half a line of it: at the edge itself a symmetric window has
-    half of a flat level; a level up to three bands behind is lower by 2^(-exponent / 4), at most 2.2, which the window
-    has 0.5 of a line earlier, since its main lobe, 1.5 lines wide, has risen from 0.23 to 0.5 there."""
+    """Half of a line, above a plateau 30 dB lower: a symmetric window has half of a flat level at the edge itself; the
+    level three bands behind is lower by at most 2^(exponent / 4), 2.2, which the main lobe, 1.5 lines wide in power,
+    has half a line earlier."""
     omega = np.arange(1.0, 401)
-    found = regions.jump(omega, smoothed_step(edge, exponent, 400), edge / 3, edge * 3)
-    assert found == pytest.approx(edge, abs=0.5)
+    density = smoothed_step(edge, exponent, 400)
+    assert regions.jump(omega, density + 1e-3, edge / 3, edge * 3) == pytest.approx(edge, abs=0.5)
+    # above nothing, a band on the flank of the lobe may rise more than that behind it: somewhere in the main lobe
+    assert regions.jump(omega, density, edge / 3, edge * 3) == pytest.approx(edge, abs=2)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -258,7 +260,10 @@ def test_slope_of_means_that_are_not_levelled_is_wrong(hurst):
 @given(exponent=st.floats(-6, -2.5))
 def test_slope_of_a_pure_power_law_is_exact(exponent):
     omega = LINE * np.arange(1, 2000)
-    assert regions.slope(omega, omega**exponent, FIRST, LAST, PERIOD) == pytest.approx(exponent, abs=1e-9)
+    # flat where it is not looked at: sums over bands are differences of sums from the first line
+    assert regions.slope(omega, np.maximum(omega, FIRST) ** exponent, FIRST, LAST, PERIOD) == pytest.approx(
+        exponent, abs=1e-9
+    )
 
 
 @pytest.mark.parametrize("hurst", [0.4, 0.7, 1.0])
@@ -289,7 +294,7 @@ def test_noise_has_no_period():
 
 @given(floor=st.floats(1e-12, 1e12), time_step=st.floats(1e-3, 0.2))
 def test_floor_level_of_a_leak(floor, time_step):
-    """J^2 / T of |J| dt / |2 sin(omega dt / 2)|, as the periodic continuation of a ramp has it, without a small step."""
+    """J^2 / T of |J| dt / |2 sin(omega dt / 2)|, as the continuation of a ramp has it, for steps that are not small."""
     omega = LINE * np.arange(1, 2000)
     density = floor * time_step**2 / 4 / np.sin(omega * time_step / 2) ** 2
     assert regions.floor_level(omega, density, 8.0, 12.0, time_step) == pytest.approx(floor, rel=1e-11)
@@ -327,16 +332,18 @@ def test_crossing_is_where_both_are_equal(where, exponent, floor):
     assert power * found**exponent == pytest.approx(floor * found**-2, rel=1e-9)
 
 
-def test_the_break_of_a_sum_is_where_each_part_is_half():
-    """Power law and floor, each from where it is alone: the other is a part of 1e-4 there."""
-    exponent, floor, time_step = -5.0, 7.0, 1e-4
+def test_the_break_of_a_sum_is_between_its_parts():
+    """Power law and floor, each read where the other is a part of it, the cube of a ratio of frequencies."""
+    exponent, floor, meet, time_step = -5.0, 7.0, 60.0, 1e-4
     omega = LINE * np.arange(1, 100_000)
-    density = 3e6 * omega**exponent + floor / omega**2
-    level = regions.floor_level(omega, density, 7.5e2, 8e2, time_step)
-    assert level == pytest.approx(floor, rel=3e6 / floor / 7.5e2**3 * 1.01 + (8e2 * time_step) ** 2 / 12)
-    power = regions.power_level(omega, density, 1.0, 3.0, PERIOD, exponent)
-    assert power == pytest.approx(3e6, rel=floor / 3e6 * 27)
-    assert regions.crossing(power, exponent, level) == pytest.approx((3e6 / floor) ** (1 / 3), rel=0.003)
+    density = floor * meet**3 * np.maximum(omega, 0.5) ** exponent + floor / omega**2
+    level = regions.floor_level(omega, density, 500.0, 600.0, time_step)
+    rest, other = (meet / 500) ** 3, (6 / meet) ** 3
+    # the shape of the floor is that of a sine, which is lower than its argument
+    assert level == pytest.approx(floor, rel=rest + (600 * time_step) ** 2 / 12)
+    power = regions.power_level(omega, density, 1.0, 6.0, PERIOD, exponent)
+    assert power == pytest.approx(floor * meet**3, rel=other)
+    assert regions.crossing(power, exponent, level) == pytest.approx(meet, rel=(rest + other) / 3 + 1e-3)
 
 
 # --- scales -----------------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from validation.ensemble import LOCAL
 from validation.evidence import Evidence, Verdict
 from validation.peers import peers_installed
 from validation.report.build import Section, build
-from validation.wheel_scene import read_scene, shipped
+from validation.wheel_scene import WheelScene, read_scene, shipped
 
 RACE_COLUMNS = (
     "problem",
@@ -69,6 +69,19 @@ def race(arguments: argparse.Namespace) -> Exit:
     return _built(["race"], out, arguments)
 
 
+def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
+    """The scene that was asked for; refused where no case takes one, and with notes of what may be wrong with it."""
+    if arguments.scene is None:
+        return None
+    without = [name for name in names if name == "race" or not hasattr(CASES[name].quick, "scene")]
+    if without:
+        raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
+    scene = read_scene(arguments.scene)
+    for doubt in scene.doubts():
+        print(f"note: {doubt}", file=sys.stderr)
+    return scene
+
+
 def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exit:
     """Write a report and say how it came out."""
     sections = build(
@@ -77,7 +90,7 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
         out=out,
         workers=arguments.workers,
         seed=arguments.seed,
-        scene=read_scene(arguments.scene) if arguments.scene else None,
+        scene=_scene_of(arguments, names),
         executor=arguments.executor,
         tell=_tell,
     )

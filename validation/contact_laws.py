@@ -19,13 +19,20 @@ FloatArray = NDArray[np.float64]
 class Wheel:
     """A rigid wheel on an elastic half-space, in static equilibrium on a smooth track.
 
-    radius: R [m]; mass: M [kg]; modulus: E* [Pa]; load: F_N [N].
+    radius: R [m]; mass: M [kg]; modulus: E* [Pa]; load: F_N [N]; all positive, or else ValueError. Its speed is in the
+    time step of the simulation, dx / v_0.
     """
 
     radius: float
     mass: float
     modulus: float
     load: float
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "mass", "modulus", "load"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0):
+                raise ValueError(f"{name} must be finite and positive, got {value}")
 
     @property
     def approach(self) -> float:
@@ -114,7 +121,7 @@ class Linear:
 
 
 class Springs:
-    """One-sided springs, (14.15), on tracks of shape (places, wheels)."""
+    """One-sided springs, (14.15): height of tracks, shape (places, wheels), positive towards the wheel; spacing [m]."""
 
     def __init__(self, wheel: Wheel, height: FloatArray, spacing: float):
         self.wheel = wheel

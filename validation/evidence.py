@@ -1,5 +1,6 @@
 """Evidence: numbers with a reference, a tolerance, an error bar and a verdict; tables behind figures; conclusions."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -144,6 +145,30 @@ class Evidence:
     def table(self, name: str) -> Table:
         """The table of that name."""
         return next(table for table in self.tables if table.name == name)
+
+
+def plus_minus(value: float, half_width: float) -> str:
+    """A value with its interval, to the second digit of that: 12640 ± 110."""
+    if not half_width > 0:
+        return f"{value:.5g}"
+    place = 1 - math.floor(math.log10(half_width))
+    if place <= 0:
+        return f"{round(value, place):.0f} ± {round(half_width, place):.0f}"
+    return f"{value:.{place}f} ± {half_width:.{place}f}" if place < 8 else f"{value:.5g} ± {half_width:.2g}"
+
+
+def beside(number: Number) -> str:
+    """Value, interval, reference and verdict, with what is left of a difference that the interval does not hold."""
+    unit = "" if number.unit == "-" else f" {number.unit}"
+    off = (
+        f", off by {number.difference:+.2g}{unit}"
+        if number.verdict is Verdict.AGREE and abs(number.difference) > number.uncertainty > 0
+        else ""
+    )
+    return (
+        f"{plus_minus(number.value, number.uncertainty)} beside {number.reference:.5g}{unit} ({number.verdict} within "
+        f"{number.tolerance:.3g}{off})"
+    )
 
 
 def claim(sentence: str, numbers: Sequence[Number]) -> str:

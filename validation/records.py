@@ -42,10 +42,10 @@ def spectra(series: ArrayLike, *, time_step: float, window: Window = "none") -> 
 def band_levels(omega: FloatArray, density: FloatArray, edges: ArrayLike) -> FloatArray:
     """int A df over each band of positive frequencies, along the first axis of the density; NaN without any."""
     borders = np.searchsorted(omega, np.asarray(edges, dtype=np.float64))
-    sums = np.concatenate([np.zeros((1, *density.shape[1:])), np.cumsum(density, axis=0)])
-    found = (sums[borders[1:]] - sums[borders[:-1]]) * omega[0] / (2 * np.pi)
-    empty = borders[1:] == borders[:-1]
-    found[empty] = np.nan
+    # each band is summed by itself: of running sums, those far below earlier ones would be lost
+    ended = np.concatenate([density, np.zeros((1, *density.shape[1:]))])
+    found = np.add.reduceat(ended, borders, axis=0)[:-1] * omega[0] / (2 * np.pi)
+    found[borders[1:] == borders[:-1]] = np.nan
     return np.asarray(found)
 
 

@@ -12,6 +12,8 @@ FloatArray = NDArray[np.float64]
 
 OUTSTANDING = 40.0
 """Over the median, what is no noise: of thousands of lines of noise the largest is about ten times the median."""
+LOBE, PROMINENT = 3, 5.0
+"""Lines from a tone beyond which Hann's window shows nothing of it; a peak is so many times what lies there."""
 OCTAVE_PARTS = 12
 """Bands to an octave in which a jump is looked for."""
 
@@ -21,10 +23,15 @@ def peak(omega: FloatArray, hann: FloatArray, below: float) -> float:
 
     The lines of a vibration with Hann's window have amplitudes in the ratio r = (1 + e) / (2 - e) where it lies e of a
     line's distance from the largest to its larger neighbour: e = (2 r - 1) / (r + 1). Source: Grandke, IEEE Trans.
-    Instrum. Meas. 32 (1983).
+    Instrum. Meas. 32 (1983). NaN where it does not stand out of what lies beside it.
     """
     inside = int(np.searchsorted(omega, below))
+    if inside < 1:
+        return math.nan
     top = int(np.argmax(hann[:inside]))
+    beside = np.concatenate([hann[max(top - 2 * LOBE, 0) : max(top - LOBE, 0)], hann[top + LOBE : top + 2 * LOBE]])
+    if hann[top] < PROMINENT * np.median(beside):
+        return math.nan
     side = 1 if top == 0 or hann[top + 1] > hann[top - 1] else -1
     ratio = math.sqrt(hann[top + side] / hann[top])
     return float(omega[top] + side * omega[0] * (2 * ratio - 1) / (ratio + 1))
@@ -53,9 +60,8 @@ def levelled(
 ) -> tuple[FloatArray, FloatArray]:
     """Centres of bands of one period of the oscillation, from first to last, and means of A omega^-exponent."""
     borders = np.searchsorted(omega, np.arange(first, last * (1 + 1e-12), period))
-    sums = np.concatenate([[0.0], np.cumsum(density * omega**-exponent)])
-    centres = (omega[borders[:-1]] + omega[borders[1:] - 1]) / 2
-    return centres, (sums[borders[1:]] - sums[borders[:-1]]) / np.diff(borders)
+    sums = np.add.reduceat(np.append(density * omega**-exponent, 0.0), borders)[:-1]
+    return (omega[borders[:-1]] + omega[borders[1:] - 1]) / 2, sums / np.diff(borders)
 
 
 def slope(omega: FloatArray, density: FloatArray, first: float, last: float, period: float) -> float:
@@ -82,6 +88,8 @@ def oscillation_period(omega: FloatArray, density: FloatArray, first: float, las
     """
     inside = (omega >= first) & (omega <= last)
     log, x = np.log(density[inside]), np.log(omega[inside])
+    if x.size // 4 <= least:
+        return math.nan
     rest = log - np.polyval(np.polyfit(x, log, 1), x)
     w = np.sin(np.pi * np.arange(x.size) / x.size) ** 2
     line = np.abs(np.fft.rfft(rest * w)) ** 2

@@ -140,8 +140,9 @@ def repeating(
         if (left <= tolerance).all():
             break
         (r, s), ((a, b), (c, e)) = image - state, np.moveaxis(correction, 0, -1)
+        step = np.clip(np.stack([a * r + b * s, c * r + e * s]), -wheel.approach / 2, wheel.approach / 2)
         # who is there stays there, whoever else goes on
-        state = np.where(left > tolerance, state + np.stack([a * r + b * s, c * r + e * s]), state)
+        state = np.where(left > tolerance, state + step, state)
         image = after(1, *state)[:, 0]
         left = np.abs(image - state).max(axis=0) / wheel.approach
     return state[0], omega * state[1], left

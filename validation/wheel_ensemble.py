@@ -26,21 +26,22 @@ RAIL, WHEEL = 1, 2
 """The spawn keys under which the roughness of each draws."""
 LEFT = 1e-7
 """Of the approach, over d, after a round of a motion that repeats itself."""
-APART = 4
-"""Longest waves between the end of an open track and its beginning."""
+APART = 30
+"""Longest waves between the end of an open track and its beginning: with a band that begins sharply, forces are still
+correlated at a few."""
 PARTS = 12
 """Bands to an octave, of which each wheel's levels are kept."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rides:
-    """Some wheels of an ensemble.
+    """Some wheels of an ensemble, each with a rail and a roughness of its own.
 
     scene; first, count: which of its realisations; groups: of them, whose mean spectra are kept apart; seed: zero or
     positive; release: how much deeper than in equilibrium they begin, over the smooth approach;
     linear: the filter (14.11) in place of springs; feed: the rule by which springs get the spectrum of the isotropic
     surface, Geike's, or the one that gives them the level of the force on the half-space, `mdr.rolling_spectrum`;
-    track: "open": the end has nothing to do with the beginning; "closed": the end is the beginning, after a whole
+    track: "open": the end is far from the beginning; "closed": the end is the beginning, after a whole
     number of turns of the resonance; "steady": closed, and the motion repeats itself, after a number and a half.
     """
 
@@ -84,10 +85,21 @@ class Rides:
             if scene.rail:
                 height[:, i] += self._drawn(scene.rail, self.places, RAIL, number)
             if scene.wheel:
-                # the wheel meets the rail with the same spot after each turn
-                around = self._drawn(scene.wheel, scene.circumference_points, WHEEL, number)
-                height[:, i] += np.resize(around, self.places)
+                around = self._drawn(scene.wheel, self._circumference, WHEEL, number)
+                height[:, i] += around[self._under % self._circumference]
         return height
+
+    @property
+    def _circumference(self) -> int:
+        """Cells after which the wheel meets the rail with the same spot: 2 pi R, or the whole of a closed track."""
+        return self.scene.circumference_points if self.track == "open" else self.places
+
+    @property
+    def _under(self) -> NDArray[np.int64]:
+        """Cells rolled when each place is below; the last places of an open track lie behind the first."""
+        place = np.arange(self.places)
+        middle = (self.steps + self.places) // 2
+        return np.where(place > middle, place - self.places, place)
 
     def _drawn(self, roughness: Roughness, points: int, kind: int, number: int) -> FloatArray:
         geike = self.feed == "geike"
@@ -125,7 +137,11 @@ def roll_wheels(rides: Rides) -> Outcome:
     square: of each wheel, its acceleration, and the square of that; lowest, highest: approach over d; airborne: share
     of steps; failed: wheels whose motion was to repeat itself and does not; balance: see there.
     """
-    motion, left = _motion(rides)
+    try:
+        motion, left = _motion(rides)
+    except ArithmeticError:
+        # a wheel that was thrown so far that sums would round: nothing of this ensemble is trusted
+        return {"failed": np.array(float(rides.count))}
     plain, hann = (spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     scene, groups = rides.scene, np.arange(rides.count).reshape(rides.groups, -1)
     bands = band_edges(plain.omega)

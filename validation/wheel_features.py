@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from validation import regions, rolling_theory, wheel_theory
 from validation.ensemble import Outcome
 from validation.statistics import Estimate
-from validation.wheel_scene import WheelScene
+from validation.wheel_scene import Roughness, WheelScene
 
 FloatArray = NDArray[np.float64]
 
@@ -24,8 +24,9 @@ which the roughness at the edge of the contact washes out from the end."""
 BEYOND = (1.3, 2.6)
 """Where the floor is measured, over the end of the roughness."""
 FEWEST_PERIODS = 3
-APART = 1.5
-"""So many times the eigenfrequency the jump must be, or it is part of the peak."""
+APART, CLEAR = 1.5, 3.0
+"""So many times the eigenfrequency the jump must be, or it is part of the peak; and where power laws of the force are
+those of the acceleration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +107,14 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
         rolling_theory.mean_force_spectrum_1d(scene.cutoff / scene.speed, roughness(scene), modulus=scene.modulus),
         speed=scene.speed,
     ) / (scene.mass**2 * scene.cutoff**exponent)
+    if scene.rail and scene.wheel and _shape(scene.rail) != _shape(scene.wheel):
+        # no power law: what the same rule finds in linear theory
+        first, last = _third(scene, scene.jump)
+        fine = np.arange(1, math.ceil(1.1 * scene.cutoff / spectrum.omega[0])) * spectrum.omega[0]
+        linear = linear_spectrum(scene, fine)
+        if last - first >= FEWEST_PERIODS * period:
+            exponent = regions.slope(fine, linear, first, last, period)
+            power = np.asarray(regions.power_level(fine, linear, first, last, period, exponent))
     return {
         PEAK: scene.eigenfrequency,
         JUMP: scene.jump,
@@ -114,6 +123,15 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
         FLOOR: floor,
         BREAK: regions.crossing(float(power), exponent, floor),
     }
+
+
+def _third(scene: WheelScene, jump: float) -> tuple[float, float]:
+    """Where region 3 is looked at, clear of its ends and of the resonance."""
+    return max(AFTER * jump, CLEAR * scene.eigenfrequency), BEFORE * scene.cutoff
+
+
+def _shape(rough: Roughness) -> tuple[float, float, float]:
+    return rough.hurst, rough.longest, rough.shortest
 
 
 def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: FloatArray) -> dict[str, float]:
@@ -131,7 +149,8 @@ def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: Fl
     if first < BEFORE * last:
         values[FLOOR] = regions.floor_level(omega, plain, first, last, spectrum.time_step)
         values[FLOOR + PREDICTED] = values[FLOOR] / expect[FLOOR]
-    period, first, last = expect[PERIOD], AFTER * values.get(JUMP, scene.jump), BEFORE * scene.cutoff
+    first, last = _third(scene, values.get(JUMP, scene.jump))
+    period = expect[PERIOD]
     if last - first < FEWEST_PERIODS * period:
         return values
     values[SLOPE] = regions.slope(omega, hann, first, last, period)

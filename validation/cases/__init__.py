@@ -183,6 +183,7 @@ CASES = {
             causes=60,
             rough=20,
             heights=(0.125, 0.25, 0.5, 1.0, 2.0, 4.0),
+            phases=(0.0, 0.25, 0.5),
             releases=(0.0, 0.1, 0.2, 0.4),
             released=5,
         ),

@@ -4,13 +4,16 @@ import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
+from mdr import SelfAffine
 from validation.contact_laws import BoundaryElements, Springs
 from validation.ensemble import SERIAL, Engine, Outcome, generator
+from validation.evidence import NotConvergedError
 from validation.wheel import simulate
 from validation.wheel_ensemble import Rides, roll_wheels, wheel_of
 from validation.wheel_scene import WheelScene, read_scene
@@ -50,9 +53,10 @@ class Wheel:
         return found
 
     def rides(self, scene: WheelScene, realisations: int) -> list[Rides]:
-        """Batches of equal size."""
+        """Batches of equal size, each of whole groups: a few wheels more where that asks for them."""
         batches = math.ceil(realisations / self.batch)
-        count, groups = realisations // batches, max(self.groups // batches, 1)
+        groups = max(self.groups // batches, 1)
+        count = groups * math.ceil(realisations / batches / groups)
         return [Rides(scene=scene, first=i * count, count=count, groups=groups, seed=self.seed) for i in range(batches)]
 
     def of(self, name: str) -> int:
@@ -81,9 +85,14 @@ class WheelResult:
 
 def run(case: Wheel, engine: Engine = SERIAL) -> WheelResult:
     """Roll all wheels of all variations."""
+    if case.scene.rail is None and case.scene.wheel is None:
+        raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
     rides = {name: case.rides(scene, case.of(name)) for name, scene in case.variations().items()}
     outcomes = iter(engine.map(roll_wheels, [ride for batches in rides.values() for ride in batches]))
     found = {name: [next(outcomes) for _ in batches] for name, batches in rides.items()}
+    lost = [name for name, batches in found.items() if any(batch["failed"] for batch in batches)]
+    if lost:
+        raise NotConvergedError("wheels were thrown farther than sums are exact for", lost)
     scene = case.scene
     still = Still(scene=scene, cells=case.cells, steps=case.stills, seed=case.seed)
     return WheelResult(case, found, engine.map(picture, [still])[0])
@@ -135,21 +144,25 @@ def picture(still: Still) -> Outcome:
     }
 
 
+def _carried(spectrum: SelfAffine, last: float, q: FloatArray) -> FloatArray:
+    """C_2D up to a wavenumber."""
+    return np.where(q <= last, spectrum.c2d(q), 0.0)
+
+
 def _strip_contact(still: Still) -> bem3d.RollingContact:
     """Rolled by boundary elements over a strip with the isotropic spectrum of the scene, as far as it has waves."""
     scene, wheel = still.scene, wheel_of(still.scene)
     spacing = scene.contact_radius / still.cells
-    rough = scene.rail or scene.wheel
-    shape = (12 * still.cells, 6 * still.cells)
-    strip = np.zeros(shape)
-    if rough is not None:
-        cut = replace(rough, shortest=max(rough.shortest, 4 * spacing)).spectrum
-        with warnings.catch_warnings():
-            # a picture of one place: the waves that the cells carry
-            warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-            strip = bem3d.rough_surface(
-                cut.c2d, shape=shape, spacing=spacing, rng=generator(still.seed, STRIP), rms=rough.rms
-            )
+    strip = np.zeros((12 * still.cells, 6 * still.cells))
+    with warnings.catch_warnings():
+        # a picture of one place: the waves that the cells carry
+        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+        for i, rough in enumerate((scene.rail, scene.wheel)):
+            if rough is not None:
+                carried = partial(_carried, rough.spectrum, math.pi / (2 * spacing))
+                strip += bem3d.rough_surface(
+                    carried, shape=strip.shape, spacing=spacing, rng=generator(still.seed, STRIP, i)
+                )
     law = BoundaryElements(wheel, [strip], spacing)
     simulate(wheel, law, time_step=spacing / scene.speed, steps=still.steps)
     return law.contacts[0]

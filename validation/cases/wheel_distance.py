@@ -11,6 +11,8 @@ from validation.wheel_scene import Roughness, WheelScene, read_scene
 
 TABLE = read_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
+LEAST_JUMP, LEAST_PERIODS = 4.0, 5.0
+"""Over the eigenfrequency, and behind the jump, for regions that can be told apart."""
 SPRINGS, LINEAR = "springs", "linear"
 
 
@@ -21,8 +23,8 @@ class WheelDistance:
     scene; turns: of the resonance on the shortest distance, whole; doublings: of it; wheels: to a distance up to the
     middle one, half as many for each doubling beyond, fewest at least; causes: wheels for each way to end a track;
     rough: wheels for each height; heights: factors on h_0, ascending, with a quarter and one among them;
-    releases: amplitudes of free vibration over d, of `released` wheels each; groups: of wheels, for errors; seed: zero
-    or more.
+    phases: turns over whole ones at which records end, of `rough` wheels; releases: amplitudes of free vibration over
+    d, of `released` wheels each; groups: of wheels, for errors; seed: zero or more.
     """
 
     scene: WheelScene = SHORT
@@ -33,6 +35,7 @@ class WheelDistance:
     causes: int = 20
     rough: int = 10
     heights: tuple[float, ...] = (0.25, 1.0, 4.0)
+    phases: tuple[float, ...] = (0.0, 0.5)
     releases: tuple[float, ...] = (0.0, 0.4)
     released: int = 4
     groups: int = 10
@@ -80,6 +83,18 @@ class WheelDistance:
             for height in self.heights
         }
 
+    def ended(self) -> dict[tuple[str, float], Rides]:
+        """Open tracks of springs and of the linear contact that end in several phases of the resonance."""
+        turn = 2 * math.pi * self.scene.speed / self.scene.eigenfrequency
+        whole = max(round(self.scene.length / turn), 1)
+        return {
+            (law, phase): replace(
+                self.ending(law, "open", self.rough), scene=replace(self.scene, distance=(whole + phase) * turn)
+            )
+            for law in (SPRINGS, LINEAR)
+            for phase in self.phases
+        }
+
     def vibrations(self) -> dict[float, Rides]:
         """Wheels that begin so much deeper than in equilibrium."""
         scene = replace(self.scene, distance=2 * self.scene.distance)
@@ -97,6 +112,7 @@ class DistanceResult:
     distances: list[Outcome]
     ends: Mapping[str, Outcome]
     sweep: Mapping[tuple[str, float], Outcome]
+    ended: Mapping[tuple[str, float], Outcome]
     vibrations: Mapping[float, Outcome]
     unconverged: tuple[str, ...]
 
@@ -111,10 +127,15 @@ def scaled(scene: WheelScene, factor: float) -> WheelScene:
 
 
 def run(case: WheelDistance, engine: Engine = SERIAL) -> DistanceResult:
-    """Roll all wheels. Raises NotConvergedError where nothing repeats itself."""
-    ends, sweep, vibrations, distances = case.ends(), case.sweep(), case.vibrations(), case.distances()
+    """Roll all wheels.
+
+    Raises ValueError for a scene without plateau or without region 3, NotConvergedError where nothing repeats itself.
+    """
+    _has_regions(case.scene)
+    ends, sweep, ended, vibrations = case.ends(), case.sweep(), case.ended(), case.vibrations()
+    distances = case.distances()
     # the longest first, so that no worker is left with it alone
-    rides = [*distances[::-1], *ends.values(), *sweep.values(), *vibrations.values()]
+    rides = [*distances[::-1], *ends.values(), *sweep.values(), *ended.values(), *vibrations.values()]
     outcomes = engine.map(roll_wheels, rides)
     lost = tuple(
         f"{int(o['failed'])} of {r.count} wheels do not repeat themselves, h₀ = {r.scene.rms:.3g} m"
@@ -130,6 +151,24 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> DistanceResult:
         found,
         {name: next(left) for name in ends},
         {key: next(left) for key in sweep},
+        {key: next(left) for key in ended},
         {release: next(left) for release in vibrations},
         lost,
     )
+
+
+def _has_regions(scene: WheelScene) -> None:
+    """Refuse what has no plateau to take apart, or too little behind it."""
+    if scene.rail is None and scene.wheel is None:
+        raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
+    if scene.jump < LEAST_JUMP * scene.eigenfrequency:
+        raise ValueError(
+            f"scene must have q_min v0 of at least {LEAST_JUMP:g} omega_eigen, {LEAST_JUMP * scene.eigenfrequency:.4g} "
+            f"rad/s, for a plateau between, got {scene.jump:.4g} rad/s"
+        )
+    period = math.pi * scene.speed / scene.contact_radius
+    if scene.cutoff < scene.jump + LEAST_PERIODS * period:
+        raise ValueError(
+            f"scene must have q_max v0 of at least {scene.jump + LEAST_PERIODS * period:.4g} rad/s, {LEAST_PERIODS:g} "
+            f"periods pi v0 / a behind q_min v0, got {scene.cutoff:.4g} rad/s"
+        )

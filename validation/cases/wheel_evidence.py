@@ -5,11 +5,15 @@ import math
 import numpy as np
 
 from validation.cases.wheel import WheelResult
-from validation.evidence import Evidence, Number, Role, Table, Verdict, claim, columns, table_of
+from validation.ensemble import Outcome
+from validation.evidence import Evidence, Number, Role, Table, Verdict, beside, claim, columns, plus_minus, table_of
 from validation.records import band_means
 from validation.statistics import Estimate
+from validation.wheel_ensemble import APART as OPEN_WAVES
 from validation.wheel_features import (
+    APART,
     BREAK,
+    CLEAR,
     FLOOR,
     JUMP,
     PEAK,
@@ -20,10 +24,13 @@ from validation.wheel_features import (
     expected,
     found,
 )
+from validation.wheel_scene import WheelScene
 
 POWER = 10 / math.log(10)
 LINES = 2
 """Of a record: half of the width of Hann's main lobe."""
+FEW = 3
+"""Names that a sentence holds."""
 FINE = 12
 """Bands to a period of the oscillation."""
 NAMES = {
@@ -51,7 +58,7 @@ def evidence(result: WheelResult) -> Evidence:
     base = next(iter(spectra))
     features = {name: _numbers(name, spectrum) for name, spectrum in spectra.items()}
     level = _level(spectra[base])
-    numbers = [*_exact(result), *features[base].values(), level]
+    numbers = [*_exact(result), *features[base].values(), *([level] if level else [])]
     return Evidence(
         title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
         compared=_compared(result, spectra[base]),
@@ -64,8 +71,13 @@ def evidence(result: WheelResult) -> Evidence:
             _pressure(result),
             _marks(spectra[base]),
         ),
-        shown=(_regions(features[base]), *([_parameters(features)] if len(features) > 1 else [])),
-        conclusions=(*_conclusions(features, base, level), *case.scene.doubts()),
+        shown=(_scene(case.scene), _regions(features[base]), *([_parameters(features)] if len(features) > 1 else [])),
+        conclusions=(
+            *_hidden(case.scene),
+            *_conclusions(features, base, level),
+            _flight(result.batches[base]),
+            *case.scene.doubts(),
+        ),
         captions=_captions(result),
     )
 
@@ -74,21 +86,21 @@ SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
 
 
 def _compared(result: WheelResult, spectrum: Spectrum) -> str:
-    case, scene = result.case, result.case.scene
+    scene = result.case.scene
     ours = (
-        f"Table 14.1 prints E, nu, R, M and h₀; ours are F_N = {scene.load:g} N, v₀ = {scene.speed:g} m/s, H = "
-        f"{scene.rail.hurst:g}, waves from {1e3 * scene.rail.longest:g} to {1e3 * scene.rail.shortest:g} mm, and a "
-        f"distance of {scene.length:.3g} m. "
+        "Table 14.1 prints E, ν, R, M and h₀; all else is our choice, see the table of the scene. "
         if scene.rail and scene.name == "Table 14.1"
         else ""
     )
     return (
-        f"{case.realisations} wheels, M z'' = F - F_N by velocity Verlet in steps of dx / v₀, {scene.springs} springs "
-        f"to a contact radius a = {1e3 * scene.contact_radius:.4g} mm, approach d = {1e6 * scene.approach:.4g} µm, "
-        f"h₀/d = {scene.rms / scene.approach:.3g}, {len(spectrum.omega) * 2} steps from static equilibrium; the end of "
-        f"a track has nothing to do with its beginning. {ours}Spectra by (14.17), without window as in the book, and "
-        "with Hann's where leakage would hide what is looked for. Peak and period from lines of Hann's spectrum and "
-        "between them; jump: half of the level behind it; slope and break from means over periods of the oscillation; "
+        f"{spectrum.jumps.size} wheels, M z'' = F - F_N by velocity Verlet in steps of dx / v₀, {scene.springs} "
+        f"springs to a contact radius a = {1e3 * scene.contact_radius:.4g} mm, h₀/d = "
+        f"{scene.rms / scene.approach:.3g}, {len(spectrum.omega) * 2} steps from static equilibrium; the end of a "
+        f"track is {OPEN_WAVES} longest waves from its beginning. {ours}Nothing damps the wheel: the free vibration "
+        "with which it begins stays, and makes the level of region 1, of which the frequency alone is the contact's. A "
+        "is two-sided over the frequency f, <a²> = int A df; without window as in the book, and with Hann's where "
+        "leakage would hide what is looked for. The peak is found between lines of Hann's spectrum; the jump where "
+        "that reaches half of the level behind it; slope and break from means over periods of the oscillation; the "
         "floor beyond q_max v₀. Errors by leaving out groups of wheels."
     )
 
@@ -166,11 +178,14 @@ def _tolerance(feature: str, reference: float, line: float) -> tuple[float, str]
     return 0.1, "10 %: 0.4 dB of a level"
 
 
-def _level(spectrum: Spectrum) -> Number:
+def _level(spectrum: Spectrum) -> Number | None:
     """Level of region 3 over (14.12) through the resonator, to where the floor is far below."""
     scene, omega = spectrum.scene, spectrum.omega
     theory, value = expected(spectrum), spectrum.hann
-    inside = (omega > 1.2 * scene.jump) & (omega < min(0.7 * theory[BREAK], 0.9 * scene.cutoff))
+    first, last = max(1.2 * scene.jump, CLEAR * scene.eigenfrequency), min(0.7 * theory[BREAK], 0.9 * scene.cutoff)
+    if first >= last:
+        return None
+    inside = (omega > first) & (omega < last)
     linear = float(spectrum.linear[inside].sum())
     sums = value[:, inside].sum(axis=1)
     mean = float(sums.mean())
@@ -223,7 +238,8 @@ def _oscillation(spectrum: Spectrum) -> Table:
     centres = (edges[1:] + edges[:-1]) / 2
     law = omega ** theory[SLOPE]
     linear = np.where(omega < 0.5 * scene.jump, 0.0, spectrum.linear)
-    scale = float(np.mean((linear / law)[(omega > 2 * scene.jump) & (omega < 0.9 * scene.cutoff)]))
+    inside = (omega > scene.jump) & (omega < scene.cutoff)
+    scale = float(np.mean((linear / law)[inside]))
     values = {"springs": spectrum.plain.mean(axis=0), "springs, Hann": spectrum.hann.mean(axis=0), "linear": linear}
     return Table(
         "oscillation",
@@ -263,6 +279,70 @@ def _marks(spectrum: Spectrum) -> Table:
     return Table("marks", {"mark": list(marks), "omega [rad/s]": list(marks.values())})
 
 
+BOOK = ("E", "ν", "R", "M", "h₀")
+
+
+def _scene(scene: WheelScene) -> Table:
+    """What the wheel is made of, and who says so."""
+    values = {
+        "R": f"{scene.radius:g} m",
+        "M": f"{scene.mass:g} kg",
+        "E": f"{scene.youngs_modulus / 1e9:g} GPa",
+        "ν": f"{scene.poisson_ratio:.4g}",
+        "E* = E / (1 - ν²), one body rigid": f"{scene.modulus / 1e9:.5g} GPa",
+        "F_N": f"{scene.load:g} N",
+        "v₀": f"{scene.speed:g} m/s",
+        "h₀": f"{1e6 * scene.rms:.3g} µm",
+    }
+    for body, rough in (("rail", scene.rail), ("wheel", scene.wheel)):
+        if rough:
+            values[f"{body}: H; longest, shortest wave"] = (
+                f"{rough.hurst:g}; {1e3 * rough.longest:g} mm, {1e3 * rough.shortest:g} mm"
+            )
+    values |= {
+        "distance": f"{scene.length:.3g} m",
+        "dx": f"a / {scene.springs}",
+        "a": f"{1e3 * scene.contact_radius:.4g} mm",
+        "d": f"{1e6 * scene.approach:.4g} µm",
+        "h₀ / d": f"{scene.rms / scene.approach:.3g}",
+        "ω_eigen": f"{scene.eigenfrequency:.5g} rad/s, {scene.eigenfrequency / (2 * math.pi):.4g} Hz",
+        "q_min v₀": f"{scene.jump:.5g} rad/s",
+        "q_max v₀": f"{scene.cutoff:.5g} rad/s",
+    }
+    from_book = scene.name == "Table 14.1"
+    columns_ = {"quantity": list(values), "value": list(values.values())}
+    if from_book:
+        columns_["source"] = [_source(name) for name in values]
+    return Table("the scene", columns_)
+
+
+def _source(name: str) -> str:
+    if name in BOOK:
+        return "printed in the book, Table 14.1"
+    follows = name.startswith("E*") or name in ("a", "d", "h₀ / d", "ω_eigen", "q_min v₀", "q_max v₀")
+    return "follows" if follows else "ours"
+
+
+def _hidden(scene: WheelScene) -> list[str]:
+    """Why features may be missing."""
+    if scene.jump > APART * scene.eigenfrequency:
+        return []
+    return [
+        f"q_min v₀ = {scene.jump:.4g} rad/s is not above ω_eigen = {scene.eigenfrequency:.4g} rad/s by a factor of "
+        f"{APART:g}: the roughness excites the resonance itself, and there is no plateau and no jump to look for."
+    ]
+
+
+def _flight(batches: list[Outcome]) -> str:
+    """How far the contact goes."""
+    lowest, highest = min(float(b["lowest"].min()) for b in batches), max(float(b["highest"].max()) for b in batches)
+    airborne = float(np.mean(np.concatenate([b["airborne"] for b in batches])))
+    return (
+        f"Approaches of all wheels lay between {lowest:.3g} and {highest:.3g} d; without contact they were for "
+        f"{100 * airborne:.2g} % of the time."
+    )
+
+
 def _regions(features: dict[str, Number]) -> Table:
     """The chapter's regions, one row a feature."""
     chapter = {
@@ -281,9 +361,9 @@ def _regions(features: dict[str, Number]) -> Table:
                 "region": region,
                 "the chapter": says,
                 "feature": NAMES[feature],
-                "found": "none stands out" if number is None else f"{number.value:.5g} ± {number.uncertainty:.2g}",
-                "theory": "" if number is None else f"{number.reference:.5g} = {SOURCES[feature]}",
-                "verdict": "" if number is None else f"within {number.tolerance:.2g}: {number.verdict}",
+                "found": "none stands out" if number is None else plus_minus(number.value, number.uncertainty),
+                "theory": SOURCES[feature] if number is None else f"{number.reference:.5g} = {SOURCES[feature]}",
+                "verdict": "" if number is None else f"within {number.tolerance:.3g}: {number.verdict}",
             }
         )
     return table_of("the regions of the spectrum", rows)
@@ -299,13 +379,13 @@ def _parameters(features: dict[str, dict[str, Number]]) -> Table:
             row[label] = (
                 "none stands out"
                 if number is None
-                else f"{number.value:.5g} ± {number.uncertainty:.2g} ({number.reference:.5g}): {number.verdict}"
+                else f"{plus_minus(number.value, number.uncertainty)} ({number.reference:.5g}): {number.verdict}"
             )
         rows.append(row)
     return table_of("one parameter at a time: found ± 95 % (theory)", rows)
 
 
-def _conclusions(features: dict[str, dict[str, Number]], base: str, level: Number) -> list[str]:
+def _conclusions(features: dict[str, dict[str, Number]], base: str, level: Number | None) -> list[str]:
     mine = features[base]
     peak, jump, slope, period = (mine.get(f) for f in (PEAK, JUMP, SLOPE, PERIOD))
     floor, broken = mine.get(FLOOR + PREDICTED), mine.get(BREAK + PREDICTED)
@@ -313,13 +393,11 @@ def _conclusions(features: dict[str, dict[str, Number]], base: str, level: Numbe
     sentences.append(_said("Region 3 begins at q_min v₀", jump))
     if slope:
         sentences.append(_said("Its slope is that of linear theory", slope))
-    sentences.append(
-        _said("Its oscillation is sin²(q a)", period) if period else "No oscillation stands out of region 3."
-    )
+    sentences.append(_said("Its oscillation is sin²(q a)", period))
     sentences.append(_said("Its level is that of linear theory", level))
     if floor:
         sentences.append(
-            _said("Region 4 is a floor of ω⁻² which the jump at the end of the records makes: no physics", floor)
+            _said("Region 4 is a floor of ω⁻² which the jump at the end of the records makes, not the contact", floor)
         )
     if broken:
         sentences.append(_said("The break is where that floor meets region 3", broken))
@@ -330,13 +408,8 @@ def _conclusions(features: dict[str, dict[str, Number]], base: str, level: Numbe
 
 def _said(sentence: str, number: Number | None) -> str:
     if number is None:
-        return f"Not found in this run: {sentence}."
-    unit = "" if number.unit == "-" else f" {number.unit}"
-    return claim(
-        f"{sentence}: {number.value:.5g} ± {number.uncertainty:.2g} beside {number.reference:.5g}{unit} "
-        f"({number.verdict}).",
-        [number],
-    )
+        return f"None stands out in this run: {sentence[0].lower()}{sentence[1:]}."
+    return claim(f"{sentence}: {beside(number)}.", [number])
 
 
 def _moves(features: dict[str, dict[str, Number]]) -> list[str]:
@@ -348,10 +421,14 @@ def _moves(features: dict[str, dict[str, Number]]) -> list[str]:
         differ = [n.label.split(":")[0] for n in numbers if n.verdict is Verdict.DIFFER]
         missing = [name for name, mine in features.items() if feature not in mine]
         text = f"{label}: {agree} of {len(numbers)}"
-        text += f", differs for {', '.join(differ)}" if differ else ""
-        text += f", none stands out for {', '.join(missing)}" if missing else ""
+        text += f", differs for {_listed(differ)}" if differ else ""
+        text += f", none stands out for {_listed(missing)}" if missing else ""
         parts.append(text)
     return [f"One parameter at a time, features that agree with theory: {'; '.join(parts)}."]
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names) if len(names) <= FEW else f"{len(names)} scenes, see the table"
 
 
 def _captions(result: WheelResult) -> dict[str, str]:
@@ -366,10 +443,10 @@ def _captions(result: WheelResult) -> dict[str, str]:
         ),
         "wheel": (
             "Fig. 14.4. (a) Spectrum of the acceleration, (14.17): line, mean over "
-            f"{case.realisations} wheels without window, as in the book; band, from the lowest to the highest tenth of "
+            f"{case.realisations} wheels without window, as in the book; band, tenth to ninetieth percentile of "
             "wheels; dashed: with Hann's window; thick grey: linear theory, (14.12) through the resonator; dotted: the "
             "floor that the jumps at the end of the records predict. Vertical lines: ω_eigen, q_min v₀, predicted "
-            "break, q_max v₀. (b) Region 3 over ω^(-2H-3), on a linear axis: the oscillation of period π v₀ / a."
+            "break, q_max v₀. (b) Region 3 over ω^(-2H-3), over a linear ω: the oscillation of period π v₀ / a."
         ),
     }
     if len(case.variations()) > 1:

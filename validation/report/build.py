@@ -150,6 +150,8 @@ def _case_results(section: Section) -> dict[str, object]:
 def _resolved(value: float, tolerance: float) -> str:
     """A value with two digits more than its tolerance has, seven at the most."""
     digits = max(0, 2 - math.floor(math.log10(tolerance))) if tolerance > 0 else 6
+    if digits > 9:
+        return f"{value:.2g}"
     return f"{value:.{min(digits, 7)}f}"
 
 

@@ -38,16 +38,23 @@ def draw(evidence: Evidence) -> Figure:
         differences.plot(omega, off, **style)
     levels.errorbar(omega, bem, yerr=open_, capsize=2, label="boundary elements", **BEM)
     levels.set(xscale="log", xlabel="ω [rad/s]", ylabel="one-third octave level [dB over (m/s²)²]")
-    levels.legend(loc="lower left", fontsize=7)
+    levels.legend(loc="upper right", fontsize=7)
+    levels.set_ylim(top=float(bem.max()) + 32)
     differences.fill_between(omega, -open_, open_, color=BEM["color"], alpha=0.2, linewidth=0)
     for border in (-3, -1, 1, 3):
         differences.axhline(border, **GUIDE)
     differences.set(xscale="log", xlabel="ω [rad/s]", ylabel="over boundary elements [dB]", ylim=(-12, 12))
+    missing = table["springs, Geike over bem3d [dB]"][below]
+    if missing.size:
+        note = f"springs, Geike: {missing.max():.0f} dB and less"
+        differences.annotate(note, (omega[0], -11.8), (omega[0], -10), fontsize=7, arrowprops={"arrowstyle": "->"})
     near = evidence.table("oscillation")
     x = near["omega [rad/s]"] / 1e3
     oscillation.plot(x, near["linear, 3D"], label="linear contact, 3D", **STYLES["linear, 3D"])
     oscillation.plot(x, near["springs, Geike"], color=MDR["color"], linewidth=1.0, label="springs, Geike")
-    oscillation.plot(x, near["bem3d"], color=BEM["color"], linewidth=1.2, linestyle="--", label="boundary elements")
+    oscillation.plot(
+        x, near["bem3d"], color=BEM["color"], linewidth=1.2, linestyle=(0, (2, 1)), label="boundary elements"
+    )
     oscillation.set(yscale="log", xlabel="ω [1000 rad/s]", ylabel="A [(m/s²)² s]")
     oscillation.legend(loc="upper right", fontsize=7)
     return figure

@@ -28,7 +28,9 @@ def draw(evidence: Evidence) -> Figure:
     exponent = next(n.reference for n in evidence.numbers if n.label.startswith("break against duration"))
     middle = np.exp(np.mean(np.log(found) - exponent * np.log(t)))
     law.plot(t, middle * t**exponent, label=f"T^{exponent:.3f}", **EXACT)
-    law.set(xscale="log", yscale="log", xlabel="T [s]", ylabel="ω_break [rad/s]")
+    law.set(xscale="log", yscale="log", xlabel="T [ms]", ylabel="ω_break [rad/s]")
+    law.set_xticks(t, [f"{1e3 * one:.3g}" for one in t])
+    law.xaxis.minorticks_off()
     law.legend(loc="upper left")
     return figure
 
@@ -67,7 +69,7 @@ def draw_cause(evidence: Evidence) -> Figure:
     plateau.set(xscale="log", xlabel="h / d", ylabel="mean of A in region 2 [dB over (m/s²)² s]")
     plateau.set_xticks(height, [f"{h:.2g}" for h in height])
     plateau.xaxis.minorticks_off()
-    plateau.legend(loc="upper left", fontsize=7)
+    plateau.legend(loc="lower right", fontsize=7)
     vibrations = evidence.table("vibrations")
     release = vibrations["release / d"]
     fine = np.linspace(0.02, 1.15 * max(release.max(), 0.1), 60)
@@ -77,4 +79,5 @@ def draw_cause(evidence: Evidence) -> Figure:
     )
     peak.set(xlabel="release below equilibrium / d", ylabel="peak / ω_eigen")
     peak.legend(loc="lower left")
+    peak.set_xlim(-0.04 * fine[-1], fine[-1])
     return figure
