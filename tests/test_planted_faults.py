@@ -216,7 +216,7 @@ def one_sided_spectrum(found):
 
 def profile_half_a_cell_ahead(wheels, springs):
     x = (np.arange(springs.start, springs.stop) + 0.5) * wheels.spacing
-    return np.rint(x**2 / wheels.radius / wheels.quantum)
+    return np.rint((x**2 / wheels.radius)[:, np.newaxis] / wheels.quantum)
 
 
 def springs_that_pull_in_step(values, least, out=None):
