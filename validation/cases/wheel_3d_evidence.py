@@ -36,7 +36,7 @@ def evidence(result: Result3D) -> Evidence:
         compared=_compared(found),
         numbers=tuple(numbers),
         tables=(_table(found), _narrow(found)),
-        shown=(_within(found),),
+        shown=(_regions(found, numbers), _within(found)),
         conclusions=tuple(_conclusions(found, numbers)),
         captions=_captions(found),
         unconverged=result.unconverged,
@@ -344,6 +344,65 @@ def _narrow(found: Levels) -> Table:
             }
         ),
     )
+
+
+def _regions(found: Levels, numbers: list[Number]) -> Table:
+    """The chapter's regions in three dimensions."""
+    scene = found.result.case.scene
+    plateau = [n for n in numbers if n.label.endswith("region 2") and n.label.startswith(LINEAR_3D)]
+    third = [n for n in numbers if "slope" in n.label]
+    return Table(
+        "the regions in three dimensions",
+        {
+            "region": ["1", "2", "3", "4"],
+            "on springs of Geike's spectrum": [
+                "excited by the start alone: no wave of the track has the resonance",
+                "leakage and nonlinearity",
+                "-2 H - 3, and zeros of sin²(q a)",
+                "leakage; the roughness ends at q_max",
+            ],
+            "by boundary elements": [
+                f"excited by the roughness: its force there over that at q_min v₀ is {_at_resonance(found):+.1f} dB",
+                f"real; linear theory over it {beside(plateau[0])}" if plateau else "no band holds it",
+                f"slope {beside(third[0])}; zeros filled in"
+                if third
+                else "too few periods for a slope; zeros filled in",
+                f"beyond 1.3 q_max v₀ {_beyond(found):.0f} dB below the last tenth of the roughness, with Hann's "
+                "window",
+            ],
+            "ω [rad/s]": [
+                f"{scene.eigenfrequency:.4g}",
+                f"up to {scene.jump:.4g}",
+                f"up to {scene.cutoff:.4g}",
+                f"from {scene.cutoff:.4g}",
+            ],
+        },
+    )
+
+
+def _at_resonance(found: Levels) -> float:
+    """C_F of linear theory in 3D at the resonance over that where the band begins [dB]."""
+    scene = found.result.case.scene
+    rough = scene.rail
+    assert rough is not None  # strips have refused it
+    force = rolling_theory.force_spectrum_3d(
+        np.array([scene.eigenfrequency / scene.speed, 1.001 * rough.q_min]),
+        rough.spectrum.c2d,
+        edges=(rough.q_min, rough.q_max),
+        contact_radius=scene.contact_radius,
+        modulus=scene.modulus,
+    )
+    return POWER * math.log(force[0] / force[1])
+
+
+def _beyond(found: Levels) -> float:
+    """How far boundary elements fall beyond the roughness [dB]."""
+    cutoff = found.result.case.scene.cutoff
+    inside, outside = (
+        found.of_strips(FINEST, "bem", np.array(band) * cutoff)[:, 0].mean() / (band[1] - band[0])
+        for band in ((0.9, 1.0), (1.3, 1.8))
+    )
+    return -POWER * math.log(outside / inside)
 
 
 def _within(found: Levels) -> Table:
