@@ -593,6 +593,9 @@ def test_wheels_that_do_not_repeat_themselves_are_no_evidence(monkeypatch):
     with pytest.raises(NotConvergedError, match="most wheels of an ensemble do not repeat themselves") as caught:
         wheel_distance.run(replace(DISTANCE, doublings=0, scene=replace(SMALL, distance=0.05)))
     assert caught.value.lost[0].startswith("24 of 24 wheels do not repeat themselves, h₀ = 5e-07 m")
+    with pytest.raises(NotConvergedError, match="wheels on springs do not repeat themselves") as caught:
+        wheel_3d.run(QUICK_3D)
+    assert caught.value.lost == ("geike", "rolling")
 
 
 @pytest.fixture(scope="module")

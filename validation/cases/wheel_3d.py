@@ -114,4 +114,8 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
         raise NotConvergedError(f"{whole} strips converged on {case.cells} cells to a radius, 3 are needed", lost)
     rides = {feed: case.rides(feed) for feed in FEEDS}
     rode = iter(engine.map(roll_wheels, [ride for some in rides.values() for ride in some]))
-    return Result3D(case, found, {feed: [next(rode) for _ in some] for feed, some in rides.items()}, lost)
+    springs = {feed: [next(rode) for _ in some] for feed, some in rides.items()}
+    astray = [feed for feed, some in springs.items() if any(outcome["failed"] for outcome in some)]
+    if astray:
+        raise NotConvergedError("wheels on springs do not repeat themselves", astray)
+    return Result3D(case, found, springs, lost)
