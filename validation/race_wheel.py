@@ -124,7 +124,7 @@ def _measure_springs(problem: OnSprings) -> Outcome:
     simulate(wheel, Counted(), **settings)  # type: ignore[arg-type]
     times = [timed(lambda: simulate(wheel, law, **settings)) for _ in range(3)]  # type: ignore[arg-type]
     motion, seconds = min(times, key=lambda time: time[1])
-    plain = _Plain(scene, heights)
+    plain = _Plain(scene, heights, float(motion.highest.max()))
     few = max(problem.steps // 20, 1)
     _, slow = timed(lambda: [plain.force(n, motion.approach) for n in range(few)])
     off = max(float(np.abs(plain.force(n, motion.approach) - law.force(n, motion.approach)).max()) for n in range(few))
@@ -139,9 +139,9 @@ def _measure_springs(problem: OnSprings) -> Outcome:
 class _Plain:
     """F = E* dx sum_j max(d - x_j^2 / R + h_j, 0) over all springs that some wheel may reach, every time."""
 
-    def __init__(self, scene: WheelScene, heights: FloatArray):
+    def __init__(self, scene: WheelScene, heights: FloatArray, deepest: float):
         self.heights, self.spring = heights, scene.modulus * scene.spacing
-        reach = math.ceil(math.sqrt(scene.radius * (1.2 * scene.approach + heights.max())) / scene.spacing)
+        reach = math.ceil(math.sqrt(scene.radius * (deepest + heights.max())) / scene.spacing)
         self.springs = np.arange(-reach, reach + 1)
         self.profile = ((self.springs * scene.spacing) ** 2 / scene.radius)[:, np.newaxis]
 

@@ -8,13 +8,15 @@ PATH = re.compile(r'(?<= d=")[^"]*')
 COMMAND = re.compile(r"\s*([MLQCZz])\s*")
 DECIMALS = re.compile(r"(\d*)\.\d{3,}")
 INDENTATION = re.compile(r"\n\s*")
+LINK, SPACE = "xlink:href=", ' xmlns:xlink="http://www.w3.org/1999/xlink"'
+"""What SVG 2 says in one word."""
 GLYPH = "DejaVuSans"
 """Of the names of glyphs, each written where it is used."""
 
 
 def compact(svg: str) -> str:
     """The same picture in about two thirds of the bytes."""
-    svg = UNUSED.sub("<g>", COMMENT.sub("", svg))
+    svg = UNUSED.sub("<g>", COMMENT.sub("", svg)).replace(LINK, "href=").replace(SPACE, "")
     svg = PATH.sub(lambda path: COMMAND.sub(r"\1", path.group()), svg)
     return INDENTATION.sub("\n", DECIMALS.sub(_printed, svg)).replace(GLYPH, "D")
 
