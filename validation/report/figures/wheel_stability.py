@@ -17,6 +17,9 @@ COLORS = {
 LIMITS = {"symplectic Euler": 2.0, "velocity Verlet": 2.0, "Runge-Kutta": 8**0.5}
 FLOOR = 1e-17
 
+PLACE = {"left": 0.09, "right": 0.97, "bottom": 0.06, "top": 0.96, "wspace": 0.24, "hspace": 0.42}
+"""Of six panels, by hand: laid out around their labels they end with other last bits now and then."""
+
 
 def draw(evidence: Evidence) -> Figure:
     """Period, energy and growth of a linear vibration; the period on a Hertz contact."""
@@ -100,7 +103,7 @@ def _marked(axis: Axes, ticks: tuple[float, ...]) -> None:
 
 def draw_rough(evidence: Evidence) -> Figure:
     """Long runs, rounds, springs too far apart, lift-off."""
-    figure, axes = panels(3, 2, height=9.2)
+    figure, axes = panels(3, 2, height=9.2, within=PLACE)
     _long(axes[0], evidence.table("long runs"))
     _spacing(axes[1], axes[2], evidence.table("spacing"))
     _lift(axes[3], axes[4], evidence.table("lift-off"))
