@@ -13,7 +13,7 @@ from validation.cases import wheel, wheel_3d, wheel_3d_evidence, wheel_distance,
 from validation.ensemble import Engine
 from validation.evidence import NotConvergedError, Verdict
 from validation.wheel import simulate, turns
-from validation.wheel_ensemble import Rides, roll_wheels, wheel_of
+from validation.wheel_ensemble import Rides, roll_wheels
 from validation.wheel_features import FLOOR, PREDICTED, Spectrum
 from validation.wheel_scene import read_scene
 from validation.wheel_strip import Strip, roll_strip
@@ -72,7 +72,7 @@ def test_closed_tracks_hold_whole_turns_and_steady_ones_a_half_more(track, half,
     """To half a cell, and as long as asked for to half a turn, one where that would be none."""
     ride = rides(replace(SMALL, distance=distance), track=track)
     assert ride.places == ride.steps == len(ride.heights())
-    wheel, cell = wheel_of(SMALL), SMALL.spacing
+    wheel, cell = SMALL.body, SMALL.spacing
     found = turns(wheel, ride.steps * cell, SMALL.speed)
     assert (found - half) == pytest.approx(round(found - half), abs=0.5 * turns(wheel, cell, SMALL.speed) + 1e-9)
     assert found == pytest.approx(max(turns(wheel, distance, SMALL.speed), 1.0 - half), abs=0.55)
@@ -177,8 +177,8 @@ def test_the_balance_of_forces_holds_to_rounding(track, release, linear):
 def test_a_force_of_another_load_is_out_of_balance():
     """Negative control: a velocity that is a thousandth off."""
     heights = rides(count=2).heights()
-    law = wheel_ensemble.Springs(wheel_of(SMALL), heights, SMALL.spacing)
-    motion = simulate(wheel_of(SMALL), law, time_step=SMALL.time_step, steps=300)
+    law = wheel_ensemble.Springs(SMALL.body, heights, SMALL.spacing)
+    motion = simulate(SMALL.body, law, time_step=SMALL.time_step, steps=300)
     assert np.abs(wheel_ensemble.balance(motion)).max() < 1e-13
     assert np.abs(wheel_ensemble.balance(replace(motion, velocity=1.001 * motion.velocity))).min() > 1e-8
 
@@ -317,8 +317,8 @@ def test_strips_are_the_same_surface_on_grids_with_a_divisor():
     assert fine.surface()[1::3, 1::3] == pytest.approx(coarse.surface(), abs=1e-10 * LOW.rail.rms)
     assert fine.shape[0] * fine.spacing == pytest.approx(coarse.shape[0] * coarse.spacing, rel=ROUNDING)
     assert coarse.surface().std() == pytest.approx(LOW.rail.rms, rel=ROUNDING)
-    turn = turns(wheel_of(LOW), coarse.shape[0] * coarse.spacing, LOW.speed)
-    assert turn == pytest.approx(0.5, abs=0.5 * turns(wheel_of(LOW), LOW.contact_radius / 4, LOW.speed))
+    turn = turns(LOW.body, coarse.shape[0] * coarse.spacing, LOW.speed)
+    assert turn == pytest.approx(0.5, abs=0.5 * turns(LOW.body, LOW.contact_radius / 4, LOW.speed))
     with pytest.raises(ValueError, match="cells must be a multiple of shared, got 5 and 2"):
         strip(cells=5)
 
@@ -553,8 +553,8 @@ def test_distances_are_whole_turns_and_double():
     length = [ride.steps * ride.scene.spacing for ride in DISTANCE.distances()]
     for i, one in enumerate(length):
         # to the next length that an FFT is fast at: a part in a hundred
-        assert turns(wheel_of(SMALL), one, SMALL.speed) == pytest.approx(2**i, rel=0.02)
-        assert turns(wheel_of(SMALL), one, SMALL.speed) >= 2**i * (1 - ROUNDING)
+        assert turns(SMALL.body, one, SMALL.speed) == pytest.approx(2**i, rel=0.02)
+        assert turns(SMALL.body, one, SMALL.speed) >= 2**i * (1 - ROUNDING)
 
 
 def test_a_rectangular_window_in_place_of_hann_drops_nothing(distances):

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 import bem3d
 import mdr
-from validation.closed_forms import hertz_approach, hertz_contact_radius
+from validation.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
+from validation.wheel_theory import eigenfrequency
 
 FloatArray = NDArray[np.float64]
 
@@ -47,12 +48,12 @@ class Wheel:
     @property
     def stiffness(self) -> float:
         """k = 2 E* a [N/m]."""
-        return 2 * self.modulus * self.contact_radius
+        return circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
 
     @property
     def eigenfrequency(self) -> float:
         """omega_eigen = sqrt(2 a E* / M) [rad/s]."""
-        return math.sqrt(self.stiffness / self.mass)
+        return eigenfrequency(contact_radius=self.contact_radius, modulus=self.modulus, mass=self.mass)
 
 
 class ContactLaw(Protocol):

@@ -65,7 +65,7 @@ def evidence(result: RaceResult) -> Evidence:
             "race-wheel": (
                 f"A dynamic wheel on springs, {result.race.wheel.wheels} in step on one core: steps of one wheel a "
                 "second against the springs to a contact radius, by roughness h₀/d. Filled: as simulated; open: plain "
-                "sums over all springs. Dotted: 5 million, the goal for Table 14.1 with 100."
+                f"sums over all springs. Dotted: the goal for Table 14.1 with 100, {result.race.wheel.goal:.2g}."
             ),
         },
         unconverged=tuple(

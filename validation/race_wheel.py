@@ -14,7 +14,7 @@ from validation.contact_laws import BoundaryElements, Springs
 from validation.ensemble import Engine, Outcome, generator
 from validation.evidence import Table, table_of
 from validation.wheel import simulate
-from validation.wheel_ensemble import Rides, wheel_of
+from validation.wheel_ensemble import Rides
 from validation.wheel_scene import WheelScene, read_scene
 from validation.wheel_strip import narrowed
 
@@ -105,7 +105,7 @@ def measure_springs(problem: OnSprings) -> Outcome:
 
 
 def _measure_springs(problem: OnSprings) -> Outcome:
-    scene, wheel = problem.scene, wheel_of(problem.scene)
+    scene, wheel = problem.scene, problem.scene.body
     heights = Rides(scene=scene, count=problem.wheels, seed=problem.seed).heights()
     law, examined = Springs(wheel, heights, scene.spacing), []
 
@@ -157,7 +157,7 @@ def measure_half_space(problem: OnHalfSpace) -> Outcome:
 
 
 def _measure_half_space(problem: OnHalfSpace) -> Outcome:
-    scene, wheel = problem.scene, wheel_of(problem.scene)
+    scene, wheel = problem.scene, problem.scene.body
     rough, spacing = scene.rail, scene.contact_radius / problem.cells
     if rough is None:
         raise ValueError("scene must have a rough rail")

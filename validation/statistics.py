@@ -15,6 +15,8 @@ Statistic = Callable[[FloatArray, FloatArray], FloatArray]
 
 DECIBEL = 20 / math.log(10)
 """From a natural logarithm."""
+POWER_DECIBEL = 10 / math.log(10)
+"""The same, of a ratio of powers."""
 THREE_PER_CENT, FIVE_PER_CENT = DECIBEL * math.log(1.03), DECIBEL * math.log(1.05)
 
 RESAMPLES = 999
@@ -49,6 +51,14 @@ class Estimate:
         freedom = (square + their_square) ** 2 / spread if spread > 0 else math.inf
         samples = 1 + int(min(freedom, 1e9)) if math.isfinite(error) else min(self.samples, other.samples)
         return Estimate(self.value - other.value, error, samples)
+
+
+def left_out_error(without: NDArray[np.floating] | Sequence[float]) -> FloatArray:
+    """Standard error of a value from those without one of n realisations, or groups, after the other, along axis 0.
+
+    sqrt((n - 1) / n sum (x_i - mean)^2), the jackknife.
+    """
+    return np.asarray(np.sqrt((len(without) - 1) * np.var(without, axis=0)))
 
 
 def mean_of(estimates: Sequence[Estimate]) -> Estimate:

@@ -124,11 +124,6 @@ def rolling_feed(roughness: Roughness, contact_radius: float) -> Callable[[Float
     return lambda q: values(tuple(q.tolist()))
 
 
-def wheel_of(scene: WheelScene) -> Wheel:
-    """The wheel without its roughness."""
-    return Wheel(radius=scene.radius, mass=scene.mass, modulus=scene.modulus, load=scene.load)
-
-
 def roll_wheels(rides: Rides) -> Outcome:
     """Spectra of the accelerations of wheels on springs.
 
@@ -165,7 +160,7 @@ def roll_wheels(rides: Rides) -> Outcome:
 
 
 def _motion(rides: Rides) -> tuple[Motion, FloatArray]:
-    scene, wheel = rides.scene, wheel_of(rides.scene)
+    scene, wheel = rides.scene, rides.scene.body
     height = rides.heights()
     law: ContactLaw = _filtered(wheel, height, scene.spacing) if rides.linear else Springs(wheel, height, scene.spacing)
     start, velocity = law.at_rest(0) + rides.release * scene.approach, np.zeros(rides.count)

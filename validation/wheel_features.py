@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from validation import regions, rolling_theory, wheel_theory
 from validation.ensemble import Outcome
-from validation.statistics import Estimate
+from validation.statistics import Estimate, left_out_error
 from validation.wheel_scene import Roughness, WheelScene
 
 FloatArray = NDArray[np.float64]
@@ -80,7 +80,7 @@ def found(spectrum: Spectrum) -> dict[str, Estimate]:
         rest = np.arange(groups) != i
         plain, hann = (s[rest].mean(axis=0) for s in (spectrum.plain, spectrum.hann))
         without.append(_features(spectrum, plain, hann, shares[rest].ravel()))
-    errors = {name: math.sqrt((groups - 1) * np.var([w.get(name, math.nan) for w in without])) for name in all_of_them}
+    errors = {name: float(left_out_error([w.get(name, math.nan) for w in without])) for name in all_of_them}
     return {
         name: Estimate(value, errors[name], groups)
         for name, value in all_of_them.items()

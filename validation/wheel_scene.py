@@ -12,7 +12,7 @@ from scipy.fft import next_fast_len
 
 from mdr import SelfAffine
 from mdr.border import count, finite, positive
-from validation.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
+from validation.contact_laws import Wheel
 from validation.quantities import quantity
 
 Reader = Callable[[str, object], Any]
@@ -106,24 +106,29 @@ class WheelScene:
         return self.youngs_modulus / (1 - self.poisson_ratio**2)
 
     @property
+    def body(self) -> Wheel:
+        """The wheel without its roughness."""
+        return Wheel(radius=self.radius, mass=self.mass, modulus=self.modulus, load=self.load)
+
+    @property
     def approach(self) -> float:
         """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth wheel [m]."""
-        return hertz_approach(radius=self.radius, modulus=self.modulus, force=self.load)
+        return self.body.approach
 
     @property
     def contact_radius(self) -> float:
         """a = sqrt(R d) [m]."""
-        return hertz_contact_radius(radius=self.radius, approach=self.approach)
+        return self.body.contact_radius
 
     @property
     def stiffness(self) -> float:
         """k = 2 E* a [N/m]."""
-        return circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
+        return self.body.stiffness
 
     @property
     def eigenfrequency(self) -> float:
         """omega = sqrt(2 a E* / M) [rad/s]."""
-        return math.sqrt(self.stiffness / self.mass)
+        return self.body.eigenfrequency
 
     @property
     def jump(self) -> float:

@@ -82,10 +82,11 @@ def roll_strip(strip: Strip) -> Outcome:
     """z'' of a wheel on boundary elements and on the linear contact, over one round of the same surface [m/s^2].
 
     Both begin on the motion of the linear contact that repeats itself with the track, boundary elements at the force
-    that it has there. applications: of the operator, a step; area: mean; failed: one if a contact did not converge.
+    that it has there. applications: of the operator, a step; lowest, highest: approach over d; failed: one if a contact
+    did not converge.
     """
     scene = strip.scene
-    wheel = Wheel(radius=scene.radius, mass=scene.mass, modulus=scene.modulus, load=scene.load)
+    wheel = scene.body
     surface, time_step = strip.surface(), strip.spacing / scene.speed
     smooth = {"spacing": strip.spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
     linear = Linear(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])

@@ -15,13 +15,12 @@ from validation.contact_laws import BoundaryElements, Springs
 from validation.ensemble import SERIAL, Engine, Outcome, generator
 from validation.evidence import NotConvergedError
 from validation.wheel import simulate
-from validation.wheel_ensemble import Rides, roll_wheels, wheel_of
+from validation.wheel_ensemble import Rides, roll_wheels
 from validation.wheel_scene import WheelScene, read_scene
 
 FloatArray = NDArray[np.float64]
 
 TABLE = read_scene("table_14_1")
-BASE = "Table 14.1"
 STRIP = 3
 """The spawn key of the strip in the picture."""
 
@@ -47,7 +46,7 @@ class Wheel:
 
     def variations(self) -> Mapping[str, WheelScene]:
         """Scenes by what is other than in the first."""
-        found = {BASE if self.scene.name == TABLE.name else self.scene.name: self.scene}
+        found = {self.scene.name: self.scene}
         if self.parameters:
             found |= _varied(self.scene)
         return found
@@ -125,7 +124,7 @@ def picture(still: Still) -> Outcome:
     springs: x from the middle, profile of the wheel at its approach, height of the track, compression, over a and d;
     x, y: over a; pressure: over the largest of Hertz, in the frame that moves along, (x, y).
     """
-    scene, wheel = still.scene, wheel_of(still.scene)
+    scene, wheel = still.scene, still.scene.body
     a, d = scene.contact_radius, scene.approach
     rides = Rides(scene=scene, seed=still.seed)
     heights = rides.heights()
@@ -151,7 +150,7 @@ def _carried(spectrum: SelfAffine, last: float, q: FloatArray) -> FloatArray:
 
 def _strip_contact(still: Still) -> bem3d.RollingContact:
     """Rolled by boundary elements over a strip with the isotropic spectrum of the scene, as far as it has waves."""
-    scene, wheel = still.scene, wheel_of(still.scene)
+    scene, wheel = still.scene, still.scene.body
     spacing = scene.contact_radius / still.cells
     strip = np.zeros((12 * still.cells, 6 * still.cells))
     with warnings.catch_warnings():

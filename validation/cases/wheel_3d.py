@@ -11,6 +11,7 @@ from validation.wheel_strip import Strip, roll_strip
 
 TABLE = read_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
+FEEDS: tuple[Feed, ...] = ("geike", "rolling")
 FINEST, COARSER, LOOSE, TIGHT = "finest", "coarser", "loose", "tight"
 ANEW = 10
 """So many times as small a residual tells what the solver leaves open."""
@@ -82,9 +83,6 @@ class Wheel3D:
             )
             for i in range(batches)
         ]
-
-
-FEEDS: tuple[Feed, ...] = ("geike", "rolling")
 
 
 @dataclass(frozen=True)

@@ -12,16 +12,17 @@ from validation.cases.wheel_3d import COARSER, FINEST, LOOSE, TIGHT, Result3D
 from validation.ensemble import Outcome
 from validation.evidence import Evidence, Number, Role, Table, beside, claim, columns, table_of
 from validation.records import band_levels, band_means, one_third_octaves, spectra
-from validation.statistics import Estimate
+from validation.statistics import POWER_DECIBEL as POWER
+from validation.statistics import Estimate, left_out_error
+from validation.wheel_ensemble import Feed
 from validation.wheel_features import linear_spectrum
 
 FloatArray = NDArray[np.float64]
 
-POWER = 10 / math.log(10)
 LINEAR_3D, LINEAR_1D = "linear, 3D", "linear, 1D (14.12)"
 SPRINGS, FED = "springs, Geike", "springs, fed for rolling"
 MODELS = (LINEAR_3D, LINEAR_1D, SPRINGS, FED)
-FEED = {SPRINGS: "geike", FED: "rolling"}
+FEED: dict[str, Feed] = {SPRINGS: "geike", FED: "rolling"}
 ONE, THREE = 1.0, 3.0
 POINTS = 40
 """At which a spectrum is taken in each band."""
@@ -111,7 +112,7 @@ class Levels:
         scene = self.result.case.scene
         rough = scene.rail
         assert rough is not None  # strips have refused it
-        found = {LINEAR_3D: [], LINEAR_1D: []}  # type: dict[str, list[float]]
+        found: dict[str, list[float]] = {LINEAR_3D: [], LINEAR_1D: []}
         for low, high in zip(self.edges, self.edges[1:], strict=False):
             omega = np.linspace(low, high, POINTS)
             force = rolling_theory.force_spectrum_3d(
@@ -139,7 +140,7 @@ class Levels:
     @cached_property
     def springs(self) -> dict[str, FloatArray]:
         """ln of the mean level of springs, (groups, bands), by what they were fed."""
-        return {name: self._of_springs(self.result.springs[feed]) for name, feed in FEED.items()}  # type: ignore[index]
+        return {name: self._of_springs(self.result.springs[feed]) for name, feed in FEED.items()}
 
     def _of_springs(self, batches: list[Outcome]) -> FloatArray:
         omega = batches[0]["omega"]
@@ -153,21 +154,15 @@ class Levels:
 
     def mean_over_bem(self, model: str, where: NDArray[np.bool_]) -> tuple[Estimate, float]:
         """Mean of that over some bands, with the error of both samples, and of grid and solver."""
-        strips = np.log(self.of_strips(FINEST, "bem")[:, where] / self.of_strips(FINEST, "linear")[:, where])
         error = math.sqrt(self._error_of_ratio(where) ** 2 + self._error_of_model(model, where) ** 2)
         value = float(self.over_bem(model)[where].mean())
         solver = self.solver[where][np.isfinite(self.solver[where])]
         grid = float(self.grid[where].mean() + (solver.mean() if solver.size else 0.0))
-        return Estimate(value, error, len(strips)), grid
+        return Estimate(value, error, len(self.of_strips(FINEST, "bem"))), grid
 
     def _error_of_ratio(self, where: NDArray[np.bool_]) -> float:
         bem, linear = (self.of_strips(FINEST, model)[:, where] for model in ("bem", "linear"))
-        count = len(bem)
-        without = [
-            float(np.mean(_log_mean(np.delete(bem, i, axis=0)) - _log_mean(np.delete(linear, i, axis=0))))
-            for i in range(count)
-        ]
-        return math.sqrt((count - 1) * np.var(without))
+        return float(left_out_error(_without(bem, linear).mean(axis=1)))
 
     def _error_of_model(self, model: str, where: NDArray[np.bool_]) -> float:
         if model in self.exact:
@@ -178,13 +173,13 @@ class Levels:
 
 def log_ratio(mine: FloatArray, other: FloatArray) -> list[Estimate]:
     """ln of the ratio of both means, realisations in pairs along the first axis; error by leaving out one of them."""
-    count = len(mine)
-    without = np.array(
-        [_log_mean(np.delete(mine, i, axis=0)) - _log_mean(np.delete(other, i, axis=0)) for i in range(count)]
-    )
-    errors = np.sqrt((count - 1) * without.var(axis=0))
-    value = _log_mean(mine) - _log_mean(other)
-    return [Estimate(float(v), float(e), count) for v, e in zip(value, errors, strict=True)]
+    value, errors = _log_mean(mine) - _log_mean(other), left_out_error(_without(mine, other))
+    return [Estimate(float(v), float(e), len(mine)) for v, e in zip(value, errors, strict=True)]
+
+
+def _without(mine: FloatArray, other: FloatArray) -> FloatArray:
+    """ln of that ratio, without one realisation after the other."""
+    return np.array([_log_mean(np.delete(mine, i, 0)) - _log_mean(np.delete(other, i, 0)) for i in range(len(mine))])
 
 
 def _log_mean(levels: FloatArray) -> FloatArray:
@@ -215,7 +210,7 @@ def _compared(found: Levels) -> str:
     rail = scene.rail
     waves = f"{1e3 * rail.longest:g} to {1e3 * rail.shortest:g} mm, H = {rail.hurst:g}" if rail else ""
     return (
-        f"{case.strips} wheels of Table 14.1 over isotropic surfaces, waves of {waves}, h₀/d = "
+        f"{case.strips} wheels of {scene.name} over isotropic surfaces, waves of {waves}, h₀/d = "
         f"{scene.rms / scene.approach:.3g}; contact by boundary elements in each of {steps} time steps, {case.cells} "
         f"cells to a contact radius, residual {case.tolerance:g}; surfaces {1e3 * steps * strips.spacing:.0f} mm by "
         f"{1e3 * across * strips.spacing:.0f} mm, periodic, {case.turns + 0.5:g} turns of the resonance long. Beside "
@@ -287,8 +282,7 @@ def _region_numbers(found: Levels) -> list[Number]:
         return regions.slope(omega, some.mean(axis=0), first, last, period)
 
     without = [slope(np.delete(density, i, axis=0)) for i in range(len(density))]
-    error = math.sqrt((len(density) - 1) * np.var(without))
-    value = Estimate(slope(density), error, len(density))
+    value = Estimate(slope(density), float(left_out_error(without)), len(density))
     return [
         Number(
             label="region 3 by boundary elements: slope",

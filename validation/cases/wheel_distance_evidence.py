@@ -9,11 +9,12 @@ from validation.cases.wheel_distance import LINEAR, SPRINGS, DistanceResult, Whe
 from validation.ensemble import Outcome
 from validation.evidence import Evidence, Number, Role, Table, beside, claim, columns, plus_minus, table_of
 from validation.records import band_means
+from validation.statistics import POWER_DECIBEL as POWER
 from validation.statistics import Estimate
+from validation.wheel_ensemble import APART
 from validation.wheel_features import BREAK, FLOOR, PEAK, PREDICTED, Spectrum, expected, found, linear_spectrum
 from validation.wheel_scene import WheelScene
 
-POWER = 10 / math.log(10)
 OPEN, STEADY, LINEAR_OPEN = f"{SPRINGS}, open", f"{SPRINGS}, steady", f"{LINEAR}, open"
 WINDOWS = ("plain", "plain")
 QUARTER, WHOLE = 0.25, 1.0
@@ -33,7 +34,7 @@ def evidence(result: DistanceResult) -> Evidence:
         _jump(breaks),
         *_cause(result),
         *_shares(result),
-        *_orders(result),
+        _order(result),
         _start(result),
         *peaks,
     ]
@@ -52,16 +53,16 @@ def evidence(result: DistanceResult) -> Evidence:
 def _compared(case: WheelDistance) -> str:
     scene = case.scene
     return (
-        f"Wheels of the scene of Fig. 14.4, {case.wheels} and fewer, over {case.turns} to "
+        f"Wheels of {scene.name}, {case.wheels} and fewer, over {case.turns} to "
         f"{case.turns * 2**case.doublings} whole turns of the resonance, from static equilibrium; and over "
-        f"{scene.length:.3g} m in several ways. Open tracks: their end has nothing to do with their beginning. Closed "
-        "tracks, after a whole number of turns, on which a rough wheel has the period of the track. And the motion "
-        "that repeats itself with its closed track, found by shooting for the approach and the velocity to begin with: "
-        "it has no free vibration, and nothing leaks. Beside springs the linear contact of fixed radius, (14.11), on "
-        "the same tracks. What that has in regions 2 and 4 is leakage alone, since its waves end at q_min v₀ and q_max "
-        "v₀; what repeating springs have there is nonlinearity alone. Region 2 is looked at from 2 ω_eigen to 0.8 "
-        "q_min v₀, region 3 from 1.1 q_min v₀ half a period of its oscillation further, region 4 from 1.3 to 2.6 q_max "
-        "v₀."
+        f"{scene.length:.3g} m in several ways. Open tracks: their end is {APART} longest waves from their beginning. "
+        "Closed tracks, after a whole number of turns, on which a rough wheel has the period of the track. And the "
+        "motion that repeats itself with its closed track, found by shooting for the approach and the velocity to "
+        "begin with: it has no free vibration, and nothing leaks. Beside springs the linear contact of fixed radius, "
+        "(14.11), on the same tracks. What that has in regions 2 and 4 is leakage alone, since its waves end at q_min "
+        "v₀ and q_max v₀; what repeating springs have there is nonlinearity alone. Region 2 is looked at from 2 "
+        "ω_eigen to 0.8 q_min v₀, region 3 from 1.1 q_min v₀ half a period of its oscillation further, region 4 from "
+        "1.3 to 2.6 q_max v₀."
     )
 
 
@@ -198,13 +199,14 @@ def _exact(result: DistanceResult) -> list[Number]:
     ]
 
 
-def _over(label: str, value: Estimate, reference: float, tolerance: float, source: str, reason: str) -> Number:
+def _over(label: str, value: Estimate, source: str, reason: str) -> Number:
+    """A ratio of levels in decibels, beside none, within one."""
     return Number(
         label=label,
         value=POWER * value.value,
-        reference=reference,
+        reference=0.0,
         source=source,
-        tolerance=tolerance,
+        tolerance=1.0,
         unit="dB",
         reason=reason,
         sample=POWER * value.half_width,
@@ -226,8 +228,6 @@ def _cause(result: DistanceResult) -> list[Number]:
         _over(
             f"region 4: {name}, over springs, open, no window",
             value,
-            0.0,
-            1.0,
             "no change, if region 4 were real",
             "1 dB: the scatter of a few wheels",
         )
@@ -244,8 +244,6 @@ def _shares(result: DistanceResult) -> list[Number]:
         _over(
             f"region 2: {name}, {what}, over springs, open",
             ratio(result.ends[name], base, band),
-            0.0,
-            1.0,
             "the whole plateau",
             "1 dB: a fifth of its power",
         )
@@ -253,25 +251,20 @@ def _shares(result: DistanceResult) -> list[Number]:
     ]
 
 
-def _orders(result: DistanceResult) -> list[Number]:
-    """Powers of h_0 by which the parts of region 2 grow."""
+def _order(result: DistanceResult) -> Number:
+    """The power of h_0 by which the nonlinear part of region 2 grows; what leaks of a linear contact grows as h_0^2."""
     band, step = regions_of(result.case.scene)[PLATEAU], math.log(WHOLE / QUARTER)
-    numbers = []
-    for kind, order, why in ((STEADY, 4.0, "products of two waves, each linear in h₀"),):
-        change = ratio(result.sweep[kind, WHOLE], result.sweep[kind, QUARTER], band)
-        numbers.append(
-            Number(
-                label=f"region 2, {kind}: d ln A / d ln h₀ from {QUARTER:g} to {WHOLE:g} h₀",
-                value=change.value / step,
-                reference=order,
-                source=why,
-                tolerance=0.3,
-                reason="0.3: tells 2 from 3 and 3 from 4",
-                sample=change.half_width / step,
-                role=Role.FINDING,
-            )
-        )
-    return numbers
+    change = ratio(result.sweep[STEADY, WHOLE], result.sweep[STEADY, QUARTER], band)
+    return Number(
+        label=f"region 2, {STEADY}: d ln A / d ln h₀ from {QUARTER:g} to {WHOLE:g} h₀",
+        value=change.value / step,
+        reference=4.0,
+        source="products of two waves, each linear in h₀",
+        tolerance=0.3,
+        reason="0.3: tells 2 from 3 and 3 from 4",
+        sample=change.half_width / step,
+        role=Role.FINDING,
+    )
 
 
 def _start(result: DistanceResult) -> Number:
@@ -459,7 +452,8 @@ def _conclusions(result: DistanceResult, law: Number, numbers: list[Number]) -> 
     shifts = [n for n in numbers if n.label.startswith("peak")]
     start, order = value("mean square"), value("region 2, springs, steady")
     turns = float(result.ends[OPEN]["duration"]) * result.case.scene.eigenfrequency / (2 * math.pi)
-    leaks = [float(row.split(" ")[0]) for row in _phases(result).columns["linear, open [dB]"]]  # type: ignore[attr-defined]
+    band = regions_of(result.case.scene)[PLATEAU]
+    leaks = [POWER * level(result.ended[LINEAR, phase], band).value for phase in result.case.phases]
     phases = f"{min(leaks):.0f} and {max(leaks):.0f} dB"
     return [
         claim(

@@ -4,10 +4,12 @@ import math
 
 import numpy as np
 
-from validation.cases.wheel import WheelResult
+from validation import wheel_theory
+from validation.cases.wheel import TABLE, WheelResult
 from validation.ensemble import Outcome
 from validation.evidence import Evidence, Number, Role, Table, Verdict, beside, claim, columns, plus_minus, table_of
 from validation.records import band_means
+from validation.statistics import POWER_DECIBEL as POWER
 from validation.statistics import Estimate
 from validation.wheel_ensemble import APART as OPEN_WAVES
 from validation.wheel_features import (
@@ -26,7 +28,9 @@ from validation.wheel_features import (
 )
 from validation.wheel_scene import WheelScene
 
-POWER = 10 / math.log(10)
+SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
+BOOK = ("E", "ν", "R", "M", "h₀")
+"""What Table 14.1 prints."""
 LINES = 2
 """Of a record: half of the width of Hann's main lobe."""
 FEW = 3
@@ -82,14 +86,11 @@ def evidence(result: WheelResult) -> Evidence:
     )
 
 
-SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
-
-
 def _compared(result: WheelResult, spectrum: Spectrum) -> str:
     scene = result.case.scene
     ours = (
         "Table 14.1 prints E, ν, R, M and h₀; all else is our choice, see the table of the scene. "
-        if scene.rail and scene.name == "Table 14.1"
+        if scene.name == TABLE.name
         else ""
     )
     return (
@@ -172,7 +173,7 @@ def _tolerance(feature: str, reference: float, line: float) -> tuple[float, str]
     if feature == SLOPE:
         return 0.05, "1 %: what an eye could tell on double-logarithmic paper"
     if feature == PEAK:
-        return 0.005 * reference, "0.5 %: a sixteenth of a line of the shortest record or less"
+        return 0.005 * reference, "0.5 %: a small part of the distance of two lines, between which it is found"
     if feature == PERIOD:
         return 0.01 * reference, "1 %: roughness at the edge of the contact changes its length to second order"
     return 0.1, "10 %: 0.4 dB of a level"
@@ -210,7 +211,7 @@ def _bands(result: WheelResult, spectra: dict[str, Spectrum], base: str) -> Tabl
     edges = batches[0]["bands"]
     of_wheels = np.concatenate([batch["levels"] for batch in batches], axis=1)
     low, high = np.quantile(of_wheels, [0.1, 0.9], axis=1)
-    floor = expected(spectrum)[FLOOR]
+    rms_jump = math.sqrt(np.mean(spectrum.jumps**2))
     centres = np.sqrt(edges[1:] * edges[:-1])
     linear = np.where(spectrum.omega < 0.9 * spectrum.scene.jump, 0.0, spectrum.linear)
     return Table(
@@ -223,7 +224,9 @@ def _bands(result: WheelResult, spectra: dict[str, Spectrum], base: str) -> Tabl
                 "highest tenth": high,
                 "Hann": band_means(spectrum.omega, spectrum.hann.mean(axis=0), edges),
                 "linear": band_means(spectrum.omega, linear, edges),
-                "floor": floor / (2 * np.sin(centres * spectrum.time_step / 2) / spectrum.time_step) ** 2,
+                "floor": wheel_theory.leakage(
+                    centres, jump=rms_jump, time_step=spectrum.time_step, duration=spectrum.duration
+                ),
             }
         ),
     )
@@ -279,9 +282,6 @@ def _marks(spectrum: Spectrum) -> Table:
     return Table("marks", {"mark": list(marks), "omega [rad/s]": list(marks.values())})
 
 
-BOOK = ("E", "ν", "R", "M", "h₀")
-
-
 def _scene(scene: WheelScene) -> Table:
     """What the wheel is made of, and who says so."""
     values = {
@@ -309,11 +309,10 @@ def _scene(scene: WheelScene) -> Table:
         "q_min v₀": f"{scene.jump:.5g} rad/s",
         "q_max v₀": f"{scene.cutoff:.5g} rad/s",
     }
-    from_book = scene.name == "Table 14.1"
-    columns_ = {"quantity": list(values), "value": list(values.values())}
-    if from_book:
-        columns_["source"] = [_source(name) for name in values]
-    return Table("the scene", columns_)
+    shown = {"quantity": list(values), "value": list(values.values())}
+    if scene.name == TABLE.name:
+        shown["source"] = [_source(name) for name in values]
+    return Table("the scene", shown)
 
 
 def _source(name: str) -> str:
