@@ -101,7 +101,7 @@ CASES = {
         "Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
         fractal_punch.FractalPunch(),
         fractal_punch.FractalPunch(
-            cells=256, surfaces=100, profiles=500, per_decade=6, refined=12, refined_per_decade=2
+            cells=256, surfaces=72, profiles=500, per_decade=6, refined=8, refined_per_decade=2
         ),
         fractal_punch.run,
         fractal_punch_evidence.evidence,
@@ -139,8 +139,8 @@ CASES = {
             length=256.0,
             width=32.0,
             cells=16,
-            strips=12,
-            rough_strips=18,
+            strips=8,
+            rough_strips=12,
             refined=3,
             tracks=400,
         ),
