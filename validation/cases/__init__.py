@@ -100,9 +100,7 @@ CASES = {
     "fractal_punch": Entry(
         "Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
         fractal_punch.FractalPunch(),
-        fractal_punch.FractalPunch(
-            cells=256, surfaces=72, profiles=500, per_decade=6, refined=8, refined_per_decade=2
-        ),
+        fractal_punch.FractalPunch(cells=256, surfaces=72, profiles=500, per_decade=6, refined=8, refined_per_decade=2),
         fractal_punch.run,
         fractal_punch_evidence.evidence,
     ),
