@@ -9,8 +9,9 @@ from mdr.foundation import (
     SphereContact,
     load_curve,
     press_sphere,
+    stiffness_under,
 )
-from mdr.profile import rough_profile, sphere_profile
+from mdr.profile import rough_profile, rough_profiles, sphere_profile
 from mdr.rolling import Rolling, roll, rolling_force
 from mdr.rolling_spectrum import rolling_spectrum
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
@@ -32,5 +33,7 @@ __all__ = [
     "rolling_force",
     "rolling_spectrum",
     "rough_profile",
+    "rough_profiles",
     "sphere_profile",
+    "stiffness_under",
 ]

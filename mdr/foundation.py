@@ -84,6 +84,23 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     return LoadCurve(approach, force, stiffness, spring)
 
 
+def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: float) -> FloatArray:
+    """dF/dd of many rough profiles under one force, shape (profiles,) [N/m]: what `load_curve` has of each.
+
+    Springs are in contact whose breakpoints lie below the force, F_i = E* dx sum_{j<=i} (h_j - h_i), descending.
+
+    force: positive [N]; height: shape (profiles, points) [m]; length: of a profile [m]; modulus: E* [Pa].
+    Raises ValueError for what is not finite or out of range.
+    """
+    heights = finite_array("height", height, ndim=2)
+    points = heights.shape[1]
+    spring = positive("modulus", modulus) * positive("length", length) / points
+    descending = -np.sort(-heights, axis=1)
+    steps = np.arange(1, points) * -np.diff(descending, axis=1)
+    reached = np.cumsum(steps, axis=1) < positive("force", force) / spring
+    return np.asarray(spring * (1 + np.count_nonzero(reached, axis=1)))
+
+
 @dataclass(frozen=True)
 class SphereContact:
     """A smooth sphere on the foundation: approach [m], force [N], stiffness [N/m], contact_radius [m]."""

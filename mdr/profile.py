@@ -5,7 +5,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, Spectrum, count, density, finite_array, positive
+from mdr.border import FloatArray, Spectrum, density, finite_array, positive
+from mdr.border import count as whole
 
 
 def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
@@ -44,11 +45,41 @@ def rough_profile(
     Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry.
     Source: Popov and Hess, (14.8), and (14.9) with the root over all of it.
     """
-    length, points = positive("length", length), count("points", points, least=2)
+    length, points = positive("length", length), whole("points", points, least=2)
+    _check_draw(rng, amplitudes)
+    amplitude, own_mirror = _amplitudes(c1d, length, points, rms)
+    return _drawn(amplitude * _random_waves((amplitude.size,), own_mirror, amplitudes, rng), own_mirror, points)
+
+
+def rough_profiles(
+    c1d: Spectrum,
+    *,
+    length: float,
+    points: int,
+    count: int,
+    rng: np.random.Generator,
+    rms: float | None = None,
+) -> FloatArray:
+    """So many profiles at once, shape (count, points): those that as many calls of `rough_profile` draw.
+
+    Amplitudes are fixed; everything else as there.
+    """
+    length, points = positive("length", length), whole("points", points, least=2)
+    _check_draw(rng, "fixed")
+    amplitude, own_mirror = _amplitudes(c1d, length, points, rms)
+    turns = _random_waves((whole("count", count, least=1), amplitude.size), own_mirror, "fixed", rng)
+    return _drawn(amplitude * turns, own_mirror, points)
+
+
+def _check_draw(rng: object, amplitudes: str) -> None:
     if not isinstance(rng, np.random.Generator):
         raise TypeError(f"rng must be a numpy.random.Generator, got {type(rng).__name__}")
     if amplitudes not in ("fixed", "gaussian"):
         raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
+
+
+def _amplitudes(c1d: Spectrum, length: float, points: int, rms: float | None) -> tuple[FloatArray, np.ndarray]:
+    """B(q) of the waves that the points can carry, and which of them is its own mirror image."""
     mode = np.arange(1, points // 2 + 1)
     variance = (
         2
@@ -61,20 +92,25 @@ def rough_profile(
     if total == 0:
         raise ValueError("c1d has no power at any wave that length and points can carry")
     scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
-    wave = scale * np.sqrt(variance) * _random_waves(mode.size, own_mirror, amplitudes, rng)
-    half_a_cell = np.where(own_mirror, 1.0, np.exp(1j * np.pi * mode / points))
-    return np.fft.irfft(np.concatenate([[0.0], wave * half_a_cell]), points, norm="forward")
+    return scale * np.sqrt(variance), own_mirror
+
+
+def _drawn(wave: np.ndarray, own_mirror: np.ndarray, points: int) -> FloatArray:
+    """Heights at the middle of the points, of waves along the last axis."""
+    half_a_cell = np.where(own_mirror, 1.0, np.exp(1j * np.pi * np.arange(1, points // 2 + 1) / points))
+    mean = np.zeros((*wave.shape[:-1], 1))
+    return np.fft.irfft(np.concatenate([mean, wave * half_a_cell], axis=-1), points, norm="forward")
 
 
 def _random_waves(
-    modes: int, own_mirror: np.ndarray, amplitudes: Literal["fixed", "gaussian"], rng: np.random.Generator
+    shape: tuple[int, ...], own_mirror: np.ndarray, amplitudes: Literal["fixed", "gaussian"], rng: np.random.Generator
 ) -> np.ndarray:
     """Complex factors of mean square one; real where a wave is its own mirror image."""
     if amplitudes == "fixed":
-        turn = np.exp(2j * np.pi * rng.random(modes))
+        turn = np.exp(2j * np.pi * rng.random(shape))
         return np.where(own_mirror, np.where(turn.real < 0, -1, 1), turn)
-    pair = rng.standard_normal((modes, 2))
-    return np.where(own_mirror, pair[:, 0], (pair[:, 0] + 1j * pair[:, 1]) / np.sqrt(2))
+    pair = rng.standard_normal((*shape, 2))
+    return np.where(own_mirror, pair[..., 0], (pair[..., 0] + 1j * pair[..., 1]) / np.sqrt(2))
 
 
 def _resolved(c1d: Spectrum, q: FloatArray, nyquist: float) -> FloatArray:

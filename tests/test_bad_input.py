@@ -23,6 +23,16 @@ def profile(**changes):
     return mdr.rough_profile(**{"c1d": spectrum().c1d, "length": 1.0, "points": 32, "rng": rng(), **changes})
 
 
+def profiles(**changes):
+    settings = {"c1d": spectrum().c1d, "length": 1.0, "points": 32, "count": 2, "rng": rng()}
+    return mdr.rough_profiles(**{**settings, **changes})
+
+
+def stiffnesses(**changes):
+    settings = {"force": 1.0, "height": np.array([[0.0, 1.0]]), "length": 1.0, "modulus": 1.0}
+    return mdr.stiffness_under(**{**settings, **changes})
+
+
 def surface(**changes):
     return bem3d.rough_surface(**{"c2d": spectrum().c2d, "shape": (32, 32), "spacing": 1 / 32, "rng": rng(), **changes})
 
@@ -89,7 +99,7 @@ def carry(**changes):
 
 
 ROLLED = [springs, springs_force, feed, track, strip, strip_force, wheel, press, carry]
-ACCEPTED = [spectrum, profile, surface, curve, sphere, half_space, solve, frozen, *ROLLED]
+ACCEPTED = [spectrum, profile, profiles, stiffnesses, surface, curve, sphere, half_space, solve, frozen, *ROLLED]
 BAD_TRACKS = [[], [[1.0, 2.0]], np.full(8, np.nan), np.full(8, np.inf), [[1.0], [1.0, 2.0]], 1.0]
 BAD_STRIPS = [[], [[]], np.zeros(56), np.zeros((8, 7, 1)), np.full((8, 7), np.nan), np.full((8, 7), -np.inf), 1.0]
 BAD_STEPS = [*NOT_POSITIVE, (1.0,), (1.0, -1.0), (1.0, np.inf), (1.0, 1.0, 1.0)]
@@ -111,6 +121,14 @@ def test_good_input_is_accepted(function):
         (profile, "points", [0, 1, -3]),
         (profile, "rms", NOT_POSITIVE),
         (profile, "amplitudes", ["random", ""]),
+        (profiles, "length", NOT_POSITIVE),
+        (profiles, "points", [0, 1, -3]),
+        (profiles, "count", [0, -1]),
+        (profiles, "rms", NOT_POSITIVE),
+        (stiffnesses, "force", NOT_POSITIVE),
+        (stiffnesses, "height", [[], [1.0, 2.0], [[0.0, np.nan]]]),
+        (stiffnesses, "length", NOT_POSITIVE),
+        (stiffnesses, "modulus", NOT_POSITIVE),
         (surface, "spacing", [*NOT_POSITIVE, (1.0,), (1.0, 2.0, 3.0), (1.0, 0.0), (np.nan, 1.0)]),
         (surface, "shape", [(32,), 32, (32, 32, 32), (0, 32), (-1, 32), "33"]),
         (surface, "rms", NOT_POSITIVE),

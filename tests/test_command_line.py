@@ -19,6 +19,7 @@ from validation.cases import (
     CASES,
     geike,
     hertz,
+    ladder,
     mdr_limits,
     normalisation,
     ridges,
@@ -102,6 +103,7 @@ SMALL = {
     "wheel_stability": wheel_stability.WheelStability(
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
+    "ladder": ladder.Ladder(punches=2, spheres=1, rolling=2, tolerances=(0.3,)),
 }
 
 
@@ -141,7 +143,7 @@ def test_two_runs_give_equal_bytes(small, tmp_path):
     assert one.keys() == two.keys()
     tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 3}
     tables |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
-    tables |= {"wheel": 6, "wheel_distance": 5, "wheel_3d": 2, "wheel_stability": 6}
+    tables |= {"wheel": 6, "wheel_distance": 5, "wheel_3d": 2, "wheel_stability": 6, "ladder": 2}
     # so many figures more than one of each case, twice each
     assert len(one) == 1 + sum(tables.values()) + 2 * (MORE_FIGURES + len(tables))
     for name in one:

@@ -72,6 +72,16 @@ def test_rms_is_exact_where_it_is_asked_for(hurst, points, shape, seed, rms):
     assert np.sqrt(np.mean(surface**2)) == pytest.approx(rms, rel=1e-12)
 
 
+def test_many_profiles_are_those_of_as_many_draws():
+    spectrum = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * 8, rms=1.0)
+    for points in (32, 33, 16):
+        settings = {"c1d": spectrum.c1d, "length": 1.0, "points": points, "rms": 2.0}
+        many = mdr.rough_profiles(**settings, count=5, rng=np.random.default_rng(1))
+        rng = np.random.default_rng(1)
+        each = [mdr.rough_profile(**settings, rng=rng) for _ in range(5)]
+        assert many == pytest.approx(np.array(each), rel=1e-12, abs=1e-14)
+
+
 @pytest.mark.parametrize("n", [0, 2, 4], ids=["height", "gradient", "curvature"])
 @pytest.mark.parametrize("cells", [96, 97])
 def test_drawn_profiles_and_surfaces_have_equal_moments(cells, n):

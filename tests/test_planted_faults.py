@@ -24,7 +24,9 @@ from tests import (
     test_evidence,
     test_fractal_punch,
     test_geike_mapping,
+    test_ladder,
     test_load_paths,
+    test_measured_heights,
     test_operator_against_dense_twin,
     test_rolling_contact,
     test_rolling_springs,
@@ -41,16 +43,20 @@ from validation import (
     contact_laws,
     ensemble,
     integrators,
+    measured,
     records,
     regions,
+    rolling_question,
     rolling_theory,
     rough_punch,
+    rungs_pressed,
     spectra,
     statistics,
     wheel_ensemble,
     wheel_scene,
     wheel_theory,
 )
+from validation import ladder as ladder_of_models
 from validation import wheel as wheel_in_motion
 from validation.cases import fractal_punch_decades, mdr_limits
 from validation.evidence import Verdict
@@ -77,6 +83,32 @@ def twice_the_same(entropy, *key):
 
 def half_a_circle(modes, own_mirror, amplitudes, rng):
     return np.where(own_mirror, 1.0, np.exp(1j * np.pi * rng.random(modes)))
+
+
+def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
+    geike = functools.partial(mdr.geike, c2d=c2d)
+    return rolling_theory.force_spectrum_1d(q, geike, contact_radius=contact_radius, modulus=modulus)
+
+
+def without_a_resonator(question, q):
+    return np.ones_like(q) / question.scene.body.mass
+
+
+def one_standard_error(ratios):
+    return float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
+
+
+rungs_pressed_kept = rungs_pressed._kept
+measured_spectrum = measured._spectrum
+
+
+def half_of_the_level(height, spacing):
+    edges, level = measured_spectrum(height, spacing)
+    return edges, tuple(value / 2 for value in level)
+
+
+def other_waves_on_every_grid(ground, shortest, cells, side, rng):
+    return rungs_pressed_kept(ground, shortest, cells, side, np.random.default_rng(cells))
 
 
 def scaled(function, factor):
@@ -725,6 +757,30 @@ FAULTS = {
     "no resonator in the linear spectrum": (
         (wheel_theory, "acceleration_over_force", without_resonance),
         test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+    ),
+    "Geike for the half-space under a wheel": (
+        (rolling_question, "force_spectrum_3d", by_the_filter_of_one_dimension),
+        test_ladder.test_the_expected_levels_are_integrals_of_the_spectrum,
+    ),
+    "a factor 2 lost in the variance of the force": (
+        (rolling_question, "force_variance", scaled(rolling_theory.force_variance, 0.5)),
+        test_ladder.test_one_dimension_has_the_variance_of_the_force_and_not_its_levels,
+    ),
+    "no resonator between force and acceleration": (
+        (rolling_question.Question, "transfer", without_a_resonator),
+        test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
+    ),
+    "one standard error for a 95 % interval": (
+        (ladder_of_models, "mean_error", one_standard_error),
+        test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
+    ),
+    "other waves on every grid of the ladder": (
+        (rungs_pressed, "_kept", other_waves_on_every_grid),
+        test_ladder.test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed,
+    ),
+    "measured heights over half of their mean square": (
+        (measured, "_spectrum", half_of_the_level),
+        test_measured_heights.test_the_spectrum_has_the_height,
     ),
     "factor 2 pi lost over frequency, seen in an ensemble": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),

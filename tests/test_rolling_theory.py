@@ -13,6 +13,7 @@ import mdr
 from tests.oracles import moment_1d
 from tests.strategies import Bumps, bumps, scales
 from validation.rolling_theory import (
+    contact_lost,
     force_spectrum_1d,
     force_spectrum_3d,
     force_variance,
@@ -376,3 +377,21 @@ def test_cross_levels_tell_how_alike_two_series_are():
     assert cross_levels(turned, series, bands) == pytest.approx(2j * levels(series, bands), rel=1e-12)
     limit = np.sqrt(levels(series, bands) * levels(other, bands))
     assert (np.abs(cross_levels(series, other, bands)) <= limit * (1 + 1e-12)).all()
+
+
+@pytest.mark.parametrize("height", [0.003, 0.05, 1.0])
+def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
+    c2d, edges = (lambda q: np.where((q >= 1) & (q <= 8), height**2 * q**-3.4, 0.0)), (1.0, 8.0)
+    found = contact_lost(c2d, edges=edges, contact_radius=1.0, radius=2.0)
+    slope = math.sqrt(2 * math.pi * integrate.quad(lambda q: q**3 * height**2 * q**-3.4, 1, 8)[0])
+    rng = np.random.default_rng(3)
+    radius, drawn = np.sqrt(rng.random(200_000)), rng.standard_normal(200_000)
+    pressure = 2 / (math.pi * 2.0) * np.sqrt(1 - radius**2) + slope / 2 * drawn
+    share = np.mean(pressure < 0)
+    # three standard errors of a share
+    assert found == pytest.approx(share, abs=3 * math.sqrt(max(share, 1e-5) / drawn.size) + 1e-6)
+
+
+def test_contact_is_lost_by_half_under_endless_roughness():
+    c2d = lambda q: np.where((q >= 1) & (q <= 8), 1e12, 0.0)  # noqa: E731
+    assert contact_lost(c2d, edges=(1.0, 8.0), contact_radius=1.0, radius=1.0) == pytest.approx(0.5, abs=1e-6)

@@ -10,11 +10,15 @@ from enum import IntEnum
 from pathlib import Path
 
 from validation.cases import CASES
+from validation.compare import WANTS, told
+from validation.compare import compare as compared
 from validation.ensemble import LOCAL
 from validation.evidence import Evidence, Verdict
 from validation.peers import peers_installed
 from validation.report.build import Section, build
-from validation.wheel_scene import WheelScene, read_scene, shipped
+from validation.scene_files import shipped
+from validation.scene_kinds import read_any
+from validation.wheel_scene import WheelScene, read_scene
 
 RACE_COLUMNS = (
     "problem",
@@ -100,6 +104,14 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
 
 
+def compare(arguments: argparse.Namespace) -> Exit:
+    """Climb the ladder of a scene, say where it ended and why."""
+    scene = read_any(arguments.scene)
+    found = compared(scene, want=arguments.want, tolerance=arguments.tolerance, seed=arguments.seed or 0)
+    print("\n".join(told(found)))
+    return Exit.MET if found.climb.met else Exit.NOT_CONVERGED
+
+
 def cases(arguments: argparse.Namespace) -> Exit:
     """List what there is."""
     for name, entry in CASES.items():
@@ -177,6 +189,18 @@ def _parser() -> argparse.ArgumentParser:
     racing.add_argument("--out", type=Path, metavar="DIR", help="folder (default: reports/race-quick or reports/race)")
     racing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
     racing.set_defaults(command=race, workers=1, executor=LOCAL, scene=None)
+    comparing = commands.add_parser("compare", help="one scene: the cheapest model that meets a tolerance, and why")
+    comparing.add_argument(
+        "scene", metavar="SCENE", help=f"a TOML file, or the name of a shipped scene ({', '.join(shipped())})"
+    )
+    comparing.add_argument(
+        "--tolerance", type=_tolerance, default=0.1, metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
+    )
+    comparing.add_argument(
+        "--want", choices=WANTS, metavar="WHAT", help=f"one of {', '.join(WANTS)} (default: the first that fits)"
+    )
+    comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the roughness that is drawn (default: 0)")
+    comparing.set_defaults(command=compare)
     listing = commands.add_parser("cases", help="what there is, and which figure or claim each one answers")
     listing.set_defaults(command=cases)
     return parser
@@ -195,6 +219,23 @@ def _at_least(least: int) -> Callable[[str], int]:
         return value
 
     return number
+
+
+def _tolerance(word: str) -> float:
+    """A relative one: in per cent, as a ratio, or in decibels of an amplitude."""
+    text, scale = word.strip(), 1.0
+    decibels = text.endswith("dB")
+    if text.endswith("%"):
+        text, scale = text[:-1], 0.01
+    elif decibels:
+        text = text[:-2]
+    try:
+        value = scale * float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f'must be as "5%", "0.05" or "0.4 dB", got {word!r}') from None
+    if not (math.isfinite(value) and value > 0):
+        raise argparse.ArgumentTypeError(f"must be finite and positive, got {word!r}")
+    return 10 ** (value / 20) - 1 if decibels else value
 
 
 def run() -> None:

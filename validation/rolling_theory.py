@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy import special
 
 FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
@@ -101,6 +102,24 @@ def force_variance(c2d: Spectrum, *, edges: Sequence[float], contact_radius: flo
     s = middle + half * node
     power = response(s, contact_radius=contact_radius, modulus=modulus) ** 2 * c2d(s) * s
     return float(2 * math.pi * np.sum(half * weight * power))
+
+
+def contact_lost(c2d: Spectrum, *, edges: Sequence[float], contact_radius: float, radius: float) -> float:
+    """Share of the circle of contact in which linear theory has the half-space pull [-].
+
+    Hertz's p_0 sqrt(1 - r^2/a^2), p_0 = 2 E* a / (pi R), and the pressures that close the gaps of Gaussian roughness,
+    E* q / 2 for each wave, so that their rms is E* h' / 2 with the rms slope h', h'^2 = 2 pi int_0^inf q^3 C_2D dq:
+    int_0^1 Phi(-p_0 u / (E* h' / 2)) 2 u du, u^2 = 1 - r^2/a^2. The modulus cancels.
+    Source: Hertz; Westergaard's wave, whose full pressure is E* q h / 2; Johnson, Contact Mechanics, chapters 4, 13.
+    """
+    ends = np.array(_panels(edges[0], edges, math.inf))
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
+    s = middle + half * node
+    slope = math.sqrt(2 * math.pi * float(np.sum(half * weight * s**3 * c2d(s))))
+    peak = 2 * _positive("contact_radius", contact_radius) / (math.pi * _positive("radius", radius))
+    u = (1 + node) / 2
+    return float(np.sum(weight * u * special.ndtr(-peak * u / (slope / 2))))
 
 
 def level_ratio(hurst: float) -> float:

@@ -15,8 +15,9 @@ from validation.contact_laws import ContactLaw, Linear, Springs, Wheel
 from validation.ensemble import Outcome, generator
 from validation.records import band_means, spectra
 from validation.rolling_theory import response
+from validation.roughness import Roughness
 from validation.wheel import Motion, repeating, simulate
-from validation.wheel_scene import Roughness, WheelScene
+from validation.wheel_scene import WheelScene
 
 FloatArray = NDArray[np.float64]
 Track = Literal["open", "closed", "steady"]

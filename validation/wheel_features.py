@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from validation import regions, rolling_theory, wheel_theory
 from validation.ensemble import Outcome
+from validation.roughness import Roughness
 from validation.statistics import Estimate, left_out_error
-from validation.wheel_scene import Roughness, WheelScene
+from validation.wheel_scene import WheelScene
 
 FloatArray = NDArray[np.float64]
 

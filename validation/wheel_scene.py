@@ -1,23 +1,31 @@
 """The scene of a wheel that rolls along a rough rail: what it is made of, what follows from that, where it is read."""
 
 import math
-import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from scipy.fft import next_fast_len
 
-from mdr import SelfAffine
 from mdr.border import count, finite, positive
 from validation.contact_laws import Wheel
-from validation.quantities import quantity
+from validation.roughness import Roughness, check_band, roughness_of
+from validation.scene_files import (
+    FORCE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    PRESSURE,
+    SPEED,
+    WHOLE,
+    Reader,
+    named,
+    path_of,
+    table,
+    tables_of,
+)
 
-Reader = Callable[[str, object], Any]
-
-SCENES = Path(__file__).parent / "scenes"
 KEYS = {
     "radius": "wheel.radius",
     "mass": "wheel.mass",
@@ -36,34 +44,6 @@ FEW_WAVES = 10
 """To a track: with fewer the longest waves are a handful of lines in a spectrum."""
 HIGH = 1e-4
 """Heights in metres that no rolling surface has."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Roughness:
-    """Isotropic self-affine roughness between two waves; the scene that holds it checks it.
-
-    rms: root mean square height [m]; hurst: H; longest, shortest: wavelengths between which it is rough [m].
-    """
-
-    rms: float
-    hurst: float
-    longest: float
-    shortest: float
-
-    @property
-    def q_min(self) -> float:
-        """2 pi over the longest wave [rad/m]."""
-        return 2 * math.pi / self.longest
-
-    @property
-    def q_max(self) -> float:
-        """2 pi over the shortest wave [rad/m]."""
-        return 2 * math.pi / self.shortest
-
-    @property
-    def spectrum(self) -> SelfAffine:
-        """C_2D ~ q^(-2H-2) between q_min and q_max."""
-        return SelfAffine(hurst=self.hurst, q_min=self.q_min, q_max=self.q_max, rms=self.rms)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +69,7 @@ class WheelScene:
     springs: int
 
     def __post_init__(self) -> None:
-        _named("name", self.name)
+        named("name", self.name)
         for name, key in KEYS.items():
             positive(key, getattr(self, name))
         if not 0 <= finite("material.poisson_ratio", self.poisson_ratio) <= 0.5:
@@ -97,7 +77,7 @@ class WheelScene:
         count("simulation.springs", self.springs, least=1)
         for key, rough in (("rail.roughness", self.rail), ("wheel.roughness", self.wheel)):
             if rough is not None:
-                _check_band(key, rough)
+                check_band(key, rough)
         _check_lengths(self)
 
     @property
@@ -183,27 +163,14 @@ class WheelScene:
         return rough
 
 
-def shipped() -> tuple[str, ...]:
-    """Names of the scenes that come with this package."""
-    return tuple(sorted(path.stem for path in SCENES.glob("*.toml")))
-
-
 def read_scene(scene: str | Path) -> WheelScene:
-    """The scene in a TOML file, or the shipped one of that name.
+    """The scene of a dynamic wheel in a TOML file, or the shipped one of that name.
 
     scene: a path; a name without folder and without ".toml" is that of a shipped scene.
     Raises ValueError naming the first thing that is missing, unknown or out of range, and OSError for files that
     cannot be read.
     """
-    path = _path(str(scene))
-    try:
-        # with or without the mark that some editors put in front
-        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as problem:
-        raise type(problem)(f"scene {path} cannot be read: {problem.strerror}") from None
-    except ValueError as problem:
-        raise ValueError(f"scene {path} must be valid TOML, got: {problem}") from None
-    found = _table(SCENE, ("rail",), "", tables)
+    found = table(SCENE, ("rail",), "", tables_of(path_of(scene)))
     wheel, rail = found["wheel"], found.get("rail", {})
     return WheelScene(
         name=found["name"],
@@ -215,78 +182,15 @@ def read_scene(scene: str | Path) -> WheelScene:
     )
 
 
-def _path(scene: str) -> Path:
-    if scene.endswith(".toml") or Path(scene).name != scene:
-        return Path(scene)
-    if scene not in shipped():
-        raise ValueError(f'scene must be a file, as "./{scene}.toml", or one of {", ".join(shipped())}, got "{scene}"')
-    return SCENES / f"{scene}.toml"
-
-
-def _table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
-    """Each value of a table by its own reader; no key unknown, none missing but what is optional."""
-    if not isinstance(given, dict):
-        raise ValueError(f"{name} must be a table, got {given!r}")
-    full = {key: f"{name}.{key}" if name else key for key in (*given, *readers)}
-    for key in given:
-        if key not in readers:
-            raise ValueError(f"{full[key]} is unknown, {name or 'a scene'} must be made of {', '.join(readers)}")
-    for key in readers:
-        if key not in given and key not in optional:
-            raise ValueError(f"{full[key]} is missing, {name or 'a scene'} must have it")
-    return {key: read(full[key], given[key]) for key, read in readers.items() if key in given}
-
-
-def _plain(read: Reader, name: str, given: object) -> Any:
-    """A value without unit. In a file a wrong type is a wrong value, too."""
-    try:
-        return read(name, given)
-    except TypeError as problem:
-        raise ValueError(str(problem)) from None
-    except OverflowError:
-        raise ValueError(f"{name} must be finite, got a number of {len(str(given))} digits") from None
-
-
-def _named(name: str, given: object) -> str:
-    """A text that is not blank."""
-    if not isinstance(given, str) or not given.strip():
-        raise ValueError(f"{name} must be a text that is not blank, got {given!r}")
-    return given
-
-
-def _roughness(name: str, given: object) -> Roughness:
-    readers: dict[str, Reader] = {"rms": LENGTH, "hurst": NUMBER, "longest": LENGTH, "shortest": LENGTH}
-    return Roughness(**_table(readers, (), name, given))
-
-
-LENGTH, MASS, FORCE, PRESSURE, SPEED = (
-    partial(quantity, dimension=dimension, positive=True)
-    for dimension in ("length", "mass", "force", "pressure", "speed")
-)
-NUMBER, WHOLE = partial(_plain, finite), partial(_plain, partial(count, least=1))
-WHEEL: dict[str, Reader] = {"radius": LENGTH, "mass": MASS, "load": FORCE, "speed": SPEED, "roughness": _roughness}
+WHEEL: dict[str, Reader] = {"radius": LENGTH, "mass": MASS, "load": FORCE, "speed": SPEED, "roughness": roughness_of}
 SCENE: dict[str, Reader] = {
-    "name": _named,
-    "wheel": partial(_table, WHEEL, ("roughness",)),
-    "material": partial(_table, {"youngs_modulus": PRESSURE, "poisson_ratio": NUMBER}, ()),
-    "rail": partial(_table, {"roughness": _roughness}, ("roughness",)),
-    "simulation": partial(_table, {"distance": LENGTH, "springs": WHOLE}, ()),
+    "name": named,
+    "wheel": partial(table, WHEEL, ("roughness",)),
+    "material": partial(table, {"youngs_modulus": PRESSURE, "poisson_ratio": NUMBER}, ()),
+    "rail": partial(table, {"roughness": roughness_of}, ("roughness",)),
+    "simulation": partial(table, {"distance": LENGTH, "springs": WHOLE}, ()),
 }
 """How each value of a scene file is read."""
-
-
-def _check_band(key: str, rough: object) -> None:
-    """Roughness in itself."""
-    if not isinstance(rough, Roughness):
-        raise TypeError(f"{key} must be a Roughness or None, got {rough!r}")
-    longest, shortest = positive(f"{key}.longest", rough.longest), positive(f"{key}.shortest", rough.shortest)
-    if not shortest < longest:
-        raise ValueError(f"{key}.shortest must be below the longest wave, {longest:g} m, got {shortest:g} m")
-    try:
-        _ = rough.spectrum
-    except (TypeError, ValueError) as problem:
-        # which begins with the name of its argument, "hurst" or "rms"
-        raise type(problem)(f"{key}.{problem}") from None
 
 
 def _check_lengths(scene: WheelScene) -> None:

@@ -11,8 +11,9 @@ import bem3d
 from validation.contact_laws import BoundaryElements, Linear, Wheel
 from validation.ensemble import Outcome, generator
 from validation.rolling_theory import linear_force
+from validation.roughness import Roughness
 from validation.wheel import Motion, simulate
-from validation.wheel_scene import Roughness, WheelScene
+from validation.wheel_scene import WheelScene
 
 FloatArray = NDArray[np.float64]
 

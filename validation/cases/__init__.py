@@ -10,7 +10,9 @@ from validation.cases import (
     fractal_punch_evidence,
     geike,
     hertz,
+    ladder,
     mdr_limits,
+    needs,
     normalisation,
     ridges,
     rolling,
@@ -33,16 +35,32 @@ from validation.wheel_scene import WheelScene
 
 Profile = Literal["quick", "full"]
 
+EXACT = "What is known exactly"
+PRESSED = "Rough punches: the stiffness and its fluctuation"
+ROLLING = "Rolling: the force along the track"
+WHEEL = "The dynamic wheel"
+LIMITS = "Where each method fails"
+SPEED = "Speed against accuracy"
+LADDER = "No more model than a scene needs"
+CHAPTERS = (EXACT, PRESSED, ROLLING, WHEEL, LIMITS, SPEED, LADDER)
+"""Of the report, in the order of its argument."""
+
 
 @dataclass(frozen=True)
 class Entry:
-    """A case in the list: which figure or claim it answers, its two sizes, and how to run and read it."""
+    """A case in the list: its chapter, the claim under test, which figure it answers, its two sizes, how to run it.
 
+    evidence: read from what the run returned; needs: which rung of the ladder it takes, from its settings.
+    """
+
+    chapter: str
+    claim: str
     answers: str
     quick: Any
     full: Any
     run: Callable[[Any, Engine], Any]
     evidence: Callable[[Any], Evidence]
+    needs: Callable[[Any], str]
 
     def case(self, profile: Profile, seed: int | None, scene: WheelScene | None = None) -> Any:
         """The case of that size, with the seed where it draws anything, and the scene where it has one."""
@@ -53,6 +71,8 @@ class Entry:
 
 
 RACE = Entry(
+    SPEED,
+    "Our solver is the fastest at the same residual.",
     "The race: our solver beside the peers that are installed, same problems, same residual",
     race.Race(),
     race.Race(
@@ -66,52 +86,73 @@ RACE = Entry(
     ),
     race.run,
     race_evidence.evidence,
+    needs.always("–"),
 )
 
 CASES = {
     "hertz": Entry(
+        EXACT,
+        "Both methods give the contact of Hertz.",
         "Smooth sphere: both methods against Hertz",
         hertz.Hertz(),
         hertz.Hertz(cells_per_radius=(8, 16, 32, 64, 128)),
         hertz.run,
         hertz.evidence,
+        needs.sphere,
     ),
     "square_punch": Entry(
+        EXACT,
+        "Every load curve ends at the stiffness of the flat punch.",
         "Flat punches: the stiffness at which every load curve ends, and the length of the 1D model",
         square_punch.SquarePunch(),
         square_punch.SquarePunch(cells=(16, 32, 64, 128, 256)),
         square_punch.run,
         square_punch.evidence,
+        needs.square_punch,
     ),
     "westergaard": Entry(
+        EXACT,
+        "The periodic half-space gives Westergaard's contact.",
         "Periodic wave: the periodic half-space against Westergaard",
         westergaard.Westergaard(),
         westergaard.Westergaard(cells=(64, 128, 256, 512, 1024)),
         westergaard.run,
         westergaard.evidence,
+        needs.always("closed form"),
     ),
     "geike": Entry(
+        EXACT,
+        "Geike's rule keeps height and slope; it is no cut along a line.",
         "Geike's rule (10.12): what it keeps, and why it is not the spectrum of a line",
         geike.Geike(),
         geike.Geike(cells=1024, surfaces=12),
         geike.run,
         geike.evidence,
+        needs.always("closed form: spectra alone"),
     ),
     "fractal_punch": Entry(
+        PRESSED,
+        "One dimension has the mean stiffness of rough punches, and its fluctuation (Fig. 14.1).",
         "Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
         fractal_punch.FractalPunch(),
-        fractal_punch.FractalPunch(cells=256, surfaces=72, profiles=500, per_decade=6, refined=8, refined_per_decade=2),
+        fractal_punch.FractalPunch(cells=256, surfaces=60, profiles=500, per_decade=6, refined=6, refined_per_decade=2),
         fractal_punch.run,
         fractal_punch_evidence.evidence,
+        needs.punches,
     ),
     "normalisation": Entry(
+        PRESSED,
+        "The fluctuation depends on how heights are normalised.",
         "Fixed or Gaussian amplitudes, height of each draw or of the ensemble: what the fluctuations owe to it",
         normalisation.Normalisation(),
         normalisation.Normalisation(cells=128, surfaces=120, profiles=1000, points=2048, per_decade=3),
         normalisation.run,
         normalisation.evidence,
+        needs.punches,
     ),
     "mdr_limits": Entry(
+        PRESSED,
+        "One dimension has neither the true area nor the gap, nor the stiffness of roughness with a roll-off.",
         "Where MDR must fail: true contact area, mean gap, stiffness with a roll-off",
         mdr_limits.MdrLimits(),
         mdr_limits.MdrLimits(
@@ -119,15 +160,21 @@ CASES = {
         ),
         mdr_limits.run,
         mdr_limits.evidence,
+        needs.rolled_off,
     ),
     "ridges": Entry(
+        ROLLING,
+        "Over ridges across the track one dimension is exact in three, (14.11).",
         "Ridges across the track: rolling force where one dimension is exact in three, (14.11)",
         ridges.Ridges(),
         ridges.Ridges(cells=(8, 16, 32), springs=(8.5, 16.5, 32.5, 64.5)),
         ridges.run,
         ridges.evidence,
+        needs.always("linear filter, 1D"),
     ),
     "rolling": Entry(
+        ROLLING,
+        "One dimension has the force spectrum of a rolling wheel (Fig. 14.3).",
         "Fig. 14.3: rolling force over isotropic roughness, springs beside boundary elements, where each model holds",
         rolling.Rolling(),
         rolling.Rolling(
@@ -137,15 +184,18 @@ CASES = {
             length=256.0,
             width=32.0,
             cells=16,
-            strips=8,
-            rough_strips=12,
+            strips=6,
+            rough_strips=10,
             refined=3,
             tracks=400,
         ),
         rolling.run,
         rolling_evidence.evidence,
+        needs.rolling,
     ),
     "rolling_input": Entry(
+        ROLLING,
+        "One dimension has it within 3 dB in one-third octaves, if it is fed for it.",
         "What MDR should be fed for rolling, and one-third octaves within 3 dB (Ford and Thompson 2006)",
         rolling_input.RollingInput(),
         rolling_input.RollingInput(
@@ -154,7 +204,7 @@ CASES = {
             length=256.0,
             width=32.0,
             cells=16,
-            strips=6,
+            strips=4,
             tracks=400,
             punch_cells=128,
             surfaces=60,
@@ -162,15 +212,21 @@ CASES = {
         ),
         rolling_input.run,
         rolling_input.evidence,
+        needs.always("linear filter, 3D"),
     ),
     "wheel": Entry(
+        WHEEL,
+        "The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4).",
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and what moves them",
         wheel.Wheel(),
         wheel.Wheel(realisations=300, varied=100, cells=24, stills=64),
         wheel.run,
         wheel_evidence.evidence,
+        needs.wheel,
     ),
     "wheel_distance": Entry(
+        WHEEL,
+        "The break that moves with the distance is leakage (Fig. 14.5).",
         "Fig. 14.5: the break that moves with the distance, its cause, and what is real in the plateau",
         wheel_distance.WheelDistance(),
         wheel_distance.WheelDistance(
@@ -187,8 +243,11 @@ CASES = {
         ),
         wheel_distance.run,
         wheel_distance_evidence.evidence,
+        needs.wheel,
     ),
     "wheel_3d": Entry(
+        WHEEL,
+        "Boundary elements in the time loop confirm Fig. 14.4.",
         "Boundary elements inside the time loop: the wheel in three dimensions, beside everything cheaper",
         wheel_3d.Wheel3D(),
         wheel_3d.Wheel3D(
@@ -206,8 +265,11 @@ CASES = {
         ),
         wheel_3d.run,
         wheel_3d_evidence.evidence,
+        needs.wheel,
     ),
     "wheel_stability": Entry(
+        LIMITS,
+        "Time steps fail where theory says, and are refused before.",
         "Where time stepping and springs fail: steps up to and past the limit, long runs, spacing, lift-off",
         wheel_stability.WheelStability(),
         wheel_stability.WheelStability(
@@ -223,5 +285,16 @@ CASES = {
         ),
         wheel_stability.run,
         wheel_stability_evidence.evidence,
+        needs.always("closed form"),
+    ),
+    "ladder": Entry(
+        LADDER,
+        "The cheapest model that a scene needs can be chosen beforehand, with an honest error.",
+        "Random scenes up the ladder of models: claimed beside true error, and what was saved",
+        ladder.Ladder(),
+        ladder.Ladder(punches=72, spheres=12, rolling=14, wheels=4, tolerances=(0.1, 0.3)),
+        ladder.run,
+        ladder.evidence,
+        needs.always("chosen scene by scene"),
     ),
 }

@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 from validation.ensemble import SERIAL, Engine, Outcome
 from validation.evidence import NotConvergedError
+from validation.roughness import Roughness
 from validation.wheel_ensemble import Rides, Track, roll_wheels
-from validation.wheel_scene import Roughness, WheelScene, read_scene
+from validation.wheel_scene import WheelScene, read_scene
 
 TABLE = read_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)

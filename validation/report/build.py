@@ -11,7 +11,7 @@ import jinja2
 from markupsafe import Markup, escape
 
 from bem3d import ConvergenceError
-from validation.cases import CASES, RACE, Profile
+from validation.cases import CASES, CHAPTERS, RACE, Entry, Profile
 from validation.ensemble import LOCAL, Engine
 from validation.evidence import Evidence, NotConvergedError, Number, Role, Verdict
 from validation.report.figures import DRAW
@@ -28,13 +28,19 @@ SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
 
 @dataclass(frozen=True)
 class Section:
-    """One case in the report: its settings and its evidence, or why there is none."""
+    """One case in the report: which rung of the ladder it needs, its settings, its evidence or why there is none."""
 
     name: str
-    answers: str
+    entry: Entry
+    needed: str
     settings: dict[str, object]
     evidence: Evidence | None
     failure: tuple[str, ...] = ()
+
+    @property
+    def answers(self) -> str:
+        """Which figure or claim it answers."""
+        return self.entry.answers
 
     @property
     def numbers(self) -> tuple[Number, ...]:
@@ -119,10 +125,10 @@ def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | 
     try:
         evidence = entry.evidence(entry.run(case, engine))
     except ConvergenceError as error:
-        return Section(name, entry.answers, asdict(case), None, (str(error),))
+        return Section(name, entry, entry.needs(case), asdict(case), None, (str(error),))
     except NotConvergedError as error:
-        return Section(name, entry.answers, asdict(case), None, (str(error), *error.lost))
-    return Section(name, entry.answers, asdict(case), evidence)
+        return Section(name, entry, entry.needs(case), asdict(case), None, (str(error), *error.lost))
+    return Section(name, entry, entry.needs(case), asdict(case), evidence)
 
 
 def _results(sections: Sequence[Section], profile: Profile) -> dict[str, object]:
@@ -131,7 +137,9 @@ def _results(sections: Sequence[Section], profile: Profile) -> dict[str, object]
 
 def _case_results(section: Section) -> dict[str, object]:
     return {
+        "claim": section.entry.claim,
         "answers": section.answers,
+        "rung needed": section.needed,
         "settings": section.settings,
         "numbers": [
             {
@@ -182,6 +190,7 @@ def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, byt
     environment.filters["small"] = lambda value: f"{value:.2g}"
     page = environment.get_template("page.html").render(
         sections=sections,
+        chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in CHAPTERS],
         profile=profile,
         pictures={name: _address(picture) for name, picture in pictures.items()},
         about=about,

@@ -1,0 +1,397 @@
+"""The ladder: it climbs as far as a tolerance asks and no farther, says why, and its claims are honest."""
+
+import math
+import warnings
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import integrate
+
+import bem3d
+import mdr
+from validation import ladder as ladder_of_models
+from validation import rungs_pressed
+from validation.cases import CASES, ladder
+from validation.compare import WANTS, compare, rungs_of, told, wants_of
+from validation.ladder import Answer, Claim, Climb, Cost, Step, climb, distance, mean_error, needed, realisations
+from validation.measured import MeasuredHeights
+from validation.pressed_scene import PressedScene
+from validation.random_scenes import KINDS, WANTED, random_scene
+from validation.rolling_question import Question
+from validation.rolling_scene import RollingScene
+from validation.roughness import Roughness
+from validation.scene_kinds import read_any
+
+ROUGH = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
+
+
+@dataclass(frozen=True)
+class Fake:
+    """A rung that claims and finds what it is told."""
+
+    name: str = "fake"
+    claimed: float = 0.0
+    left: float = 0.0
+    seconds: float = 1.0
+    failed: str = ""
+
+    def cost(self):
+        return Cost(work=1, unit="steps", seconds=self.seconds)
+
+    def claim(self):
+        return Claim(error=self.claimed, because=f"claims {self.claimed}")
+
+    def solve(self):
+        return Answer(value=np.array([1.0]), model=self.left, because=f"leaves {self.left}", failed=self.failed)
+
+
+def punch(load=0.1, ground=ROUGH, **changes):
+    height = ground.rms if ground else 1.0
+    settings = {"name": "punch", "shape": "punch", "size": 1.0, "load": load * height, "modulus": 1.0, "ground": ground}
+    return PressedScene(**{**settings, **changes})
+
+
+def wheel(height=0.03, first=1.0, last=4.0, **changes):
+    ground = Roughness(rms=height, hurst=0.7, longest=2 * math.pi / first, shortest=2 * math.pi / last)
+    settings = {"name": "wheel", "radius": 1.0, "load": 4 / 3, "modulus": 1.0, "ground": ground}
+    return RollingScene(**{**settings, **changes})
+
+
+# The climb
+
+
+def fates(climbed):
+    return [step.fate for step in climbed.steps]
+
+
+def test_a_climb_ends_where_the_tolerance_is_met():
+    rungs = [
+        Fake(claimed=0.5, seconds=1),
+        Fake(left=0.2, seconds=2),
+        Fake(failed="lost", seconds=4),
+        Fake(left=0.1, seconds=8),
+        Fake(seconds=16),
+    ]
+    climbed = climb(rungs, 0.1)
+    assert fates(climbed) == ["skipped", "not enough", "failed", "enough", "not needed"]
+    assert climbed.met
+    assert climbed.best.rung is rungs[3]
+    assert climbed.spent == 2 + 4 + 8
+    assert [step.because for step in climbed.steps[:4]] == ["claims 0.5", "leaves 0.2", "lost", "leaves 0.1"]
+
+
+def test_who_misses_the_tolerance_at_the_top_is_told_the_best_there_is():
+    rungs = [Fake(left=0.3), Fake(left=0.2), Fake(failed="lost")]
+    climbed = climb(rungs, 0.1)
+    assert not climbed.met
+    assert climbed.best.rung is rungs[1]
+    assert climb([Fake(failed="lost")], 0.1).best is None
+    assert climb([Fake(claimed=1.0)], 0.1).best is None
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -0.1, math.nan, math.inf])
+def test_tolerances_out_of_range_are_refused(tolerance):
+    with pytest.raises(ValueError, match=f"^tolerance must be finite and positive, got {tolerance}"):
+        climb([Fake()], tolerance)
+
+
+def test_what_is_needed_is_known_beforehand():
+    rungs = [Fake(claimed=0.5), Fake(claimed=0.05), Fake()]
+    assert needed(rungs, 0.1) is rungs[1]
+    assert needed(rungs[:1], 0.1) is None
+
+
+def test_errors_add_as_if_they_went_the_same_way():
+    assert Answer(value=np.ones(1), model=0.1, grid=0.02, sample=0.003).error == pytest.approx(0.123)
+    assert Answer(value=np.ones(1), failed="lost").error == math.inf
+
+
+def test_a_distance_is_over_all_numbers():
+    assert distance(np.array([2.0, 1.0]), np.array([1.0, 1.0])) == pytest.approx(math.log(2) / math.sqrt(2))
+    assert distance(np.array([1.1]), np.array([1.0])) == pytest.approx(distance(np.array([1.0]), np.array([1.1])))
+
+
+def test_the_error_of_a_mean_covers_it_in_95_of_100():
+    rng = np.random.default_rng(5)
+    draws = rng.standard_normal((4000, 6))
+    inside = np.array([abs(row.mean()) <= ladder_of_models.mean_error(row[:, np.newaxis]) for row in draws])
+    # two standard errors of a share of 4000
+    assert inside.mean() == pytest.approx(0.95, abs=2 * math.sqrt(0.95 * 0.05 / 4000))
+
+
+def test_so_many_realisations_leave_the_error_that_was_asked_for():
+    assert realisations(0.3, 0.06) == math.ceil((2 * 0.3 / 0.06) ** 2)
+    assert realisations(0.3, 10.0) == 8
+    assert realisations(0.3, 1e-9, most=77) == 77
+
+
+# Rungs of a pressed body
+
+
+def test_smooth_bodies_need_a_formula():
+    smooth = punch(ground=None, load=1.0)
+    found = compare(smooth, tolerance=1e-9)
+    assert found.climb.best.rung.name == "closed form"
+    assert found.climb.best.answer.value[0] == pytest.approx(1.1523, rel=1e-12)
+    sphere = replace(smooth, shape="sphere", size=0.5, load=4 / 3 * math.sqrt(0.5) * 1e-3**1.5)
+    assert compare(sphere, tolerance=1e-9).climb.best.answer.value[0] == pytest.approx(2 * math.sqrt(0.5 * 1e-3))
+
+
+def test_a_heavily_loaded_punch_is_a_flat_one():
+    assert compare(punch(load=30.0), tolerance=0.1).climb.best.rung.name == "closed form"
+    assert compare(punch(load=0.1), tolerance=0.2).climb.best.rung.name == "springs"
+    assert compare(punch(load=0.003), tolerance=0.1).climb.best.rung.name.startswith("boundary elements")
+
+
+def test_springs_are_the_mean_of_load_curves():
+    rung = rungs_pressed.Springs(punch(), 0.2, seed=3)
+    answer = rung.solve()
+    assert answer.sample <= 1.5 * rung.tolerance / 5
+    other = rungs_pressed.Springs(punch(), 0.2, seed=4).solve()
+    # both have two standard errors: half as much again is one in a thousand
+    assert 0 < distance(answer.value, other.value) <= 1.5 * math.hypot(answer.sample, other.sample)
+    rng, drawn = np.random.default_rng(9), []
+    for _ in range(200):
+        profile = mdr.rough_profile(ROUGH.spectrum.c1d, length=1.0, points=512, rng=rng, rms=ROUGH.rms)
+        drawn.append(mdr.load_curve(profile, length=1.0, modulus=1.0).at_force(1e-4).stiffness)
+    error = 2 * np.std(drawn) / np.mean(drawn) / math.sqrt(len(drawn))
+    assert distance(answer.value, np.mean(drawn)) <= 1.5 * math.hypot(answer.sample, error)
+
+
+def test_boundary_elements_are_those_of_the_solver():
+    rung = rungs_pressed.BoundaryElements(punch(), 0.6, seed=3, cells=32)
+    answer = rung.solve()
+    # eight surfaces leave more than half of the tolerance, nine do not
+    assert answer.because.endswith("surfaces: 9")
+    drawn = []
+    for i in range(9):
+        surface = rung._height(i, 32)
+        half_space = bem3d.HalfSpace(shape=(32, 32), spacing=1 / 32, modulus=1.0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", bem3d.ContactWarning)
+            contact = bem3d.solve(half_space, -surface, force=0.1 * 1e-3, tolerance=1e-4)
+            drawn.append(contact.stiffness())
+    assert answer.value[0] == pytest.approx(np.mean(drawn), rel=1e-9)
+    assert answer.sample == pytest.approx(mean_error(np.array(drawn)[:, np.newaxis] / np.mean(drawn)), rel=1e-6)
+
+
+def test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed():
+    rung = rungs_pressed.BoundaryElements(punch(), 0.6, seed=3, cells=32)
+    fine, coarse = rung._height(0, 32), rung._height(0, 16)
+    waves, fewer = np.fft.fft2(fine, norm="forward"), np.fft.fft2(coarse, norm="forward")
+    assert fine.std() == pytest.approx(ROUGH.rms, rel=1e-9)
+    for i, j in ((0, 1), (1, 2), (3, 1), (0, 4), (5, 5)):
+        # cell centres of both grids lie half a cell apart
+        turn = [np.exp(1j * np.pi * (i + j) / n) for n in (32, 16)]
+        assert waves[i, j] / turn[0] == pytest.approx(fewer[i, j] / turn[1], rel=1e-9)
+    # at two cells to a wave some of it has no phase; what is shorter is left out
+    assert coarse.std() == pytest.approx(fine.std(), rel=1e-3)
+    assert rung._height(0, 8).std() < 0.99 * coarse.std()
+
+
+def test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one():
+    tolerance = 0.4
+    coarse, fine = (rungs_pressed.BoundaryElements(punch(), tolerance, 3, n).solve() for n in (32, 64))
+    assert distance(coarse.value, fine.value) <= coarse.grid
+
+
+# Rungs of a wheel
+
+
+def test_the_expected_levels_are_integrals_of_the_spectrum():
+    question = Question(wheel(), "force-spectrum")
+    found = question.expected(one_dimensional=False)
+    ground = question.scene.ground
+
+    def density(q):
+        # by reciprocity with the flat punch, across the track
+        def filtered(k):
+            s = math.hypot(q, k)
+            return (2 * math.sin(s) / s) ** 2 * float(ground.c2d(s))
+
+        low, high = math.sqrt(max(ground.q_min**2 - q**2, 0.0)), math.sqrt(max(ground.q_max**2 - q**2, 0.0))
+        return 2 * integrate.quad(filtered, low, high, epsabs=0, epsrel=1e-8)[0]
+
+    for level, low, high in zip(found, question.bands.edges, question.bands.edges[1:], strict=False):
+        assert level**2 == pytest.approx(2 * integrate.quad(density, low, high, epsrel=1e-5)[0], rel=1e-4)
+
+
+def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
+    rms = Question(wheel(), "force-rms")
+    c2d = rms.scene.ground.c2d
+    variance = 2 * math.pi * integrate.quad(lambda s: (2 * math.sin(s) / s) ** 2 * float(c2d(s)) * s, 1.0, 4.0)[0]
+    assert rms.expected(one_dimensional=True)[0] ** 2 == pytest.approx(variance, rel=1e-8)
+    levels = Question(wheel(last=16.0), "force-spectrum")
+    ratio = levels.expected(one_dimensional=True) / levels.expected(one_dimensional=False)
+    # 4 dB at the most, but for the zeros of sin(q a), where it has nothing
+    assert np.sqrt(np.mean(ratio[levels.bands.centres > 4] ** 2)) == pytest.approx(10 ** (4 / 20), rel=0.15)
+
+
+def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
+    question = Question(wheel(mass=2.0, speed=3.0), "acceleration")
+    q = np.array([0.5, 2.0, 7.0])
+    k, omega = 2.0, 3.0 * q
+    assert question.transfer(q) == pytest.approx(omega**2 / np.abs(k - 2.0 * omega**2))
+    assert question.transfer(np.array([1e6]))[0] == pytest.approx(1 / 2.0)
+    assert question.bands.edges[0] >= 2 * math.sqrt(k / 2.0) / 3.0 * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("want", ["force-spectrum", "acceleration-rms"])
+def test_boundary_elements_tend_to_linear_theory(want):
+    moving = {"mass": 1.0, "speed": 4.0} if want.startswith("acceleration") else {}
+    rungs = rungs_of(wheel(height=1e-3, **moving), want, 0.1, seed=1)
+    found, linear = rungs[-2].solve(), rungs[1].solve()
+    assert found.error < 0.15
+    assert distance(found.value, linear.value) <= found.error + 0.01
+
+
+def test_force_of_low_roughness_needs_a_filter_and_of_high_boundary_elements():
+    assert compare(wheel(height=0.01), want="force-rms").climb.best.rung.name == "linear filter, 1D"
+    assert compare(wheel(height=0.01), want="force-spectrum").climb.best.rung.name == "linear filter, 3D"
+    high = needed(rungs_of(wheel(height=0.3), "force-spectrum", 0.1, 0), 0.1)
+    assert high.name.startswith("boundary elements")
+
+
+# All of them
+
+
+@given(kind=st.sampled_from(KINDS), number=st.integers(0, 10**6), tolerance=st.floats(0.01, 1.0))
+def test_rungs_are_asked_in_the_order_of_their_cost(kind, number, tolerance):
+    scene = random_scene(kind, number, 0)
+    for want in WANTED[kind]:
+        costs = [rung.cost().seconds for rung in rungs_of(scene, want, tolerance, 0)]
+        solved = costs[-3 if kind in ("punch", "sphere") else -2 :]
+        assert solved == sorted(solved)
+        assert costs[-1] == max(costs)
+        assert costs[0] == min(costs)
+
+
+@given(kind=st.sampled_from(KINDS), number=st.integers(0, 10**6))
+def test_random_scenes_are_the_same_for_the_same_numbers(kind, number):
+    assert random_scene(kind, number, 7) == random_scene(kind, number, 7)
+    assert random_scene(kind, number, 7) != random_scene(kind, number, 8)
+
+
+@given(power=st.floats(-6, 6), length=st.floats(-6, 6))
+def test_no_claim_depends_on_units(power, length):
+    scene, other = wheel(height=0.1), wheel(height=0.1)
+    e, m = 10**power, 10**length
+    ground = replace(other.ground, rms=0.1 * m, longest=other.ground.longest * m, shortest=other.ground.shortest * m)
+    other = replace(other, radius=m, load=4 / 3 * e * m**2, modulus=e, ground=ground)
+    for one, two in zip(
+        rungs_of(scene, "force-spectrum", 0.1, 0), rungs_of(other, "force-spectrum", 0.1, 0), strict=True
+    ):
+        assert one.claim().error == pytest.approx(two.claim().error, rel=1e-9)
+
+
+def test_scenes_are_asked_for_what_they_have():
+    assert wants_of(punch()) == ("stiffness",)
+    assert wants_of(wheel()) == ("force-rms", "force-spectrum")
+    assert set(wants_of(wheel(mass=1.0, speed=1.0))) == set(WANTS) - {"stiffness"}
+    with pytest.raises(ValueError, match=r"^want must be one of stiffness for scene 'punch', got 'acceleration'$"):
+        compare(punch(), want="acceleration")
+    with pytest.raises(ValueError, match=r"^want must be one of force-rms, force-spectrum for scene 'wheel'"):
+        compare(wheel(), want="acceleration")
+
+
+def test_what_is_told_has_result_error_cost_and_reason():
+    lines = told(compare(punch(load=30.0), tolerance=0.1))
+    text = "\n".join(lines)
+    assert lines[0] == "punch: stiffness within 10 %"
+    assert "closed form" in text
+    assert "enough" in text
+    assert "not needed" in text
+    assert "F / (E* h L) = 30" in text
+    assert "± " in text
+    assert "would have cost" in text
+    assert "not reached" not in text
+
+
+def test_what_is_out_of_reach_is_told():
+    height = np.random.default_rng(4).standard_normal((32, 32)) * 1e-3
+    scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 32, 1 / 32)))
+    found = compare(scene, tolerance=1e-6)
+    assert not found.climb.met
+    assert told(found)[-1] == "not reached: the tolerance of 0.0001 %; this is the best there is"
+
+
+# Held to account
+
+
+@pytest.fixture(scope="module")
+def account():
+    return ladder.run(ladder.Ladder(punches=3, spheres=1, rolling=1, tolerances=(0.1, 0.3)))
+
+
+def test_the_ladder_is_held_to_account_by_surfaces_it_has_not_seen(account):
+    found = ladder.evidence(account)
+    scenes, claims = found.table("scenes"), found.table("claims")
+    assert len(scenes["kind"]) == 2 * 5
+    met = scenes["met"] == 1
+    assert met.any()
+    assert (scenes["claimed error"][met] <= scenes["tolerance"][met]).all()
+    assert (scenes["true error"][met] <= scenes["claimed error"][met] + scenes["error of the referee"][met]).all()
+    assert (scenes["true error"][met] > 0).all()
+    assert {"closed form", "springs"} <= set(claims["rung"])
+    assert len(found.numbers) == 2 * 2
+
+
+def test_a_claim_that_is_too_bold_is_found_out(account):
+    outcomes = [{**outcome, "settled": np.ones(2), "claimed": outcome["true"] / 2} for outcome in account.outcomes]
+    found = ladder.evidence(ladder.LadderResult(account.case, outcomes, ()))
+    assert found.numbers[0].verdict == "differ"
+    assert "in 0.0% of 5 scenes" in found.conclusions[0]
+
+
+def test_every_case_states_which_rung_it_needed():
+    needs = {name: entry.needs(entry.quick) for name, entry in CASES.items()}
+    assert all(needs.values())
+    assert needs["hertz"] == needs["square_punch"] == "closed form"
+    assert needs["ridges"] == "linear filter, 1D"
+    assert "springs for Fbar" in needs["fractal_punch"]
+    assert "boundary elements for h/d" in needs["rolling"]
+
+
+def test_a_step_without_an_answer_leaves_everything_open():
+    step = Step(Fake(), "skipped", "", Claim(error=1.0, because=""))
+    assert Climb(0.1, (step,)).best is None
+    assert Climb(0.1, (step,)).spent == 0
+
+
+@pytest.mark.parametrize("name", ["sphere", "rough_punch", "rolling_wheel", "table_14_1"])
+def test_shipped_scenes_can_be_compared(name):
+    scene = read_any(name)
+    assert scene.doubts() == ()
+    for want in wants_of(scene):
+        assert rungs_of(scene, want, 0.1, 0)
+
+
+def test_measured_heights_are_pressed_themselves():
+    rng = np.random.default_rng(2)
+    rough = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * 8, rms=1e-3)
+    height = bem3d.rough_surface(rough.c2d, shape=(64, 64), spacing=1 / 64, rng=rng, rms=1e-3)
+    ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64))
+    scene = punch(ground=ground, load=0.1)
+    found = rungs_of(scene, "stiffness", 0.05, 0)[-1].solve()
+    half_space = bem3d.HalfSpace(shape=(64, 64), spacing=1 / 64, modulus=1.0)
+    with pytest.warns(bem3d.EdgeWarning):
+        contact = bem3d.solve(half_space, -ground.height, force=scene.load, tolerance=1e-4)
+    assert found.value[0] == pytest.approx(contact.stiffness(), rel=1e-6)
+    assert found.sample == 0
+    # springs know the spectrum and not the surface
+    assert rungs_of(scene, "stiffness", 0.05, 0)[1].claim().error > 0.5
+
+
+def test_a_measured_track_is_rolled_itself():
+    rng = np.random.default_rng(3)
+    rough = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=3.0, rms=1.0)
+    height = bem3d.rough_surface(rough.c2d, shape=(192, 96), spacing=1 / 8, rng=rng, rms=2e-3)
+    scene = wheel(ground=MeasuredHeights(height=height, spacing=(1 / 8, 1 / 8)))
+    rungs = rungs_of(scene, "force-rms", 0.1, 0)
+    linear, found = rungs[1].solve(), rungs[-1].solve()
+    assert distance(found.value, linear.value) <= found.error + 0.01
+    with pytest.raises(ValueError, match=r"rail.heights must be .* long"):
+        wheel(ground=MeasuredHeights(height=height[:, :20], spacing=(1 / 8, 1 / 8)))

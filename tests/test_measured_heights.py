@@ -1,0 +1,320 @@
+"""Measured heights, and the files of all scenes: what is read, what is warned of, what is refused by name."""
+
+import math
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import bem3d
+import mdr
+from validation.__main__ import main
+from validation.measured import MeasuredHeights, measured
+from validation.pressed_scene import PressedScene
+from validation.rolling_scene import RollingScene
+from validation.scene_files import SCENES
+from validation.scene_kinds import read_any
+from validation.wheel_scene import read_scene
+
+N, DX = 256, 1e-6
+BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)
+PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
+ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
+
+
+def drawn(seed=1, c2d=BAND.c2d):
+    return bem3d.rough_surface(c2d, shape=(N, N), spacing=DX, rng=np.random.default_rng(seed), rms=1e-7)
+
+
+def heights(height, spacing=(DX, DX)):
+    return MeasuredHeights(height=height, spacing=spacing)
+
+
+# Heights
+
+
+def test_the_spectrum_is_found_in_the_heights():
+    ratios = []
+    for seed in range(4):
+        found = heights(drawn(seed))
+        edges = np.array(found.edges)
+        middle = np.sqrt(edges[1:] * edges[:-1])
+        # a ring next to the ends of the band is half empty, and a window smears over two waves
+        inside = (edges[:-1] > 1.3 * BAND.q_min) & (edges[1:] < BAND.q_max / 1.3)
+        # over a ring, q^-3.4 has a mean above its middle
+        width = edges[1:][inside] / edges[:-1][inside]
+        mean = 2 * (width**-1.4 - 1) / (-1.4 * (width**2 - 1)) * (edges[:-1][inside] ** -3.4)
+        exact = BAND.c2d(edges[:-1][inside]) * mean / edges[:-1][inside] ** -3.4
+        ratios.append(found.c2d(middle[inside]) / exact)
+    # rings of tens of waves, four surfaces
+    assert np.mean(ratios, axis=0) == pytest.approx(np.ones(inside.sum()), abs=0.35)
+    assert np.mean(ratios) == pytest.approx(1.0, abs=0.08)
+
+
+def test_the_spectrum_has_the_height():
+    found = heights(drawn())
+    edges = np.array(found.edges)
+    level = found.c2d(np.sqrt(edges[1:] * edges[:-1]))
+    assert np.pi * np.sum(level * np.diff(edges**2)) == pytest.approx(found.rms**2, rel=1e-12)
+    assert (found.c2d(np.array([0.0, 0.9 * edges[0], 1.1 * edges[-1]])) == 0).all()
+
+
+def test_a_tilt_is_taken_off():
+    x = np.arange(N)[:, np.newaxis] * DX
+    y = np.arange(N) * DX
+    height = drawn()
+    level = heights(height).height
+    assert heights(height + 3e-3 * x - 2e-3 * y + 5e-6).height == pytest.approx(level, abs=1e-9 * 1e-7 * N)
+    assert level == pytest.approx(height, abs=0.2 * 1e-7)
+
+
+def test_isotropic_gaussian_heights_leave_no_doubt():
+    assert heights(drawn()).texture == pytest.approx(1.0, abs=0.1)
+    assert heights(drawn()).doubts() == ()
+
+
+def test_ridges_are_told():
+    x = np.arange(N) * DX
+    ridges = 1e-7 * np.cos(2 * np.pi * 16 * x / (N * DX))[:, np.newaxis] + 0.1 * drawn()
+    (doubt,) = (d for d in heights(ridges).doubts() if "anisotropic" in d)
+    assert "boundary elements do" in doubt
+    # slopes of a stretched surface are as many times steeper across
+    stretched = heights(drawn(), spacing=(DX, 3 * DX))
+    assert stretched.texture == pytest.approx(3.0, rel=0.1)
+    assert "times those along the other" in stretched.doubts()[0]
+
+
+def test_heights_that_are_not_gaussian_are_told():
+    worn = np.minimum(drawn(), 0.3e-7)
+    (doubt,) = heights(worn).doubts()
+    assert re.match(r"heights are not Gaussian, skewness -\d", doubt)
+
+
+@pytest.mark.parametrize("call", [True, False])
+def test_any_object_with_heights_and_sizes_will_do(call):
+    height = drawn()
+    surface = SimpleNamespace(heights=(lambda: height) if call else height, physical_sizes=(N * DX, 2 * N * DX))
+    found = measured(surface)
+    assert found.spacing == pytest.approx((DX, 2 * DX))
+    assert found.sides == pytest.approx((N * DX, 2 * N * DX))
+    assert found.height == pytest.approx(heights(height, (DX, 2 * DX)).height)
+
+
+def test_other_objects_are_refused():
+    with pytest.raises(TypeError, match=r"^surface must have heights and physical_sizes, got list$"):
+        measured([1.0])
+    with pytest.raises(ValueError, match=r"^heights must be two-dimensional"):
+        measured(SimpleNamespace(heights=np.ones(8), physical_sizes=(1.0,)))
+
+
+@pytest.mark.parametrize(
+    ("height", "sentence"),
+    [
+        (np.ones((4, 64)), "heights must be 16 points or more along two sides, got shape (4, 64)"),
+        (np.ones(64), "heights must be 16 points or more along two sides, got shape (64,)"),
+        (np.full((64, 64), np.nan), "heights must be finite, got 4096 values that are not"),
+        (np.add.outer(np.arange(64.0), np.arange(64.0)), "heights must be rough, got a plane"),
+    ],
+)
+def test_heights_that_are_none_are_refused(height, sentence):
+    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+        heights(height)
+
+
+def test_spacings_that_are_none_are_refused():
+    with pytest.raises(ValueError, match=r"^spacing\[1\] must be positive, got -1.0$"):
+        heights(drawn(), spacing=(1.0, -1.0))
+
+
+# Files
+
+
+def written(folder, text, *changes):
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path = folder / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def with_heights(folder, file, *, unit="", side="0.256 mm"):
+    start, _, _ = PUNCH.partition("[roughness]")
+    text = f'{start}\n[heights]\nfile = "{file}"\nspacing = "1 um"\n{unit}'
+    return written(folder, text, ("1 mm", side), ("23.076923 N", "0.01 N"))
+
+
+def test_shipped_scenes_are_what_they_say():
+    sphere, rolling = read_any("sphere"), read_any("rolling_wheel")
+    assert isinstance(sphere, PressedScene)
+    assert isinstance(rolling, RollingScene)
+    assert sphere.contact_radius == pytest.approx(rolling.contact_radius) == pytest.approx(1.982e-3, rel=1e-3)
+    assert read_any("rough_punch").reduced_load == pytest.approx(0.1, rel=1e-6)
+    assert read_any("table_14_1") == RollingScene.of_wheel(read_scene("table_14_1"))
+
+
+@pytest.mark.parametrize("suffix", ["npy", "csv", "txt", "tsv"])
+def test_heights_are_read_from_a_file_beside_the_scene(tmp_path, suffix):
+    height = drawn()
+    if suffix == "npy":
+        np.save(tmp_path / "face.npy", height)
+    else:
+        np.savetxt(tmp_path / f"face.{suffix}", height, delimiter={"csv": ",", "txt": " ", "tsv": "\t"}[suffix])
+    scene = read_any(with_heights(tmp_path, f"face.{suffix}"))
+    assert scene.ground.height == pytest.approx(heights(height).height, rel=1e-12, abs=1e-20)
+    assert scene.ground.spacing == (1e-6, 1e-6)
+
+
+def test_a_unit_of_heights_is_taken(tmp_path):
+    np.save(tmp_path / "face.npy", 1e6 * drawn())
+    scene = read_any(with_heights(tmp_path, "face.npy", unit='unit = "um"'))
+    assert scene.ground.rms == pytest.approx(1e-7, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("contents", "sentence"),
+    [
+        (b"1, 2\n3, 4\n", "heights: heights must be 16 points"),
+        (b"1, 2\n3, x\n", "heights.file .* must hold a table of numbers, got: could not convert"),
+        (b"1, 2\n3\n", "heights.file .* must hold a table of numbers, got: "),
+        (b"", "heights.file .* must hold a table of numbers, got: an empty file"),
+    ],
+)
+def test_files_without_heights_are_refused(tmp_path, contents, sentence):
+    (tmp_path / "face.csv").write_bytes(contents)
+    with pytest.raises(ValueError, match=f"^{sentence}"):
+        read_any(with_heights(tmp_path, "face.csv"))
+
+
+def test_files_of_another_kind_are_refused(tmp_path):
+    (tmp_path / "face.npy").write_bytes(b"no array")
+    with pytest.raises(ValueError, match=r"^heights.file .* must hold a table of numbers, got: "):
+        read_any(with_heights(tmp_path, "face.npy"))
+    np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
+    with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
+        read_any(with_heights(tmp_path, "face.npy"))
+    with pytest.raises(OSError, match=r"^heights.file .* cannot be read: No such file"):
+        read_any(with_heights(tmp_path, "none.npy"))
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "sentence"),
+    [
+        (PUNCH, "[punch]", "[block]", "a scene must have one table of sphere, punch and wheel, got none"),
+        (
+            PUNCH,
+            "[material]",
+            '[sphere]\nradius = "1 m"\n[material]',
+            "a scene must have one table of sphere, punch and wheel, got sphere and punch",
+        ),
+        (PUNCH, 'side = "1 mm"', "", "punch.side is missing, punch must have it"),
+        (PUNCH, "side =", "radius =", "punch.radius is unknown, punch must be made of side, load"),
+        (PUNCH, "poisson_ratio = 0.3", "poisson_ratio = 0.6", "material.poisson_ratio must lie in [0, 0.5], got 0.6"),
+        (PUNCH, "rms =", "RMS =", "roughness.RMS is unknown, roughness must be made of rms, hurst, longest, shortest"),
+        (
+            PUNCH,
+            'longest = "1 mm"',
+            'longest = "2 mm"',
+            "roughness.longest must not exceed the side of the punch, 0.001 m, got 0.002 m",
+        ),
+        (
+            ROLLING,
+            "[rail.roughness]",
+            "[rail]\n[stuff]",
+            "stuff is unknown, a scene must be made of name, wheel, material, rail",
+        ),
+        (
+            ROLLING,
+            'load = "4905 N"',
+            'load = "4905 N"\nspeed = "20 m/s"',
+            "wheel.speed is unknown, wheel must be made of radius, load",
+        ),
+    ],
+)
+def test_scenes_are_refused_by_the_key(tmp_path, text, old, new, sentence):
+    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+        read_any(written(tmp_path, text, (old, new)))
+
+
+def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
+    start, _, _ = ROLLING.partition("[rail.roughness]")
+    with pytest.raises(ValueError, match=r"^rail must have roughness or heights, got a smooth one$"):
+        read_any(written(tmp_path, start + "[rail]\n"))
+    with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
+        read_any("rough_wheel")
+
+
+def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
+    np.save(tmp_path / "face.npy", drawn())
+    text = PUNCH + '\n[heights]\nfile = "face.npy"\nspacing = "1 um"\n'
+    with pytest.raises(ValueError, match=r"^a scene must have roughness or heights, got both$"):
+        read_any(written(tmp_path, text))
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"shape": "cone"}, 'shape must be "sphere" or "punch", got \'cone\''),
+        ({"size": 0.0}, "punch.side must be positive, got 0.0"),
+        ({"load": math.nan}, "punch.load must be finite, got nan"),
+        ({"modulus": -1.0}, "modulus must be positive, got -1.0"),
+        ({"name": " "}, "name must be a text that is not blank, got ' '"),
+    ],
+)
+def test_scenes_at_the_prompt_are_refused_by_the_key(changes, sentence):
+    settings = {"name": "it", "shape": "punch", "size": 1.0, "load": 1.0, "modulus": 1.0}
+    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+        PressedScene(**{**settings, **changes})
+
+
+def test_heights_must_cover_the_body():
+    ground = heights(drawn())
+    settings = {"name": "it", "load": 1.0, "modulus": 1e9, "ground": ground}
+    with pytest.raises(ValueError, match=r"^heights must cover the punch, 0.001 m a side"):
+        PressedScene(shape="punch", size=1e-3, **settings)
+    with pytest.raises(ValueError, match=r"^heights must be three contact radii wide"):
+        PressedScene(shape="sphere", size=1.0, **settings)
+    with pytest.raises(ValueError, match=r"^rail.heights must be .* long and .* wide"):
+        RollingScene(radius=1.0, **settings)
+
+
+# The command
+
+
+def test_compare_prints_result_error_cost_and_reason(capsys):
+    assert main(["compare", "sphere"]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith("Smooth sphere: stiffness within 10 %\n")
+    # a = (3 F R / 4 E*)^(1/3), k = 2 E* a
+    stiffness = 2 * 236.25e9 * (0.75 * 4905 * 0.5 / 236.25e9) ** (1 / 3)
+    assert f"stiffness = {stiffness / 1e8:.4f}e8 N/m" in text
+    assert "closed form" in text
+
+
+@pytest.mark.parametrize(("word", "shown"), [("5%", "5 %"), ("0.05", "5 %"), ("0.4238 dB", "5 %"), (" 20 % ", "20 %")])
+def test_tolerances_come_in_three_forms(capsys, word, shown):
+    assert main(["compare", "sphere", "--tolerance", word]) == 0
+    assert f"within {shown}\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("word", ["0", "-1%", "nan", "inf", "five", "5 percent", ""])
+def test_tolerances_that_are_none_are_refused(capsys, word):
+    with pytest.raises(SystemExit) as refusal:
+        main(["compare", "sphere", "--tolerance", word])
+    assert refusal.value.code == 2
+    assert "--tolerance" in capsys.readouterr().err
+
+
+def test_what_a_scene_cannot_answer_is_refused(capsys):
+    assert main(["compare", "sphere", "--want", "acceleration"]) == 2
+    assert "error: want must be one of stiffness for scene 'Smooth sphere'" in capsys.readouterr().err
+    assert main(["compare", "nowhere"]) == 2
+    assert "error: scene must be a file" in capsys.readouterr().err
+
+
+def test_what_cannot_be_reached_is_no_success(capsys, tmp_path):
+    np.save(tmp_path / "face.npy", drawn()[:64, :64])
+    path = with_heights(tmp_path, "face.npy", side="0.064 mm")
+    assert main(["compare", str(path), "--tolerance", "0.001%"]) == 3
+    assert "not reached: the tolerance of 0.001 %" in capsys.readouterr().out

@@ -1,0 +1,184 @@
+"""The cheapest model that a scene needs: rungs from closed forms to fine boundary elements, climbed one by one."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+FloatArray = NDArray[np.float64]
+
+STUDENT = 2.0
+"""Standard errors of a 95 % interval; samples here have eight realisations or more, or say so by a wider one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Claim:
+    """What a rung says of itself before it has computed anything.
+
+    error: relative half-width of 95 % that it expects to leave, infinite where it does not hold at all; because: the
+    condition that this rests on, with its numbers.
+    """
+
+    error: float
+    because: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What a rung has found.
+
+    value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
+    of all numbers together, see `distance`; work: what it took, in the unit of its rung; because: what the error rests
+    on; failed: why it is none, empty where it is one.
+    """
+
+    value: FloatArray
+    model: float = 0.0
+    grid: float = 0.0
+    sample: float = 0.0
+    work: float = 0.0
+    because: str = ""
+    failed: str = ""
+
+    @property
+    def error(self) -> float:
+        """All three, added as if they went the same way; infinite for what has failed."""
+        return math.inf if self.failed else self.model + self.grid + self.sample
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cost:
+    """work: operations that a rung expects; unit: of them; seconds: what that takes on one core, about."""
+
+    work: float
+    unit: str
+    seconds: float
+
+
+class Rung(Protocol):
+    """A model of a scene, with what it costs, when it claims to hold, and how to ask it."""
+
+    @property
+    def name(self) -> str:
+        """For tables."""
+
+    def cost(self) -> Cost:
+        """Expected, before anything is computed."""
+
+    def claim(self) -> Claim:
+        """Expected, before anything is computed."""
+
+    def solve(self) -> Answer:
+        """Compute, and estimate the error from what was computed."""
+
+
+Fate = Literal["enough", "not enough", "skipped", "not needed", "failed"]
+
+
+@dataclass(frozen=True)
+class Step:
+    """A rung and what became of it."""
+
+    rung: Rung
+    fate: Fate
+    because: str
+    claim: Claim
+    answer: Answer | None = None
+
+
+@dataclass(frozen=True)
+class Climb:
+    """All rungs, in order, up to where the tolerance was met; those above were not needed."""
+
+    tolerance: float
+    steps: tuple[Step, ...] = field(default=())
+
+    @property
+    def met(self) -> bool:
+        """Whether some rung was enough."""
+        return any(step.fate == "enough" for step in self.steps)
+
+    @property
+    def best(self) -> Step | None:
+        """The rung that was enough, or else the one that leaves the least error; None where none has an answer."""
+        solved = [step for step in self.steps if step.answer is not None and not step.answer.failed]
+        enough = [step for step in solved if step.fate == "enough"]
+        return enough[0] if enough else min(solved, key=_left, default=None)
+
+    @property
+    def spent(self) -> float:
+        """Seconds of all rungs that were asked, as expected."""
+        return sum(step.rung.cost().seconds for step in self.steps if step.answer is not None)
+
+
+def climb(rungs: Sequence[Rung], tolerance: float) -> Climb:
+    """Ask rungs from the cheapest on, until one leaves no more than the tolerance.
+
+    rungs: in the order of their cost; tolerance: relative, positive. A rung that expects to miss it is skipped, one
+    that misses it is kept beside the next. Who misses it at the top is told so: see `Climb.met`.
+    Raises ValueError for a tolerance that is not finite and positive.
+    """
+    if not (math.isfinite(tolerance) and tolerance > 0):
+        raise ValueError(f"tolerance must be finite and positive, got {tolerance}")
+    steps: list[Step] = []
+    for rung in rungs:
+        claim = rung.claim()
+        if any(step.fate == "enough" for step in steps):
+            steps.append(Step(rung, "not needed", "a cheaper rung was enough", claim))
+        elif claim.error > tolerance:
+            steps.append(Step(rung, "skipped", claim.because, claim))
+        else:
+            steps.append(_asked(rung, claim, tolerance))
+    return Climb(tolerance, tuple(steps))
+
+
+def needed(rungs: Sequence[Rung], tolerance: float) -> Rung | None:
+    """The first rung that expects to be enough, without asking it; None where none does."""
+    return next((rung for rung in rungs if rung.claim().error <= tolerance), None)
+
+
+def distance(value: FloatArray, other: FloatArray) -> float:
+    """sqrt(mean(ln(x / y)^2)): how far two answers are apart, over all their numbers [-]."""
+    return float(np.sqrt(np.mean(np.log(value / other) ** 2)))
+
+
+def mean_error(ratios: FloatArray) -> float:
+    """Half-width of 95 % that a sample leaves of the mean of logarithms, of all columns together.
+
+    ratios: logarithms, shape (realisations, numbers), two realisations at least.
+    """
+    of_means = ratios.std(axis=0, ddof=1) / math.sqrt(len(ratios))
+    return float(_student(len(ratios)) * np.sqrt(np.mean(of_means**2)))
+
+
+def realisations(deviation: float, error: float, *, least: int = 8, most: int = 2000) -> int:
+    """How many leave a mean within a relative error, 95 %: (2 s / e)^2, between two bounds.
+
+    deviation: s, relative, of one realisation; error: e.
+    """
+    return int(np.clip(math.ceil((STUDENT * deviation / error) ** 2), least, most))
+
+
+def counted(conditions: Mapping[str, float]) -> str:
+    """Names with their numbers, for a reason."""
+    return ", ".join(f"{name} = {value:.3g}" for name, value in conditions.items())
+
+
+def _asked(rung: Rung, claim: Claim, tolerance: float) -> Step:
+    answer = rung.solve()
+    if answer.failed:
+        return Step(rung, "failed", answer.failed, claim, answer)
+    fate: Fate = "enough" if answer.error <= tolerance else "not enough"
+    return Step(rung, fate, answer.because, claim, answer)
+
+
+def _left(step: Step) -> float:
+    return step.answer.error if step.answer else math.inf
+
+
+def _student(size: int) -> float:
+    return float(stats.t.ppf(0.975, size - 1))

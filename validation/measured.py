@@ -1,0 +1,203 @@
+"""Measured heights: read, levelled, and asked what Geike's rule takes for granted, isotropy and Gaussian heights."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import stats
+
+from mdr.border import positive
+from validation.quantities import quantity
+from validation.scene_files import LENGTH, Reader, named, table
+
+FloatArray = NDArray[np.float64]
+
+FEWEST = 16
+"""Points along each side, below which there is no spectrum to speak of."""
+RINGS = 5
+"""To an octave of wavenumbers."""
+OBLONG, SKEWED, PEAKED = 1.5, 0.5, 1.0
+"""From where on texture, skewness and excess kurtosis are warned of."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MeasuredHeights:
+    """Heights of a surface on a regular grid, their mean plane removed.
+
+    height: shape (nx, ny), positive towards the other body [m]; spacing: (dx, dy) [m].
+    Raises ValueError for fewer than 16 points along a side, values that are not finite, or a plane.
+    """
+
+    height: FloatArray
+    spacing: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        height = _grid(self.height)
+        for name, side in zip(("spacing[0]", "spacing[1]"), self.spacing, strict=True):
+            positive(name, side)
+        level = _levelled(height)
+        if not level.std() > 1e-9 * np.abs(height).max():
+            raise ValueError("heights must be rough, got a plane")
+        object.__setattr__(self, "height", level)
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Lengths of the grid [m]."""
+        (nx, ny), (dx, dy) = self.height.shape, self.spacing
+        return nx * dx, ny * dy
+
+    @property
+    def rms(self) -> float:
+        """Root mean square height [m]."""
+        return float(self.height.std())
+
+    @property
+    def edges(self) -> tuple[float, ...]:
+        """Ends of the rings of wavenumbers in which the spectrum is known [rad/m]."""
+        return self._rings[0]
+
+    @property
+    def q_min(self) -> float:
+        """Of the first ring [rad/m]."""
+        return self.edges[0]
+
+    @property
+    def q_max(self) -> float:
+        """Of the last ring, at the Nyquist wavenumber of the coarser axis [rad/m]."""
+        return self.edges[-1]
+
+    def c2d(self, q: ArrayLike) -> FloatArray:
+        """C_2D as the mean over all directions, constant in each ring, of the mean square of the heights [m^4]."""
+        edges, level = np.array(self.edges), np.array(self._rings[1])
+        ring = np.searchsorted(edges, np.abs(np.asarray(q, dtype=np.float64)), side="right") - 1
+        inside = (ring >= 0) & (ring < level.size)
+        return np.asarray(np.where(inside, level[np.clip(ring, 0, level.size - 1)], 0.0))
+
+    @cached_property
+    def texture(self) -> float:
+        """sqrt(l1 / l2) of the eigenvalues of <dh/dx_i dh/dx_j>: one where isotropic, large for ridges [-]."""
+        gx, gy = np.gradient(self.height, *self.spacing)
+        tensor = [[np.mean(gx * gx), np.mean(gx * gy)], [np.mean(gx * gy), np.mean(gy * gy)]]
+        small, large = np.linalg.eigvalsh(np.array(tensor))
+        return math.sqrt(large / max(small, 1e-12 * large))
+
+    def doubts(self) -> tuple[str, ...]:
+        """What Geike's rule takes for granted and these heights do not have, in sentences."""
+        skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
+        found = []
+        if self.texture > OBLONG:
+            found.append(
+                f"heights are anisotropic, slopes along one axis {self.texture:.2g} times those along the other: "
+                "models of an isotropic spectrum do not hold, boundary elements do."
+            )
+        if abs(skewness) > SKEWED or abs(kurtosis) > PEAKED:
+            found.append(
+                f"heights are not Gaussian, skewness {skewness:.2g} and excess kurtosis {kurtosis:.2g}: a spectrum "
+                "does not tell all of them, boundary elements on the heights themselves do."
+            )
+        return tuple(found)
+
+    @cached_property
+    def _rings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        return _spectrum(self.height, self.spacing)
+
+
+def measured(surface: Any) -> MeasuredHeights:
+    """Of any object that has heights, a method or an array (nx, ny) [m], and physical_sizes, (Lx, Ly) [m].
+
+    Raises TypeError for other objects.
+    """
+    if not (hasattr(surface, "heights") and hasattr(surface, "physical_sizes")):
+        raise TypeError(f"surface must have heights and physical_sizes, got {type(surface).__name__}")
+    height = np.asarray(surface.heights() if callable(surface.heights) else surface.heights, dtype=np.float64)
+    sizes = tuple(surface.physical_sizes)
+    if height.ndim != 2 or len(sizes) != 2:
+        raise ValueError(f"heights must be two-dimensional with two physical_sizes, got {height.shape} and {sizes}")
+    return MeasuredHeights(height=height, spacing=(sizes[0] / height.shape[0], sizes[1] / height.shape[1]))
+
+
+def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
+    """Of a table in a scene file: file, .npy or CSV beside it; spacing of its points; unit of its values."""
+    readers: dict[str, Reader] = {
+        "file": named,
+        "spacing": LENGTH,
+        "unit": partial(_unit),
+    }
+    found = table(readers, ("unit",), name, given)
+    height = _read(f"{name}.file", folder / found["file"]) * found.get("unit", 1.0)
+    try:
+        return MeasuredHeights(height=height, spacing=(found["spacing"], found["spacing"]))
+    except ValueError as problem:
+        raise ValueError(f"{name}: {problem}") from None
+
+
+def _unit(name: str, given: object) -> float:
+    return quantity(name, f"1 {given}", "length")
+
+
+def _read(name: str, path: Path) -> FloatArray:
+    """Rows are lines across the track, x along the first axis."""
+    try:
+        if path.suffix == ".npy":
+            values = np.load(path, allow_pickle=False)
+        else:
+            values = np.loadtxt(path, delimiter=_delimiter(path), ndmin=2, encoding="utf-8-sig")
+    except OSError as problem:
+        raise OSError(f"{name} {path} cannot be read: {problem.strerror or problem}") from None
+    except ValueError as problem:
+        raise ValueError(f"{name} {path} must hold a table of numbers, got: {str(problem).splitlines()[0]}") from None
+    if values.dtype.kind not in "fiu":
+        raise ValueError(f"{name} {path} must hold real numbers, got {values.dtype}")
+    return np.asarray(values, dtype=np.float64)
+
+
+def _delimiter(path: Path) -> str | None:
+    with path.open(encoding="utf-8-sig") as lines:
+        first = next((line for line in lines if line.strip() and not line.startswith("#")), "")
+    if not first:
+        raise ValueError("an empty file")
+    return next((sign for sign in (";", ",", "\t") if sign in first), None)
+
+
+def _grid(height: ArrayLike) -> FloatArray:
+    values = np.asarray(height, dtype=np.float64)
+    if values.ndim != 2 or min(values.shape) < FEWEST:
+        raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
+    if not np.isfinite(values).all():
+        raise ValueError(f"heights must be finite, got {int((~np.isfinite(values)).sum())} values that are not")
+    return values
+
+
+def _levelled(height: FloatArray) -> FloatArray:
+    """Less the plane of least squares; rows and columns are orthogonal about their middle."""
+    x, y = (np.arange(n) - (n - 1) / 2 for n in height.shape)
+    slope_x = (height.mean(axis=1) @ x) / (x @ x)
+    slope_y = (height.mean(axis=0) @ y) / (y @ y)
+    return np.asarray(height - height.mean() - slope_x * x[:, np.newaxis] - slope_y * y)
+
+
+def _spectrum(height: FloatArray, spacing: tuple[float, float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Edges of rings and C_2D in each: |H|^2 behind Hann's window, scaled to the mean square of the heights."""
+    (nx, ny), (dx, dy) = height.shape, spacing
+    hann_x, hann_y = (np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2 for n in (nx, ny))
+    power = np.abs(np.fft.fft2(hann_x[:, np.newaxis] * hann_y * height)) ** 2
+    q = np.hypot(2 * np.pi * np.fft.fftfreq(nx, dx)[:, np.newaxis], 2 * np.pi * np.fft.fftfreq(ny, dy))
+    first, last = 2 * math.pi / max(nx * dx, ny * dy), math.pi / max(dx, dy)
+    rings = max(math.floor(RINGS * math.log2(last / first)), 1)
+    edges = first * (last / first) ** (np.arange(rings + 1) / rings)
+    # narrow rings around the longest waves may hold none: they go to the next
+    counts = np.histogram(q, edges)[0]
+    edges = np.concatenate([[edges[0]], edges[1:][np.cumsum(counts > 0) > 0]])
+    counts, sums = np.histogram(q, edges)[0], np.histogram(q, edges, weights=power)[0]
+    keep = counts > 0
+    level = np.where(keep, sums / np.maximum(counts, 1), 0.0)
+    # an empty ring between others has the level of the one before
+    for i in np.flatnonzero(~keep):
+        level[i] = level[i - 1] if i else 0.0
+    whole = np.pi * float(np.sum(level * np.diff(edges**2)))
+    level *= height.var() / whole
+    return tuple(edges.tolist()), tuple(level.tolist())

@@ -1,0 +1,325 @@
+"""Rungs for a body that is pressed: closed form, springs, boundary elements coarse and fine; the stiffness."""
+
+import math
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import interpolate
+
+import bem3d
+import mdr
+from validation.ensemble import generator
+from validation.ladder import Answer, Claim, Cost, Rung, counted, mean_error, realisations
+from validation.measured import MeasuredHeights
+from validation.pressed_scene import PressedScene
+from validation.roughness import Roughness
+
+FloatArray = NDArray[np.float64]
+
+PROFILES, SURFACES = 1, 2
+"""The spawn keys under which each kind of roughness draws."""
+SCATTER = 0.22
+"""Relative deviation of the stiffness of one rough punch without roll-off, about: Fig. 14.1."""
+SPRING, CELL = 4.0e-8, 4.0e-8
+"""Seconds that a spring in a sort takes, and a cell in an application of the operator, about."""
+APPLICATIONS = 24
+"""Of the operator, to a contact and its stiffness."""
+FEW, MANY = 16, 512
+"""Cells a side of the coarsest grid that is worth a solve, and of the finest that is offered."""
+WAVE = 8
+"""Cells to the shortest wave on the finest grid."""
+SPRINGS_TO_A_WAVE = 8
+FEWEST, MOST = 8, 1000
+"""Surfaces: of which a deviation is estimated, and that are drawn at the most."""
+DEEPEST = 4.0
+"""Heights of roughness, in rms, that a rough sphere may carry outside of its smooth contact."""
+PUNCH_CLOSED = 0.55
+"""Error of a flat punch over a rough one, times Fbar."""
+PUNCH_SPRINGS = (
+    np.array([-3.0, -2.5, -2.0, -1.5, -0.5, -0.2, 0.0, 0.3, 0.5, 0.7, 0.85, 1.0]),
+    np.array([0.18, 0.15, 0.12, 0.075, 0.065, 0.075, 0.12, 0.12, 0.08, 0.12, 0.14, 0.16]),
+)
+"""lg Fbar, and the error of springs there without roll-off, H from 0.4 to 1: beside boundary elements."""
+ROLL_OFF = 0.06
+"""By which it grows with each more of the longest waves on a side."""
+SPHERE_CLOSED, SPHERE_SPRINGS, SPHERE_FLOOR = 0.25, 0.15, 0.01
+"""Errors of a rough sphere, over h/d; and what the finest grid leaves."""
+RADIUS = 16
+"""Cells to the contact radius of a smooth sphere, on the finest grid."""
+
+
+def rungs(scene: PressedScene, tolerance: float, seed: int) -> list[Rung]:
+    """All that a scene can be asked with, the cheapest first."""
+    if scene.ground is None:
+        return [ClosedForm(scene)]
+    finest = _cells(scene)
+    grids = [cells for cells in (finest // 4, finest // 2, finest) if cells >= FEW]
+    solved = [BoundaryElements(scene, tolerance, seed, cells) for cells in grids]
+    return [ClosedForm(scene), Springs(scene, tolerance, seed), *solved]
+
+
+@dataclass(frozen=True)
+class ClosedForm:
+    """The smooth body, 2 E* a or 1.1523 E* L: what roughness leaves of it is the error.
+
+    Of a punch, it is 1/k - 1/k_flat over 1/k, the compliance of the rough face: in boundary elements no more than
+    0.55 / Fbar for Fbar of one and more, whatever the Hurst exponent.
+    """
+
+    scene: PressedScene
+
+    @property
+    def name(self) -> str:
+        """For tables."""
+        return "closed form"
+
+    def cost(self) -> Cost:
+        """A formula."""
+        return Cost(work=1, unit="formula", seconds=1e-6)
+
+    def claim(self) -> Claim:
+        """By the load or the height."""
+        if self.scene.ground is None:
+            return Claim(error=0.0, because="the body is smooth, the formula exact")
+        if self.scene.shape == "punch":
+            load = self.scene.reduced_load
+            return Claim(error=PUNCH_CLOSED / load, because=counted({"F / (E* h L)": load}))
+        ratio = self.scene.roughness_ratio
+        return Claim(error=SPHERE_CLOSED * ratio + SPHERE_FLOOR, because=counted({"h/d": ratio}))
+
+    def solve(self) -> Answer:
+        """Evaluate it."""
+        claim = self.claim()
+        return Answer(value=np.array([self.scene.stiffness]), model=claim.error, work=1, because=claim.because)
+
+
+@dataclass(frozen=True)
+class Springs:
+    """MDR with profiles of Geike's spectrum, L_1D = L; of a measured surface, those of its spectrum."""
+
+    scene: PressedScene
+    tolerance: float
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """For tables."""
+        return "springs"
+
+    @property
+    def points(self) -> int:
+        """Springs of a profile: eight to the shortest wave."""
+        return max(256, math.ceil(SPRINGS_TO_A_WAVE * self.length * _ground(self.scene).q_max / (2 * math.pi)))
+
+    @property
+    def length(self) -> float:
+        """Of a profile [m]."""
+        return _side(self.scene)
+
+    @property
+    def count(self) -> int:
+        """Profiles: so many that the sample leaves a fifth of the tolerance."""
+        return realisations(SCATTER, self.tolerance / 5, least=50)
+
+    def cost(self) -> Cost:
+        """A sort a profile."""
+        work = self.count * self.points
+        return Cost(work=work, unit="springs", seconds=1e-3 + SPRING * work)
+
+    def claim(self) -> Claim:
+        """By the load, the height and the waves on a side, as measured beside boundary elements."""
+        model, because = _springs_model(self.scene)
+        return Claim(error=model + self.tolerance / 5 + self._own_scatter, because=because)
+
+    def solve(self) -> Answer:
+        """The mean stiffness of all profiles."""
+        scene, ground, length = self.scene, _ground(self.scene), self.length
+        x = (np.arange(self.points) + 0.5) * length / self.points - length / 2
+        wheel = mdr.sphere_profile(x, radius=scene.size) if scene.shape == "sphere" else np.zeros(self.points)
+        profiles = mdr.rough_profiles(
+            lambda q: mdr.geike(q, ground.c2d),
+            length=length,
+            points=self.points,
+            count=self.count,
+            rng=generator(self.seed, PROFILES),
+            rms=ground.rms,
+        )
+        found = mdr.stiffness_under(scene.load, profiles - wheel, length=length, modulus=scene.modulus)
+        model, because = _springs_model(scene)
+        return Answer(
+            value=np.array([found.mean()]),
+            model=model + self._own_scatter,
+            sample=mean_error(found[:, np.newaxis] / found.mean()),
+            work=self.cost().work,
+            because=because,
+        )
+
+    @property
+    def _own_scatter(self) -> float:
+        """Of one surface about the mean of all that have its spectrum, which is all that springs know."""
+        return 2 * SCATTER if isinstance(self.scene.ground, MeasuredHeights) else 0.0
+
+
+@dataclass(frozen=True)
+class BoundaryElements:
+    """Surfaces on cells x cells, with the waves that those carry: what half as many a side change is the error.
+
+    A measured surface is itself; on a coarser grid, the mean of its points in each cell.
+    """
+
+    scene: PressedScene
+    tolerance: float
+    seed: int
+    cells: int
+
+    @property
+    def name(self) -> str:
+        """For tables."""
+        return f"boundary elements {self.cells}²"
+
+    @property
+    def measured(self) -> bool:
+        """Whether there is a single surface."""
+        return isinstance(self.scene.ground, MeasuredHeights)
+
+    @property
+    def count(self) -> int:
+        """Surfaces that are expected to leave half of the tolerance."""
+        return 1 if self.measured else realisations(SCATTER, self.tolerance / 2, least=FEWEST, most=MOST)
+
+    def cost(self) -> Cost:
+        """Operator applications times cells, on this grid and for some surfaces on the next coarser one."""
+        work = APPLICATIONS * self.cells**2 * (self.count + min(self.count, FEWEST) / 4)
+        return Cost(work=work, unit="cell applications", seconds=CELL * work)
+
+    def claim(self) -> Claim:
+        """The sample's part: only a solve tells what the grid leaves."""
+        sample = 0.0 if self.measured else self.tolerance / 2
+        return Claim(error=sample, because="the grid is judged by the next coarser one, once both are solved")
+
+    def solve(self) -> Answer:
+        """The mean stiffness, surface by surface until the sample leaves half of the tolerance."""
+        found: list[float] = []
+        while not self._enough(found):
+            found.append(self._pressed(len(found), self.cells))
+        coarse = np.array([self._pressed(i, self.cells // 2) for i in range(min(len(found), FEWEST))])
+        fine = np.array(found)
+        lost = int(np.count_nonzero(np.isnan(fine)) + np.count_nonzero(np.isnan(coarse)))
+        if lost:
+            return Answer(
+                value=np.array([np.nan]), failed=f"{lost} of {fine.size + coarse.size} contacts did not converge"
+            )
+        change = np.log(fine[: coarse.size] / coarse)[:, np.newaxis]
+        return Answer(
+            value=np.array([fine.mean()]),
+            grid=abs(float(change.mean())) + (0.0 if self.measured else mean_error(change)),
+            sample=0.0 if self.measured else mean_error(fine[:, np.newaxis] / fine.mean()),
+            work=APPLICATIONS * self.cells**2 * (fine.size + coarse.size / 4),
+            because=f"{self.cells}² cells change {self.cells // 2}² by {math.expm1(float(change.mean())):+.1%}, "
+            f"surfaces: {fine.size}",
+        )
+
+    def _enough(self, found: list[float]) -> bool:
+        if self.measured or len(found) < FEWEST:
+            return self.measured and len(found) == 1
+        drawn = np.array(found)
+        left = mean_error(drawn[:, np.newaxis] / drawn.mean())
+        return not left > self.tolerance / 2 or len(found) >= MOST
+
+    def _pressed(self, realisation: int, cells: int) -> float:
+        scene, side = self.scene, _side(self.scene)
+        half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=side / cells, modulus=scene.modulus)
+        gap = -self._height(realisation, cells)
+        if scene.shape == "sphere":
+            x = ((np.arange(cells) + 0.5) / cells - 0.5) * side
+            gap = gap + (x[:, np.newaxis] ** 2 + x**2) / (2 * scene.size)
+        with warnings.catch_warnings():
+            # as above, and the punch ends where its grid does
+            warnings.simplefilter("ignore", bem3d.ContactWarning)
+            contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-4, raise_on_failure=False)
+            return float(contact.stiffness()) if contact.converged else math.nan
+
+    def _height(self, realisation: int, cells: int) -> FloatArray:
+        ground, side = _ground(self.scene), _side(self.scene)
+        if isinstance(ground, MeasuredHeights):
+            return _resampled(ground, side, cells)
+        shortest = math.pi * cells / side * (1 + 1e-9)
+        rng = generator(self.seed, SURFACES, realisation)
+        return _kept(ground, shortest, cells, side, rng)
+
+
+def _springs_model(scene: PressedScene) -> tuple[float, str]:
+    """Relative error of the mean stiffness, at the most, and what it rests on."""
+    ground = _ground(scene)
+    if scene.shape == "sphere":
+        ratio = scene.roughness_ratio
+        return SPHERE_SPRINGS * ratio + SPHERE_FLOOR, counted({"h/d": ratio})
+    load, waves = scene.reduced_load, ground.q_min * scene.size / (2 * math.pi)
+    level = float(np.interp(math.log10(load), *PUNCH_SPRINGS))
+    return level + ROLL_OFF * (waves - 1), counted({"F / (E* h L)": load, "longest waves on a side": waves})
+
+
+def _ground(scene: PressedScene) -> Roughness | MeasuredHeights:
+    if scene.ground is None:
+        raise ValueError("scene must be rough for this rung")
+    return scene.ground
+
+
+def _side(scene: PressedScene) -> float:
+    """Of the model: that of the punch, or what a rough sphere may touch and the longest wave [m]."""
+    if scene.shape == "punch":
+        return scene.size
+    ground = _ground(scene)
+    reach = 2 * math.sqrt(2 * scene.size * (scene.approach + DEEPEST * ground.rms))
+    if isinstance(ground, MeasuredHeights):
+        return min(reach, *ground.sides)
+    return max(reach, ground.longest)
+
+
+def _cells(scene: PressedScene) -> int:
+    """A power of two that has eight cells to the shortest wave; of measured heights, no more than their points."""
+    ground = _ground(scene)
+    if isinstance(ground, MeasuredHeights):
+        points = _side(scene) / max(ground.spacing)
+        return int(min(MANY, max(FEW, 2 ** math.floor(math.log2(points * (1 + 1e-9))))))
+    wanted = WAVE * ground.q_max * _side(scene) / (2 * math.pi)
+    if scene.shape == "sphere":
+        wanted = max(wanted, RADIUS * _side(scene) / scene.contact_radius)
+    return int(min(MANY, max(FEW, 2 ** math.ceil(math.log2(wanted * (1 - 1e-9))))))
+
+
+def _kept(ground: Roughness, shortest: float, cells: int, side: float, rng: np.random.Generator) -> FloatArray:
+    """The waves of a surface up to a wavenumber; the same waves on every grid."""
+    with warnings.catch_warnings():
+        # few cells to a wave are what grids are compared for
+        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+        surface = bem3d.rough_surface(
+            lambda q: np.where(np.abs(q) <= shortest, ground.c2d(q), 0.0),
+            shape=(cells, cells),
+            spacing=side / cells,
+            rng=rng,
+        )
+    # the mean square of the whole band, less what is left out of it
+    return np.asarray(surface * _whole(ground, side))
+
+
+def _whole(ground: Roughness, side: float) -> float:
+    """What makes the height of all waves of the square that of the scene."""
+    last = math.floor(ground.q_max * side / (2 * math.pi) * (1 + 1e-9))
+    i = np.arange(-last, last + 1)
+    q = 2 * np.pi / side * np.hypot(i[:, np.newaxis], i)
+    drawn = (2 * np.pi / side) ** 2 * float(ground.c2d(q[q > 0]).sum())
+    return ground.rms / math.sqrt(drawn)
+
+
+def _resampled(heights: MeasuredHeights, side: float, cells: int) -> FloatArray:
+    """The middle of a measured surface on cells x cells: the mean of a spline of degree one over each cell."""
+    (nx, ny), (dx, dy) = heights.height.shape, heights.spacing
+    x, y = (np.arange(nx) - (nx - 1) / 2) * dx, (np.arange(ny) - (ny - 1) / 2) * dy
+    parts = max(1, math.ceil(side / cells / min(dx, dy)))
+    at = ((np.arange(parts * cells) + 0.5) / (parts * cells) - 0.5) * side
+    spline = interpolate.RectBivariateSpline(x, y, heights.height, kx=1, ky=1)
+    values = spline(np.clip(at, x[0], x[-1]), np.clip(at, y[0], y[-1]))
+    return np.asarray(values.reshape(cells, parts, cells, parts).mean(axis=(1, 3)))
