@@ -103,7 +103,7 @@ SMALL = {
     "wheel_stability": wheel_stability.WheelStability(
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
-    "ladder": ladder.Ladder(punches=2, spheres=1, rolling=2, tolerances=(0.3,)),
+    "ladder": ladder.Ladder(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
 }
 
 
