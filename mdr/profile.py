@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, Spectrum, count, density, finite_array, positive
+from mdr.doubts import doubts_of_waves, warn
 
 
 def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
@@ -41,6 +42,7 @@ def rough_profile(
     rms: where given, all amplitudes are scaled by one constant that makes this root mean square exact (fixed) or
     expected (gaussian) [m].
     Returns height, shape (points,), positive towards the other body [m].
+    Warns (ResolutionWarning) of a shortest wave of fewer than four springs.
     Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry.
     Source: Popov and Hess, (14.8), and (14.9) with the root over all of it.
     """
@@ -50,12 +52,10 @@ def rough_profile(
     if amplitudes not in ("fixed", "gaussian"):
         raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
     mode = np.arange(1, points // 2 + 1)
-    variance = (
-        2
-        * np.pi
-        / length
-        * _resolved(c1d, np.asarray(2 * np.pi / length * mode, dtype=np.float64), np.pi * points / length)
-    )
+    q = np.asarray(2 * np.pi / length * mode, dtype=np.float64)
+    values = _resolved(c1d, q, np.pi * points / length)
+    warn(doubts_of_waves(values, q, length / points))
+    variance = 2 * np.pi / length * values
     own_mirror = 2 * mode == points
     total = np.sum(np.where(own_mirror, 1, 2) * variance)
     if total == 0:
