@@ -270,7 +270,8 @@ def _of_what_else(result: LimitsResult, survived: Number) -> str:
     error, fed = more["full contact, L2"], more["level, fed for rolling"]
     return claim(
         f"Under a force instead of an approach full contact is no limit: from {loads[0]:g} to {loads[-1]:g} p* the "
-        f"pressure is within {error.max():.2g} of Westergaard in L2 after {work.min():.0f} to {work.max():.0f} iterations. "
+        f"pressure is within {error.max():.2g} of Westergaard in L2 after {work.min():.0f} to {work.max():.0f} "
+        "iterations. "
         f"Springs that are fed for rolling, not by Geike's rule, are at most {fed.max():.2g} dB from the half-space in "
         f"any octave. Wheels that lift off come back: momentum balances to {survived.value:.1g}.",
         [survived],
@@ -298,7 +299,7 @@ def _captions() -> dict[str, str]:
     panel = (
         "Dashed: the border that its condition predicts, with the factor claimed for it; shaded: where it must fail; "
         "dotted: the tolerance. Open marks: the software warned or refused; filled: it was silent; crosses at the "
-        "upper edge: no answer."
+        "upper edge: no answer; marks at the lower edge: that or less."
     )
     return {
         "limits": f"Limits of springs and of time stepping: error against knob. {panel}",
@@ -306,6 +307,7 @@ def _captions() -> dict[str, str]:
         "limits-solver": (
             "(a) Iterations to a residual of 1e-8 against cells on a side: filled, solve; open, the textbook's. (b), "
             "(c), (d) True error against residual, of the load (force at an approach, approach at a force), of the "
-            "stiffness, of the pressure in L2; dotted: error = residual."
+            "stiffness (none where the contact is the same cell by cell), of the pressure in L2; dotted: error = "
+            "residual."
         ),
     }
