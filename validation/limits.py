@@ -24,7 +24,7 @@ class Limit:
     name: of the sweep; method: that fails; title: in a few words; knob, error: what is changed, and what comes of it,
     with units; against: what is better; condition: of the border; failing: its bad side; tolerance: of the error, above
     zero; factor: above one, within which the border is predicted; derived: whether the border follows from theory alone
-    and must be met; warned: whether the software must speak beyond it, and nowhere else.
+    and must be met, or is an estimate; warned: whether the software must speak beyond it, and nowhere else.
     """
 
     name: str

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+import mdr
 from validation.contact_laws import Hertz
 from validation.ensemble import Outcome
 from validation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
@@ -135,8 +136,9 @@ def hop(problem: Hops) -> Outcome:
     for height in problem.heights:
         track = Track(rms=height * WHEEL.approach, seed=problem.seed, waves=problem.waves)
         motion = LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=problem.wheels, rounds=1)
-        found, words = heard(partial(lift_off, motion))
-        assert found is not None
+        found = lift_off(motion)
+        # a linear contact in motion has its force from the filter, which is where a user is told
+        _, words = heard(partial(_filtered, track))
         airborne.append(float(found["airborne"].mean()))
         imbalance.append(float(np.abs(found["mean"] - 1 + found["momentum"]).max()))
         pulls.append(float(found["pull"].max()))
@@ -145,3 +147,15 @@ def hop(problem: Hops) -> Outcome:
         **swept("lift-off", problem.heights, airborne, problem.heights[0] / pulls[0], said),
         "imbalance": np.array(imbalance),
     }
+
+
+def _filtered(track: Track) -> mdr.Rolling:
+    """The linear force along the first of the tracks."""
+    return mdr.roll(
+        track.heights(1)[:, 0],
+        spacing=track.spacing,
+        radius=WHEEL.radius,
+        modulus=WHEEL.modulus,
+        approach=WHEEL.approach,
+        contact="linear",
+    )

@@ -62,7 +62,7 @@ class Limits:
             limits_mdr.Strips(
                 hurst=HURST,
                 last=8.0,
-                heights=(0.003, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32, 0.64),
+                heights=(0.003, 0.01, 0.02, 0.04, 0.08, 0.12, 0.18, 0.27, 0.4, 0.7),
                 length=self.length,
                 width=12.0,
                 cells=self.strip_cells,
@@ -90,7 +90,7 @@ class Limits:
                 fine=4,
                 sides=(6, 10, 13, 14, 15, 16, 17, 18, 20, 24, 32),
                 finer=8,
-                heights=(0.01, 0.03, 0.1, 0.3, 0.6, 1.0, 2.0, 4.0, 10.0, 30.0, 100.0, 1e3),
+                heights=(0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 30.0, 100.0, 1e3),
             ),
             limits_bem.Waves(
                 cells=128,

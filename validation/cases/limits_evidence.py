@@ -233,7 +233,8 @@ def _summary_row(sweep: Sweep) -> Row:
         "beyond, at least": f"{failed:.2g}" if math.isfinite(failed) else "no answer",
         "tolerance": f"{limit.tolerance:g}",
         "the software said": shortened or "nothing",
-        "predicted": f"{'yes' if sweep.predicted else 'no'}, within a factor {limit.factor:g}",
+        "predicted": f"{'yes' if sweep.predicted else 'no'}, within a factor {limit.factor:g}, "
+        + ("by theory" if limit.derived else "by an estimate"),
         "told": sweep.verdict,
     }
 
@@ -246,8 +247,8 @@ def _of_borders(result: LimitsResult, criteria: Sequence[Number]) -> str:
     missed = [s for s in result.sweeps if not s.predicted]
     count = len(result.sweeps) - len(missed)
     return claim(
-        f"{count} of {len(result.sweeps)} limits lie where their condition says, within the factor stated for each; "
-        f"not predicted: {_named(missed)}.",
+        f"{count} of {len(result.sweeps)} limits lie where their condition says, within the factor stated for each, "
+        f"{len(criteria)} of them by theory alone and the others by an estimate; not predicted: {_named(missed)}.",
         criteria,
     )
 
