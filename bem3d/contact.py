@@ -70,7 +70,7 @@ class Contact:
     @property
     def doubts(self) -> tuple[Doubt, ...]:
         """What a converged answer may still be wrong about, (category, sentence) of each; see `doubts`."""
-        return doubts_of(self.pressure > 0, periodic=self.problem.half_space.periodic)
+        return doubts_of(self.pressure, periodic=self.problem.half_space.periodic)
 
     @property
     def converged(self) -> bool:

@@ -38,8 +38,8 @@ def solve(
 
     An approach at or below min(gap), or zero force, is no contact: zero pressure, zero stiffness.
     Raises ValueError or TypeError for input out of range, ConvergenceError with the history if not converged.
-    Warns, with numbers, of few cells in contact (ResolutionWarning), and of contact at the edge of a free-space grid
-    (EdgeWarning).
+    Warns, with numbers, of few cells in contact or a lone one that carries much (ResolutionWarning), and of contact at
+    the edge of a free-space grid (EdgeWarning).
     Method: nested iteration (`nested`), on the smallest window (`window`), by projected and preconditioned conjugate
     directions (`projected_cg`), one operator application an iteration. The textbook's: `solve_plain`.
     """

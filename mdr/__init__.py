@@ -3,6 +3,7 @@
 All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
 """
 
+from mdr.doubts import ContactWarning, LinearityWarning, ResolutionWarning
 from mdr.foundation import (
     LoadCurve,
     LoadPoint,
@@ -18,8 +19,11 @@ from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
 from mdr.wheels import Wheels
 
 __all__ = [
+    "ContactWarning",
+    "LinearityWarning",
     "LoadCurve",
     "LoadPoint",
+    "ResolutionWarning",
     "Rolling",
     "SelfAffine",
     "SphereContact",

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, finite, finite_array, not_negative, positive
+from mdr.doubts import doubts_of_load, warn
 
 Value = TypeVar("Value", float, FloatArray)
 
@@ -28,6 +29,7 @@ class LoadCurve:
     F(d) = E* dx sum_i max(d + h_i, 0): linear between the breakpoints d = -h_i, where one more spring is met.
     approach, force, stiffness: at the breakpoints, ascending, shape (points,) [m, N, N/m]; stiffness counts the
     springs that carry load, so entry i has i of them and the first entry is the first touch.
+    A state of few springs in contact is warned of (ResolutionWarning), unless these are all.
     """
 
     approach: FloatArray
@@ -43,6 +45,7 @@ class LoadCurve:
         """The state at a rigid approach [m], a number or an array; zero force before the first touch."""
         d = finite_array("approach", approach)
         pressed = np.searchsorted(self.approach, d, side="left")
+        warn(doubts_of_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
         return _point(d, self.force[last] + stiffness * (d - self.approach[last]), stiffness)
@@ -57,6 +60,7 @@ class LoadCurve:
         if (given < 0).any():
             raise ValueError(f"force must be zero or positive, got {given.min()}")
         pressed = np.searchsorted(self.force, given, side="left")
+        warn(doubts_of_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
         beyond = (given - self.force[last]) / np.maximum(stiffness, self.spring)

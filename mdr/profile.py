@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, Spectrum, density, finite_array, positive
 from mdr.border import count as whole
+from mdr.doubts import Doubt, doubts_of_waves, warn
 
 
 def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
@@ -42,12 +43,14 @@ def rough_profile(
     rms: where given, all amplitudes are scaled by one constant that makes this root mean square exact (fixed) or
     expected (gaussian) [m].
     Returns height, shape (points,), positive towards the other body [m].
+    Warns (ResolutionWarning) of a shortest wave of fewer than four springs.
     Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry.
     Source: Popov and Hess, (14.8), and (14.9) with the root over all of it.
     """
     length, points = positive("length", length), whole("points", points, least=2)
     _check_draw(rng, amplitudes)
-    amplitude, own_mirror = _amplitudes(c1d, length, points, rms)
+    amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
+    warn(doubts)
     return _drawn(amplitude * _random_waves((amplitude.size,), own_mirror, amplitudes, rng), own_mirror, points)
 
 
@@ -66,7 +69,8 @@ def rough_profiles(
     """
     length, points = positive("length", length), whole("points", points, least=2)
     _check_draw(rng, "fixed")
-    amplitude, own_mirror = _amplitudes(c1d, length, points, rms)
+    amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
+    warn(doubts)
     turns = _random_waves((whole("count", count, least=1), amplitude.size), own_mirror, "fixed", rng)
     return _drawn(amplitude * turns, own_mirror, points)
 
@@ -78,21 +82,20 @@ def _check_draw(rng: object, amplitudes: str) -> None:
         raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
 
 
-def _amplitudes(c1d: Spectrum, length: float, points: int, rms: float | None) -> tuple[FloatArray, np.ndarray]:
-    """B(q) of the waves that the points can carry, and which of them is its own mirror image."""
+def _amplitudes(
+    c1d: Spectrum, length: float, points: int, rms: float | None
+) -> tuple[FloatArray, np.ndarray, tuple[Doubt, ...]]:
+    """B(q) of the waves that the points can carry, which of them is its own mirror image, and what to doubt."""
     mode = np.arange(1, points // 2 + 1)
-    variance = (
-        2
-        * np.pi
-        / length
-        * _resolved(c1d, np.asarray(2 * np.pi / length * mode, dtype=np.float64), np.pi * points / length)
-    )
+    q = np.asarray(2 * np.pi / length * mode, dtype=np.float64)
+    values = _resolved(c1d, q, np.pi * points / length)
+    variance = 2 * np.pi / length * values
     own_mirror = 2 * mode == points
     total = np.sum(np.where(own_mirror, 1, 2) * variance)
     if total == 0:
         raise ValueError("c1d has no power at any wave that length and points can carry")
     scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
-    return scale * np.sqrt(variance), own_mirror
+    return scale * np.sqrt(variance), own_mirror, doubts_of_waves(values, q, length / points)
 
 
 def _drawn(wave: np.ndarray, own_mirror: np.ndarray, points: int) -> FloatArray:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, finite_array, positive
+from mdr.doubts import Doubt, doubts_of_linearity, doubts_of_wheel, warn
 
 BLOCK = 1024
 """Positions at a time: few enough to stay in the cache, and to see little of the range of the heights."""
@@ -54,10 +55,30 @@ def roll(
     since the force is convex and piecewise linear in the approach.
     Springs that must touch come from prefix sums, springs that cannot are left out; `examined` counts the rest.
     Raises ValueError for a track that is not longer than the contact of the smooth wheel, and for values out of range.
+    Warns of a smooth contact of few springs (ResolutionWarning), and of roughness for which a linear or full contact
+    leaves out too much (LinearityWarning).
     Where the roughness makes the contact longer than that, it meets the same roughness again.
     Source: Popov and Hess, (14.2), (14.5) and (14.11).
     """
     track = _Track(height, spacing, radius, modulus)
+    rolled, doubts = _rolled(track, approach, force, contact)
+    warn(doubts)
+    return rolled
+
+
+def rolling_force(
+    height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
+) -> FloatArray:
+    """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
+    rolled, doubts = _rolled(_Track(height, spacing, radius, modulus), approach, None, "one-sided")
+    warn(doubts)
+    return rolled.force
+
+
+def _rolled(
+    track: "_Track", approach: float | ArrayLike | None, force: float | None, contact: Contact
+) -> tuple[Rolling, tuple[Doubt, ...]]:
+    """`roll`, and what to doubt about it."""
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
     if contact not in ("one-sided", "full", "linear"):
@@ -67,22 +88,18 @@ def roll(
     elif np.ndim(approach) == 0:  # type: ignore[arg-type]
         d, prescribed = positive("approach", approach), None
     else:
-        return _one_sided_along(track, finite_array("approach", approach, ndim=1), contact)  # type: ignore[arg-type]
+        along = finite_array("approach", approach, ndim=1)  # type: ignore[arg-type]
+        return _one_sided_along(track, along, contact), track.doubts(float(along.max()))
     track.longer_than(2 * math.sqrt(track.radius * d))
-    if contact == "linear":
-        return _linear(track, d, prescribed)
-    if contact == "full":
-        return _full(track, d, prescribed)
-    if prescribed is None:
-        return _one_sided(track, np.full(track.height.size, d))
-    return _one_sided_under(track, prescribed, d)
-
-
-def rolling_force(
-    height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
-) -> FloatArray:
-    """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
-    return roll(height, spacing=spacing, radius=radius, modulus=modulus, approach=approach).force
+    if contact == "one-sided":
+        one_sided = (
+            _one_sided_under(track, prescribed, d) if prescribed else _one_sided(track, np.full(track.points, d))
+        )
+        return one_sided, track.doubts(d)
+    linear = (_linear if contact == "linear" else _full)(track, d, prescribed)
+    a, change = math.sqrt(track.radius * d), linear.force if prescribed is None else linear.stiffness * linear.approach
+    moved = doubts_of_linearity(track.height, change / (track.modulus * a), approach=d, reach=round(a / track.spacing))
+    return linear, (*track.doubts(d), *moved)
 
 
 class _Track:
@@ -93,6 +110,15 @@ class _Track:
         self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
         self.modulus = positive("modulus", modulus)
         self.spring = self.modulus * self.spacing
+
+    @property
+    def points(self) -> int:
+        """Springs of the track."""
+        return self.height.size
+
+    def doubts(self, approach: float) -> tuple[Doubt, ...]:
+        """What to doubt about the contact of the smooth wheel."""
+        return doubts_of_wheel(2 * math.sqrt(self.radius * approach) / self.spacing) if approach > 0 else ()
 
     def longer_than(self, contact: float) -> None:
         """Refuse a track that the wheel covers as a whole."""

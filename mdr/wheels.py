@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, count, finite_array, positive
+from mdr.doubts import doubts_of_wheel, warn
 from mdr.rolling import smooth_approach
 
 BLOCK = 512
@@ -37,6 +38,7 @@ class Wheels:
         height: shape (points, wheels), positive towards the wheel [m]; spacing: dx of the springs [m]; radius: R [m];
         modulus: E* [Pa]; force: under which the wheels roll, whose smooth approach the quantum goes by [N].
         Raises ValueError for tracks that are not longer than the contact of the smooth wheel, and values out of range.
+        Warns (ResolutionWarning) of a smooth contact of few springs.
         """
         h = finite_array("height", height, ndim=2)
         self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
@@ -47,6 +49,7 @@ class Wheels:
         if self.points * self.spacing <= diameter:
             length = self.points * self.spacing
             raise ValueError(f"height must be longer than the contact, {diameter:.6g} m, got a track of {length:.6g} m")
+        warn(doubts_of_wheel(diameter / self.spacing))
         lowest, highest = h.min(axis=0), h.max(axis=0)
         self._middle = (lowest + highest) / 2
         depth = 1 + (highest - lowest) / self.smooth_approach

@@ -14,12 +14,14 @@ import numpy as np
 import pytest
 
 import bem3d
+import mdr
 from validation import __main__ as command
 from validation.cases import (
     CASES,
     geike,
     hertz,
     ladder,
+    limits,
     mdr_limits,
     normalisation,
     ridges,
@@ -104,11 +106,15 @@ SMALL = {
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
     "ladder": ladder.Ladder(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
+    "limits": limits.Limits(
+        cells=16, surfaces=2, profiles=10, resolved=1, length=8.0, strip_cells=6, track=32.0, grids=(32, 64), judged=32
+    ),
 }
 
 
-MORE_FIGURES = 4 + 3 + 2 + 1 + 1 + 1
-"""Than one of each case: fractal punch, rolling, its input; the wheel, without its parameters, and two more of it."""
+MORE_FIGURES = 4 + 3 + 2 + 1 + 1 + 1 + 2
+"""Than one of each case: fractal punch, rolling, its input; the wheel, without its parameters, and two more of it; the
+limits."""
 
 
 @pytest.fixture
@@ -143,7 +149,7 @@ def test_two_runs_give_equal_bytes(small, tmp_path):
     assert one.keys() == two.keys()
     tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 3}
     tables |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
-    tables |= {"wheel": 6, "wheel_distance": 5, "wheel_3d": 2, "wheel_stability": 6, "ladder": 2}
+    tables |= {"wheel": 6, "wheel_distance": 5, "wheel_3d": 2, "wheel_stability": 6, "limits": 4, "ladder": 2}
     # so many figures more than one of each case, twice each
     assert len(one) == 1 + sum(tables.values()) + 2 * (MORE_FIGURES + len(tables))
     for name in one:
@@ -328,4 +334,5 @@ def test_cases_deal_with_every_warning(name):
     case = entry.quick if name in ("hertz", "geike") else SMALL.get(name, entry.quick)
     with warnings.catch_warnings():
         warnings.simplefilter("error", bem3d.ContactWarning)
+        warnings.simplefilter("error", mdr.ContactWarning)
         entry.run(case, SERIAL)

@@ -84,3 +84,30 @@ def test_short_waves(cells, warned):
     assert [category for category, _, _ in found] == [bem3d.ResolutionWarning] * warned
     if warned:
         assert found[0][1].startswith(f"the shortest wave of the spectrum has {cells:.2g} cells, fewer than 4")
+
+
+@pytest.mark.parametrize(
+    ("height", "neighbour", "warned"), [(0.0, 0.0, 0), (6.0, 0.0, 1), (6.0, 3.0, 0), (2.0, 0.0, 0)]
+)
+@pytest.mark.parametrize("periodic", [False, True])
+def test_a_spike_of_one_cell(height, neighbour, warned, periodic):
+    """Warned of where it touches alone and carries most of the force, wherever it stands."""
+    body = bem3d.HalfSpace(shape=(24, 24), spacing=1.0, modulus=1.0, periodic=periodic)
+    gap = bowl(12) * np.ones((24, 24))
+    gap[5, 12] -= height
+    gap[5, 13] -= neighbour
+    contact, found = said(bem3d.solve, body, gap, force=8.0)
+    share = contact.pressure[5, 12] / contact.pressure.sum()
+    assert [category for category, _, _ in found] == [bem3d.ResolutionWarning] * warned
+    assert (share > 0.5) == (height == 6.0)
+    if warned:
+        assert found[0][1].startswith(f"cell (5, 12), which touches alone, carries {share:.0%} of the force")
+
+
+def test_a_spike_across_the_edge_of_a_period_is_not_alone():
+    body = bem3d.HalfSpace(shape=(24, 24), spacing=1.0, modulus=1.0, periodic=True)
+    gap = bowl(12) * np.ones((24, 24))
+    gap[0, 12] -= 7.0
+    assert "cell (0, 12)" in said(bem3d.solve, body, gap, force=8.0)[1][0][1]
+    gap[23, 12] -= 3.5
+    assert said(bem3d.solve, body, gap, force=8.0)[1] == []

@@ -17,14 +17,17 @@ from mdr import foundation
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
 from mdr import wheels as wheels_in_step
+from mdr.doubts import doubts_of_linearity
 from tests import (
     test_contact_properties,
     test_convergence_rates,
+    test_doubts_of_springs,
     test_drawn_roughness,
     test_evidence,
     test_fractal_punch,
     test_geike_mapping,
     test_ladder,
+    test_limits,
     test_load_paths,
     test_measured_heights,
     test_operator_against_dense_twin,
@@ -43,6 +46,8 @@ from validation import (
     contact_laws,
     ensemble,
     integrators,
+    limits,
+    limits_mdr,
     measured,
     records,
     regions,
@@ -358,6 +363,10 @@ def half_a_line_on(omega, hann, below):
 def slope_of_what_is_steep(omega, density, first, last, period):
     centres, means = regions.levelled(omega, density, first, last, period, 0.0)
     return float(np.polyfit(np.log(centres), np.log(means), 1)[0])
+
+
+def ends_that_move_twice_as_far(height, change, **contact):
+    return doubts_of_linearity(height, change / 2, **contact)
 
 
 def without_resonance(omega, *, eigenfrequency, mass):
@@ -785,6 +794,30 @@ FAULTS = {
     "factor 2 pi lost over frequency, seen in an ensemble": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
         test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+    ),
+    "springs that say nothing of short waves": (
+        (profile_module, "doubts_of_waves", lambda *_: ()),
+        functools.partial(test_doubts_of_springs.test_short_waves, 25, True),
+    ),
+    "few springs that say nothing": (
+        (foundation, "doubts_of_load", lambda *_: ()),
+        functools.partial(test_doubts_of_springs.test_few_springs_in_contact, 4, True),
+    ),
+    "ends of a linear contact that move twice as far": (
+        (wheel_on_springs, "doubts_of_linearity", ends_that_move_twice_as_far),
+        functools.partial(test_doubts_of_springs.test_the_ends_of_a_linear_contact_move_as_is_said, "linear", None),
+    ),
+    "a limit read on its good side": (
+        (limits.Sweep, "beyond", limits.Sweep.within),
+        functools.partial(test_limits.test_crossings_of_a_power_law, "above"),
+    ),
+    "factor 4 lost over a stretched surface": (
+        (limits_mdr, "response", scaled(rolling_theory.response, 0.5)),
+        test_limits.test_a_stretched_surface_by_another_quadrature,
+    ),
+    "factor 2 lost in the periodic symbol, seen by images": (
+        (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
+        test_limits.test_images_err_as_the_lattice_sum_says,
     ),
 }
 

@@ -1,0 +1,112 @@
+"""What an answer of springs may still be wrong about: too few of them, or a linear contact beyond its range."""
+
+import math
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.border import FloatArray
+
+FEWEST_SPRINGS = 16
+FEWEST_SPRINGS_A_WAVE = 4.0
+LARGEST_PART = 0.1
+
+
+class ContactWarning(UserWarning):
+    """A problem was answered as it was put, but it may not be the one that was meant."""
+
+
+class ResolutionWarning(ContactWarning):
+    """Too few springs: in the contact, or to the shortest wave."""
+
+
+class LinearityWarning(ContactWarning):
+    """A contact that keeps its length, under roughness that would change it."""
+
+
+Doubt = tuple[type[ContactWarning], str]
+
+
+def doubts_of_load(pressed: NDArray[np.integer], springs: int) -> tuple[Doubt, ...]:
+    """What to doubt about loads that press so many of all springs.
+
+    A stretch of contact of length l holds l / dx springs, rounded up or down: of n springs in one stretch the stiffness
+    is wrong by up to 1 / n, by 1 / (sqrt(6) n) in the root mean square. Where all springs are in contact nothing is
+    rounded.
+    """
+    few = (pressed > 0) & (pressed < min(FEWEST_SPRINGS, springs))
+    if not few.any():
+        return ()
+    fewest = int(pressed[few].min())
+    where = f" at {np.count_nonzero(few)} of {few.size} loads, at the lightest" if few.size > 1 else ""
+    error = "the answer is that of the spacing, not of the profile" if fewest == 1 else f"k may be {1 / fewest:.0%} off"
+    return (
+        (
+            ResolutionWarning,
+            f"only {fewest} spring{'s' * (fewest != 1)} in contact{where}: {error}; take more springs "
+            f"({FEWEST_SPRINGS} or more in contact are not warned of)",
+        ),
+    )
+
+
+def doubts_of_wheel(springs: float) -> tuple[Doubt, ...]:
+    """What to doubt about a wheel whose smooth contact 2 a is so many springs long."""
+    if springs >= FEWEST_SPRINGS * (1 - 1e-9):
+        return ()
+    return (
+        (
+            ResolutionWarning,
+            f"the contact of the smooth wheel has only {springs:.2g} springs: take more "
+            f"({FEWEST_SPRINGS} or more are not warned of)",
+        ),
+    )
+
+
+def doubts_of_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[Doubt, ...]:
+    """What to doubt about a spectrum on springs: values at the wavenumbers q.
+
+    Springs a part 1 / n of a wave apart sum its force with an error of (pi / n) / sin(pi / n), 0.9 dB where n = 4.
+    """
+    highest = float(q[values > 0].max(initial=0.0))
+    springs = 2 * math.pi / (highest * spacing) if highest > 0 else math.inf
+    if springs >= FEWEST_SPRINGS_A_WAVE * (1 - 1e-9):
+        return ()
+    return (
+        (
+            ResolutionWarning,
+            f"the shortest wave of the spectrum has {springs:.2g} springs, fewer than {FEWEST_SPRINGS_A_WAVE:.0f}: "
+            "lower q_max or take more points",
+        ),
+    )
+
+
+def doubts_of_linearity(height: FloatArray, change: FloatArray, *, approach: float, reach: int) -> tuple[Doubt, ...]:
+    """What to doubt about a contact that keeps its length 2 a under roughness.
+
+    Roughness h at an end of the contact moves it by h R / (2 a): one-sided springs bear E* R h^2 / (4 a) more there, to
+    second order, a h^2 / (4 d) over E*. Over the fluctuation of the linear force this is the part that it leaves out.
+
+    height: along the track [m]; change: of the linear force over E* a, alike [m]; approach: d [m]; reach: springs to a.
+    """
+    fluctuation = float(change.std())
+    if not fluctuation > 0:
+        return ()
+    left_out = (np.roll(height, reach) ** 2 + np.roll(height, -reach) ** 2) / (4 * approach)
+    part = float(left_out.std()) / fluctuation
+    if not part > LARGEST_PART:
+        return ()
+    return (
+        (
+            LinearityWarning,
+            f"roughness of h_rms / d = {float(height.std()) / approach:.2g} moves the ends of the contact, which a "
+            f"linear one does not know: to second order {part:.0%} of the fluctuation of its force; roll one-sided "
+            f"springs ({LARGEST_PART:.0%} or less are not warned of)",
+        ),
+    )
+
+
+def warn(doubts: tuple[Doubt, ...]) -> None:
+    """Hand them to Python's warnings, as of the caller of the public function that found them."""
+    for category, sentence in doubts:
+        warnings.warn(sentence, category, stacklevel=3)

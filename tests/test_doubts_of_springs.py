@@ -1,0 +1,125 @@
+"""Warnings of springs, with numbers, of what an answer may still be wrong about."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import mdr
+
+WHEEL = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
+
+
+def said(function, *args, **settings):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = function(*args, **settings)
+    return result, [(w.category, str(w.message), w.filename) for w in caught]
+
+
+def parabola(springs):
+    """A sphere on so many springs to its contact at the approach one."""
+    x = (np.arange(8 * springs) - 4 * springs + 0.5) * 2 / springs
+    return mdr.load_curve(-mdr.sphere_profile(x, radius=1.0), length=16.0, modulus=1.0)
+
+
+@pytest.mark.parametrize(("springs", "warned"), [(4, True), (14, True), (16, False), (40, False)])
+def test_few_springs_in_contact(springs, warned):
+    point, found = said(parabola(springs).at_approach, 1.0)
+    assert round(point.stiffness * springs / 2) == springs
+    assert [category for category, _, _ in found] == [mdr.ResolutionWarning] * warned
+    if warned:
+        _, sentence, place = found[0]
+        assert sentence.startswith(f"only {springs} springs in contact: k may be {1 / springs:.0%} off")
+        assert place == __file__
+
+
+def test_one_spring_and_no_spring():
+    curve = parabola(4)
+    _, ((_, sentence, _),) = said(curve.at_force, 1e-9)
+    assert sentence.startswith("only 2 springs in contact")
+    _, ((_, sentence, _),) = said(mdr.load_curve([0.0, 1.0, 0.0], length=1.0, modulus=1.0).at_force, 1e-9)
+    assert sentence.startswith("only 1 spring in contact: the answer is that of the spacing, not of the profile")
+    assert said(curve.at_force, 0.0)[1] == []
+
+
+def test_many_loads_are_warned_of_once():
+    curve = parabola(40)
+    _, ((_, sentence, _),) = said(curve.at_approach, np.array([-1.0, 0.01, 0.02, 1.0]))
+    assert sentence.startswith("only 4 springs in contact at 2 of 4 loads, at the lightest: k may be 25% off")
+
+
+def test_a_punch_all_of_whose_springs_carry_is_not_doubted():
+    assert said(mdr.load_curve(np.zeros(5), length=1.0, modulus=1.0).at_approach, 1.0)[1] == []
+
+
+@pytest.mark.parametrize("springs", [5, 9, 15])
+def test_error_of_few_springs_is_as_said(springs):
+    """Springs anywhere under a parabola: never off by more than a spring, and 1 / sqrt(6) of one in the mean square."""
+    dx, places = 2 / springs, np.linspace(0, 1, 400, endpoint=False)
+    x = dx * (np.arange(-2 * springs, 2 * springs)[:, np.newaxis] + places)
+    k = dx * np.count_nonzero(x**2 < 1, axis=0)
+    assert np.abs(k / 2 - 1).max() <= (1 + 1e-6) / springs
+    lengths = np.linspace(springs, springs + 1, 400, endpoint=False)
+    counts = np.floor(lengths[:, np.newaxis] + places)
+    assert np.sqrt(np.mean((counts - lengths[:, np.newaxis]) ** 2)) == pytest.approx(1 / np.sqrt(6), rel=0.01)
+
+
+@pytest.mark.parametrize(("waves", "warned"), [(25, True), (17, True), (16, False), (8, False)])
+def test_short_waves(waves, warned):
+    """So many of the shortest on 64 springs."""
+    band = mdr.SelfAffine(hurst=0.8, q_min=2 * np.pi, q_max=2 * np.pi * waves, rms=1e-2)
+    _, found = said(mdr.rough_profile, band.c1d, length=1.0, points=64, rng=np.random.default_rng(0))
+    assert [category for category, _, _ in found] == [mdr.ResolutionWarning] * warned
+    if warned:
+        assert found[0][1].startswith(f"the shortest wave of the spectrum has {64 / waves:.2g} springs, fewer than 4")
+        assert found[0][2] == __file__
+
+
+@pytest.mark.parametrize("roll", [mdr.roll, mdr.rolling_force])
+@pytest.mark.parametrize(("springs", "warned"), [(5, True), (15, True), (16, False), (60, False)])
+def test_a_smooth_contact_of_few_springs(roll, springs, warned):
+    _, found = said(roll, np.zeros(8 * springs), spacing=2 / springs, **WHEEL)
+    assert [category for category, _, _ in found] == [mdr.ResolutionWarning] * warned
+    if warned:
+        assert found[0][1].startswith(f"the contact of the smooth wheel has only {springs} springs")
+        assert found[0][2] == __file__
+    _, in_step = said(mdr.Wheels, np.zeros((8 * springs, 2)), spacing=2 / springs, radius=1.0, modulus=1.0, force=4 / 3)
+    assert [warning[:2] for warning in in_step] == [warning[:2] for warning in found]
+
+
+def test_no_contact_is_no_contact_of_few_springs():
+    assert said(mdr.roll, np.zeros(80), spacing=0.05, radius=1.0, modulus=1.0, approach=np.full(80, -1.0))[1] == []
+
+
+def rough(height, q_max=3.0):
+    """A track of long waves, so long that the ends of the contact are ends."""
+    band = mdr.SelfAffine(hurst=0.7, q_min=0.5, q_max=q_max, rms=height)
+    return mdr.rough_profile(band.c1d, length=400.0, points=400 * 32, rng=np.random.default_rng(3), rms=height)
+
+
+@pytest.mark.parametrize("contact", ["linear", "full"])
+@pytest.mark.parametrize("force", [None, 4 / 3])
+def test_the_ends_of_a_linear_contact_move_as_is_said(contact, force):
+    """The number in the sentence is the difference to one-sided springs, but for its third order."""
+    height = rough(0.4)
+    wheel = {"spacing": 1 / 32, "radius": 1.0, "modulus": 1.0}
+    load = {"approach": 1.0} if force is None else {"force": force}
+    linear, ((category, sentence, _),) = said(mdr.roll, height, **wheel, **load, contact=contact)
+    assert category is mdr.LinearityWarning
+    assert sentence.startswith(f"roughness of h_rms / d = {0.4:.2g} moves the ends of the contact")
+    part = float(sentence.partition("second order ")[2].partition("%")[0]) / 100
+    if force is None:
+        true = mdr.roll(height, **wheel, **load)
+        assert np.std(true.force - linear.force) / np.std(linear.force) == pytest.approx(part, rel=0.3)
+
+
+@pytest.mark.parametrize(("height", "warned"), [(0.01, False), (0.05, False), (0.5, True)])
+def test_low_roughness_is_not_doubted(height, warned):
+    _, found = said(mdr.roll, rough(height), spacing=1 / 32, **WHEEL, contact="linear")
+    assert [category for category, _, _ in found] == [mdr.LinearityWarning] * warned
+    assert said(mdr.roll, rough(height), spacing=1 / 32, **WHEEL)[1] == []
+
+
+def test_a_smooth_track_is_not_doubted():
+    assert said(mdr.roll, np.zeros(800), spacing=1 / 32, **WHEEL, contact="full")[1] == []
