@@ -9,6 +9,7 @@ from validation.precision import CLOSED, FINISHED
 
 TOLERANCES = (0.3, 0.1, 0.03, 0.01, 0.001)
 """That are asked for, relative; as levels 20 lg (1 + tolerance) dB."""
+TELLING = 1.1
 NAN = math.nan
 
 
@@ -68,16 +69,16 @@ def visits(point: Point) -> float:
     return point.visits
 
 
-def front(points: Sequence[Point], cost: Cost = seconds) -> list[Point]:
+def front(points: Sequence[Point], cost: Cost = seconds, *, gain: float = 1.0) -> list[Point]:
     """Those that nothing beats in both error and cost, from cheap to dear; of equals the first.
 
     Ranked by the upper ends of errors; what lies below the band of the reference is as good as its edge. Who has not
-    finished, or has no such cost, takes no part.
+    finished, or has no such cost, takes no part. gain: by this factor, above one, the next must be closer.
     """
     known = [point for point in points if point.finished and math.isfinite(cost(point))]
     found: list[Point] = []
     for point in sorted(known, key=lambda p: (cost(p), p.rank)):
-        if not found or point.rank < found[-1].rank:
+        if not found or gain * point.rank < found[-1].rank:
             found.append(point)
     return found
 
@@ -100,9 +101,13 @@ def why_nobody(points: Sequence[Point], tolerance: float) -> str:
 
 
 def break_even(points: Sequence[Point]) -> str:
-    """From which error to which which method is the cheapest, in one sentence; the referee itself left out."""
+    """Down to which error which method is the cheapest, in one sentence; the referee itself left out.
+
+    A step along the front that gains less than a tenth is not told.
+    """
     first = points[0]
-    steps = front([point for point in points if not point.referee])
+    others = [point for point in points if not point.referee]
+    steps = front(others, gain=TELLING)
     head = f"{first.scene}, {first.quantity}: "
     if not steps:
         return head + "nobody has finished."
@@ -110,12 +115,10 @@ def break_even(points: Sequence[Point]) -> str:
     for line, group in groupby(steps, key=lambda p: p.line):
         mine = list(group)
         begin, end = mine[0], mine[-1]
-        settings = begin.setting if begin is end else f"{begin.setting} to {end.setting}"
+        settings = begin.setting if begin is end else end.knob.replace("#", f"{begin.value:g} to {end.value:g}")
         times = said(seconds(begin)) if begin is end else f"{said(seconds(begin))} to {said(seconds(end))}"
-        parts.append(
-            f"{'down to' if not parts else 'then to'} {in_unit(end.rank, end.unit)} {line} ({settings}; {times})"
-        )
-    last = steps[-1]
+        parts.append(f"down to {in_unit(end.rank, end.unit)} {line} ({settings}, {times})")
+    last = front(others)[-1]
     below = (
         f"; below {in_unit(first.band, first.unit)} the reference cannot tell"
         if last.rank <= first.band
@@ -123,7 +126,7 @@ def break_even(points: Sequence[Point]) -> str:
     )
     referee = next((point for point in points if point.referee and point.finished), None)
     exact = f" The {CLOSED} itself takes {said(seconds(referee))}." if referee else ""
-    return f"{head}the cheapest is {', '.join(parts)}{below}.{exact}"
+    return f"{head}{parts[0]} is the cheapest{''.join(f'; beyond, {part}' for part in parts[1:])}{below}.{exact}"
 
 
 def said(value: float) -> str:
@@ -136,4 +139,5 @@ def said(value: float) -> str:
 
 def in_unit(value: float, unit: str) -> str:
     """An error in words."""
-    return f"{value:.2g} dB" if unit == "dB" else f"{100 * value:.2g} %"
+    size = value if unit == "dB" else 100 * value
+    return f"{size:.0f} {unit}" if size >= 100 else f"{size:.2g} {unit}"

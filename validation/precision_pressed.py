@@ -39,13 +39,14 @@ def logarithm(name: str) -> Callable[[Answers], FloatArray]:
 class Pressed:
     """A scene whose answer is known.
 
-    cells: on a length of the scene, ascending; plain: those of them for the textbook's iteration, and for peers;
+    cells: on a length of the scene, ascending; plain, peers: those of them for the textbook's iteration, and for peers;
     tight: residual on all of these; tolerances: residuals on the grid `fixed`; springs: on the length, whose name is
     `length`.
     """
 
     cells: tuple[int, ...]
     plain: tuple[int, ...]
+    peers: tuple[int, ...]
     springs: tuple[float, ...]
     fixed: int
     tight: float = 1e-8
@@ -60,7 +61,7 @@ class Pressed:
             *(self._grid(PLAIN, n, self.tight) for n in self.plain),
             *(self._grid(BEM, n, self.tight) for n in self.cells),
             *(self._grid(LOOSE, self.fixed, tolerance) for tolerance in self.tolerances),
-            *(self._peer(c, n) for c in CONTESTANTS[2:] if c.version for n in self.plain),
+            *(self._peer(c, n) for c in CONTESTANTS[2:] if c.version for n in self.peers),
         )
 
     def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
@@ -216,7 +217,7 @@ class Peer(Attempt):
             return Work(scene.read_peer(self.cells, total, found, area), run.applications * pressure.size)
 
         # what it has solved once may be where it starts from
-        return lambda _: Turn(contestant.prepare(task, tolerance), read)
+        return lambda _: Turn(contestant.prepare(task, tolerance), read, again=False)
 
 
 def _loosest(contestant: Contestant, task: Task, residual: float) -> float:

@@ -68,7 +68,7 @@ class Rolling:
     hurst: float = 0.7
     height: float = 0.1
     last: float = 10.0
-    length: int = 32
+    length: int = 24
     width: int = 16
     strips: int = 3
     tracks: int = 20

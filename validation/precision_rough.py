@@ -47,8 +47,8 @@ class Fractal:
     hurst: float = 0.7
     waves: int = 15
     force: float = 0.1
-    surfaces: int = 8
-    profiles: int = 60
+    surfaces: int = 24
+    profiles: int = 120
     cells: tuple[int, ...] = (24, 32, 64, 128)
     plain: tuple[int, ...] = (32, 64)
     springs: tuple[int, ...] = (24, 32, 64, 128, 256, 512)

@@ -21,6 +21,7 @@ class Sphere(Pressed):
 
     cells: tuple[int, ...] = (4, 8, 16, 32)
     plain: tuple[int, ...] = (4, 8, 16)
+    peers: tuple[int, ...] = (8, 16)
     springs: tuple[float, ...] = (2.4, 4.4, 8.4, 16.4, 32.4, 64.4)
     fixed: int = 16
     length: str = "to a radius"
@@ -101,6 +102,7 @@ class Punch(Pressed):
 
     cells: tuple[int, ...] = (8, 16, 32, 64)
     plain: tuple[int, ...] = (8, 16, 32)
+    peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (4, 16, 64)
     fixed: int = 32
 
@@ -157,6 +159,7 @@ class Wave(Pressed):
 
     cells: tuple[int, ...] = (16, 32, 64, 128, 256)
     plain: tuple[int, ...] = (16, 64, 256)
+    peers: tuple[int, ...] = (16, 64, 256)
     springs: tuple[float, ...] = (64,)
     fixed: int = 128
     pressure: float = 0.3

@@ -53,11 +53,11 @@ class Wheels:
     turns: int = 0
     width: int = 2
     strips: int = 3
-    wheels: int = 30
+    wheels: int = 20
     cells: tuple[int, ...] = (6, 9, 18)
     filtered: tuple[int, ...] = (6, 9)
     shared: int = 3
-    springs: tuple[int, ...] = (12, 25, 50)
+    springs: tuple[int, ...] = (12, 25)
     fixed: int = 9
     tight: float = 1e-5
     tolerances: tuple[float, ...] = (1e-2, 1e-3)
@@ -347,9 +347,9 @@ class InTheLoop(Attempt):
             # frames and their plans belong to a strip: they are made over its beginning
             for place in range(min(WARM, len(known.surface))):
                 contact.force(place, np.array([wheel.approach]))
-            contact.operator_applications = 0
 
             def solve() -> FloatArray:
+                contact.operator_applications = 0
                 motion = by_boundary_elements(contact, known.linear, known.time_step, len(known.surface))
                 return motion.acceleration[:, 0]
 

@@ -122,7 +122,7 @@ def draw_summary(evidence: Evidence) -> Figure:
     """For each quantity the cost of the cheapest method within each tolerance."""
     summary = evidence.table("summary")
     rows = list(dict.fromkeys(zip(summary["scene"].tolist(), summary["quantity"].tolist(), strict=True)))
-    within = {"left": 0.2, "right": 0.98, "bottom": 0.1, "top": 0.88}
+    within = {"left": 0.25, "right": 0.98, "bottom": 0.1, "top": 0.88}
     figure, (axis,) = panels(1, 1, width=11.0, height=1.6 + 0.5 * len(rows), within=within)
     axis.set_title("")
     axis.set_title("", loc="left")
@@ -149,9 +149,10 @@ def _stairs(axis: Axes, place: int, row: Table) -> None:
             nobody.setdefault(str(method), []).append(float(tolerance))
     x = [seconds for _, seconds in steps]
     axis.plot(x, [place] * len(x), color="#bbbbbb", linewidth=1.2, zorder=0.5)
-    for (method, seconds), tolerances in steps.items():
+    for i, ((method, seconds), tolerances) in enumerate(steps.items()):
         axis.plot([seconds], [place], **{**COMMON, **STYLES[method], "markersize": 8, "linestyle": "none"})
-        axis.annotate(_span(tolerances), (seconds, place), (0, 7), textcoords="offset points", ha="center", fontsize=7)
+        beside = (0, -14) if i % 2 else (0, 7)
+        axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
     said = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in nobody.items())
     if said:
         transform = axis.get_yaxis_transform()
