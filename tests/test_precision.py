@@ -307,6 +307,22 @@ def test_attempts_take_turns(by_hand, monkeypatch):
     assert outcome["seconds 0"].size == 5 and outcome["seconds 1"].size == 7
 
 
+@pytest.mark.parametrize(("again", "solves"), [(True, 1 + 4), (False, 1)])
+def test_what_is_too_short_for_the_clock_is_solved_several_times(again, solves, monkeypatch):
+    """A first solve of 0.25 ms, and four more to fill a millisecond; but not where the first helps the next."""
+    done = []
+    attempt = named("right")
+    turn = Turn(lambda: done.append(1), lambda found: Work({}, 1.0), again)
+    monkeypatch.setattr(
+        precision, "timed", lambda function: (function(), 0.25e-3 * (len(done) if len(done) < 2 else 2))
+    )
+    monkeypatch.setitem(precision._drawn, attempt, lambda realisation: turn)
+    status, seconds, _ = precision._turn(attempt, 0)
+    assert status == FINISHED
+    assert len(done) == solves
+    assert seconds == pytest.approx(0.25e-3 if not again else 0.5e-3 / 4)
+
+
 def test_who_is_slow_is_timed_once(by_hand):
     outcome = precision.measure(Trial(Made((named("right"),)), slow=0.005, enough=0.0))
     assert outcome["seconds 0"].size == 1

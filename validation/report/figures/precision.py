@@ -23,6 +23,8 @@ STYLES: dict[str, Style] = {
 COMMON: Style = {"markersize": 4.5, "linewidth": 0.9}
 BARS: Style = {"capsize": 1.5, "elinewidth": 0.7}
 PLACES = {"left": 0.055, "right": 0.995, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
+SHARED = 1.5
+"""Costs within this factor of one method share a mark of the summary."""
 ROOM = 3.0
 """How far a chart goes on, as a factor, below what is drawn and above."""
 
@@ -139,12 +141,13 @@ def draw_summary(evidence: Evidence) -> Figure:
 
 
 def _stairs(axis: Axes, place: int, row: Table) -> None:
-    """Marks from cheap to dear, each with the tolerances that it is the cheapest for."""
+    """Marks from cheap to dear, each with the tolerances that it is the cheapest for; at the least of its costs."""
     steps: dict[tuple[str, float], list[float]] = {}
     nobody: dict[str, list[float]] = {}
     for tolerance, method, seconds in zip(row["tolerance"], row["method"], row["median [s]"], strict=True):
         if np.isfinite(seconds):
-            steps.setdefault((str(method), float(seconds)), []).append(float(tolerance))
+            near = [step for step in steps if step[0] == method and seconds < SHARED * step[1]]
+            steps.setdefault(near[-1] if near else (str(method), float(seconds)), []).append(float(tolerance))
         else:
             nobody.setdefault(str(method), []).append(float(tolerance))
     x = [seconds for _, seconds in steps]
