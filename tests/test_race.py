@@ -10,7 +10,7 @@ import pytest
 
 import validation.__main__ as command
 from validation import alone, peers, race, race_evidence
-from validation.cases import RACE
+from validation.cases import TIMED
 from validation.evidence import Verdict
 from validation.peers import CONTESTANTS, Contestant, Run
 from validation.race_rolling import Rolls, interpolated
@@ -190,8 +190,8 @@ def test_a_difference_of_answers_is_a_missed_criterion(result):
 
 def test_command_line(result, tmp_path, monkeypatch, capsys):
     """The race has a page, a table on the terminal, and times that are kept apart from results."""
-    entry = dataclasses.replace(RACE, quick=result.race, run=lambda race, engine: result)
-    monkeypatch.setattr("validation.report.build.RACE", entry)
+    entry = dataclasses.replace(TIMED["race"], quick=result.race, run=lambda race, engine: result)
+    monkeypatch.setitem(TIMED, "race", entry)
     assert command.main(["race", "--out", str(tmp_path)]) == command.Exit.MET
     printed = capsys.readouterr().out
     assert "rough, F = 0.004 E* L², free, 32²" in printed

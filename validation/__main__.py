@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from enum import IntEnum
 from pathlib import Path
 
-from validation.cases import CASES
+from validation.cases import CASES, TIMED
 from validation.compare import WANTS, told
 from validation.compare import compare as compared
 from validation.ensemble import LOCAL
@@ -20,6 +20,10 @@ from validation.scene_files import shipped
 from validation.scene_kinds import read_any
 from validation.wheel_scene import WheelScene, read_scene
 
+CLOCKED = {
+    "precision": "error against cost of every method, a scene at a time; full takes two and a half minutes",
+    "race": "our solver beside the peers that are installed; full takes half an hour",
+}
 RACE_COLUMNS = (
     "problem",
     "area",
@@ -59,25 +63,27 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases and write their report."""
-    # the race is run last, when nothing else is
-    everything = [*CASES, *(["race"] if peers_installed() else [])] if arguments.scene is None else ["wheel"]
+    # what is timed is run last, when nothing else is; a race needs somebody to race against
+    timed = [name for name in TIMED if name != "race" or peers_installed()]
+    everything = [*CASES, *timed] if arguments.scene is None else ["wheel"]
     names = list(dict.fromkeys(arguments.only or everything))
     some = names if arguments.only or arguments.scene else ()
     out = arguments.out or Path("reports") / "-".join([arguments.profile, *some])
     return _built(names, out, arguments)
 
 
-def race(arguments: argparse.Namespace) -> Exit:
-    """Race the peers that are installed, and write the page of it."""
-    out = arguments.out or Path("reports") / ("race" if arguments.profile == "full" else "race-quick")
-    return _built(["race"], out, arguments)
+def clock(arguments: argparse.Namespace) -> Exit:
+    """Run what is timed alone, and write the page of it."""
+    name = arguments.timed
+    out = arguments.out or Path("reports") / (name if arguments.profile == "full" else f"{name}-quick")
+    return _built([name], out, arguments)
 
 
 def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
     """The scene that was asked for; refused where no case takes one, and with notes of what may be wrong with it."""
     if arguments.scene is None:
         return None
-    without = [name for name in names if name == "race" or not hasattr(CASES[name].quick, "scene")]
+    without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
     if without:
         raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
     scene = read_scene(arguments.scene)
@@ -129,11 +135,14 @@ def _tell(section: Section) -> None:
     for solve in section.unconverged:
         print(f"    not converged: {solve}", flush=True)
     if section.name == "race" and section.evidence:
-        _tell_race(section.evidence)
+        _tell_heats(section.evidence)
+    if section.name in TIMED and section.evidence:
+        for sentence in section.evidence.conclusions:
+            print(f"    {sentence}", flush=True)
 
 
-def _tell_race(evidence: Evidence) -> None:
-    """The rows of the race, and what follows from them."""
+def _tell_heats(evidence: Evidence) -> None:
+    """The rows of the race."""
     heats = evidence.table("heats")
     print("    times in seconds; appl.: operator applications on the finest grid; dp: difference of the pressure, L2")
     header = ("median", "fastest", "slowest", "residual", "appl.", "dp")
@@ -147,8 +156,6 @@ def _tell_race(evidence: Evidence) -> None:
             else f"  {status}"
         )
         print(f"    {problem:38s} {area:5.1%} {name:17s}{result}")
-    for sentence in evidence.conclusions:
-        print(f"    {sentence}", flush=True)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -184,11 +191,6 @@ def _parser() -> argparse.ArgumentParser:
         f"the name of a shipped one ({', '.join(shipped())}); alone, it means --only wheel",
     )
     making.set_defaults(command=report)
-    racing = commands.add_parser("race", help="our solver beside the peers that are installed; full takes half an hour")
-    racing.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
-    racing.add_argument("--out", type=Path, metavar="DIR", help="folder (default: reports/race-quick or reports/race)")
-    racing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
-    racing.set_defaults(command=race, workers=1, executor=LOCAL, scene=None)
     comparing = commands.add_parser("compare", help="one scene: the cheapest model that meets a tolerance, and why")
     comparing.add_argument(
         "scene", metavar="SCENE", help=f"a TOML file, or the name of a shipped scene ({', '.join(shipped())})"
@@ -201,6 +203,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the roughness that is drawn (default: 0)")
     comparing.set_defaults(command=compare)
+    for name, what in CLOCKED.items():
+        timing = commands.add_parser(name, help=what)
+        timing.add_argument(
+            "--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)"
+        )
+        timing.add_argument(
+            "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"
+        )
+        timing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
+        timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None)
     listing = commands.add_parser("cases", help="what there is, and which figure or claim each one answers")
     listing.set_defaults(command=cases)
     return parser

@@ -80,6 +80,21 @@ def westergaard_half_width(*, mean_pressure: float, amplitude: float, wavelength
     return wavelength / math.pi * math.asin(math.sqrt(mean_pressure / full))
 
 
+def westergaard_approach(*, mean_pressure: float, amplitude: float, wavelength: float, modulus: float) -> float:
+    """d = h s (1 - ln s) of the mean plane from the first touch, s = mean(p) / p*, for 0 < s <= 1 [m].
+
+    The wave is 2h deep, its mean gap h - d. From the stiffness of flat periodic strips of half-width a, per area:
+    dd / dp = -(2 lambda / (pi E*)) ln sin(pi a / lambda), the logarithm of the capacity of an arc of the circle, with
+    sin^2(pi a / lambda) = s.
+    """
+    full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
+    _positive(mean_pressure=mean_pressure)
+    if mean_pressure > full:
+        raise ValueError(f"mean_pressure must not exceed the pressure of full contact, {full:.6g}, got {mean_pressure}")
+    s = mean_pressure / full
+    return amplitude * s * (1 - math.log(s))
+
+
 def westergaard_pressure(
     x: ArrayLike, *, mean_pressure: float, amplitude: float, wavelength: float, modulus: float
 ) -> FloatArray:

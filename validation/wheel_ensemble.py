@@ -163,7 +163,7 @@ def roll_wheels(rides: Rides) -> Outcome:
 def _motion(rides: Rides) -> tuple[Motion, FloatArray]:
     scene, wheel = rides.scene, rides.scene.body
     height = rides.heights()
-    law: ContactLaw = _filtered(wheel, height, scene.spacing) if rides.linear else Springs(wheel, height, scene.spacing)
+    law: ContactLaw = filtered(wheel, height, scene.spacing) if rides.linear else Springs(wheel, height, scene.spacing)
     start, velocity = law.at_rest(0) + rides.release * scene.approach, np.zeros(rides.count)
     left = np.zeros(rides.count)
     if rides.track == "steady" and isinstance(law, Linear):
@@ -180,8 +180,8 @@ def _motion(rides: Rides) -> tuple[Motion, FloatArray]:
     return motion, left
 
 
-def _filtered(wheel: Wheel, height: FloatArray, spacing: float) -> Linear:
-    """dF = sum over q of 2 E* sin(q a) / q h(q) exp(i q x), (14.11)."""
+def filtered(wheel: Wheel, height: FloatArray, spacing: float) -> Linear:
+    """The linear contact of wheels on tracks: dF = sum over q of 2 E* sin(q a) / q h(q) exp(i q x), (14.11)."""
     q = 2 * np.pi * np.fft.rfftfreq(len(height), spacing)[:, np.newaxis]
     factor = response(q, contact_radius=wheel.contact_radius, modulus=wheel.modulus)
     return Linear(wheel, np.fft.irfft(factor * np.fft.rfft(height, axis=0), len(height), axis=0))

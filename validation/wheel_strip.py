@@ -89,8 +89,7 @@ def roll_strip(strip: Strip) -> Outcome:
     scene = strip.scene
     wheel = scene.body
     surface, time_step = strip.surface(), strip.spacing / scene.speed
-    smooth = {"spacing": strip.spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
-    linear = Linear(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
+    linear = linear_contact(strip, surface)
     approach, velocity = linear.steady(time_step)
     steps = len(surface)
     contact = BoundaryElements(
@@ -98,7 +97,7 @@ def roll_strip(strip: Strip) -> Outcome:
     )
     beside = simulate(wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
     try:
-        motion = _by_boundary_elements(contact, linear, approach, velocity, time_step, steps)
+        motion = by_boundary_elements(contact, linear, time_step, steps)
     except bem3d.ConvergenceError:
         motion = None
     found = motion.acceleration[:, 0] if motion else np.full(steps, np.nan)
@@ -113,16 +112,17 @@ def roll_strip(strip: Strip) -> Outcome:
     }
 
 
-def _by_boundary_elements(
-    contact: BoundaryElements,
-    linear: Linear,
-    approach: FloatArray,
-    velocity: FloatArray,
-    time_step: float,
-    steps: int,
-) -> Motion:
-    at_rest = contact.at_rest(0)
-    start = at_rest + approach - linear.at_rest(0)
+def linear_contact(strip: Strip, surface: FloatArray) -> Linear:
+    """A contact that keeps its radius, with the force of linear theory along this surface."""
+    wheel = strip.scene.body
+    smooth = {"spacing": strip.spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
+    return Linear(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
+
+
+def by_boundary_elements(contact: BoundaryElements, linear: Linear, time_step: float, steps: int) -> Motion:
+    """A wheel that begins as the linear one that repeats its motion, at the force that this has there."""
+    approach, velocity = linear.steady(time_step)
+    start = contact.at_rest(0) + approach - linear.at_rest(0)
     return simulate(contact.wheel, contact, time_step=time_step, steps=steps, approach=start, velocity=velocity)
 
 

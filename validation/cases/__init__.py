@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from validation import race, race_evidence, race_rolling, race_wheel
+from validation import precision_evidence, precision_scenes, race, race_evidence, race_rolling, race_wheel
 from validation.cases import (
     fractal_punch,
     fractal_punch_evidence,
@@ -33,6 +33,10 @@ from validation.cases import (
 )
 from validation.ensemble import Engine
 from validation.evidence import Evidence
+from validation.precision_rolling import Rolling
+from validation.precision_rough import Fractal
+from validation.precision_smooth import Punch, Sphere, Wave
+from validation.precision_wheel import Wheels
 from validation.wheel_scene import WheelScene
 
 Profile = Literal["quick", "full"]
@@ -72,6 +76,43 @@ class Entry:
         return replace(case, scene=scene) if scene is not None and hasattr(case, "scene") else case
 
 
+PRECISION = Entry(
+    SPEED,
+    "Springs are the cheapest up to some error, boundary elements beyond; scene by scene the chart says which.",
+    "Speed against accuracy: error against cost of every method, who is the cheapest within which error",
+    precision_scenes.Precision(),
+    precision_scenes.Precision(
+        sphere=Sphere(
+            cells=(4, 8, 16, 32, 64),
+            plain=(4, 8, 16, 32),
+            peers=(4, 8, 16, 32),
+            springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
+        ),
+        punch=Punch(cells=(8, 16, 32, 64, 128, 256), plain=(8, 16, 32, 64), peers=(8, 16), fixed=64),
+        wave=Wave(
+            cells=(16, 32, 64, 128, 256, 512, 1024),
+            plain=(16, 64, 256, 1024),
+            peers=(16, 64, 256, 1024),
+            fixed=256,
+        ),
+        fractal=Fractal(
+            surfaces=100,
+            profiles=500,
+            cells=(24, 32, 64, 128, 256),
+            plain=(32, 64, 128),
+            springs=(24, 32, 64, 128, 256, 512, 1024),
+            fixed=128,
+        ),
+        rolling=Rolling(length=32, strips=8, tracks=60, cells=(3, 4, 6, 8, 12, 16, 32), plain=(4, 6), fixed=12),
+        wheel=Wheels(strips=8, wheels=60, cells=(6, 9, 12, 15, 30), springs=(12, 25, 50, 100), fixed=12),
+        slow=1.0,
+        enough=0.2,
+    ),
+    precision_scenes.run,
+    precision_evidence.evidence,
+    needs.always("scene by scene"),
+)
+
 RACE = Entry(
     SPEED,
     "Our solver is the fastest at the same residual.",
@@ -90,6 +131,9 @@ RACE = Entry(
     race_evidence.evidence,
     needs.always("–"),
 )
+
+TIMED = {"precision": PRECISION, "race": RACE}
+"""Run alone, last and in this order; their times differ from run to run, and stay out of the results."""
 
 CASES = {
     "hertz": Entry(

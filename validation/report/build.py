@@ -11,7 +11,7 @@ import jinja2
 from markupsafe import Markup, escape
 
 from bem3d import ConvergenceError
-from validation.cases import CASES, CHAPTERS, RACE, Entry, Profile
+from validation.cases import CASES, CHAPTERS, TIMED, Entry, Profile
 from validation.ensemble import LOCAL, Engine
 from validation.evidence import Evidence, NotConvergedError, Number, Role, Verdict
 from validation.report.figures import DRAW
@@ -20,7 +20,6 @@ from validation.report.provenance import provenance
 from validation.report.style import drawn, pdf, svg
 from validation.wheel_scene import WheelScene
 
-RACING = "race"
 SAFE = " !$'()*+,-./;=?@[]_~{}<>|^`"
 """What an address in quotation marks may hold as it is."""
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
@@ -81,7 +80,7 @@ def build(
 ) -> list[Section]:
     """Run the cases, write the report folder, return what it holds.
 
-    names: of cases in `CASES`, or "race"; profile: "quick" or "full"; out: a new folder or an earlier report;
+    names: of cases in `CASES` or `TIMED`; profile: "quick" or "full"; out: a new folder or an earlier report;
     workers: processes; seed: for every case that draws, None for the seed of each case; scene: for every case of a
     dynamic wheel, None for its own; executor: see `Engine`;
     progress: a bar on a terminal, lines in a log; tell: called with each case as it is finished.
@@ -111,16 +110,19 @@ def build(
     about = provenance(profile, seeds, engine, seconds)
     folder.write("provenance.json", as_json(about))
     # times differ from run to run: the results are to be the same to the byte without them
-    folder.write(RESULTS, as_json(_results([s for s in sections if s.name != RACING], profile)))
-    if RACING in seconds:
-        folder.write("race.json", as_json(_results([s for s in sections if s.name == RACING], profile)))
-    folder.write("index.html", _page(sections, profile, pictures, about))
+    folder.write(RESULTS, as_json(_results([s for s in sections if s.name not in TIMED], profile)))
+    timed = [section for section in sections if section.name in TIMED]
+    for section in timed:
+        folder.write(f"{section.name}.json", as_json(_results([section], profile)))
+    folder.write(
+        "index.html", _page(sections, profile, pictures, {**about, "timed": [section.name for section in timed]})
+    )
     folder.clear_old()
     return sections
 
 
 def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | None, engine: Engine) -> Section:
-    entry = RACE if name == RACING else CASES[name]
+    entry = TIMED[name] if name in TIMED else CASES[name]
     case = entry.case(profile, seed, scene)
     try:
         evidence = entry.evidence(entry.run(case, engine))

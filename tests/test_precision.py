@@ -1,0 +1,620 @@
+"""Speed against accuracy: fronts and errors of hand-made data; every scene small, on a clock that ticks by itself."""
+
+import dataclasses
+import json
+import math
+import os
+from concurrent.futures import Future
+from contextlib import nullcontext
+
+import numpy as np
+import pytest
+
+import validation.__main__ as command
+from validation import precision, precision_front, precision_pressed
+from validation.cases import TIMED
+from validation.closed_forms import westergaard_approach, westergaard_full_pressure, westergaard_half_width
+from validation.ensemble import Engine
+from validation.evidence import Verdict
+from validation.peers import CONTESTANTS
+from validation.precision import (
+    BEM,
+    CLOSED,
+    EXTRAPOLATED,
+    FED,
+    FILTER_1D,
+    FILTER_3D,
+    FINISHED,
+    LOOSE,
+    MDR,
+    PLAIN,
+    Attempt,
+    Quantity,
+    Trial,
+    Turn,
+    Work,
+)
+from validation.precision_error import Answer, error, points
+from validation.precision_evidence import evidence
+from validation.precision_front import Point, asked, break_even, cheapest, front, visits, why_nobody
+from validation.precision_pressed import logarithm
+from validation.precision_rolling import Rolling
+from validation.precision_rough import Fractal, log_deviation
+from validation.precision_scenes import STORED, Precision, run
+from validation.precision_smooth import Punch, Sphere, Wave
+from validation.precision_wheel import Wheels, beside, mean_levels, steady_acceleration
+from validation.rolling_strip import HERTZ
+from validation.wheel import simulate
+from validation.wheel_strip import linear_contact
+
+# --- who is the cheapest, of hand-made data ---
+
+
+def point(line, off, seconds, **settings):
+    settings = {"status": FINISHED, "band": 0.001, "unit": "%", "knob": "# cells", "value": 8.0, **settings}
+    return Point(
+        scene="scene",
+        quantity="force",
+        line=line,
+        error=off,
+        seconds=(0.9 * seconds, seconds, 1.2 * seconds),
+        **settings,
+    )
+
+
+CHART = [
+    point("MDR", 0.13, 1e-5, value=16, visits=16.0),
+    point("MDR", 0.12, 2e-5, value=32, visits=32.0),
+    point("BEM", 0.2, 1e-4, value=4, visits=1000.0),
+    point("BEM", 0.03, 1e-3, value=8, visits=9000.0),
+    point("BEM", 0.0005, 1e-2, value=16, visits=80000.0),
+    point("BEM", 0.0001, 1e-1, value=32, visits=800000.0),
+    point("plain", 0.03, 2e-3, value=8, visits=8000.0),
+]
+
+
+def names(found):
+    return [(p.line, p.value) for p in found]
+
+
+def test_the_front_is_what_nothing_beats_and_ends_in_the_band():
+    """BEM with 32 cells is closer than with 16, but below what the reference can tell."""
+    assert names(front(CHART)) == [("MDR", 16), ("MDR", 32), ("BEM", 8), ("BEM", 16)]
+    assert names(front(CHART[::-1])) == names(front(CHART))
+    assert names(front(CHART, visits)) == [("MDR", 16), ("MDR", 32), ("plain", 8), ("BEM", 16)]
+
+
+def test_of_equals_the_first_stands_on_the_front():
+    twins = [point("one", 0.1, 1.0), point("other", 0.1, 1.0)]
+    assert names(front(twins)) == [("one", 8.0)]
+    assert names(front(twins[::-1])) == [("other", 8.0)]
+    # as wrong and dearer, or as dear and worse, is beaten
+    assert names(front([*twins[:1], point("dearer", 0.1, 2.0), point("worse", 0.2, 1.0)])) == [("one", 8.0)]
+
+
+@pytest.mark.parametrize("status", ["failed: RuntimeError: lost", "refused: too few cells"])
+def test_who_has_not_finished_is_not_on_the_front(status):
+    lost = point("lost", math.nan, 1e-9, status=status)
+    assert names(front([lost, *CHART])) == names(front(CHART))
+    assert front([lost]) == []
+    assert break_even([lost]) == "scene, force: nobody has finished."
+
+
+def test_whose_cost_nobody_counts_has_no_place_among_counts():
+    uncounted = point("peer", 0.01, 1e-6, visits=math.nan)
+    assert names(front([uncounted, *CHART]))[0] == ("peer", 8.0)
+    assert ("peer", 8.0) not in names(front([uncounted, *CHART], visits))
+
+
+def test_errors_are_ranked_by_their_upper_ends():
+    sure, unsure = point("sure", 0.02, 1.0), point("unsure", 0.01, 0.5, half_width=0.5)
+    assert cheapest([sure, unsure], 0.1).line == "sure"
+    assert cheapest([sure, dataclasses.replace(unsure, half_width=0.05)], 0.1).line == "unsure"
+
+
+def test_the_cheapest_within_a_tolerance():
+    assert [cheapest(CHART, t).value for t in (0.3, 0.125, 0.1, 0.01)] == [16, 32, 8, 16]
+    assert cheapest(CHART, 1e-3).value == 16
+    assert cheapest(CHART, 1e-4) is None
+    assert why_nobody(CHART, 1e-4) == "the reference cannot tell"
+    assert cheapest(CHART[:3], 0.01) is None
+    assert why_nobody(CHART[:3], 0.01) == "nobody"
+
+
+def test_levels_are_asked_for_in_decibels():
+    assert asked(0.1, "%") == 0.1
+    assert asked(0.3, "dB") == pytest.approx(2.28, abs=0.005)
+    level = point("MDR", 2.0, 1.0, unit="dB", band=0.1)
+    assert cheapest([level], 0.3) is level
+    assert cheapest([level], 0.1) is None
+
+
+def test_break_even_in_words():
+    referee = point(CLOSED, 0.0, 1e-6, referee=True)
+    assert break_even([referee, *CHART]) == (
+        "scene, force: down to 13 % MDR (16 cells, 10 µs) is the cheapest; beyond, down to 0.1 % BEM "
+        "(8 to 16 cells, 1 ms to 10 ms); below 0.1 % the reference cannot tell. "
+        "The closed form itself takes 1 µs."
+    )
+    assert break_even(CHART[:2]).endswith("; nobody gets below 12 %.")
+
+
+# --- how wrong an answer is ---
+
+MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
+
+
+def k(values):
+    return {"k": np.array(values, dtype=float)}
+
+
+def test_what_realisations_have_of_their_own_drops_out_of_paired_errors():
+    drawn = np.random.default_rng(1).lognormal(0, 0.3, 12)
+    paired = error(MEAN, Answer(k(1.1 * drawn)), Answer(k(drawn)))
+    assert paired.value == pytest.approx(0.1)
+    assert paired.over == pytest.approx(1.1)
+    assert paired.half_width < 1e-9
+    alone = error(MEAN, Answer(k(1.1 * drawn), paired=False), Answer(k(drawn)))
+    assert alone.value == pytest.approx(0.1)
+    # two means of twelve, each of a relative standard error of s / sqrt(12)
+    expected = 2.2 * 1.1 * drawn.std(ddof=1) / drawn.mean() * math.sqrt(2 / 12)
+    assert alone.half_width == pytest.approx(expected, rel=0.02)
+
+
+def test_fewer_realisations_are_paired_with_the_first_of_the_reference():
+    drawn = np.random.default_rng(2).lognormal(0, 0.3, 12)
+    assert error(MEAN, Answer(k(1.1 * drawn[:5])), Answer(k(drawn))).value == pytest.approx(0.1)
+
+
+def test_intervals_cover_the_truth():
+    """Of 300 pairs of samples of the same mean, more than 90 % have an error that their interval holds."""
+    rng, held = np.random.default_rng(3), 0
+    for _ in range(300):
+        mine, reference = rng.lognormal(0, 0.2, 20), rng.lognormal(0, 0.2, 10)
+        found = error(MEAN, Answer(k(mine), paired=False), Answer(k(reference)))
+        held += found.value <= found.half_width
+    assert held > 0.90 * 300
+
+
+def test_no_scatter_is_all_wrong_and_a_single_value_has_none():
+    assert log_deviation({"stiffness": np.ones(1)}) == -np.inf
+    quantity = Quantity(name="deviation", log=log_deviation, needs=("stiffness",))
+    drawn = {"stiffness": np.random.default_rng(4).lognormal(0, 0.3, 12)}
+    found = error(quantity, Answer({"stiffness": np.ones(1)}, paired=False), Answer(drawn))
+    assert found.value == 1.0
+
+
+@pytest.mark.parametrize("order", [1.0, 2.0])
+def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
+    quantity = dataclasses.replace(MEAN, order=order)
+    coarse, fine = (k([math.exp(0.3 * n**-order)]) for n in (10.0, 15.0))
+    assert error(quantity, Answer(fine, coarse, 1.5), Answer(k([1.0]))).value < 1e-12
+    assert error(quantity, Answer(fine), Answer(k([1.0]))).value > 1e-4
+
+
+def test_levels_differ_by_the_root_mean_square_of_decibels():
+    quantity = Quantity(name="levels", log=lambda a: np.log(a["k"].mean(axis=0)), needs=("k",), decibel=True)
+    found = error(quantity, Answer(k([[2.0, 1.0]])), Answer(k([[1.0, 1.0]])))
+    assert found.value == pytest.approx(10 * math.log10(2) / math.sqrt(2))
+    assert math.isnan(found.over)
+
+
+# --- turns on the clock ---
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Named(Attempt):
+    """For a test: what it does, by name."""
+
+    act: str = "right"
+
+    def prepare(self):
+        if self.act == "refuses":
+            raise ValueError("knob must be larger, got 3")
+        if self.act == "dies at once":
+            os._exit(1)
+
+        def solve():
+            if self.act == "dies":
+                os._exit(1)
+            if self.act == "raises":
+                raise RuntimeError("lost its way")
+            return 2.0
+
+        return lambda realisation: Turn(solve, lambda found: Work({"k": np.array(found + realisation)}, 10.0))
+
+
+@dataclasses.dataclass(frozen=True)
+class Made:
+    """For a test: a scene of such attempts."""
+
+    tried: tuple[Attempt, ...]
+    name = "made"
+    quantities = (MEAN,)
+
+    def attempts(self):
+        return self.tried
+
+    def reference(self):
+        return k([2.0])
+
+    def pairs(self):
+        return ()
+
+
+def named(act, lane=precision.OURS, **settings):
+    return Named(line=act, knob="#", value=1.0, act=act, lane=lane, **settings)
+
+
+class Inline:
+    """A process that is this one."""
+
+    def submit(self, function, *arguments):
+        done = Future()
+        done.set_result(function(*arguments))
+        return done
+
+
+@pytest.fixture(scope="module", autouse=True)
+def no_peers():
+    """Whoever is installed."""
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.setattr(precision_pressed, "CONTESTANTS", CONTESTANTS[:2])
+        yield
+
+
+@pytest.fixture
+def by_hand(monkeypatch):
+    """No processes; every call takes 10 ms."""
+    use_a_clock_of_its_own(monkeypatch)
+
+
+def use_a_clock_of_its_own(monkeypatch):
+    monkeypatch.setattr(precision, "own_process", lambda: nullcontext(Inline()))
+    monkeypatch.setattr(precision, "timed", lambda function: (function(), 0.01))
+
+
+def test_whoever_fails_is_a_row_with_its_reason_and_its_place_on_the_chart():
+    """In real processes: who dies takes no other's process along."""
+    scene = Made((named("right"), named("refuses"), named("raises"), named("dies", "a"), named("dies at once", "b")))
+    outcome = precision.measure(Trial(scene, slow=1.0, enough=0.0))
+    found = {p.line: p for p in points(scene, outcome)}
+    assert found["right"].finished and found["right"].error == 0.0
+    assert found["right"].runs == precision.FEWEST_RUNS
+    assert found["refuses"].status == "refused: knob must be larger, got 3"
+    assert found["raises"].status == "failed: RuntimeError: lost its way"
+    assert found["dies"].status.startswith("failed: BrokenProcessPool")
+    assert found["dies at once"].status.startswith("failed: BrokenProcessPool")
+    assert not any(found[line].finished for line in found if line != "right")
+    assert found["raises"].seconds[1] > 0
+
+
+def test_attempts_take_turns(by_hand, monkeypatch):
+    turns = []
+    turn = precision._turn
+    monkeypatch.setattr(
+        precision,
+        "_turn",
+        lambda attempt, realisation: turns.append((attempt.line, realisation)) or turn(attempt, realisation),
+    )
+    scene = Made((named("right"), named("again", realisations=7)))
+    outcome = precision.measure(Trial(scene, slow=1.0, enough=0.0))
+    assert turns[:6] == [("right", 0), ("again", 0), ("right", 0), ("again", 1), ("right", 0), ("again", 2)]
+    assert turns[10:] == [("again", 5), ("again", 6)]
+    # each realisation is solved once, and all of them are kept
+    np.testing.assert_array_equal(outcome["k 1"], 2.0 + np.arange(7))
+    np.testing.assert_array_equal(outcome["k 0"], [2.0])
+    assert outcome["seconds 0"].size == 5 and outcome["seconds 1"].size == 7
+
+
+@pytest.mark.parametrize(("again", "solves"), [(True, 1 + 4), (False, 1)])
+def test_what_is_too_short_for_the_clock_is_solved_several_times(again, solves, monkeypatch):
+    """A first solve of 0.25 ms, and four more to fill a millisecond; but not where the first helps the next."""
+    done = []
+    attempt = named("right")
+    turn = Turn(lambda: done.append(1), lambda found: Work({}, 1.0), again)
+    monkeypatch.setattr(
+        precision, "timed", lambda function: (function(), 0.25e-3 * (len(done) if len(done) < 2 else 2))
+    )
+    monkeypatch.setitem(precision._drawn, attempt, lambda realisation: turn)
+    status, seconds, _ = precision._turn(attempt, 0)
+    assert status == FINISHED
+    assert len(done) == solves
+    assert seconds == pytest.approx(0.25e-3 if not again else 0.5e-3 / 4)
+
+
+def test_who_is_slow_is_timed_once(by_hand):
+    outcome = precision.measure(Trial(Made((named("right"),)), slow=0.005, enough=0.0))
+    assert outcome["seconds 0"].size == 1
+    outcome = precision.measure(Trial(Made((named("right"),)), slow=1.0, enough=100.0))
+    assert outcome["seconds 0"].size == precision.MOST_RUNS
+
+
+# --- every scene, small ---
+
+SMALL = Precision(
+    sphere=Sphere(
+        cells=(4, 8, 16), plain=(4, 8), peers=(4, 8), springs=(2.4, 4.4, 8.4, 16.4), fixed=8, tolerances=(0.1, 1e-3)
+    ),
+    punch=Punch(cells=(8, 16, 32), plain=(8, 16), springs=(4,), fixed=16, tolerances=(0.1, 1e-3)),
+    wave=Wave(cells=(16, 32, 64), plain=(16, 32), peers=(16, 32), fixed=32, tolerances=(0.1, 1e-3)),
+    fractal=Fractal(
+        waves=7,
+        surfaces=4,
+        profiles=12,
+        cells=(10, 16, 32, 64),
+        plain=(16,),
+        springs=(10, 16, 64),
+        fixed=16,
+        tolerances=(0.1,),
+    ),
+    rolling=Rolling(
+        last=6.0,
+        length=24,
+        width=12,
+        strips=3,
+        tracks=6,
+        cells=(1, 3, 6),
+        plain=(3,),
+        filtered=(3, 6),
+        springs=(1, 8),
+        fixed=3,
+        tolerances=(0.1,),
+    ),
+    wheel=Wheels(strips=3, wheels=6, cells=(6, 12), filtered=(6,), springs=(12,), fixed=6, tolerances=(1e-2,)),
+)
+
+
+@pytest.fixture(scope="module")
+def result():
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        use_a_clock_of_its_own(monkeypatch)
+        return run(SMALL)
+
+
+@pytest.fixture(scope="module")
+def found(result):
+    return evidence(result)
+
+
+@pytest.fixture(scope="module")
+def charts(found):
+    return found.table("points")
+
+
+ROUGH = {CLOSED, MDR, BEM, LOOSE}
+
+
+@pytest.mark.parametrize(
+    ("scene", "lines"),
+    [
+        ("sphere", {CLOSED, MDR, PLAIN, BEM, LOOSE, EXTRAPOLATED}),
+        ("square punch", {CLOSED, MDR, PLAIN, BEM, LOOSE, EXTRAPOLATED}),
+        ("Westergaard's wave", {CLOSED, PLAIN, BEM, LOOSE, EXTRAPOLATED}),
+        ("fractal punch", {*ROUGH, PLAIN, EXTRAPOLATED}),
+        ("rolling force", {*ROUGH, PLAIN, FED, FILTER_1D, FILTER_3D}),
+        ("dynamic wheel", {*ROUGH, FED, FILTER_1D, FILTER_3D}),
+    ],
+)
+def test_every_method_has_its_line(scene, lines, charts):
+    mine = charts.where(scene=scene, status=FINISHED)
+    assert lines <= set(mine["method"].tolist())
+    assert np.isfinite(mine["error"]).all()
+    assert (mine["± sample"] >= 0).all()
+    np.testing.assert_array_equal(mine["upper quartile [s]"], mine["median [s]"])
+
+
+def line(charts, scene, quantity, method):
+    return charts.where(scene=scene, quantity=quantity, method=method, status=FINISHED)
+
+
+@pytest.mark.parametrize(
+    ("scene", "quantity", "method", "order", "within"),
+    [
+        # the same error models as in the cases of these scenes
+        ("sphere", "force", BEM, 2.0, 0.5),
+        ("sphere", "force", MDR, 2.0, 0.1),
+        ("square punch", "stiffness", BEM, 1.0, 0.15),
+    ],
+)
+def test_errors_fall_with_the_knob(scene, quantity, method, order, within, charts):
+    mine = line(charts, scene, quantity, method)
+    slope = np.polyfit(np.log(mine["knob"]), np.log(mine["error"]), 1)[0]
+    assert -slope == pytest.approx(order, abs=within)
+
+
+def test_extrapolated_grids_are_closer_than_the_finer_of_them(charts):
+    fine, both = (line(charts, "square punch", "stiffness", method) for method in (BEM, EXTRAPOLATED))
+    assert (both["error"] < fine["error"][1:] / 3).all()
+    # both grids are paid for
+    np.testing.assert_allclose(both["median [s]"], 0.02)
+    np.testing.assert_allclose(both["visits"], fine["visits"][1:] + fine["visits"][:-1])
+
+
+def test_looser_residuals_cost_less_and_are_farther_off(charts):
+    loose, tight = (line(charts, "sphere", "force", method) for method in (LOOSE, BEM))
+    assert loose["error"][0] > tight["error"][1]
+    assert (loose["visits"] < tight["visits"][1]).all()
+
+
+def test_nobody_is_ranked_below_the_reference(charts):
+    """Of the finest grid the reference leaves open as much as it lies from it; the last step."""
+    for scene, quantity in (("fractal punch", "mean stiffness"), ("rolling force", "rms")):
+        mine = line(charts, scene, quantity, BEM)
+        assert mine["band"][0] > 0
+        assert mine["error"][-1] == pytest.approx(mine["band"][-1])
+        ahead = charts.where(scene=scene, quantity=quantity, front=True)
+        rank = np.maximum(ahead["error"] + ahead["± sample"], ahead["band"])
+        assert (np.diff(rank[np.argsort(ahead["median [s]"], kind="stable")]) <= 0).all()
+
+
+def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
+    refused = charts["status"][[s.startswith("refused") for s in charts["status"]]]
+    reasons = " ".join(refused.tolist())
+    assert "no one-dimensional image of independent springs" in reasons
+    assert "c2d must vanish beyond the Nyquist wavenumber" in reasons
+    assert "c1d must vanish beyond the Nyquist wavenumber" in reasons
+    assert not any(s.startswith("failed") for s in charts["status"])
+    assert {"scene", "method", "setting", "quantities", "reason"} == set(found.shown[1].columns)
+    assert len(found.shown[1]["reason"]) == len(set(zip(*found.shown[1].columns.values(), strict=True)))
+
+
+def test_criteria_hold_where_theory_predicts(found):
+    criteria = [number for number in found.numbers if number.role == "criterion"]
+    assert len(criteria) == 6
+    assert [number.label for number in criteria if number.verdict is not Verdict.AGREE] == []
+    assert found.unconverged == ()
+
+
+def test_conclusions_and_summary_name_the_cheapest(found):
+    assert len(found.conclusions) == 11
+    assert all(" is the cheapest" in sentence for sentence in found.conclusions)
+    assert len(found.table("summary")["tolerance"]) == 11 * len(precision_front.TOLERANCES)
+    assert len(found.shown[0]["scene"]) == 11
+
+
+def test_an_answer_that_is_lost_is_not_converged(result):
+    outcomes = [{**outcome} for outcome in result.outcomes]
+    attempts = SMALL.scenes()[0].attempts()
+    last = max(i for i, attempt in enumerate(attempts) if attempt.line == BEM)
+    outcomes[0]["status"] = outcomes[0]["status"].astype("<U40")
+    outcomes[0]["status"][last] = "failed: ConvergenceError: lost"
+    lost = evidence(dataclasses.replace(result, outcomes=outcomes)).unconverged
+    assert lost == ("sphere: BEM, finer cells, 16 cells to a radius: failed: ConvergenceError: lost",)
+
+
+def test_the_same_seed_draws_the_same_errors(result, found):
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        use_a_clock_of_its_own(monkeypatch)
+        one, other = (Trial(dataclasses.replace(SMALL.fractal, seed=seed), 1.0, 0.0) for seed in (SMALL.seed, 5))
+        again, different = precision.measure(one), precision.measure(other)
+    first = result.outcomes[3]
+    assert again.keys() == first.keys()
+    for name in again:
+        np.testing.assert_array_equal(again[name], first[name])
+    last = next(reversed([name for name in first if name.startswith("stiffness")]))
+    assert not np.array_equal(different[last], first[last])
+
+
+def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
+    """Who is interrupted goes on; who is done times everything anew."""
+    scene = Made((named("right"),))
+    monkeypatch.setattr(Precision, "scenes", lambda self: (scene,))
+    engine = Engine(store=tmp_path)
+    engine.map(precision.measure, [Trial(scene, slow=1.0, enough=0.0)])
+    assert [file.match(STORED) for file in tmp_path.iterdir()] == [True]
+    run(SMALL, engine)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("contestant", CONTESTANTS[2:], ids=lambda contestant: contestant.name)
+def test_peers_are_as_close_as_we_are(contestant, monkeypatch):
+    """The same discrete problems: equal answers, whichever load they prescribe, within what carrying it over leaves."""
+    if contestant.version is None:
+        pytest.skip(f"{contestant.name} is not installed")
+    monkeypatch.setattr(precision_pressed, "CONTESTANTS", (*CONTESTANTS[:2], contestant))
+    for scene in (SMALL.sphere, SMALL.wave):
+        found = points(scene, precision.measure(Trial(scene, slow=0.0, enough=0.0)))
+        mine = {(p.quantity, p.value): p for p in found if p.line == BEM}
+        theirs = [
+            p for p in found if p.line == contestant.name and (scene.name != "sphere" or p.quantity != "stiffness")
+        ]
+        assert theirs
+        for p in theirs:
+            assert p.finished, p.status
+            ours = mine[p.quantity, p.value]
+            assert p.over == pytest.approx(ours.over, abs=0.2 * ours.error + 1e-6)
+
+
+# --- what linear theory is used for ---
+
+
+def test_the_approach_under_a_wave_is_the_sum_of_its_compliances():
+    """dd / dp = -(2 lambda / (pi E*)) ln sin(pi a / lambda), integrated from the first touch."""
+    scene = {"amplitude": 2e-6, "wavelength": 1e-3, "modulus": 1e9}
+    full = westergaard_full_pressure(**scene)
+    p = np.linspace(0, 0.4, 4001)[1:] * full
+    a = np.array([westergaard_half_width(mean_pressure=float(one), **scene) for one in p])
+    compliance = -2 * 1e-3 / (np.pi * 1e9) * np.log(np.sin(np.pi * a / 1e-3))
+    d = np.array([westergaard_approach(mean_pressure=float(one), **scene) for one in (p[0], p[-1])])
+    assert np.trapezoid(compliance, p) == pytest.approx(d[1] - d[0], rel=1e-3)
+    assert westergaard_approach(mean_pressure=full, **scene) == pytest.approx(2e-6)
+
+
+def test_boundary_elements_find_the_approach_under_a_wave(charts):
+    """On grids the error falls at least at first order."""
+    mine = line(charts, "Westergaard's wave", "approach", BEM)
+    assert mine["error"][-1] < mine["error"][0] * mine["knob"][0] / mine["knob"][-1]
+
+
+STRIP = Wheels(strips=3, wheels=6, cells=(6, 12), fixed=6)
+
+
+def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():
+    strip = STRIP.strip(0, 6, 1e-5)
+    linear = linear_contact(strip, strip.surface())
+    time_step = strip.spacing / strip.scene.speed
+    approach, velocity = linear.steady(time_step)
+    steps = len(linear.change)
+    motion = simulate(linear.wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
+    expected = steady_acceleration(linear, time_step)
+    np.testing.assert_allclose(motion.acceleration, expected, atol=1e-8 * np.abs(expected).max())
+
+
+def test_mean_levels_are_those_of_many_linear_wheels():
+    known = [beside(STRIP, i, 6, 1e-5) for i in range(60)]
+    levels = np.array([one.level for one in known])
+    off = levels.mean(axis=0) / known[0].mean - 1
+    error_of_the_mean = levels.std(axis=0, ddof=1) / math.sqrt(60) / known[0].mean
+    assert (np.abs(off) < 4 * error_of_the_mean).all()
+    strip = STRIP.strip(0, 6, 1e-5)
+    other = mean_levels(STRIP, known[1].surface, strip.spacing, known[0].time_step)
+    np.testing.assert_allclose(other, known[0].mean, rtol=1e-9)
+
+
+def test_mean_rolling_levels_are_those_of_many_linear_forces():
+    scene = SMALL.rolling
+    draw = next(a for a in scene.attempts() if a.line == FILTER_3D).prepare()
+    turns = [draw(i) for i in range(60)]
+    forces = [turn.solve() for turn in turns]
+    found = [turn.read(force).values for turn, force in zip(turns, forces, strict=True)]
+    # at a place, so that the mean of a strip counts too
+    variance = np.array([np.mean((force / HERTZ - 1) ** 2) for force in forces])
+    for values, name in ((variance, "mean variance"), (np.array([one["level"] for one in found]), "mean level")):
+        mean = found[0][name]
+        assert (np.abs(values.mean(axis=0) - mean) < 4 * values.std(axis=0, ddof=1) / math.sqrt(60)).all()
+
+
+# --- the command ---
+
+
+def test_command_line(result, tmp_path, monkeypatch, capsys):
+    """A page, sentences on the terminal, and times that are kept apart from results."""
+    monkeypatch.setitem(
+        TIMED, "precision", dataclasses.replace(TIMED["precision"], quick=SMALL, run=lambda case, engine: result)
+    )
+    assert command.main(["precision", "--out", str(tmp_path)]) == command.Exit.MET
+    assert "fractal punch, mean stiffness: down to" in capsys.readouterr().out
+    results = json.loads((tmp_path / "precision.json").read_text())["cases"]
+    assert list(results) == ["precision"]
+    assert results["precision"]["settings"]["sphere"]["cells"] == [4, 8, 16]
+    assert json.loads((tmp_path / "results.json").read_text())["cases"] == {}
+    for name in ("precision", "precision-summary", "precision-visits"):
+        assert (tmp_path / "figures" / f"{name}.svg").exists()
+    assert (tmp_path / "data" / "precision-points.csv").exists()
+    page = (tmp_path / "index.html").read_text()
+    assert "Speed against accuracy" in page and 'href="precision.json"' in page
+
+
+@pytest.mark.parametrize("installed", [True, False])
+def test_report_times_last_of_all_and_before_the_race(installed, tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr(command, "peers_installed", lambda: installed)
+    monkeypatch.setattr(command, "build", lambda names, **settings: seen.extend(names) or [])
+    command.main(["report", "--out", str(tmp_path)])
+    assert seen[-2:] == ["precision", "race"] if installed else seen[-1] == "precision" and "race" not in seen
+
+
+def test_a_seed_is_that_of_all_roughness():
+    case = TIMED["precision"].case("quick", 7)
+    assert [scene.seed for scene in case.scenes()[3:]] == [7, 7, 7]

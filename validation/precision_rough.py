@@ -1,0 +1,178 @@
+"""Speed against accuracy on the rough punch of Fig. 14.1: mean stiffness under a force, and how much it scatters."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+import bem3d
+import mdr
+from validation.closed_forms import SQUARE_PUNCH
+from validation.precision import (
+    BEM,
+    CLOSED,
+    LOOSE,
+    MDR,
+    PLAIN,
+    Answers,
+    Attempt,
+    Draw,
+    FloatArray,
+    Quantity,
+    Turn,
+    Work,
+)
+from validation.precision_pressed import FROZEN, MOST_ITERATIONS, doublings, logarithm, visited
+from validation.rough_punch import Roughness
+
+
+def log_deviation(answers: Answers) -> FloatArray:
+    """ln of the relative standard deviation; minus infinity of a single value."""
+    k = answers["stiffness"]
+    deviation = k.std(ddof=1) / k.mean() if k.size > 1 else 0.0
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.log(np.atleast_1d(deviation)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fractal:
+    """A square punch of side L = 1, self-affine from q_min = 2 pi / L to q_max, under Fbar = F / (E* h L).
+
+    hurst; waves: on a side, of the shortest; force: Fbar; surfaces: realisations; profiles: of springs, their own;
+    cells: on a side, ascending, of which the last two give the reference; plain: of them for the textbook's iteration;
+    springs: of a profile; tight: residual; tolerances: on the grid `fixed`; seed: zero or positive.
+    """
+
+    hurst: float = 0.7
+    waves: int = 15
+    force: float = 0.1
+    surfaces: int = 24
+    profiles: int = 120
+    cells: tuple[int, ...] = (24, 32, 64, 128)
+    plain: tuple[int, ...] = (32, 64)
+    springs: tuple[int, ...] = (24, 32, 64, 128, 256, 512)
+    fixed: int = 64
+    tight: float = 1e-5
+    tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3)
+    seed: int = 150
+
+    @property
+    def name(self) -> str:
+        """For tables and figures."""
+        return "fractal punch"
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """Of all surfaces together."""
+        return (
+            Quantity(name="mean stiffness", log=logarithm("stiffness"), needs=("stiffness",)),
+            Quantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
+        )
+
+    @property
+    def roughness(self) -> Roughness:
+        """The same on every grid and in both methods."""
+        return Roughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
+
+    def attempts(self) -> tuple[Attempt, ...]:
+        """The smooth punch, springs, plain and fast boundary elements."""
+        return (
+            SmoothPunch(line=CLOSED, knob="smooth punch", value=1.0, paired=False),
+            *(self._springs(n) for n in self.springs),
+            *(self._grid(PLAIN, n, self.tight) for n in self.plain),
+            *(self._grid(BEM, n, self.tight) for n in self.cells),
+            *(self._grid(LOOSE, self.fixed, tolerance) for tolerance in self.tolerances),
+        )
+
+    def reference(self) -> tuple[Attempt, Attempt]:
+        """The two finest grids."""
+        coarse, fine = (self._grid(BEM, n, self.tight) for n in self.cells[-2:])
+        return coarse, fine
+
+    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
+        """Grids of which one has twice the cells of the other; not those of the reference."""
+        grids = [self._grid(BEM, n, self.tight) for n in self.cells]
+        return tuple(pair for pair in doublings(grids) if pair != self.reference())
+
+    def _springs(self, springs: int) -> "RoughSprings":
+        return RoughSprings(
+            line=MDR,
+            knob="# springs a side",
+            value=springs,
+            realisations=self.profiles,
+            paired=False,
+            scene=self,
+        )
+
+    def _grid(self, line: str, cells: int, tolerance: float) -> "RoughGrid":
+        loose = line == LOOSE
+        return RoughGrid(
+            line=line,
+            knob=f"residual #, {cells} cells a side" if loose else "# cells a side",
+            value=tolerance if loose else cells,
+            realisations=self.surfaces,
+            scene=self,
+            cells=cells,
+            tolerance=tolerance,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SmoothPunch(Attempt):
+    """What roughness is forgotten leaves: k = 1.1523 E* L at any force, without scatter."""
+
+    def prepare(self) -> Draw:
+        """Nothing to do."""
+        return lambda _: Turn(lambda: SQUARE_PUNCH, lambda k: Work({"stiffness": np.array(k)}, 1.0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoughSprings(Attempt):
+    """A profile of Geike's spectrum on springs, L_1D = L: one sort for all forces."""
+
+    scene: Fractal
+
+    def prepare(self) -> Draw:
+        """Refuses waves that springs do not resolve."""
+        scene, roughness, springs = self.scene, self.scene.roughness, round(self.value)
+        roughness.profile(springs, 0)
+
+        def draw(realisation: int) -> Turn:
+            height = roughness.profile(springs, realisation)
+
+            def solve() -> mdr.LoadPoint[float]:
+                return mdr.load_curve(height, length=1.0, modulus=1.0).at_force(scene.force * roughness.height)
+
+            return Turn(solve, lambda point: Work({"stiffness": np.array(point.stiffness)}, springs))
+
+        return draw
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoughGrid(Attempt):
+    """Boundary elements, plain or fast, a cold solve and its stiffness."""
+
+    scene: Fractal
+    cells: int
+    tolerance: float
+
+    def prepare(self) -> Draw:
+        """Plans, coarser grids and windows, by a solve of the first surface."""
+        scene, roughness, n = self.scene, self.scene.roughness, self.cells
+        half_space = bem3d.HalfSpace(shape=(n, n), spacing=1 / n, modulus=1.0)
+        plain = partial(bem3d.solve_plain, max_iterations=MOST_ITERATIONS)
+        solver: Callable[..., bem3d.Contact] = plain if self.line == PLAIN else bem3d.solve
+        force = scene.force * roughness.height
+
+        def draw(realisation: int) -> Turn:
+            gap = -roughness.surface(n, realisation)
+
+            def solve() -> tuple[bem3d.Contact, bem3d.FrozenContact]:
+                contact = solver(half_space, gap, force=force, tolerance=self.tolerance)
+                return contact, bem3d.press_frozen(half_space, contact.pressure > 0, tolerance=FROZEN)
+
+            return Turn(solve, lambda found: Work({"stiffness": np.array(found[1].stiffness)}, visited(*found)))
+
+        draw(0).solve()
+        return draw

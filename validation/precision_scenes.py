@@ -1,0 +1,57 @@
+"""All scenes of speed against accuracy: one after the other on the clock, alone on the machine."""
+
+from dataclasses import dataclass, field, replace
+
+from validation.ensemble import SERIAL, Engine, Outcome
+from validation.peers import CONTESTANTS
+from validation.precision import Scene, Trial, measure
+from validation.precision_rolling import Rolling
+from validation.precision_rough import Fractal
+from validation.precision_smooth import Punch, Sphere, Wave
+from validation.precision_wheel import Wheels
+
+STORED = "precision-*.npz"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Precision:
+    """Everything that is timed.
+
+    sphere, punch, wave, fractal, rolling, wheel: the scenes; slow: who takes longer on the same problem is timed once
+    [s]; enough: after so many seconds five runs are enough; seed: of all roughness, zero or positive.
+    """
+
+    sphere: Sphere = field(default_factory=Sphere)
+    punch: Punch = field(default_factory=Punch)
+    wave: Wave = field(default_factory=Wave)
+    fractal: Fractal = field(default_factory=Fractal)
+    rolling: Rolling = field(default_factory=Rolling)
+    wheel: Wheels = field(default_factory=Wheels)
+    slow: float = 0.2
+    enough: float = 0.02
+    seed: int = 150
+
+    def scenes(self) -> tuple[Scene, ...]:
+        """From what is known exactly to what nobody knows."""
+        rough = (replace(scene, seed=self.seed) for scene in (self.fractal, self.rolling, self.wheel))
+        return (self.sphere, self.punch, self.wave, *rough)
+
+
+@dataclass(frozen=True)
+class PrecisionResult:
+    """One outcome a scene."""
+
+    case: Precision
+    outcomes: list[Outcome]
+
+
+def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
+    """Time all scenes, one at a time whatever the engine's workers, so that nobody is disturbed."""
+    alone = Engine(workers=1, store=engine.store, progress=engine.progress)
+    entrants = tuple(f"{contestant.name} {contestant.version}" for contestant in CONTESTANTS)
+    trials = [Trial(scene, case.slow, case.enough, entrants) for scene in case.scenes()]
+    outcomes = alone.map(measure, trials)
+    # what was interrupted goes on; what is over is timed anew the next time
+    for file in engine.store.glob(STORED) if engine.store else ():
+        file.unlink()
+    return PrecisionResult(case, outcomes)

@@ -1,0 +1,167 @@
+"""Figures of speed against accuracy: a chart a quantity, and all of them in one."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from validation.evidence import Evidence, Table
+from validation.report.style import Style, panels
+
+STYLES: dict[str, Style] = {
+    "closed form": {"color": "#000000", "marker": "*", "linestyle": "none", "markersize": 8},
+    "linear filter, 1D": {"color": "#E69F00", "marker": "P", "linestyle": "-."},
+    "linear filter, 3D": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
+    "MDR": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
+    "MDR, fed for rolling": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
+    "plain BEM": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "white", "linestyle": ":"},
+    "BEM, finer cells": {"color": "#0072B2", "marker": "o", "linestyle": "-"},
+    "BEM, looser residual": {"color": "#0072B2", "marker": "d", "markerfacecolor": "white", "linestyle": "--"},
+    "BEM, extrapolated": {"color": "#332288", "marker": "h", "linestyle": "-."},
+    "tamaas": {"color": "#882255", "marker": "<", "markerfacecolor": "white", "linestyle": ":"},
+    "ContactMechanics": {"color": "#777777", "marker": ">", "markerfacecolor": "white", "linestyle": ":"},
+}
+COMMON: Style = {"markersize": 4.5, "linewidth": 0.9}
+BARS: Style = {"capsize": 1.5, "elinewidth": 0.7}
+PLACES = {"left": 0.055, "right": 0.995, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
+SHARED = 1.5
+"""Costs within this factor of one method share a mark of the summary."""
+ROOM = 3.0
+"""How far a chart goes on, as a factor, below what is drawn and above."""
+
+
+def draw(evidence: Evidence) -> Figure:
+    """Error against seconds."""
+    return _charts(evidence.table("points"), "median [s]", "front", "seconds of one realisation")
+
+
+def draw_visits(evidence: Evidence) -> Figure:
+    """Error against what no machine changes."""
+    return _charts(
+        evidence.table("points"), "visits", "front by visits", "cell-applications, springs or points visited"
+    )
+
+
+def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
+    charts = list(dict.fromkeys(zip(points["scene"].tolist(), points["quantity"].tolist(), strict=True)))
+    figure, axes = panels(3, 4, width=14.0, height=10.0, within=PLACES)
+    for axis, (scene, quantity) in zip(axes, charts, strict=False):
+        mine = points.where(scene=scene, quantity=quantity)
+        _chart(axis, mine, cost, front)
+        letter = axis.get_title(loc="left")
+        axis.set_title(f"{letter} {scene}: {quantity} [{mine['unit'][0]}]", loc="left")
+    for axis in axes[len(charts) :]:
+        axis.set_axis_off()
+        axis.set_title("", loc="left")
+    for axis in axes[::4]:
+        axis.set_ylabel("error")
+    for axis in axes[max(len(charts) - 4, 0) : len(charts)]:
+        axis.set_xlabel(label)
+    used = [line for line in STYLES if line in points["method"]]
+    handles = [axes[-1].plot([], [], label=line, **{**COMMON, **STYLES[line]})[0] for line in used]
+    axes[-1].legend(handles=handles, loc="center", fontsize=9)
+    return figure
+
+
+def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
+    scale = 100.0 if points["unit"][0] == "%" else 1.0
+    done = points["status"] == "finished"
+    error, half, band = (scale * points[name] for name in ("error", "± sample", "band"))
+    others = done & ~points["reference itself"]
+    floor, top = _limits(error[others], half[others], float(band[0]))
+    known = points[cost][np.isfinite(points[cost]) & (points[cost] > 0)]
+    axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(known.min() / ROOM, known.max() * ROOM))
+    axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.12, linewidth=0)
+    at = points[front]
+    rank = np.maximum(error + half, floor)[at]
+    order = np.argsort(points[cost][at])
+    ahead = points[cost][at][order], rank[order]
+    axis.step(*ahead, where="post", color="#bbbbbb", linewidth=4.0, zorder=0.5, solid_capstyle="round")
+    for line in dict.fromkeys(points["method"].tolist()):
+        some = (points["method"] == line) & done
+        _line(axis, points, some, cost, error, half, floor, {**COMMON, **STYLES[line]})
+        for x in points[cost][(points["method"] == line) & ~done]:
+            color = STYLES[line]["color"]
+            known = np.isfinite(x) and x > 0
+            place = (x, axis.get_xaxis_transform()) if known else (0.015, axis.transAxes)
+            axis.plot([place[0]], [0.96], marker="x", color=color, transform=place[1], markersize=6, linestyle="none")
+
+
+def _limits(error: np.ndarray, half: np.ndarray, band: float) -> tuple[float, float]:
+    """The edge below which nothing is ranked, no farther down than what is drawn; the top of the chart."""
+    positive = error[error > 0]
+    lowest = float(positive.min()) / ROOM if positive.size else band
+    top = float((error + half).max()) if error.size else 10 * band
+    floor = max(band, lowest)
+    return floor, max(top, 2 * floor) * ROOM
+
+
+def _line(
+    axis: Axes,
+    points: Table,
+    some: np.ndarray,
+    cost: str,
+    error: np.ndarray,
+    half: np.ndarray,
+    floor: float,
+    style: Style,
+) -> None:
+    some = some & np.isfinite(points[cost])
+    if not some.any():
+        return
+    x, off = points[cost][some], error[some]
+    y = np.maximum(off, floor)
+    down, up = y - np.maximum(off - half[some], floor), np.maximum(off + half[some], floor) - y
+    across = [x - points["lower quartile [s]"][some], points["upper quartile [s]"][some] - x]
+    bars: Style = {"yerr": [np.maximum(down, 0.0), up], "xerr": across if cost == "median [s]" else None}
+    axis.errorbar(x, y, **bars, **style, **BARS)
+    within = off <= floor
+    if within.any():
+        pointing = {**style, "marker": "v", "linestyle": "none", "markersize": 7, "markerfacecolor": style["color"]}
+        axis.plot(x[within], y[within], **pointing)
+
+
+def draw_summary(evidence: Evidence) -> Figure:
+    """For each quantity the cost of the cheapest method within each tolerance."""
+    summary = evidence.table("summary")
+    rows = list(dict.fromkeys(zip(summary["scene"].tolist(), summary["quantity"].tolist(), strict=True)))
+    within = {"left": 0.25, "right": 0.98, "bottom": 0.1, "top": 0.88}
+    figure, (axis,) = panels(1, 1, width=11.0, height=1.6 + 0.5 * len(rows), within=within)
+    axis.set_title("")
+    axis.set_title("", loc="left")
+    for place, (scene, quantity) in enumerate(rows):
+        _stairs(axis, place, summary.where(scene=scene, quantity=quantity))
+    known = summary["median [s]"][np.isfinite(summary["median [s]"])]
+    axis.set(xscale="log", xlabel="seconds of one realisation", ylim=(len(rows) - 0.4, -0.7))
+    axis.set_xlim(known.min() / ROOM, known.max() * 100)
+    axis.set_yticks(range(len(rows)), [f"{scene}: {quantity}" for scene, quantity in rows])
+    used = [line for line in STYLES if line in summary["method"]]
+    handles = [axis.plot([], [], label=line, **{**COMMON, **STYLES[line], "linestyle": "none"})[0] for line in used]
+    figure.legend(handles=handles, loc="upper center", ncols=5, fontsize=8)
+    return figure
+
+
+def _stairs(axis: Axes, place: int, row: Table) -> None:
+    """Marks from cheap to dear, each with the tolerances that it is the cheapest for; at the least of its costs."""
+    steps: dict[tuple[str, float], list[float]] = {}
+    nobody: dict[str, list[float]] = {}
+    for tolerance, method, seconds in zip(row["tolerance"], row["method"], row["median [s]"], strict=True):
+        if np.isfinite(seconds):
+            near = [step for step in steps if step[0] == method and seconds < SHARED * step[1]]
+            steps.setdefault(near[-1] if near else (str(method), float(seconds)), []).append(float(tolerance))
+        else:
+            nobody.setdefault(str(method), []).append(float(tolerance))
+    x = [seconds for _, seconds in steps]
+    axis.plot(x, [place] * len(x), color="#bbbbbb", linewidth=1.2, zorder=0.5)
+    for i, ((method, seconds), tolerances) in enumerate(steps.items()):
+        axis.plot([seconds], [place], **{**COMMON, **STYLES[method], "markersize": 8, "linestyle": "none"})
+        beside = (0, -14) if i % 2 else (0, 7)
+        axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
+    said = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in nobody.items())
+    if said:
+        transform = axis.get_yaxis_transform()
+        axis.text(0.995, place, said, transform=transform, ha="right", va="center", fontsize=7, color="#555555")
+
+
+def _span(tolerances: list[float]) -> str:
+    first, last = (f"{100 * tolerance:g}" for tolerance in (max(tolerances), min(tolerances)))
+    return f"{first} %" if first == last else f"{first} to {last} %"
