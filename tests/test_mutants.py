@@ -88,7 +88,7 @@ def test_every_mutant_is_other_code_that_can_be_compiled(path):
     source = (ROOT / path).read_text()
     plain, found = ast.unparse(ast.parse(source)), mutants_of(path, source)
     assert len(found) > 30
-    for mutant in found[:: len(found) // 30]:
+    for mutant in found[:: len(found) // 8]:
         code = mutated(mutant, source)
         assert code != plain
         compile(code, path, "exec")

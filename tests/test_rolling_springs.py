@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 import mdr
@@ -43,6 +43,7 @@ def test_force_is_the_sum_over_all_springs(track):
 
 
 @given(springs=st.integers(0, 3000), spacing=st.floats(1e-3, 10), radius=st.floats(0.1, 100), ulps=st.integers(-2, 2))
+@example(springs=121, spacing=0.701370178925973, radius=5.094218430888326, ulps=1)
 def test_the_reach_of_the_wheel_by_its_profile_as_it_is_rounded(springs, spacing, radius, ulps):
     """x^2 / R < level for so many springs and for no more, also where the level is that of a spring, or next to it."""
     wheel = _Track(np.zeros(3), spacing, radius, 1.0)
