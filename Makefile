@@ -5,8 +5,10 @@ VENV := .venv
 RUN := $(VENV)/bin/python -m
 READY := $(VENV)/ready
 PEERS := $(VENV)/peers
+STRENGTH := $(VENV)/strength
+RECORD := .coverage-times.xml
 
-.PHONY: report full-report reference race test thorough lint types format clean
+.PHONY: report full-report reference race test thorough coverage mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -25,6 +27,20 @@ test: $(READY)  ## all tests
 
 thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
+
+# reports and cases execute the methods without looking at them: they do not count here
+AT_WORK := architecture command_line ensemble evidence fractal_punch planted_faults race readme rolling_cases \
+	rough_punches scene_files wheel_cases wheel_spectra wheel_stability
+
+coverage: $(STRENGTH)  ## every branch of mdr and bem3d, by the tests of these alone; fails where one is missed
+	$(RUN) pytest -n auto --cov --cov-context=test --junitxml=$(RECORD) \
+		$(AT_WORK:%=--ignore=tests/test_%.py) $(ARGS)
+
+mutation: $(RECORD)  ## small changes in mdr, bem3d and the closed forms, and who notices; ARGS="--sample 300"
+	$(RUN) tests.mutation $(ARGS)
+
+$(RECORD): $(STRENGTH) $(wildcard mdr/*.py bem3d/*.py validation/closed_forms.py tests/*.py)
+	$(MAKE) coverage ARGS=
 
 lint: $(READY)
 	$(RUN) ruff check .
@@ -48,5 +64,9 @@ $(PEERS): $(READY)
 	$(RUN) pip install --quiet --editable ".[peers]"
 	touch $@
 
+$(STRENGTH): $(READY)
+	$(RUN) pip install --quiet --group strength
+	touch $@
+
 clean:
-	rm -rf $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage $(RECORD) .mutation-killers.json

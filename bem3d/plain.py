@@ -44,10 +44,10 @@ def solve_plain(
 
 def _iterate(problem: Problem, tolerance: float, max_iterations: int) -> Attempt:
     attempt = Attempt(np.zeros(problem.half_space.shape), 0.0)
-    for iterate in polonsky_keer(problem):
+    iterates = polonsky_keer(problem)
+    while attempt.status is None:
+        iterate = next(iterates)
         attempt.judge(iterate.residual, tolerance, max_iterations)
-        if attempt.status is not None:
-            break
     attempt.pressure, attempt.overlap = iterate.pressure, iterate.approach - problem.first_touch
     attempt.operator_applications = iterate.operator_applications
     return attempt

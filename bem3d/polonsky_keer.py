@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +65,7 @@ def polonsky_keer(problem: Problem) -> Iterator[Iterate]:
         overlapping = (pressure == 0) & (w < 0)
         pressure[overlapping] -= step * w[overlapping]
         if force is not None:
-            pressure = _loaded(problem, pressure)
+            pressure = _loaded(problem, pressure, force)
         restart, square_before = bool(overlapping.any()) or square == 0, square
 
 
@@ -75,14 +76,12 @@ def mean_over(contact: NDArray[np.bool_], values: FloatArray) -> float:
 
 def first_pressure(problem: Problem) -> FloatArray:
     """A pressure to begin with: uniform at prescribed force, proportional to the geometric overlap otherwise."""
-    if problem.depth is None:
-        return _loaded(problem, np.ones(problem.half_space.shape))
-    overlap = np.maximum(problem.depth - (problem.gap - problem.first_touch), 0.0)
+    if problem.force is not None:
+        return _loaded(problem, np.ones(problem.half_space.shape), problem.force)
+    overlap = np.maximum(cast(float, problem.approach) - problem.gap, 0.0)
     return np.asarray(overlap / (problem.half_space.self_compliance * np.sqrt(overlap.size)))
 
 
-def _loaded(problem: Problem, pressure: FloatArray) -> FloatArray:
-    """The pressure, scaled to the prescribed force if there is one."""
-    if problem.force is None:
-        return pressure
-    return pressure * (problem.force / (float(pressure.sum()) * problem.half_space.cell_area))
+def _loaded(problem: Problem, pressure: FloatArray, force: float) -> FloatArray:
+    """The pressure, scaled to a force."""
+    return pressure * (force / (float(pressure.sum()) * problem.half_space.cell_area))

@@ -129,8 +129,6 @@ class Frame:
 
     def take(self, field: FloatArray, frame: "Frame") -> FloatArray:
         """A field of another frame under the same wheel, zero where that one does not reach."""
-        if frame is self:
-            return field
         here = np.zeros(self.shape)
         common = common_part(self.spans, frame.spans)
         here[self.box(common)] = field[frame.box(common)]

@@ -241,6 +241,12 @@ def test_approach_of_a_load_curve(value):
         curve().at_approach(value)
 
 
+@pytest.mark.parametrize("size", [1e-200, 1e200])
+def test_springs_whose_stiffness_is_no_number(size):
+    with pytest.raises(ValueError, match="modulus and length must give a finite stiffness"):
+        curve(modulus=size, length=size)
+
+
 def test_pressure():
     for bad in (np.zeros((5, 4)), np.full((4, 5), np.nan), [[1.0], [1.0, 2.0]]):
         with pytest.raises(ValueError, match="pressure"):
@@ -344,6 +350,23 @@ def test_feeds_of_waves_that_have_no_wavenumber():
         feed(q=0.0, contact_radius=np.inf)
     with pytest.raises(TypeError, match="c2d must be a callable"):
         feed(c2d=1.0)
+
+
+@pytest.mark.parametrize("value", NOT_FINITE)
+@pytest.mark.parametrize(
+    ("function", "name", "shape"),
+    [(solve, "gap", (4, 5)), (curve, "height", (3,)), (springs, "height", (8,)), (track, "height", (8, 7))],
+)
+def test_a_single_value_that_is_not_finite(function, name, shape, value):
+    given = np.zeros(shape)
+    given.flat[-1] = value
+    with pytest.raises(ValueError, match=f"{name} must be finite, got 1 NaN or infinite values out of {given.size}"):
+        function(**{name: given})
+
+
+@pytest.mark.parametrize("function", [springs, track])
+def test_masked_arrays_without_a_masked_value_are_accepted(function):
+    function(height=np.ma.array(np.zeros(8 if function is springs else (8, 7))))
 
 
 @pytest.mark.parametrize("function", [springs, track, strip])

@@ -1,5 +1,7 @@
 """The referees themselves: integrals, inverses and limits that tie one closed form to another."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -104,3 +106,20 @@ def test_bad_input_is_named(form, names, bad):
 def test_westergaard_beyond_full_contact_is_refused():
     with pytest.raises(ValueError, match="mean_pressure must not exceed"):
         closed_forms.westergaard_half_width(mean_pressure=4.0, amplitude=1.0, wavelength=1.0, modulus=1.0)
+
+
+def test_square_punch_lies_between_the_circles_of_its_area_and_of_its_diagonal():
+    """Of all punches of an area the circle is the softest; a punch that holds another is stiffer."""
+    k = closed_forms.square_punch_stiffness(side=3.0, modulus=2.0)
+    low, high = (
+        closed_forms.circular_punch_stiffness(radius=a, modulus=2.0) for a in (3 / math.sqrt(math.pi), 3 / math.sqrt(2))
+    )
+    assert low < k < high
+    assert k == pytest.approx(1.1523 * 3 * 2, rel=1e-14)
+
+
+def test_persson():
+    """Proportional to the load at small ones, sqrt(8 / pi) p / (E* h'), and full at large ones."""
+    fraction = closed_forms.persson_contact_fraction
+    assert fraction(1e-6, gradient=0.1) == pytest.approx(math.sqrt(8 / math.pi) * 1e-6 / 0.1, rel=1e-6)
+    assert fraction(1.0, gradient=0.1) == pytest.approx(1.0)

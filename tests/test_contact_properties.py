@@ -1,5 +1,8 @@
 """What every frictionless contact obeys, whatever the gap: Hypothesis draws them."""
 
+import itertools
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import assume, given
@@ -161,8 +164,9 @@ def test_force_and_approach_are_two_ways_to_one_contact(problem):
 def test_no_contact():
     half_space = bem3d.HalfSpace(shape=(4, 5), spacing=1.0, modulus=1.0)
     gap = np.full((4, 5), 0.5)
-    for prescribed in ({"force": 0.0}, {"approach": 0.5}, {"approach": -1.0}):
-        contact = bem3d.solve(half_space, gap, **prescribed)
+    loads = ({"force": 0.0}, {"approach": 0.5}, {"approach": -1.0})
+    for solver, prescribed in itertools.product((bem3d.solve, bem3d.solve_plain), loads):
+        contact = solver(half_space, gap, **prescribed)
         assert (contact.force, contact.area, contact.residual, contact.stiffness()) == (0, 0, 0, 0)
         assert contact.approach == prescribed.get("approach", 0.5)
         assert contact.status == "converged"
@@ -221,6 +225,25 @@ def test_not_converged_is_never_success(prescribed):
     assert not frozen.converged
 
 
+def test_a_result_is_short_to_look_at():
+    """Numbers, no arrays."""
+    half_space = bem3d.HalfSpace(shape=(40, 40), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(0).random((40, 40))
+    (contact,) = bem3d.indent(half_space, gap, approaches=[0.5], stiffness=True)
+    assert "approach=0.5" in repr(contact)
+    assert len(repr(contact)) < 200
+
+
+def test_a_failure_comes_home_from_another_process():
+    """With its sentence, its history and what was reached."""
+    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
+    with pytest.raises(bem3d.ConvergenceError) as caught:
+        bem3d.solve(half_space, np.random.default_rng(0).random((8, 8)), force=1.0, max_iterations=1)
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert (str(copy), copy.history) == (str(caught.value), caught.value.history)
+    np.testing.assert_array_equal(copy.result.pressure, caught.value.result.pressure)
+
+
 def test_textbook_iteration_may_cycle_under_a_force():
     """A spike over a plateau of equal heights: two contact sets take turns. It must say so; by approach it ends."""
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=(2.0, 0.3125), modulus=1.0)
@@ -228,6 +251,8 @@ def test_textbook_iteration_may_cycle_under_a_force():
     gap[0, 0] = 0.0
     stuck = bem3d.solve_plain(half_space, gap, force=1.0, max_iterations=200, raise_on_failure=False)
     assert stuck.status == "iteration limit"
+    with pytest.raises(bem3d.ConvergenceError, match="after 200 iterations"):
+        bem3d.solve_plain(half_space, gap, force=1.0, max_iterations=200)
     assert stuck.history[-1] == pytest.approx(stuck.history[-3], rel=1e-3)
     assert bem3d.solve_plain(half_space, gap, approach=1.1, tolerance=TIGHT).converged
     assert bem3d.solve(half_space, gap, force=1.0, tolerance=TIGHT).converged
@@ -250,10 +275,12 @@ def test_results_belong_to_nobody_else():
             array[0, 0] = 1.0
 
 
-@pytest.mark.parametrize("prescribed", [{"force": 1e200}, {"force": 5e-324}, {"approach": 1e300}])
-def test_numbers_that_overflow_are_an_honest_failure(prescribed):
-    half_space = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(0).random((4, 4))
+@pytest.mark.parametrize("side", [4, 40])
+@pytest.mark.parametrize("prescribed", [{"force": 1e200}, {"force": 5e-324}, {"approach": 1e300}, {"approach": 1e308}])
+def test_numbers_that_overflow_are_an_honest_failure(prescribed, side):
+    """On grids that are begun with coarser ones, too."""
+    half_space = bem3d.HalfSpace(shape=(side, side), spacing=1.0, modulus=1.0)
+    gap = np.random.default_rng(0).random((side, side))
     contact = bem3d.solve(half_space, gap, **prescribed, raise_on_failure=False)
     assert contact.converged == (contact.residual <= contact.tolerance)
     if contact.converged:

@@ -169,6 +169,15 @@ def test_profiles_look_the_same_up_and_down():
     assert abs(cubes.mean()) < 5 * cubes.std() / np.sqrt(1000)
 
 
+def test_surfaces_look_the_same_up_and_down():
+    """So do theirs, those of waves that are their own mirror image too, which are up or down."""
+    c2d = band(0.7, 3, 6.0).c2d
+    draws = [bem3d.rough_surface(c2d, shape=(6, 6), spacing=1.0, rng=rng(i), rms=1.0) for i in range(1000)]
+    waves = np.fft.fft2(draws)[:, [0, 0, 0, 1, 2, 1, 2, 3, 1, 5], [1, 2, 3, 0, 0, 1, 1, 0, 2, 2]]
+    turns = np.mean(waves / np.abs(waves), axis=0)
+    assert np.abs(turns).max() < 5 / np.sqrt(1000)
+
+
 def test_a_wave_at_the_edge_of_the_band_survives_rounding():
     """q_min = 2 pi / L carries most of the height, whatever the last bit of the lattice says."""
     for length in np.random.default_rng(0).uniform(0.1, 10, 200):

@@ -138,6 +138,7 @@ def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
         (1.15, 500, Verdict.DIFFER),
         (1.15, 10, Verdict.UNDECIDED),
         (1.0, 10, Verdict.UNDECIDED),
+        (1.15, 60, Verdict.UNDECIDED),
         (2.0, 60, Verdict.DIFFER),
     ],
 )

@@ -116,6 +116,13 @@ def test_line_trace_of_an_arbitrary_spectrum_against_its_closed_form(spectrum, s
     np.testing.assert_allclose(trace, np.sqrt(np.pi) * scale * np.exp(-((q / scale) ** 2)), rtol=1e-9)
 
 
+def test_line_traces_of_arrays_are_those_of_numbers():
+    q = np.linspace(0, 3, 6)
+    one_by_one = [mdr.line_trace(k, lambda s: np.exp(-(s**2)), q_max=8.0) for k in q]
+    together = mdr.line_trace(q.reshape(2, 3), lambda s: np.exp(-(s**2)), q_max=8.0)
+    np.testing.assert_allclose(together, np.reshape(one_by_one, (2, 3)), rtol=1e-14)
+
+
 @given(spectrum=self_affine())
 def test_line_trace_is_refuted_through_the_gradient(spectrum):
     """In Geike's place it keeps the height and half of the mean square gradient: the moments must tell them apart."""

@@ -34,6 +34,15 @@ def test_each_contact_is_the_one_of_a_cold_solve(by, periodic, stiffness):
             assert contact.frozen is None
 
 
+@pytest.mark.parametrize(("path", "stiffness", "tolerance"), [([1.0, 3.0, 2.0], False, 1e-5), ([1.0, 2.0], True, 1e-3)])
+def test_a_punch_that_keeps_its_cells_is_predicted(path, stiffness, tolerance):
+    """Pressures of a flat punch are proportional to its approach: secant and tangent lead to the next, in one look."""
+    gap = np.full(BODY.shape, 100.0)
+    gap[10:25, 8:30] = 0.0
+    *_, last = bem3d.indent(BODY, gap, approaches=path, stiffness=stiffness, tolerance=tolerance)
+    assert last.operator_applications == 1
+
+
 def test_a_finer_stiffness_than_the_path_has_brought_is_solved_for():
     contact = next(bem3d.indent(BODY, GAP, forces=[1.0], stiffness=True))
     assert contact.frozen.residual > 1e-9
@@ -69,6 +78,8 @@ def test_a_start_for_the_frozen_contact():
     again = bem3d.press_frozen(BODY, contact, start=cold.pressure, tolerance=1e-6)
     assert warm.stiffness == pytest.approx(cold.stiffness, rel=1e-9)
     assert again.operator_applications == 1
+    assert again.iterations == 0
+    assert cold.iterations == cold.operator_applications == len(cold.history) - 1
     assert not again.pressure[~contact].any()
     with pytest.raises(ValueError, match="read-only"):
         cold.pressure[0, 0] = 1.0

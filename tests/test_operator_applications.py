@@ -21,7 +21,10 @@ def self_affine(n, *, periodic):
     return bem3d.HalfSpace(shape=(n, n), spacing=1 / n, modulus=1.0, periodic=periodic), -height
 
 
-@pytest.mark.parametrize("prescribed", [{"approach": 1 / 16}, {"force": 4 / 3 / 64}])
+BOTH = ({"approach": 1 / 16}, {"force": 4 / 3 / 64})
+
+
+@pytest.mark.parametrize("prescribed", BOTH)
 def test_sphere_costs_the_same_on_any_grid(prescribed):
     """At most 20 applications to 1e-8 from a cold start, growing by no more than 3 from 128 to 1024 cells a side."""
     counts = []
@@ -40,6 +43,13 @@ def test_textbook_iteration_grows_with_the_grid():
     """The negative control of the test above."""
     counts = [bem3d.solve_plain(*sphere(n), approach=1 / 16, tolerance=1e-8).operator_applications for n in (64, 256)]
     assert counts[1] > 1.5 * counts[0] > 90
+
+
+def test_textbook_iteration_costs_what_it_does():
+    """Two applications an iteration: from the overlap to 1e-8 about 55 of them, from a uniform pressure about 35."""
+    by_approach, by_force = (bem3d.solve_plain(*sphere(128), **load, tolerance=1e-8) for load in BOTH)
+    assert 100 <= by_approach.operator_applications <= 120
+    assert 60 <= by_force.operator_applications <= 80
 
 
 @pytest.mark.parametrize("periodic", [True, False])
@@ -72,7 +82,8 @@ def test_load_path(periodic):
     assert both[light].max() <= 25
 
 
-def test_nothing_but_the_window_is_transformed(monkeypatch):
+@pytest.mark.parametrize("by", ["approach", "force"])
+def test_nothing_but_the_window_is_transformed(by, monkeypatch):
     """A sphere in the corner of a large grid: the operator is applied on a window of 2.8 a and a little, no more."""
     n, a = 256, 12
     x = np.arange(n) - 40.0
@@ -81,7 +92,7 @@ def test_nothing_but_the_window_is_transformed(monkeypatch):
     shapes = []
     apply = bem3d.HalfSpace.apply
     monkeypatch.setattr(bem3d.HalfSpace, "apply", lambda self, p: shapes.append(self.shape) or apply(self, p))
-    contact = bem3d.solve(half_space, gap, approach=a**2, tolerance=1e-8)
+    contact = bem3d.solve(half_space, gap, **{by: a**2 if by == "approach" else 4 / 3 * a**3}, tolerance=1e-8)
     assert max(shape[0] for shape in shapes if shape[0] <= 64) < 3.4 * a
     assert (n, n) not in shapes
     assert contact.force == pytest.approx(4 / 3 * a**3, rel=1e-2)

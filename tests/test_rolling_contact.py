@@ -4,12 +4,16 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import bem3d
+from bem3d import convolution
+from bem3d.projected_cg import Load
+from bem3d.rolling import _pressing
 from bem3d.track import Frame
+from bem3d.window import Candidates
 from tests.strategies import half_spaces
 from validation.rolling_theory import linear_force, response
 
@@ -104,10 +108,35 @@ def test_pressures_solve_the_contact_on_all_of_the_strip(name):
         last = wheel._past[-1]
         whole = Frame(track, ((-(nx // 2), nx - nx // 2), (0, ny)))
         pressure, gap = whole.take(last.pressure, last.frame), whole.gap(position)
+        x, y, shown = wheel.pressure()
+        assert np.sort(shown[shown > 0]).tolist() == np.sort(pressure[pressure > 0]).tolist()
+        # (x, y) of the middle of the pressure, by rows counted from the wheel and columns from the middle
+        rows, columns = np.arange(nx) - nx // 2, np.arange(ny) - (ny - 1) / 2
+        assert (x @ shown).sum() == pytest.approx(spacing * (rows @ pressure).sum(), abs=1e-12 * pressure.sum())
+        assert (shown @ y).sum() == pytest.approx(spacing * (pressure @ columns).sum(), abs=1e-12 * pressure.sum())
         assert pressure.min() >= 0
         assert pressure.sum() * spacing**2 == pytest.approx(contact.force, rel=1e-14)
         w = gap + body.displacement(pressure) - 1.0
         assert bem3d.residual(pressure, w, 1.0 - float(gap.min())) <= TOLERANCE * (1 + 1e-6)
+
+
+def test_there_is_no_pressure_before_a_position_is_solved():
+    wheel = bem3d.RollingContact(bem3d.Track(height=STRIPS["flat"], spacing=1 / 6, **SPHERE), max_iterations=1)
+    with pytest.raises(ValueError, match="there is no pressure"):
+        wheel.pressure()
+    assert not wheel.carry(0, HERTZ).converged
+    with pytest.raises(ValueError, match="there is no pressure"):
+        wheel.pressure()
+
+
+@pytest.mark.parametrize("offset", [-3.0, 2.0])
+def test_the_plane_from_which_heights_count_does_not_matter_under_a_force(offset):
+    """Far below it, where the smooth sphere would not touch, or above."""
+    height = STRIPS["rough"]
+    settings = {"spacing": 1 / 7, **SPHERE, "force": HERTZ, "positions": 6, "tolerance": TOLERANCE}
+    plain, moved = (bem3d.roll(h, **settings) for h in (height, height + offset))
+    assert moved.approach == pytest.approx(plain.approach - offset, abs=2 * ERROR)
+    assert np.abs(moved.area - plain.area).max() <= 2 / 7**2
 
 
 @pytest.mark.parametrize("by", ["approach", "force"])
@@ -201,6 +230,106 @@ def test_a_force_lowers_the_surface_by_no_less_than_the_bound(half_space, data):
 
 def framed(height, spans):
     return Frame(bem3d.Track(height=height, spacing=1.0, radius=15.0, modulus=1.0), spans)
+
+
+@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("by", ["approach", "force"])
+def test_a_start_that_pulls_is_made_one_that_presses(by, seed):
+    """Nowhere negative, under the same force, with the displacement that it has; at worst it presses evenly."""
+    rng = np.random.default_rng(seed)
+    pressure, separation = rng.normal(size=3) + 0.2, 30 * rng.normal(size=3)
+    if seed == 0:
+        # the step takes all from the one cell that presses, and the other must not have any
+        pressure, separation = np.array([0.3094, -0.064]), np.array([-1.0293, 2.9952])
+    shape = (1, pressure.size)
+    cells = Candidates(bem3d.HalfSpace(shape=shape, spacing=1.0, modulus=1.0), np.ones(shape, dtype=bool))
+    if pressure.sum() <= 0:
+        return
+    load = Load(total=float(pressure.sum())) if by == "force" else Load(overlap=1.0)
+    pressing, moved = _pressing(cells, pressure, separation, load)
+    assert (pressing >= 0).all()
+    np.testing.assert_allclose(moved - separation, cells.displacement(pressing - pressure), atol=1e-12)
+    if by == "force":
+        assert pressing.sum() == pytest.approx(pressure.sum(), rel=1e-12)
+        assert seed or pressing[0] == pressing[1]
+
+
+def some_spans():
+    """Rows from -6 to 6, columns from 0 to 24."""
+    rows, columns = (
+        st.lists(st.integers(low, high), min_size=2, max_size=2, unique=True).map(sorted).map(tuple)
+        for low, high in ((-6, 6), (0, 24))
+    )
+    return st.tuples(rows, columns)
+
+
+@given(here=some_spans(), there=some_spans(), seed=st.integers(0, 100))
+def test_a_field_of_another_frame_stays_where_it_is_on_the_ground(here, there, seed):
+    assume(all(max(here[k][0], there[k][0]) < min(here[k][1], there[k][1]) for k in (0, 1)))
+    height = np.zeros((40, 24))
+    one, other = framed(height, here), framed(height, there)
+    field = np.random.default_rng(seed).random(other.shape)
+    taken = one.take(field, other)
+    for i, row in enumerate(range(*here[0])):
+        for j, column in enumerate(range(*here[1])):
+            known = row in range(*there[0]) and column in range(*there[1])
+            assert taken[i, j] == (field[row - there[0][0], column - there[1][0]] if known else 0)
+    assert one.within(other) == all(there[k][0] <= here[k][0] and here[k][1] <= there[k][1] for k in (0, 1))
+    # the first and the last column of the strip, if the frame has them, and no other
+    for column in range(*here[1]):
+        pressure = np.zeros(one.shape)
+        pressure[-1, column - here[1][0]] = 1.0
+        assert one.at_edge(pressure) == (column in (0, 23))
+
+
+@given(spans=some_spans(), margin=st.integers(0, 12))
+def test_a_wider_frame_holds_the_narrower_with_its_margin(spans, margin):
+    """On both sides, evenly; where the strip ends, as far as it has cells."""
+    track = bem3d.Track(height=np.zeros((40, 24)), spacing=1.0, radius=15.0, modulus=1.0)
+    (first, last), (left, right) = track.widened(spans, margin)
+    assert spans[0][0] - first >= margin and last - spans[0][1] >= margin
+    assert abs((spans[0][0] - first) - (last - spans[0][1])) <= 1
+    assert 0 <= left <= max(spans[1][0] - margin, 0) and min(spans[1][1] + margin, 24) <= right <= 24
+    # no longer than the next side that transforms fast
+    assert last - first <= 1.25 * (spans[0][1] - spans[0][0] + 2 * margin) + 1
+
+
+def test_moments_of_a_pressure():
+    """Two cells of 2 x 1/2, at rows 0 and 3 ahead and columns 11 and 14 of 24, one pressed three times as hard."""
+    track = bem3d.Track(height=np.zeros((40, 24)), spacing=(2.0, 0.5), radius=15.0, modulus=1.0)
+    frame = Frame(track, ((-1, 5), (10, 15)))
+    pressure = np.zeros((6, 5))
+    pressure[1, 1], pressure[4, 4] = 1.0, 3.0
+    force, centre, variance = frame._moments(pressure)
+    assert force == pytest.approx(4.0)
+    assert centre == pytest.approx((0.75 * 6.0, 0.25 * -0.25 + 0.75 * 1.25))
+    # a quarter times three quarters of the distance squared, and that of a cell
+    assert variance == pytest.approx(3 / 16 * (6.0**2 + 1.5**2) + (2.0**2 + 0.5**2) / 12)
+    assert frame._moments(0 * pressure)[0] == 0
+
+
+@given(marked=arrays(np.bool_, (6, 5)))
+def test_spans_of_a_frame_are_those_of_its_marked_cells(marked):
+    if not marked.any():
+        return
+    rows, columns = framed(np.zeros((40, 24)), ((-3, 3), (10, 15))).spans_of(marked)
+    ahead, across = np.nonzero(marked)
+    assert rows == (ahead.min() - 3, ahead.max() + 1 - 3)
+    assert columns == (across.min() + 10, across.max() + 1 + 10)
+
+
+@given(cells=st.tuples(st.integers(1, 60), st.integers(1, 60)), approach=st.floats(-1, 4))
+def test_cells_under_the_smooth_sphere(cells, approach):
+    """All with |x| <= a, |y| <= a, as far as the strip has them, and no more than one beyond; one at least."""
+    track = bem3d.Track(height=np.zeros(cells), spacing=(0.1, 0.2), radius=1.0, modulus=1.0)
+    a = math.sqrt(max(approach, 0.0))
+    (first, last), (left, right) = track.smooth_contact(approach)
+    assert first + last == 1
+    assert (last - 1) * 0.1 <= a < last * 0.1
+    assert left + right == cells[1]
+    under = np.abs(track.across(np.arange(cells[1]))) <= a
+    assert under[left:right].sum() == under.sum()
+    assert 1 <= right - left <= under.sum() + 4
 
 
 @given(
@@ -342,6 +471,20 @@ def test_positions_in_any_order_and_loads_of_either_kind():
         assert by_approach.force == pytest.approx(cold(height, 1 / 6, position, approach=1.0).force, rel=ERROR)
         by_force = wheel.carry(position, by_approach.force)
         assert by_force.approach == pytest.approx(1.0, abs=2 * ERROR)
+
+
+@pytest.mark.parametrize("by", ["approach", "force"])
+def test_applications_are_counted(by, monkeypatch):
+    """All of them, whether on a frame or on a window of it; but for one that scales the first pressure."""
+    calls = []
+    for kind in (convolution.CachedConvolution, convolution.PaddedConvolution):
+        apply = kind._convolve
+        monkeypatch.setattr(kind, "_convolve", lambda self, apply=apply: calls.append(apply(self)))
+    wheel = bem3d.RollingContact(bem3d.Track(height=bumpy(row=3), spacing=1 / 6, **SPHERE), tolerance=TOLERANCE)
+    for position in range(20):
+        calls.clear()
+        contact = wheel.press(position, 1.0) if by == "approach" else wheel.carry(position, HERTZ)
+        assert len(calls) == contact.operator_applications + (position == 0)
 
 
 def test_a_start_from_the_last_two_positions_saves_applications():

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 import mdr
+from mdr.rolling import _Track
 from tests.oracles import wheel_on_springs
 from tests.strategies import OnSprings, on_springs
 from validation.rolling_theory import force_spectrum_1d
@@ -41,6 +42,18 @@ def test_force_is_the_sum_over_all_springs(track):
     assert np.array_equal(found.force, mdr.rolling_force(track.height, **track.wheel, approach=track.approach))
 
 
+@given(springs=st.integers(0, 3000), spacing=st.floats(1e-3, 10), radius=st.floats(0.1, 100), ulps=st.integers(-2, 2))
+@example(springs=121, spacing=0.701370178925973, radius=5.094218430888326, ulps=1)
+def test_the_reach_of_the_wheel_by_its_profile_as_it_is_rounded(springs, spacing, radius, ulps):
+    """x^2 / R < level for so many springs and for no more, also where the level is that of a spring, or next to it."""
+    wheel = _Track(np.zeros(3), spacing, radius, 1.0)
+    level = wheel.wheel(springs)
+    level += ulps * np.spacing(level)
+    found = wheel.reach(level)
+    assert wheel.wheel(found + 1) >= level
+    assert wheel.wheel(found) < level if level > 0 else found == -1
+
+
 @given(track=on_springs(), seed=st.integers(0, 1000))
 def test_an_approach_for_each_point(track, seed):
     """Of any sign: at some points the wheel is lifted off."""
@@ -68,6 +81,7 @@ def test_a_prescribed_force_is_borne_at_every_position(track, share):
     )
     spring = track.modulus * track.spacing
     assert (found.force == force).all()
+    assert (found.examined >= 0).all()
     rounding = 1e-15 * spring * most * (np.abs(found.approach) + np.abs(track.height).max())
     assert (np.abs(spring * total - force) <= 1e-12 * force + rounding).all()
     assert (least <= np.rint(found.stiffness / spring)).all()
@@ -91,6 +105,13 @@ def test_newtons_method_ends_on_wild_tracks(rms, offset):
     found = track.roll(force=4 / 3)
     total, _, _ = wheel_on_springs(track.height, spacing=track.spacing, radius=1.0, approach=found.approach)
     assert np.abs(track.spacing * total / found.force - 1).max() <= 1e-12 * (1 + rms + offset)
+
+
+def test_a_search_that_does_not_end_says_so(monkeypatch):
+    """One step from where all springs touch is not enough on a rough track."""
+    monkeypatch.setattr("mdr.rolling.MOST_STEPS", 1)
+    with pytest.raises(ArithmeticError, match="did not end within 1 steps"):
+        rough(100, 0.1, springs=12.3).roll(force=4 / 3)
 
 
 @pytest.mark.parametrize("kind", ["full", "linear"])

@@ -127,13 +127,6 @@ def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
             assert n.grid == pytest.approx(20 * np.log10(1.05), rel=1e-6)
 
 
-def test_persson():
-    """Proportional to the load at small ones, sqrt(8 / pi) p / (E* h'), and full at large ones."""
-    fraction = closed_forms.persson_contact_fraction
-    assert fraction(1e-6, gradient=0.1) == pytest.approx(math.sqrt(8 / math.pi) * 1e-6 / 0.1, rel=1e-6)
-    assert fraction(1.0, gradient=0.1) == pytest.approx(1.0)
-
-
 def test_a_lost_surface_is_named():
     case = replace(LIMITS, tolerance=1e-30)
     surface = Surface(

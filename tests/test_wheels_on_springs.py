@@ -309,6 +309,18 @@ def test_sums_that_round_are_refused_each_time():
     assert np.array_equal(wheels.force(5, np.ones(3)), expected)
 
 
+@given(track=tracks())
+def test_the_quantum_is_that_of_its_formula(track):
+    assert track.wheels().quantum == pytest.approx(track.quantum, rel=1e-12, abs=0)
+
+
+def test_a_force_whose_sums_round_is_refused():
+    """Far beyond that which the quantum goes by."""
+    wheels = rough(0.1).wheels()
+    with pytest.raises(ArithmeticError, match="force must be less for sums without rounding"):
+        wheels.approach(0, 1e9 * HERTZ)
+
+
 def test_the_plane_from_which_heights_count_does_not_matter():
     """They are taken from the middle of each track: an offset costs what it rounds, and no more."""
     track = rough(0.1)
@@ -351,6 +363,13 @@ def test_newtons_method_ends_where_a_spring_just_touches(springs):
             for roundings in range(-6, 7):
                 approach = float(wheels.approach(10, force * (1 + 2 * roundings * ULP))[0])
                 assert approach == pytest.approx(-level[touching] * quantum - middle, abs=2 * quantum)
+
+
+def test_a_search_that_does_not_end_says_so(monkeypatch):
+    """One step from where all springs touch is not enough on a rough track."""
+    monkeypatch.setattr("mdr.wheels.MOST_STEPS", 1)
+    with pytest.raises(ArithmeticError, match="did not end within 1 steps"):
+        rough(0.1).wheels().approach(0, HERTZ)
 
 
 @pytest.mark.parametrize("wrong", [(-1, 4.0), (5, np.nan), (5, 400.0), (0.5, 4.0)])

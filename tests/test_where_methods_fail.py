@@ -194,6 +194,16 @@ def test_a_mean_gap_of_coarser_grids_is_nobodys_business(n, part):
             checked(contact)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_an_approach_one_digit_below_the_mean_gap_is_valid_on_coarser_grids_too(seed):
+    """Their mean is off by a rounding, beyond which they have no contact to begin with."""
+    gap = rough((32, 33), seed)
+    approach = float(np.nextafter(gap.mean(), -np.inf))
+    contact = bem3d.solve(half_space(gap.shape, periodic=True), gap, approach=approach, raise_on_failure=False)
+    assert contact.converged == (contact.residual <= contact.tolerance)
+    assert np.isfinite(contact.pressure).all()
+
+
 @pytest.mark.parametrize("height", [1e-14, 1e-32, 1e-200, 1e-300])
 @pytest.mark.parametrize("periodic", [True, False])
 def test_flat_but_for_noise(height, periodic):
