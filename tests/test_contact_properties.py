@@ -161,6 +161,31 @@ def test_force_and_approach_are_two_ways_to_one_contact(problem):
     assert by_approach.force == pytest.approx(by_force.force, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("pressure", "w", "overlap", "expected"),
+    [
+        # a gap under pressure, (0.2 + 3 * 0.1) / 4, or a penetration, whichever is larger
+        ([1.0, 3.0], [0.2, -0.1], 2.0, 0.125 / 2),
+        ([1.0, 3.0], [0.2, -0.4], 2.0, 0.4 / 2),
+        ([0.0, 3.0], [7.0, 0.0], 2.0, 0.0),
+        # no pressure: all of the overlap is penetration
+        ([0.0, 0.0], [1.0, -2.0], 2.0, 1.0),
+        # no overlap: no pressure is the solution, and any other is none
+        ([0.0, 0.0], [1.0, 0.0], 0.0, 0.0),
+        ([0.0, 0.0], [1.0, 0.5], -0.5, 0.0),
+        ([0.5, 0.5], [1.0, 0.5], 0.0, np.inf),
+        ([1e-9, 0.0], [1.0, 0.5], -0.5, np.inf),
+        # no number stays none
+        ([np.nan, 1.0], [0.0, 0.0], 1.0, np.nan),
+        ([np.inf, 1.0], [0.0, 0.0], 1.0, np.nan),
+        ([1.0, 1.0], [np.nan, 0.0], 1.0, np.nan),
+        ([0.0, 1.0], [np.nan, 0.0], 1.0, np.nan),
+    ],
+)
+def test_residual_by_hand(pressure, w, overlap, expected):
+    assert bem3d.residual(np.array(pressure), np.array(w), overlap) == pytest.approx(expected, rel=1e-14, nan_ok=True)
+
+
 def test_no_contact():
     half_space = bem3d.HalfSpace(shape=(4, 5), spacing=1.0, modulus=1.0)
     gap = np.full((4, 5), 0.5)

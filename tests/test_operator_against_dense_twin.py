@@ -74,6 +74,12 @@ def test_zero_mode_of_a_periodic_half_space_is_zero(half_space, seed):
     assert abs(u.mean()) <= 1e-13 * max(np.abs(u).max(), half_space.self_compliance)
 
 
+@given(half_space=half_spaces(most=7))
+def test_self_compliance_is_the_diagonal(half_space):
+    diagonal = np.diag(dense_operator(half_space))
+    assert half_space.self_compliance == pytest.approx(diagonal[0], rel=1e-12, abs=1e-15)
+
+
 def test_far_away_a_loaded_cell_is_a_point_force():
     """u = F / (pi E* r), with a relative error of order (dx / r)^2."""
     half_space = bem3d.HalfSpace(shape=(101, 3), spacing=0.1, modulus=2.0)

@@ -129,6 +129,34 @@ def test_coarser_grids(data):
         assert [n * d for n, d in zip(coarse.shape, coarse.steps, strict=True)] == pytest.approx(sides)
 
 
+@given(problem=pressed(most=12))
+def test_a_first_pressure_lowers_the_energy_most(problem):
+    """Of all multiples of the geometric overlap; uniform where a force is prescribed."""
+    stated = Problem(half_space=problem.half_space, gap=problem.gap, **problem.prescribed)
+    p = nested.first_pressure(stated).pressure
+    if stated.approach is None:
+        assert np.ptp(p) == 0
+        return
+    overlap = np.maximum(stated.approach - problem.gap, 0.0)
+    assert p * overlap.max() == pytest.approx(overlap * p.max(), rel=1e-12)
+    # the slope of 1/2 p K p - (d - g) p along p itself
+    downhill = (p * overlap).sum()
+    assert (p * problem.half_space.displacement(p)).sum() == pytest.approx(downhill, rel=1e-9)
+
+
+@pytest.mark.parametrize("shape", [(64, 64), (65, 47)])
+@pytest.mark.parametrize("load", [{"force": 300.0}, {"approach": 20.5}])
+def test_coarser_grids_come_with_their_overlap(shape, load):
+    """A coarser grid has another first touch: the approach it gives to begin with is that of the solution, nearly."""
+    body = bem3d.HalfSpace(shape=shape, spacing=1.0, modulus=1.0)
+    gap = 20 + spheres(shape, (30.3, 20.7, 0.0))
+    start, levels = nested.cold_start(Problem(half_space=body, gap=gap, **load), 500)
+    contact = bem3d.solve(body, gap, **load)
+    assert levels
+    assert start.overlap == pytest.approx(contact.approach - gap.min(), rel=0.05)
+    assert start.pressure.sum() == pytest.approx(contact.pressure.sum(), rel=0.05)
+
+
 @pytest.mark.parametrize("periodic", [True, False])
 def test_pressures_are_interpolated_around_a_period_and_end_with_the_grid_in_free_space(periodic):
     """3/4 of the coarser cell that a finer one lies in, 1/4 of the one that it lies next to."""
