@@ -83,9 +83,9 @@ def _compared(result: PrecisionResult) -> str:
         "these are periodic, of which closed forms know nothing. "
         "Cost: seconds of one realisation, methods in turns, one thread, median and quartiles; set-up "
         "(operators, plans, a first drawing) is timed apart. Beside it what no machine changes: cells times operator "
-        "applications, as if on the whole grid (rolling: on a square around the smooth contact), springs looked at, points filtered, "
-        "nodes of a quadrature. Extrapolated boundary elements cost both grids. Who prescribes a force where an "
-        "approach is given is carried over along the closed form."
+        "applications, as if on the whole grid (rolling: on a square around the smooth contact), springs looked at, "
+        "points filtered, nodes of a quadrature. Extrapolated boundary elements cost both grids. Who prescribes a "
+        "force where an approach is given is carried over along the closed form."
     )
 
 

@@ -158,8 +158,11 @@ def _stairs(axis: Axes, place: int, row: Table) -> None:
         axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
     said = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in nobody.items())
     if said:
+        plain: Style = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
         transform = axis.get_yaxis_transform()
-        axis.text(0.995, place, said, transform=transform, ha="right", va="center", fontsize=7, color="#555555")
+        axis.text(
+            0.995, place, said, transform=transform, ha="right", va="center", fontsize=7, color="#555555", bbox=plain
+        )
 
 
 def _span(tolerances: list[float]) -> str:
