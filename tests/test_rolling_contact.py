@@ -120,6 +120,15 @@ def test_pressures_solve_the_contact_on_all_of_the_strip(name):
         assert bem3d.residual(pressure, w, 1.0 - float(gap.min())) <= TOLERANCE * (1 + 1e-6)
 
 
+def test_a_track_belongs_to_nobody_else():
+    height = np.zeros((8, 7))
+    track = bem3d.Track(height=height, spacing=1.0, radius=4.0, modulus=1.0)
+    height += 1.0
+    assert not track.height.any()
+    with pytest.raises(ValueError, match="read-only"):
+        track.height[0, 0] = 1.0
+
+
 def test_there_is_no_pressure_before_a_position_is_solved():
     wheel = bem3d.RollingContact(bem3d.Track(height=STRIPS["flat"], spacing=1 / 6, **SPHERE), max_iterations=1)
     with pytest.raises(ValueError, match="there is no pressure"):

@@ -121,6 +121,11 @@ def test_sphere_is_hertz(radius, modulus, approach):
     assert mdr.press_sphere(radius=radius, modulus=modulus, force=hertz).approach == pytest.approx(approach, rel=1e-13)
 
 
+def test_profile_of_the_sphere():
+    """x^2 / R: at x = a = sqrt(R d) it has risen by d, by which it differs from the sphere itself."""
+    np.testing.assert_array_equal(mdr.sphere_profile([-6.0, 0.0, 3.0], radius=4.0), [9.0, 0.0, 2.25])
+
+
 @pytest.mark.parametrize("offset", [0.0, 0.1, 0.37, 0.5])
 def test_springs_under_a_parabola_tend_to_the_sphere_at_second_order(offset):
     """Midpoint rule: (dx/a)^2 / 8 inside, at most 3/8 from both ends, wherever the springs lie."""
