@@ -202,7 +202,7 @@ CASES = {
         "Where MDR must fail: true contact area, mean gap, stiffness with a roll-off",
         mdr_limits.MdrLimits(),
         mdr_limits.MdrLimits(
-            roll_offs=(1, 8, 16), cells=256, surfaces=40, refined=8, profiles=500, decades=(-3, 1), per_decade=3
+            roll_offs=(1, 8, 16), cells=256, surfaces=30, refined=8, profiles=500, decades=(-3, 1), per_decade=3
         ),
         mdr_limits.run,
         mdr_limits.evidence,
@@ -231,7 +231,7 @@ CASES = {
             width=32.0,
             cells=16,
             strips=6,
-            rough_strips=10,
+            rough_strips=8,
             refined=3,
             tracks=400,
         ),
@@ -251,7 +251,7 @@ CASES = {
             width=32.0,
             cells=16,
             strips=4,
-            tracks=400,
+            tracks=250,
             punch_cells=128,
             surfaces=60,
             profiles=500,
@@ -359,7 +359,7 @@ CASES = {
         "The cheapest model that a scene needs can be chosen beforehand, with an honest error.",
         "Random scenes up the ladder of models: claimed beside true error, and what was saved",
         ladder.Ladder(),
-        ladder.Ladder(punches=72, spheres=12, rolling=14, wheels=4, tolerances=(0.1, 0.3)),
+        ladder.Ladder(punches=78, spheres=12, rolling=8, wheels=3, tolerances=(0.1, 0.3)),
         ladder.run,
         ladder.evidence,
         needs.always("chosen scene by scene"),
