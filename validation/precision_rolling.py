@@ -72,11 +72,11 @@ class Rolling:
     width: int = 16
     strips: int = 3
     tracks: int = 20
-    cells: tuple[int, ...] = (3, 4, 8, 16)
+    cells: tuple[int, ...] = (3, 4, 6, 12)
     plain: tuple[int, ...] = (4,)
-    filtered: tuple[int, ...] = (4, 8)
+    filtered: tuple[int, ...] = (4, 6)
     springs: tuple[int, ...] = (3, 4, 8, 16, 32)
-    fixed: int = 8
+    fixed: int = 6
     tight: float = 1e-5
     tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3)
     seed: int = 151

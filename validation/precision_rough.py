@@ -47,7 +47,7 @@ class Fractal:
     hurst: float = 0.7
     waves: int = 15
     force: float = 0.1
-    surfaces: int = 24
+    surfaces: int = 16
     profiles: int = 120
     cells: tuple[int, ...] = (24, 32, 64, 128)
     plain: tuple[int, ...] = (32, 64)

@@ -159,7 +159,7 @@ class Wave(Pressed):
 
     cells: tuple[int, ...] = (16, 32, 64, 128, 256)
     plain: tuple[int, ...] = (16, 64, 256)
-    peers: tuple[int, ...] = (16, 64, 256)
+    peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (64,)
     fixed: int = 128
     pressure: float = 0.3

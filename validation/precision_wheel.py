@@ -54,11 +54,11 @@ class Wheels:
     width: int = 2
     strips: int = 3
     wheels: int = 20
-    cells: tuple[int, ...] = (6, 9, 18)
-    filtered: tuple[int, ...] = (6, 9)
+    cells: tuple[int, ...] = (6, 12)
+    filtered: tuple[int, ...] = (6, 12)
     shared: int = 3
     springs: tuple[int, ...] = (12, 25)
-    fixed: int = 9
+    fixed: int = 6
     tight: float = 1e-5
     tolerances: tuple[float, ...] = (1e-2, 1e-3)
     seed: int = 152
