@@ -43,12 +43,14 @@ class Survey:
 
 def table(survey: Survey, reasons: Reasons) -> str:
     """The score file by file, and the survivors with their reasons."""
-    return "\n".join([*_introduction(survey), "", *_scores(survey), "", *_survivors(survey, reasons), ""])
+    return "\n".join([*_introduction(survey, reasons), "", *_scores(survey), "", *_survivors(survey, reasons), ""])
 
 
-def _introduction(survey: Survey) -> list[str]:
+def _introduction(survey: Survey, reasons: Reasons) -> list[str]:
     tried, everything = len(survey.trials), sum(survey.counts.values())
-    gone = sum(trial.outcome is not Outcome.SURVIVED for trial in survey.trials)
+    left = [trial.mutant for trial in survey.trials if trial.outcome is Outcome.SURVIVED]
+    gone = tried - len(left)
+    excused = sum(mutant.key in reasons.get(mutant.path, {}) for mutant in left)
     low, high = stats.binomtest(gone, tried).proportion_ci(method="wilson")
     which = (
         f"All {everything} were tried"
@@ -64,6 +66,8 @@ def _introduction(survey: Survey) -> list[str]:
         f"where a test fails, and met by tests of {survey.seconds:g} s in all: the quickest that execute its lines.",
         "",
         f"**{which}; {gone} of them were killed or timed out: {gone / tried:.1%}{interval}.**",
+        f"Of the {tried - gone} survivors {excused} change no answer, for the reasons below: without them",
+        f"{gone / (tried - excused):.1%} are gone.",
     ]
 
 

@@ -170,6 +170,7 @@ def test_force_and_approach_are_two_ways_to_one_contact(problem):
         ([0.0, 3.0], [7.0, 0.0], 2.0, 0.0),
         # no pressure: all of the overlap is penetration
         ([0.0, 0.0], [1.0, -2.0], 2.0, 1.0),
+        ([0.0, 0.0], [1.0, -0.5], 2.0, 0.25),
         # no overlap: no pressure is the solution, and any other is none
         ([0.0, 0.0], [1.0, 0.0], 0.0, 0.0),
         ([0.0, 0.0], [1.0, 0.5], -0.5, 0.0),

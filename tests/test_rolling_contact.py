@@ -361,6 +361,19 @@ def test_cells_that_a_frame_rules_out_are_open(pressure, seed, position, approac
     assert inside.all()
 
 
+@pytest.mark.parametrize("share", [0.5, 0.97, 0.999])
+@pytest.mark.parametrize("place", [(9, 12), (0, 20), (-7, 3)])
+def test_a_cell_that_just_overlaps_outside_of_a_frame_is_found(place, share):
+    """Its gap is so large a part of the approach, and nothing displaces it."""
+    row, column = place
+    height = np.zeros((40, 24))
+    frame, d = framed(height, ((-3, 3), (10, 15))), 2.0
+    height[row, column] = frame.track.sphere(np.array(row), np.array(column)) - share * d
+    rows, columns = framed(height, frame.spans).outside(0, d, np.zeros(frame.shape))
+    assert rows[0] <= row < rows[1]
+    assert columns[0] <= column < columns[1]
+
+
 def bumpy(*, row, column=0.0, cells=6, tall=4.0):
     """A flat strip with one tall bump, of a cell, so many radii from where the wheel starts."""
     height = np.zeros((14 * cells, 9 * cells))
