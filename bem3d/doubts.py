@@ -71,6 +71,8 @@ def _doubts_of_a_spike(pressure: FloatArray) -> tuple[Doubt, ...]:
     (nx, ny), highest = pressure.shape, int(pressure.argmax())
     i, j = divmod(highest, ny)
     around = pressure[np.ix_(sorted({(i - 1) % nx, i, (i + 1) % nx}), sorted({(j - 1) % ny, j, (j + 1) % ny}))]
+    if not math.isfinite(pressure[i, j]):
+        return ()  # what has overflowed is not converged, and says so
     part = 1 / float((pressure / pressure[i, j]).sum())
     if np.count_nonzero(around) > 1 or not part > MOST_ALONE:
         return ()

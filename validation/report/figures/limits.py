@@ -14,6 +14,7 @@ from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, graded, panel
 
 MANY = {"left": 0.06, "right": 0.985, "bottom": 0.055, "top": 0.91, "wspace": 0.34, "hspace": 0.55}
 FEWER = {"left": 0.06, "right": 0.985, "bottom": 0.08, "top": 0.87, "wspace": 0.34, "hspace": 0.55}
+FOUR = {"left": 0.08, "right": 0.985, "bottom": 0.08, "top": 0.95, "wspace": 0.24, "hspace": 0.32}
 COUNTS = (10, 20, 50, 100, 200)
 OPEN = {"markerfacecolor": "white", "linestyle": "--"}
 BORDER: Style = {"color": "#000000", "linestyle": "--", "linewidth": 1.0}
@@ -110,7 +111,7 @@ def _ticks(axis: Axes, span: float) -> None:
 
 def draw_solver(evidence: Evidence) -> Figure:
     """Iterations against cells; true errors against the residual."""
-    figure, axes = panels(2, 2, height=6.6)
+    figure, axes = panels(2, 2, height=6.6, within=FOUR)
     _iterations(axes[0], evidence.table("iterations"))
     for axis, measure in zip(axes[1:], ("load", "stiffness", "pressure"), strict=True):
         _residual(axis, evidence.table("residual"), measure)
