@@ -123,3 +123,10 @@ def test_persson():
     fraction = closed_forms.persson_contact_fraction
     assert fraction(1e-6, gradient=0.1) == pytest.approx(math.sqrt(8 / math.pi) * 1e-6 / 0.1, rel=1e-6)
     assert fraction(1.0, gradient=0.1) == pytest.approx(1.0)
+    assert fraction(0.0, gradient=0.1) == 0
+    for pressure in (-1e-6, math.nan, math.inf):
+        with pytest.raises(ValueError, match=f"^pressure must be finite and not negative, got {pressure}$"):
+            fraction(pressure, gradient=0.1)
+    for gradient in (0.0, -1.0, math.nan):
+        with pytest.raises(ValueError, match=f"^gradient must be finite and positive, got {gradient}$"):
+            fraction(1.0, gradient=gradient)

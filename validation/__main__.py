@@ -18,7 +18,7 @@ from validation.peers import peers_installed
 from validation.report.build import Section, build
 from validation.scene_files import shipped
 from validation.scene_kinds import read_any
-from validation.wheel_scene import WheelScene, read_scene
+from validation.wheel_scene import WheelScene, read_scene, shipped_wheels
 
 CLOCKED = {
     "precision": "error against cost of every method, a scene at a time; full takes two and a half minutes",
@@ -188,7 +188,7 @@ def _parser() -> argparse.ArgumentParser:
         "--scene",
         metavar="FILE",
         help="a scene of your own for the cases of the dynamic wheel, TOML as validation/scenes/table_14_1.toml, or "
-        f"the name of a shipped one ({', '.join(shipped())}); alone, it means --only wheel",
+        f"the name of a shipped one ({', '.join(shipped_wheels())}); alone, it means --only wheel",
     )
     making.set_defaults(command=report)
     comparing = commands.add_parser("compare", help="one scene: the cheapest model that meets a tolerance, and why")

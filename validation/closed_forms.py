@@ -119,16 +119,19 @@ def line_trace_ratio(hurst: float) -> float:
     return math.gamma(hurst + 0.5) / (math.sqrt(math.pi) * math.gamma(hurst + 1))
 
 
-def _positive(**values: float) -> None:
-    for name, value in values.items():
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name} must be finite and positive, got {value}")
-
-
 def persson_contact_fraction(pressure: float, *, gradient: float) -> float:
     """True contact area of a rough surface over its nominal area, without adhesion: erf(sqrt(2) p / (E* h')).
 
     pressure: mean pressure p over E*, zero or positive; gradient: rms slope h', positive.
     Source: Persson, J. Chem. Phys. 115, 3840 (2001), full form.
     """
+    _positive(gradient=gradient)
+    if not (math.isfinite(pressure) and pressure >= 0):
+        raise ValueError(f"pressure must be finite and not negative, got {pressure}")
     return math.erf(math.sqrt(2) * pressure / gradient)
+
+
+def _positive(**values: float) -> None:
+    for name, value in values.items():
+        if not (math.isfinite(value) and value > 0):
+            raise ValueError(f"{name} must be finite and positive, got {value}")

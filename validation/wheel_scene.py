@@ -22,6 +22,7 @@ from validation.scene_files import (
     Reader,
     named,
     path_of,
+    shipped,
     table,
     tables_of,
 )
@@ -161,6 +162,11 @@ class WheelScene:
         if not rough:
             raise ValueError(f"scene {self.name!r} must have a rough rail or wheel for this, got both smooth")
         return rough
+
+
+def shipped_wheels() -> tuple[str, ...]:
+    """Names of the shipped scenes of a dynamic wheel."""
+    return tuple(name for name in shipped() if "mass" in tables_of(path_of(name)).get("wheel", {}))
 
 
 def read_scene(scene: str | Path) -> WheelScene:
