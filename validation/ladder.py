@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal, Protocol
 
 import numpy as np
@@ -95,7 +95,7 @@ class Climb:
     """All rungs, in order, up to where the tolerance was met; those above were not needed."""
 
     tolerance: float
-    steps: tuple[Step, ...] = field(default=())
+    steps: tuple[Step, ...]
 
     @property
     def met(self) -> bool:

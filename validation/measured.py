@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
+from scipy import interpolate, stats
 
 from mdr.border import positive
 from validation.quantities import quantity
@@ -76,6 +76,12 @@ class MeasuredHeights:
         ring = np.searchsorted(edges, np.abs(np.asarray(q, dtype=np.float64)), side="right") - 1
         inside = (ring >= 0) & (ring < level.size)
         return np.asarray(np.where(inside, level[np.clip(ring, 0, level.size - 1)], 0.0))
+
+    def at(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> FloatArray:
+        """Heights over the grid of x and y, from the middle of the surface, ascending [m]: linear between points."""
+        ends = [(np.arange(n) - (n - 1) / 2) * d for n, d in zip(self.height.shape, self.spacing, strict=True)]
+        inside = [np.clip(places, end[0], end[-1]) for places, end in zip((x, y), ends, strict=True)]
+        return np.asarray(interpolate.RectBivariateSpline(*ends, self.height, kx=1, ky=1)(*inside))
 
     @cached_property
     def texture(self) -> float:

@@ -4,11 +4,10 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate
 
 import bem3d
 import mdr
@@ -16,9 +15,10 @@ from validation.contact_laws import BoundaryElements, ContactLaw, Linear, Spring
 from validation.ensemble import generator
 from validation.measured import MeasuredHeights
 from validation.rolling_question import Question
-from validation.rolling_theory import linear_force, response
+from validation.rolling_theory import linear_force
 from validation.spectra import levels, waves
 from validation.wheel import simulate
+from validation.wheel_ensemble import filtered, rolling_feed
 from validation.wheel_strip import narrowed
 
 FloatArray = NDArray[np.float64]
@@ -44,7 +44,7 @@ class Rolled:
 
     @classmethod
     def of(cls, question: Question, cells: int) -> "Rolled":
-        """Long enough for a dozen of the longest waves, or as long as what was measured, there and back.
+        """Long enough for some of the longest waves, or as long as what was measured, there and back.
 
         A dynamic wheel comes back in the middle of a turn of its resonance, where free vibration is least excited.
         """
@@ -138,12 +138,11 @@ def on_springs(question: Question, tracks: int, seed: int) -> FloatArray:
     with warnings.catch_warnings():
         # how far a linear contact is off is what both are compared for
         warnings.simplefilter("ignore", mdr.ContactWarning)
-        force = np.array([roll(track).force for track in height.T])
-        linear = np.array([roll(track, contact="linear").force for track in height.T])
-    found = np.log(_levels(question, force, spacing))
-    if question.want == "force-rms":
-        return np.asarray(found - np.log(_levels(question, linear, spacing)))
-    return np.asarray(found - np.log(question.expected(one_dimensional=False)))
+        found = _levels(question, np.array([roll(track).force for track in height.T]), spacing)
+        if question.want == "force-rms":
+            linear = np.array([roll(track, contact="linear").force for track in height.T])
+            return np.asarray(np.log(found) - np.log(_levels(question, linear, spacing)))
+    return np.asarray(np.log(found) - np.log(question.expected(one_dimensional=False)))
 
 
 def _tracks(question: Question, tracks: int, seed: int) -> tuple[FloatArray, float]:
@@ -154,7 +153,7 @@ def _tracks(question: Question, tracks: int, seed: int) -> tuple[FloatArray, flo
     springs = max(SPRINGS, math.ceil(4 * ground.q_max * a / (2 * math.pi)))
     points, spacing = coarse.along * springs, a / springs
     geike = question.want == "force-rms"
-    feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else _fed(ground.c2d, ground.edges, a)
+    feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_feed(ground, a)
     drawn = [
         mdr.rough_profile(
             feed,
@@ -168,25 +167,10 @@ def _tracks(question: Question, tracks: int, seed: int) -> tuple[FloatArray, flo
     return np.array(drawn).T, spacing
 
 
-def _fed(
-    c2d: Callable[[FloatArray], FloatArray], edges: tuple[float, ...], contact_radius: float
-) -> Callable[[FloatArray], FloatArray]:
-    """C_1D(q) for springs that roll; values are kept, since each is a quadrature."""
-
-    @cache
-    def values(q: tuple[float, ...]) -> FloatArray:
-        return mdr.rolling_spectrum(np.array(q), c2d, edges=edges, contact_radius=contact_radius)
-
-    return lambda q: values(tuple(q.tolist()))
-
-
 def _springs_accelerated(question: Question, height: FloatArray, spacing: float) -> FloatArray:
-    scene, body = question.scene, question.scene.body
-    q = 2 * np.pi * np.fft.rfftfreq(len(height), spacing)[:, np.newaxis]
-    factor = response(q, contact_radius=scene.contact_radius, modulus=scene.modulus)
-    change = np.fft.irfft(factor * np.fft.rfft(height, axis=0), len(height), axis=0)
+    body = question.scene.body
     try:
-        found = _rolled_on(question, Springs(body, height, spacing), Linear(body, change), spacing)
+        found = _rolled_on(question, Springs(body, height, spacing), filtered(body, height, spacing), spacing)
     except ArithmeticError:
         return np.full((height.shape[1], len(question.bands.edges) - 1), np.nan)
     return np.asarray(np.log(_levels(question, found.T, spacing)) - np.log(question.expected(one_dimensional=False)))
@@ -239,9 +223,6 @@ def _tolerance(question: Question) -> float:
 
 
 def _resampled(heights: MeasuredHeights, grid: Rolled) -> FloatArray:
-    """Measured heights at the centres of cells, linear between their points."""
-    (nx, ny), (dx, dy) = heights.height.shape, heights.spacing
-    x, y = ((np.arange(n) - (n - 1) / 2) * d for n, d in ((nx, dx), (ny, dy)))
+    """Measured heights at the centres of cells."""
     along, across = ((np.arange(n) - (n - 1) / 2) * grid.spacing for n in (grid.along // 2, grid.across))
-    spline = interpolate.RectBivariateSpline(x, y, heights.height, kx=1, ky=1)
-    return np.asarray(spline(np.clip(along, x[0], x[-1]), np.clip(across, y[0], y[-1])))
+    return heights.at(along, across)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate
 
 import bem3d
 import mdr
@@ -236,7 +235,7 @@ class BoundaryElements:
             x = ((np.arange(cells) + 0.5) / cells - 0.5) * side
             gap = gap + (x[:, np.newaxis] ** 2 + x**2) / (2 * scene.size)
         with warnings.catch_warnings():
-            # as above, and the punch ends where its grid does
+            # few cells are what grids are compared for, and the punch ends where its grid does
             warnings.simplefilter("ignore", bem3d.ContactWarning)
             contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-4, raise_on_failure=False)
             return float(contact.stiffness()) if contact.converged else math.nan
@@ -315,11 +314,7 @@ def _whole(ground: Roughness, side: float) -> float:
 
 
 def _resampled(heights: MeasuredHeights, side: float, cells: int) -> FloatArray:
-    """The middle of a measured surface on cells x cells: the mean of a spline of degree one over each cell."""
-    (nx, ny), (dx, dy) = heights.height.shape, heights.spacing
-    x, y = (np.arange(nx) - (nx - 1) / 2) * dx, (np.arange(ny) - (ny - 1) / 2) * dy
-    parts = max(1, math.ceil(side / cells / min(dx, dy)))
+    """The middle of a measured surface on cells x cells: the mean over each cell."""
+    parts = max(1, math.ceil(side / cells / min(heights.spacing)))
     at = ((np.arange(parts * cells) + 0.5) / (parts * cells) - 0.5) * side
-    spline = interpolate.RectBivariateSpline(x, y, heights.height, kx=1, ky=1)
-    values = spline(np.clip(at, x[0], x[-1]), np.clip(at, y[0], y[-1]))
-    return np.asarray(values.reshape(cells, parts, cells, parts).mean(axis=(1, 3)))
+    return np.asarray(heights.at(at, at).reshape(cells, parts, cells, parts).mean(axis=(1, 3)))

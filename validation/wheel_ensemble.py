@@ -13,6 +13,7 @@ from scipy.fft import next_fast_len
 import mdr
 from validation.contact_laws import ContactLaw, Linear, Springs, Wheel
 from validation.ensemble import Outcome, generator
+from validation.measured import MeasuredHeights
 from validation.records import band_means, spectra
 from validation.rolling_theory import response
 from validation.roughness import Roughness
@@ -114,13 +115,12 @@ class Rides:
 
 
 @cache
-def rolling_feed(roughness: Roughness, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
-    """C_1D(q) for springs that roll, of isotropic roughness; values are kept, since each is a quadrature."""
+def rolling_feed(ground: Roughness | MeasuredHeights, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
+    """C_1D(q) for springs that roll, of an isotropic spectrum; values are kept, since each is a quadrature."""
 
     @cache
     def values(q: tuple[float, ...]) -> FloatArray:
-        edges = (roughness.q_min, roughness.q_max)
-        return mdr.rolling_spectrum(np.array(q), roughness.spectrum.c2d, edges=edges, contact_radius=contact_radius)
+        return mdr.rolling_spectrum(np.array(q), ground.c2d, edges=ground.edges, contact_radius=contact_radius)
 
     return lambda q: values(tuple(q.tolist()))
 
