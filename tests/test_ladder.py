@@ -45,7 +45,9 @@ class Fake:
         return Claim(error=self.claimed, because=f"claims {self.claimed}")
 
     def solve(self):
-        return Answer(value=np.array([1.0]), model=self.left, because=f"leaves {self.left}", failed=self.failed)
+        return Answer(
+            value=np.array([1.0]), cost=self.cost(), model=self.left, because=f"leaves {self.left}", failed=self.failed
+        )
 
 
 def punch(load=0.1, ground=ROUGH, **changes):
@@ -98,6 +100,19 @@ def test_tolerances_out_of_range_are_refused(tolerance):
         climb([Fake()], tolerance)
 
 
+def test_what_was_done_is_counted_and_not_what_was_expected():
+    rung = rungs_pressed.BoundaryElements(punch(), 0.6, seed=3, cells=32)
+    climbed = climb([rung], 0.6)
+    fine, coarse = 9, 8
+    assert climbed.steps[0].answer.cost.work == 24 * 32**2 * (fine + coarse / 4)
+    assert climbed.spent == climbed.steps[0].answer.cost.seconds
+    rough = rungs_of(wheel(height=0.2), "force-spectrum", 0.1, seed=1)[-2]
+    found = rough.solve()
+    strips = int(found.because.rsplit(" ", 1)[1])
+    assert found.cost == rough._cost(strips, 1)
+    assert strips > 4
+
+
 def test_what_is_needed_is_known_beforehand():
     rungs = [Fake(claimed=0.5), Fake(claimed=0.05), Fake()]
     assert needed(rungs, 0.1) is rungs[1]
@@ -105,8 +120,10 @@ def test_what_is_needed_is_known_beforehand():
 
 
 def test_errors_add_as_if_they_went_the_same_way():
-    assert Answer(value=np.ones(1), model=0.1, grid=0.02, sample=0.003).error == pytest.approx(0.123)
-    assert Answer(value=np.ones(1), failed="lost").error == math.inf
+    assert Answer(value=np.ones(1), cost=Fake().cost(), model=0.1, grid=0.02, sample=0.003).error == pytest.approx(
+        0.123
+    )
+    assert Answer(value=np.ones(1), cost=Fake().cost(), failed="lost").error == math.inf
 
 
 def test_a_distance_is_over_all_numbers():

@@ -28,19 +28,28 @@ class Claim:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Cost:
+    """work: operations, expected or counted; unit: of them; seconds: what those take on one core, about."""
+
+    work: float
+    unit: str
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Answer:
     """What a rung has found.
 
     value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
-    of all numbers together, see `distance`; work: what it took, in the unit of its rung; because: what the error rests
-    on; failed: why it is none, empty where it is one.
+    of all numbers together, see `distance`; cost: of what was done, not of what was expected; because: what the error
+    rests on; failed: why it is none, empty where it is one.
     """
 
     value: FloatArray
+    cost: Cost
     model: float = 0.0
     grid: float = 0.0
     sample: float = 0.0
-    work: float = 0.0
     because: str = ""
     failed: str = ""
 
@@ -48,15 +57,6 @@ class Answer:
     def error(self) -> float:
         """All three, added as if they went the same way; infinite for what has failed."""
         return math.inf if self.failed else self.model + self.grid + self.sample
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cost:
-    """work: operations that a rung expects; unit: of them; seconds: what that takes on one core, about."""
-
-    work: float
-    unit: str
-    seconds: float
 
 
 class Rung(Protocol):
@@ -111,8 +111,8 @@ class Climb:
 
     @property
     def spent(self) -> float:
-        """Seconds of all rungs that were asked, as expected."""
-        return sum(step.rung.cost().seconds for step in self.steps if step.answer is not None)
+        """Seconds of all that the rungs did that were asked."""
+        return sum(step.answer.cost.seconds for step in self.steps if step.answer is not None)
 
 
 def climb(rungs: Sequence[Rung], tolerance: float) -> Climb:

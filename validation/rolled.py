@@ -145,12 +145,18 @@ def on_springs(question: Question, tracks: int, seed: int) -> FloatArray:
     return np.asarray(np.log(found) - np.log(question.expected(one_dimensional=False)))
 
 
+def springs_to_a_radius(question: Question) -> int:
+    """Four to the shortest wave, and 32 at least."""
+    scene = question.scene
+    return max(SPRINGS, math.ceil(4 * scene.ground.q_max * scene.contact_radius / (2 * math.pi)))
+
+
 def _tracks(question: Question, tracks: int, seed: int) -> tuple[FloatArray, float]:
     """Heights, (points, tracks), and their spacing [m]."""
     scene, ground = question.scene, question.scene.ground
     coarse = Rolled.of(question, 1)
     a = scene.contact_radius
-    springs = max(SPRINGS, math.ceil(4 * ground.q_max * a / (2 * math.pi)))
+    springs = springs_to_a_radius(question)
     points, spacing = coarse.along * springs, a / springs
     geike = question.want == "force-rms"
     feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_feed(ground, a)

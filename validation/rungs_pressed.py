@@ -21,8 +21,10 @@ PROFILES, SURFACES = 1, 2
 """The spawn keys under which each kind of roughness draws."""
 SCATTER = 0.22
 """Relative deviation of the stiffness of one rough punch without roll-off, about: Fig. 14.1."""
-SPRING, CELL = 4.0e-8, 4.0e-8
-"""Seconds that a spring in a sort takes, and a cell in an application of the operator, about."""
+SPHERE_SCATTER = 0.3
+"""The same of a rough sphere, over h/d."""
+FORMULA, SPRING, CELL, PRESS = 2.0e-5, 3.5e-8, 2.0e-8, 3.5e-3
+"""Seconds that a formula takes, a spring in a sort, a cell in an application, what else a contact, about."""
 APPLICATIONS = 24
 """Of the operator, to a contact and its stiffness."""
 FEW, MANY = 16, 512
@@ -76,7 +78,7 @@ class ClosedForm:
 
     def cost(self) -> Cost:
         """A formula."""
-        return Cost(work=1, unit="formula", seconds=1e-6)
+        return Cost(work=1, unit="formula", seconds=FORMULA)
 
     def claim(self) -> Claim:
         """By the load or the height."""
@@ -91,7 +93,8 @@ class ClosedForm:
     def solve(self) -> Answer:
         """Evaluate it."""
         claim = self.claim()
-        return Answer(value=np.array([self.scene.stiffness]), model=claim.error, work=1, because=claim.because)
+        value = np.array([self.scene.stiffness])
+        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because)
 
 
 @dataclass(frozen=True)
@@ -149,9 +152,9 @@ class Springs:
         model, because = _springs_model(scene)
         return Answer(
             value=np.array([found.mean()]),
+            cost=self.cost(),
             model=model + self._own_scatter,
             sample=mean_error(found[:, np.newaxis] / found.mean()),
-            work=self.cost().work,
             because=because,
         )
 
@@ -186,12 +189,14 @@ class BoundaryElements:
     @property
     def count(self) -> int:
         """Surfaces that are expected to leave half of the tolerance."""
-        return 1 if self.measured else realisations(SCATTER, self.tolerance / 2, least=FEWEST, most=MOST)
+        if self.measured:
+            return 1
+        scatter = SCATTER if self.scene.shape == "punch" else SPHERE_SCATTER * self.scene.roughness_ratio
+        return realisations(scatter, self.tolerance / 2, least=FEWEST, most=MOST)
 
     def cost(self) -> Cost:
         """Operator applications times cells, on this grid and for some surfaces on the next coarser one."""
-        work = APPLICATIONS * self.cells**2 * (self.count + min(self.count, FEWEST) / 4)
-        return Cost(work=work, unit="cell applications", seconds=CELL * work)
+        return self._cost(self.count, min(self.count, FEWEST))
 
     def claim(self) -> Claim:
         """The sample's part: only a solve tells what the grid leaves."""
@@ -205,20 +210,25 @@ class BoundaryElements:
             found.append(self._pressed(len(found), self.cells))
         coarse = np.array([self._pressed(i, self.cells // 2) for i in range(min(len(found), FEWEST))])
         fine = np.array(found)
+        cost = self._cost(fine.size, coarse.size)
         lost = int(np.count_nonzero(np.isnan(fine)) + np.count_nonzero(np.isnan(coarse)))
         if lost:
-            return Answer(
-                value=np.array([np.nan]), failed=f"{lost} of {fine.size + coarse.size} contacts did not converge"
-            )
+            failed = f"{lost} of {fine.size + coarse.size} contacts did not converge"
+            return Answer(value=np.array([np.nan]), cost=cost, failed=failed)
         change = np.log(fine[: coarse.size] / coarse)[:, np.newaxis]
         return Answer(
             value=np.array([fine.mean()]),
+            cost=cost,
             grid=abs(float(change.mean())) + (0.0 if self.measured else mean_error(change)),
             sample=0.0 if self.measured else mean_error(fine[:, np.newaxis] / fine.mean()),
-            work=APPLICATIONS * self.cells**2 * (fine.size + coarse.size / 4),
             because=f"{self.cells}² cells change {self.cells // 2}² by {math.expm1(float(change.mean())):+.1%}, "
             f"surfaces: {fine.size}",
         )
+
+    def _cost(self, fine: int, coarse: int) -> Cost:
+        """Of surfaces on this grid, and on the next coarser one."""
+        work = APPLICATIONS * self.cells**2 * (fine + coarse / 4)
+        return Cost(work=work, unit="cell applications", seconds=CELL * work + PRESS * (fine + coarse))
 
     def _enough(self, found: list[float]) -> bool:
         if self.measured or len(found) < FEWEST:

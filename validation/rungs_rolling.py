@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.ladder import Answer, Claim, Cost, Rung, counted, distance, mean_error
+from validation.ladder import Answer, Claim, Cost, Rung, counted, distance, mean_error, realisations
 from validation.measured import MeasuredHeights
-from validation.rolled import Rolled, by_linear_theory, on_boundary_elements, on_springs, strip_of
+from validation.rolled import Rolled, by_linear_theory, on_boundary_elements, on_springs, springs_to_a_radius, strip_of
 from validation.rolling_question import Question, Want
 from validation.rolling_scene import RollingScene
 from validation.rolling_theory import contact_lost
@@ -24,8 +24,11 @@ SPRINGS_RMS: Rule = (1.0, 0.1, 0.002)
 """Errors of linear theory, of that with Geike's spectrum in one dimension, and of springs, in bands and in the rms: a
 sum over the contact that linear theory loses, h/d, and one. Envelopes of what was measured beside boundary elements on
 random scenes; others hold them to account, see `cases/ladder.py`."""
-NODE, SPRING, CELL, POSITION = 3.0e-4, 2.0e-7, 3.0e-8, 1.5e-3
-"""Seconds that a node of the quadrature takes, a position on springs, a cell in an application, what else a contact."""
+FORMULA, NODE, SPRING, CELL, POSITION = 1.0e-4, 4.5e-4, 6.0e-7, 2.0e-8, 1.0e-3
+"""Seconds that a formula at a node takes, a quadrature across the track there, a position on springs, a cell in an
+application, what else a contact, about."""
+STRIP_RMS, STRIP_BANDS = 0.35, 0.7
+"""Scatter of one strip over linear theory on itself, over h/d: how many strips are expected."""
 MOST_CELLS = 64
 """To a contact radius, on the finest grid that is offered."""
 MEASURED_SCATTER = 0.5
@@ -38,8 +41,6 @@ FINE, COARSE, LEAST = 4.0, 2.5, 8
 
 def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[Rung]:
     """All that a scene can be asked with, the cheapest first. Raises ValueError for a question without an answer."""
-    if want.startswith("acceleration") and scene.mass is None:
-        raise ValueError(f"--want {want} needs a wheel with mass and speed, got scene {scene.name!r} without")
     question = Question(scene, want)
     radii = question.q_max * scene.contact_radius / (2 * math.pi)
     coarse = min(max(LEAST, math.ceil(COARSE * radii)), MOST_CELLS * 2 // 3)
@@ -68,7 +69,7 @@ class LinearFilter:
 
     def cost(self) -> Cost:
         """A formula at each node."""
-        return Cost(work=self.question.nodes, unit="nodes", seconds=1e-6 * self.question.nodes)
+        return Cost(work=self.question.nodes, unit="nodes", seconds=FORMULA * self.question.nodes)
 
     def claim(self) -> Claim:
         """By the height, and what Geike's spectrum makes of levels along the track."""
@@ -83,7 +84,7 @@ class LinearFilter:
         """By quadrature."""
         claim = self.claim()
         value = self.question.expected(one_dimensional=True)
-        return Answer(value=value, model=claim.error, work=self.question.nodes, because=claim.because)
+        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because)
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,7 @@ class LinearSpace:
             value = by_linear_theory(question, strip_of(question, LEAST, 0, 0), spacing)
         else:
             value = question.expected(one_dimensional=False)
-        return Answer(value=value, model=claim.error, work=question.nodes, because=claim.because)
+        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because)
 
 
 @dataclass(frozen=True)
@@ -131,9 +132,10 @@ class Springs:
         return "springs"
 
     def cost(self) -> Cost:
-        """Positions of all tracks."""
-        work = TRACKS * Rolled.of(self.question, LEAST).along * 4
-        return Cost(work=work, unit="positions", seconds=SPRING * work)
+        """Positions of all tracks, and what linear theory expects."""
+        work = TRACKS * Rolled.of(self.question, 1).along * springs_to_a_radius(self.question)
+        nodes = 0 if self.question.want == "force-rms" else self.question.nodes
+        return Cost(work=work, unit="positions", seconds=SPRING * work + NODE * nodes)
 
     def claim(self) -> Claim:
         """By the height."""
@@ -149,13 +151,14 @@ class Springs:
         claim = self.claim()
         change = on_springs(self.question, TRACKS, self.seed)
         if not np.isfinite(change).all():
-            return Answer(value=np.array([np.nan]), failed="a wheel was thrown farther than sums are exact for")
+            failed = "a wheel was thrown farther than sums are exact for"
+            return Answer(value=np.array([np.nan]), cost=self.cost(), failed=failed)
         return Answer(
             value=self.question.expected(one_dimensional=self.question.want == "force-rms")
             * np.exp(change.mean(axis=0)),
+            cost=self.cost(),
             model=claim.error,
             sample=mean_error(change),
-            work=self.cost().work,
             because=claim.because,
         )
 
@@ -184,8 +187,9 @@ class BoundaryElements:
 
     def cost(self) -> Cost:
         """Cells of the window times applications times positions, of all strips and the one beside."""
-        work = sum(n * Rolled.of(self.question, c).work for n, c in ((FEWEST_STRIPS, self.cells), (1, self.beside)))
-        return Cost(work=work, unit="cell applications", seconds=CELL * work + POSITION * self._positions)
+        scatter = (STRIP_RMS if self.question.whole else STRIP_BANDS) * self.question.scene.roughness_ratio
+        strips = realisations(scatter, self.tolerance / 2, least=FEWEST_STRIPS, most=MOST_STRIPS)
+        return self._cost(1 if self._measured else strips, 1)
 
     def claim(self) -> Claim:
         """Only a solve tells what grid and sample leave."""
@@ -194,36 +198,45 @@ class BoundaryElements:
     def solve(self) -> Answer:
         """Strip by strip, until the sample leaves half of the tolerance."""
         change: list[FloatArray] = []
-        measured = isinstance(self.question.scene.ground, MeasuredHeights)
-        while len(change) < (1 if measured else MOST_STRIPS):
-            found = self._rolled(len(change), self.cells)
-            if not np.isfinite(found).all():
-                return Answer(value=np.array([np.nan]), failed=f"strip {len(change)} did not converge")
-            change.append(found)
-            if len(change) >= FEWEST_STRIPS and mean_error(np.array(change)) <= self.tolerance / 2:
-                break
+        while not self._enough(change):
+            change.append(self._rolled(len(change), self.cells))
         other = self._rolled(0, self.beside)
-        if not np.isfinite(other).all():
-            return Answer(value=np.array([np.nan]), failed=f"strip 0 did not converge on {self.beside} cells")
-        mean = np.mean(change, axis=0)
+        cost = self._cost(len(change), 1)
+        if not (np.isfinite(change).all() and np.isfinite(other).all()):
+            return Answer(value=np.array([np.nan]), cost=cost, failed="some contact along a strip did not converge")
+        mean, apart = np.mean(change, axis=0), distance(np.exp(change[0]), np.exp(other))
         return Answer(
-            value=np.exp(mean) * (1.0 if measured else self.question.expected(one_dimensional=False)),
-            grid=distance(np.exp(change[0]), np.exp(other)) * (1.0 if self.beside > self.cells else 0.5),
-            sample=0.0 if measured else mean_error(np.array(change)),
-            work=self.cost().work * len(change) / FEWEST_STRIPS,
+            value=np.exp(mean) * (1.0 if self._measured else self.question.expected(one_dimensional=False)),
+            cost=cost,
+            grid=apart * (1.0 if self.beside > self.cells else 0.5),
+            sample=0.0 if self._measured else mean_error(np.array(change)),
             because=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change it by "
-            f"{distance(np.exp(change[0]), np.exp(other)):.1%}; strips: {len(change)}",
+            f"{apart:.1%}; strips: {len(change)}",
         )
+
+    @property
+    def _measured(self) -> bool:
+        """Whether there is one strip, as it was measured."""
+        return isinstance(self.question.scene.ground, MeasuredHeights)
+
+    def _enough(self, change: list[FloatArray]) -> bool:
+        """Whether the sample leaves half of the tolerance, or there is no more of it, or no use in more."""
+        if self._measured or not np.isfinite(change).all():
+            return len(change) > 0
+        if len(change) < FEWEST_STRIPS:
+            return False
+        return len(change) >= MOST_STRIPS or mean_error(np.array(change)) <= self.tolerance / 2
+
+    def _cost(self, strips: int, beside: int) -> Cost:
+        """Cells of the window times applications times positions, of strips on this grid and on the other."""
+        rolled = ((strips, Rolled.of(self.question, self.cells)), (beside, Rolled.of(self.question, self.beside)))
+        work, positions = sum(n * grid.work for n, grid in rolled), sum(n * grid.along for n, grid in rolled)
+        return Cost(work=work, unit="cell applications", seconds=CELL * work + POSITION * positions)
 
     @property
     def _waves(self) -> float:
         """Cells to the shortest wave."""
         return 2 * math.pi * self.cells / (self.question.q_max * self.question.scene.contact_radius)
-
-    @property
-    def _positions(self) -> int:
-        """Contacts of all strips and the one beside."""
-        return sum(n * Rolled.of(self.question, c).along for n, c in ((FEWEST_STRIPS, self.cells), (1, self.beside)))
 
     def _rolled(self, realisation: int, cells: int) -> FloatArray:
         """ln of levels over those of linear theory on the same strip; of heights, of the levels themselves."""

@@ -95,14 +95,17 @@ def hold_to_account(trial: Trial) -> Outcome:
     """Fine boundary elements as referee, and the ladder beside them.
 
     truth: error that the referee itself leaves; rung: index of the rung that was enough, -1 for none; claimed, true:
-    error of the best answer, by itself and beside the referee; spent, fine: seconds, as expected, of the climb and of
-    fine boundary elements at once; settled: one where the tolerance was met, each one a tolerance; every claimed, every
-    true: of all rungs below boundary elements, asked whatever they claim, one each of RUNGS; height, load: h/d and
-    F / (E* h L) of the scene; failed: one where the referee did not converge.
+    error of the best answer, by itself and beside the referee; spent, fine: seconds of what the climb did, and of what
+    the referee did, the latter as many surfaces more or fewer as the tolerance asks; settled: one where the tolerance
+    was met, each one a tolerance; every claimed, every true: of all rungs below boundary elements, asked whatever they
+    claim, one each of RUNGS; height, load: h/d and F / (E* h L) of the scene; failed: one where the referee did not
+    converge.
     """
     scene = random_scene(trial.kind, trial.number, trial.seed)
-    referee = rungs_of(scene, trial.want, REFEREE, trial.seed + OTHER_SEED)[-1].solve()
-    rows = np.array([_climbed(trial, tolerance, referee.value) for tolerance in trial.tolerances])
+    finest = rungs_of(scene, trial.want, REFEREE, trial.seed + OTHER_SEED)[-1]
+    referee = finest.solve()
+    taken = referee.cost.seconds / finest.cost().seconds
+    rows = np.array([_climbed(trial, tolerance, referee.value, taken) for tolerance in trial.tolerances])
     every = np.array([_asked(trial, scene, name, referee.value) for name in RUNGS])
     punch = isinstance(scene, PressedScene) and scene.shape == "punch"
     return {
@@ -116,11 +119,12 @@ def hold_to_account(trial: Trial) -> Outcome:
     }
 
 
-def _climbed(trial: Trial, tolerance: float, truth: np.ndarray) -> tuple[float, ...]:
+def _climbed(trial: Trial, tolerance: float, truth: np.ndarray, taken: float) -> tuple[float, ...]:
+    """taken: what the referee did over what it expected."""
     scene = random_scene(trial.kind, trial.number, trial.seed)
     rungs = rungs_of(scene, trial.want, tolerance, trial.seed)
     climbed = climb(rungs, tolerance)
-    best, fine = climbed.best, rungs[-1].cost().seconds
+    best, fine = climbed.best, rungs[-1].cost().seconds * taken
     if best is None or best.answer is None:
         return -1.0, math.nan, math.nan, climbed.spent, fine, 0.0
     true = distance(best.answer.value, truth) if np.isfinite(truth).all() else math.nan
@@ -163,8 +167,8 @@ def evidence(result: LadderResult) -> Evidence:
             f"{len(result.outcomes)} scenes drawn at random ({case.punches} rough punches, {case.spheres} rough "
             f"spheres, {case.rolling} rolling and {case.wheels} dynamic wheels): {RANGES}. The ladder is climbed as "
             "far as the tolerance asks; the referee is boundary elements on the finest grid with surfaces of its own, "
-            "whose error is not taken off. Costs are operation counts times the time of one, so that they are the same "
-            "on every machine."
+            "whose error is not taken off. Costs are counts of what was done times the time of one, so that they are "
+            "the same on every machine; all rungs that were asked count."
         ),
         numbers=tuple(numbers),
         tables=(table, _claims(result)),
