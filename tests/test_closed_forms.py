@@ -130,3 +130,16 @@ def test_persson():
     for gradient in (0.0, -1.0, math.nan):
         with pytest.raises(ValueError, match=f"^gradient must be finite and positive, got {gradient}$"):
             fraction(1.0, gradient=gradient)
+
+
+def test_a_rough_punch_is_a_flat_one_in_series_with_its_face():
+    scene = {"side": 0.2, "modulus": 3.0}
+    flat = closed_forms.square_punch_stiffness(**scene)
+    alone = closed_forms.rough_punch_stiffness(force=1e9, height=1e-3, **scene)
+    assert alone == pytest.approx(flat, rel=1e-9)
+    soft = closed_forms.rough_punch_stiffness(force=1e-9, height=1e-3, **scene)
+    assert soft == pytest.approx(1e-9 / (0.48 * 1e-3), rel=1e-5)
+    both = closed_forms.rough_punch_stiffness(force=1e-3, height=1e-3, **scene)
+    assert 1 / both == pytest.approx(1 / flat + 0.48 * 1e-3 / 1e-3)
+    with pytest.raises(ValueError, match=r"^height"):
+        closed_forms.rough_punch_stiffness(force=1e-3, height=0.0, **scene)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 import bem3d
 import mdr
+from validation.closed_forms import rough_punch_stiffness
 from validation.ensemble import generator
 from validation.ladder import Answer, Claim, Cost, Rung, counted, mean_error, realisations
 from validation.measured import MeasuredHeights
@@ -36,8 +37,14 @@ FEWEST, MOST = 8, 1000
 """Surfaces: of which a deviation is estimated, and that are drawn at the most."""
 DEEPEST = 4.0
 """Heights of roughness, in rms, that a rough sphere may carry outside of its smooth contact."""
-PUNCH_CLOSED = 0.55
-"""Error of a flat punch over a rough one, times Fbar."""
+PUNCH_CLOSED = (
+    np.array([-1.5, -1.0, -0.7, -0.5, -0.3, -0.15, 0.0, 0.3, 0.5, 0.8, 1.0, 1.5]),
+    np.array([0.50, 0.30, 0.18, 0.08, 0.06, 0.080, 0.07, 0.055, 0.06, 0.075, 0.06, 0.03]),
+)
+"""lg Fbar, and the error there of a flat punch in series with its rough face, H from 0.3 to 1, as measured in 3D;
+below its range, none; above, it falls like 1 / Fbar."""
+CLOSED_ROLL_OFF = 0.015
+"""By which that grows with each more of the longest waves on a side."""
 PUNCH_SPRINGS = (
     np.array([-3.0, -2.5, -2.0, -1.5, -0.5, -0.2, 0.0, 0.3, 0.5, 0.7, 0.85, 1.0]),
     np.array([0.18, 0.15, 0.12, 0.075, 0.065, 0.075, 0.12, 0.12, 0.08, 0.12, 0.14, 0.16]),
@@ -63,11 +70,7 @@ def rungs(scene: PressedScene, tolerance: float, seed: int) -> list[Rung]:
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """The smooth body, 2 E* a or 1.1523 E* L: what roughness leaves of it is the error.
-
-    Of a punch, it is 1/k - 1/k_flat over 1/k, the compliance of the rough face: in boundary elements no more than
-    0.55 / Fbar for Fbar of one and more, whatever the Hurst exponent.
-    """
+    """2 E* a of a smooth sphere, whose roughness is the error; a rough punch is a flat one in series with its face."""
 
     scene: PressedScene
 
@@ -85,16 +88,34 @@ class ClosedForm:
         if self.scene.ground is None:
             return Claim(error=0.0, because="the body is smooth, the formula exact")
         if self.scene.shape == "punch":
-            load = self.scene.reduced_load
-            return Claim(error=PUNCH_CLOSED / load, because=counted({"F / (E* h L)": load}))
+            return self._of_a_punch()
         ratio = self.scene.roughness_ratio
         return Claim(error=SPHERE_CLOSED * ratio + SPHERE_FLOOR, because=counted({"h/d": ratio}))
 
     def solve(self) -> Answer:
         """Evaluate it."""
         claim = self.claim()
-        value = np.array([self.scene.stiffness])
-        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because)
+        return Answer(value=np.array([self._stiffness]), cost=self.cost(), model=claim.error, because=claim.because)
+
+    @property
+    def _stiffness(self) -> float:
+        scene = self.scene
+        if scene.shape == "sphere" or scene.ground is None:
+            return scene.stiffness
+        height = scene.ground.rms
+        return rough_punch_stiffness(side=scene.size, modulus=scene.modulus, force=scene.load, height=height)
+
+    def _of_a_punch(self) -> Claim:
+        """By the load, as measured; a measured face is one of many that have its spectrum."""
+        ground, load = _ground(self.scene), self.scene.reduced_load
+        waves = ground.q_min * self.scene.size / (2 * math.pi)
+        power, last = math.log10(load), float(PUNCH_CLOSED[0][-1])
+        if power < PUNCH_CLOSED[0][0]:
+            return Claim(error=math.inf, because=f"{counted({'F / (E* h L)': load})}, too low for a law of interfaces")
+        error = float(np.interp(power, *PUNCH_CLOSED)) * 10 ** min(last - power, 0.0)
+        own = 2 * SCATTER / max(load, 1.0) ** 2 if isinstance(ground, MeasuredHeights) else 0.0
+        because = counted({"F / (E* h L)": load, "longest waves on a side": waves})
+        return Claim(error=error + CLOSED_ROLL_OFF * max(waves - 1, 0.0) + own, because=because)
 
 
 @dataclass(frozen=True)
