@@ -167,7 +167,7 @@ def _resolved(value: float, tolerance: float) -> str:
 
 def _badged(cell: object) -> Markup:
     """Text of a table with its verdict, if it has one, as it looks elsewhere on the page."""
-    text = escape(str(cell))
+    text = escape(f"{cell:.4g}" if isinstance(cell, float) else str(cell))
     for verdict, symbol in SYMBOL.items():
         badge = Markup('<br><span class="verdict {0}">{1} {0}</span>').format(verdict, symbol)
         text = text.replace(f": {verdict}", badge)

@@ -31,7 +31,9 @@ def draw(evidence: Evidence) -> Figure:
         axis.set(xlabel="claimed error", ylabel="true error", title=title)
     every.set(xlim=(None, 10.0), ylim=(None, 10.0))
     saving.axhline(1.0, **GUIDE)
-    saving.set(xlabel="claimed error", ylabel="fine boundary elements over the climb", title="cost")
+    saving.set(
+        xlim=(SMALLEST, 1.0), xlabel="claimed error", ylabel="fine boundary elements over the climb", title="cost"
+    )
     figure.legend(*truth.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
