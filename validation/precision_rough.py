@@ -8,7 +8,7 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.closed_forms import SQUARE_PUNCH
+from validation.closed_forms import rough_punch_stiffness
 from validation.precision import (
     BEM,
     CLOSED,
@@ -76,9 +76,9 @@ class Fractal:
         return Roughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
 
     def attempts(self) -> tuple[Attempt, ...]:
-        """The smooth punch, springs, plain and fast boundary elements."""
+        """The closed form, springs, plain and fast boundary elements."""
         return (
-            SmoothPunch(line=CLOSED, knob="smooth punch", value=1.0, paired=False),
+            SeriesPunch(line=CLOSED, knob="flat punch on its rough face", value=1.0, paired=False, scene=self),
             *(self._springs(n) for n in self.springs),
             *(self._grid(PLAIN, n, self.tight) for n in self.plain),
             *(self._grid(BEM, n, self.tight) for n in self.cells),
@@ -119,12 +119,17 @@ class Fractal:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SmoothPunch(Attempt):
-    """What roughness is forgotten leaves: k = 1.1523 E* L at any force, without scatter."""
+class SeriesPunch(Attempt):
+    """A flat punch in series with its rough face: the same for all surfaces, without scatter."""
+
+    scene: Fractal
 
     def prepare(self) -> Draw:
         """Nothing to do."""
-        return lambda _: Turn(lambda: SQUARE_PUNCH, lambda k: Work({"stiffness": np.array(k)}, 1.0))
+        height = self.scene.roughness.height
+        load = {"side": 1.0, "modulus": 1.0, "force": self.scene.force * height, "height": height}
+        formula = partial(rough_punch_stiffness, **load)
+        return lambda _: Turn(formula, lambda k: Work({"stiffness": np.array(k)}, 1.0))
 
 
 @dataclass(frozen=True, kw_only=True)

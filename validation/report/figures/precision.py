@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from validation.evidence import Evidence, Table
 from validation.report.style import Style, panels
@@ -22,7 +23,7 @@ STYLES: dict[str, Style] = {
 }
 COMMON: Style = {"markersize": 4.5, "linewidth": 0.9}
 BARS: Style = {"capsize": 1.5, "elinewidth": 0.7}
-PLACES = {"left": 0.055, "right": 0.995, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
+PLACES = {"left": 0.055, "right": 0.985, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
 SHARED = 1.5
 """Costs within this factor of one method share a mark of the summary."""
 ROOM = 3.0
@@ -70,6 +71,7 @@ def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
     floor, top = _limits(error[others], half[others], float(band[0]))
     known = points[cost][np.isfinite(points[cost]) & (points[cost] > 0)]
     axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(known.min() / ROOM, known.max() * ROOM))
+    axis.xaxis.set_major_locator(LogLocator(numticks=6))
     axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.12, linewidth=0)
     at = points[front]
     rank = np.maximum(error + half, floor)[at]
@@ -124,15 +126,15 @@ def draw_summary(evidence: Evidence) -> Figure:
     """For each quantity the cost of the cheapest method within each tolerance."""
     summary = evidence.table("summary")
     rows = list(dict.fromkeys(zip(summary["scene"].tolist(), summary["quantity"].tolist(), strict=True)))
-    within = {"left": 0.25, "right": 0.98, "bottom": 0.1, "top": 0.88}
-    figure, (axis,) = panels(1, 1, width=11.0, height=1.6 + 0.5 * len(rows), within=within)
+    within = {"left": 0.22, "right": 0.75, "bottom": 0.1, "top": 0.88}
+    figure, (axis,) = panels(1, 1, width=12.5, height=1.6 + 0.5 * len(rows), within=within)
     axis.set_title("")
     axis.set_title("", loc="left")
     for place, (scene, quantity) in enumerate(rows):
         _stairs(axis, place, summary.where(scene=scene, quantity=quantity))
     known = summary["median [s]"][np.isfinite(summary["median [s]"])]
     axis.set(xscale="log", xlabel="seconds of one realisation", ylim=(len(rows) - 0.4, -0.7))
-    axis.set_xlim(known.min() / ROOM, known.max() * 100)
+    axis.set_xlim(known.min() / ROOM, known.max() * ROOM)
     axis.set_yticks(range(len(rows)), [f"{scene}: {quantity}" for scene, quantity in rows])
     used = [line for line in STYLES if line in summary["method"]]
     handles = [axis.plot([], [], label=line, **{**COMMON, **STYLES[line], "linestyle": "none"})[0] for line in used]
@@ -158,11 +160,8 @@ def _stairs(axis: Axes, place: int, row: Table) -> None:
         axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
     said = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in nobody.items())
     if said:
-        plain: Style = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
-        transform = axis.get_yaxis_transform()
-        axis.text(
-            0.995, place, said, transform=transform, ha="right", va="center", fontsize=7, color="#555555", bbox=plain
-        )
+        beyond: Style = {"transform": axis.get_yaxis_transform(), "ha": "left", "va": "center"}
+        axis.text(1.01, place, said, fontsize=7.5, color="#555555", **beyond)
 
 
 def _span(tolerances: list[float]) -> str:
