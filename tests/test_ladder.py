@@ -91,7 +91,15 @@ def test_who_misses_the_tolerance_at_the_top_is_told_the_best_there_is():
     assert not climbed.met
     assert climbed.best.rung is rungs[1]
     assert climb([Fake(failed="lost")], 0.1).best is None
-    assert climb([Fake(claimed=1.0)], 0.1).best is None
+    assert climb([Fake(claimed=math.inf)], 0.1).best is None
+
+
+def test_the_best_there_is_may_have_been_skipped():
+    rungs = [Fake(claimed=0.2, left=0.15), Fake(claimed=0.15, left=0.12), Fake(left=0.3)]
+    climbed = climb(rungs, 0.1)
+    assert fates(climbed) == ["skipped", "not enough", "not enough"]
+    assert climbed.best.rung is rungs[1]
+    assert fates(climb([Fake(claimed=0.5), Fake(left=0.3)], 0.1)) == ["skipped", "not enough"]
 
 
 @pytest.mark.parametrize("tolerance", [0.0, -0.1, math.nan, math.inf])
@@ -158,8 +166,8 @@ def test_smooth_bodies_need_a_formula():
 
 
 def test_a_heavily_loaded_punch_is_a_flat_one_on_its_rough_face():
-    for load, rung in ((30.0, "closed form"), (1.0, "closed form"), (0.1, "springs"), (0.003, "boundary elements 64²")):
-        assert compare(punch(load=load), tolerance=0.1).climb.best.rung.name == rung
+    for load, rung in ((30.0, "closed form"), (1.0, "closed form"), (0.1, "springs"), (0.003, "boundary elements 16²")):
+        assert needed(rungs_of(punch(load=load), "stiffness", 0.1, 0), 0.1).name == rung
     # the lower the load, the less the face is an interface; and one face is not the mean of all
     errors = [rungs_of(punch(load=load), "stiffness", 0.1, 0)[0].claim().error for load in (0.01, 0.1, 1.0, 100.0)]
     assert errors == sorted(errors, reverse=True)
@@ -258,6 +266,14 @@ def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     assert np.sqrt(np.mean(ratio[levels.bands.centres > 4] ** 2)) == pytest.approx(10 ** (4 / 20), rel=0.15)
 
 
+@pytest.mark.parametrize("one_dimensional", [True, False])
+def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
+    moving = wheel(first=1 / 100, last=4.0, mass=2.0, speed=400.0)
+    bands = Question(moving, "acceleration").expected(one_dimensional)
+    whole = Question(moving, "acceleration-rms").expected(one_dimensional)
+    assert whole[0] ** 2 == pytest.approx(np.sum(bands**2), rel=1e-3)
+
+
 def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
     question = Question(wheel(mass=2.0, speed=3.0), "acceleration")
     q = np.array([0.5, 2.0, 7.0])
@@ -272,7 +288,7 @@ def test_boundary_elements_tend_to_linear_theory(want):
     moving = {"mass": 1.0, "speed": 4.0} if want.startswith("acceleration") else {}
     rungs = rungs_of(wheel(height=1e-3, **moving), want, 0.1, seed=1)
     found, linear = rungs[-2].solve(), rungs[1].solve()
-    assert found.error < 0.15
+    assert found.error < 0.2
     assert distance(found.value, linear.value) <= found.error + 0.01
 
 

@@ -2,6 +2,7 @@
 
 import math
 import re
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -271,12 +272,25 @@ def test_scenes_at_the_prompt_are_refused_by_the_key(changes, sentence):
 def test_heights_must_cover_the_body():
     ground = heights(drawn())
     settings = {"name": "it", "load": 1.0, "modulus": 1e9, "ground": ground}
-    with pytest.raises(ValueError, match=r"^heights must cover the punch, 0.001 m a side"):
+    with pytest.raises(ValueError, match=r"^heights must be as large as the punch, punch.side = 0.001 m"):
         PressedScene(shape="punch", size=1e-3, **settings)
     with pytest.raises(ValueError, match=r"^heights must be three contact radii wide"):
         PressedScene(shape="sphere", size=1.0, **settings)
     with pytest.raises(ValueError, match=r"^rail.heights must be .* long and .* wide"):
         RollingScene(radius=1.0, **settings)
+    far = {**settings, "ground": MeasuredHeights(height=ground.height, spacing=(0.2, 0.2)), "load": 1e-3}
+    for scene in (partial(RollingScene, radius=1e-3), partial(PressedScene, shape="sphere", size=1e-3)):
+        with pytest.raises(ValueError, match=r"^heights.spacing must be no more than the contact radius, .* 0.2 m"):
+            scene(**far)
+
+
+def test_heights_in_the_wrong_unit_are_steep():
+    ground = heights(drawn())
+    assert not any("steep" in doubt for doubt in ground.doubts())
+    metres = MeasuredHeights(height=1e6 * ground.height, spacing=ground.spacing)
+    assert "rms slope" in metres.doubts()[0]
+    ramp = np.add.outer(np.abs(np.arange(32) - 15.5), np.zeros(32))
+    assert MeasuredHeights(height=ramp, spacing=(2.0, 1.0)).slope == pytest.approx(0.5 * math.sqrt(30 / 31))
 
 
 # The command

@@ -10,14 +10,14 @@ from enum import IntEnum
 from pathlib import Path
 
 from validation.cases import CASES, TIMED
-from validation.compare import WANTS, told
+from validation.compare import WANTS, time_of, told
 from validation.compare import compare as compared
 from validation.ensemble import LOCAL
 from validation.evidence import Evidence, Verdict
+from validation.ladder import Rung
 from validation.peers import peers_installed
 from validation.report.build import Section, build
-from validation.scene_files import shipped
-from validation.scene_kinds import read_any
+from validation.scene_kinds import comparable, read_any
 from validation.wheel_scene import WheelScene, read_scene, shipped_wheels
 
 CLOCKED = {
@@ -113,9 +113,15 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
 def compare(arguments: argparse.Namespace) -> Exit:
     """Climb the ladder of a scene, say where it ended and why."""
     scene = read_any(arguments.scene)
-    found = compared(scene, want=arguments.want, tolerance=arguments.tolerance, seed=arguments.seed or 0)
+    found = compared(scene, want=arguments.want, tolerance=arguments.tolerance, seed=arguments.seed or 0, tell=_asking)
     print("\n".join(told(found)))
     return Exit.MET if found.climb.met else Exit.NOT_CONVERGED
+
+
+def _asking(rung: Rung) -> None:
+    """What takes a while is said before it is done."""
+    if rung.cost().seconds >= 1:
+        print(f"asking {rung.name}, {time_of(rung.cost().seconds)} or so", file=sys.stderr, flush=True)
 
 
 def cases(arguments: argparse.Namespace) -> Exit:
@@ -193,7 +199,7 @@ def _parser() -> argparse.ArgumentParser:
     making.set_defaults(command=report)
     comparing = commands.add_parser("compare", help="one scene: the cheapest model that meets a tolerance, and why")
     comparing.add_argument(
-        "scene", metavar="SCENE", help=f"a TOML file, or the name of a shipped scene ({', '.join(shipped())})"
+        "scene", metavar="SCENE", help=f"a TOML file, or the name of a shipped scene ({', '.join(comparable())})"
     )
     comparing.add_argument(
         "--tolerance", type=_tolerance, default=0.1, metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
@@ -245,9 +251,10 @@ def _tolerance(word: str) -> float:
         value = scale * float(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f'must be as "5%", "0.05" or "0.4 dB", got {word!r}') from None
-    if not (math.isfinite(value) and value > 0):
-        raise argparse.ArgumentTypeError(f"must be finite and positive, got {word!r}")
-    return 10 ** (value / 20) - 1 if decibels else value
+    relative = 10 ** (value / 20) - 1 if decibels else value
+    if not 0 < relative <= 1:
+        raise argparse.ArgumentTypeError(f"must be above zero and no more than 100 %, or 6 dB, got {word!r}")
+    return relative
 
 
 def run() -> None:

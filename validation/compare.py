@@ -1,6 +1,7 @@
 """One scene, up the ladder: what is wanted of it, the cheapest model that is enough, and why."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from validation import rungs_pressed, rungs_rolling
@@ -53,14 +54,22 @@ def rungs_of(scene: Scene, want: str, tolerance: float, seed: int) -> list[Rung]
     return rungs_rolling.rungs(scene, want, tolerance, seed)  # type: ignore[arg-type]  # one of its own, as checked
 
 
-def compare(scene: Scene, *, want: str | None = None, tolerance: float = 0.1, seed: int = 0) -> Comparison:
+def compare(
+    scene: Scene,
+    *,
+    want: str | None = None,
+    tolerance: float = 0.1,
+    seed: int = 0,
+    tell: Callable[[Rung], None] = lambda _: None,
+) -> Comparison:
     """Climb the ladder of a scene as far as the tolerance asks.
 
     want: see `wants_of`, None for the first of them; tolerance: relative, of the number or of the root mean square over
-    all bands; seed: of what is drawn, zero or positive. Raises ValueError for what the scene cannot answer.
+    all bands; seed: of what is drawn, zero or positive; tell: is called with each rung before it is asked.
+    Raises ValueError for what the scene cannot answer.
     """
     asked = wants_of(scene)[0] if want is None else want
-    return Comparison(scene, asked, climb(rungs_of(scene, asked, tolerance, seed), tolerance))
+    return Comparison(scene, asked, climb(rungs_of(scene, asked, tolerance, seed), tolerance, tell=tell))
 
 
 def told(comparison: Comparison) -> list[str]:
@@ -75,8 +84,8 @@ def told(comparison: Comparison) -> list[str]:
         return [*lines, "", "no rung has an answer"]
     lines += ["", *_result(comparison, best)]
     unasked = sum(step.rung.cost().seconds for step in climbed.steps if step.fate in ("not needed", "skipped"))
-    spent = f"spent: about {_time(climbed.spent)}"
-    lines.append(f"{spent}; the rungs that were not asked would have cost {_time(unasked)}" if unasked else spent)
+    spent = f"solves that were done: about {time_of(climbed.spent)} by their count, the start of the program apart"
+    lines.append(f"{spent}; the rungs that were not asked would have cost {time_of(unasked)}" if unasked else spent)
     if not climbed.met:
         lines.append(f"not reached: the tolerance of {_percent(climbed.tolerance)}; this is the best there is")
     return lines
@@ -84,11 +93,8 @@ def told(comparison: Comparison) -> list[str]:
 
 def _row(step: Step) -> str:
     cost = step.rung.cost()
-    error = step.answer.error if step.answer is not None else step.claim.error
-    about = "≥ " if step.answer is None and step.fate != "skipped" else ""
-    return (
-        f"{step.rung.name:36s}{step.fate:18s}{about + _percent(error):>10s}{_time(cost.seconds):>14s}   {step.because}"
-    )
+    error = "—" if step.fate == "not needed" else _percent(step.answer.error if step.answer else step.claim.error)
+    return f"{step.rung.name:36s}{step.fate:18s}{error:>10s}{time_of(cost.seconds):>14s}   {step.because}"
 
 
 def _result(comparison: Comparison, best: Step) -> list[str]:
@@ -101,14 +107,16 @@ def _result(comparison: Comparison, best: Step) -> list[str]:
         return [f"{comparison.want} = {shown} ({_percent(answer.error)}: {parts}), by {best.rung.name}"]
     assert not isinstance(comparison.scene, PressedScene)  # which has one number
     question = Question(comparison.scene, comparison.want)  # type: ignore[arg-type]
-    radius = comparison.scene.contact_radius
+    radius, speed = comparison.scene.contact_radius, comparison.scene.speed
+    decibels = 20 * math.log10(1 + answer.error)
     lines = [
         f"{comparison.want} by {best.rung.name}, one-third octaves, root mean square in each, "
-        f"± {_percent(answer.error)} over all bands ({parts})",
-        f"{'q [rad/m]':>12s}{'q a':>8s}{'level [' + comparison.unit + ']':>16s}",
+        f"± {_percent(answer.error)}, {_short(decibels)} dB, over all bands ({parts})",
+        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if speed else '':>10s}{'level [' + comparison.unit + ']':>16s}",
     ]
     for q, level in zip(question.bands.centres, answer.value, strict=True):
-        lines.append(f"{q:12.4g}{q * radius:8.2f}{level:16.4g}")
+        frequency = f"{q * speed / (2 * math.pi):.4g}" if speed else ""
+        lines.append(f"{q:12.4g}{q * radius:8.2f}{frequency:>10s}{level:16.4g}")
     return lines
 
 
@@ -126,7 +134,7 @@ def _scaled(value: float, error: float) -> str:
     return f"({shown})e{power}" if "±" in shown else f"{shown}e{power}"
 
 
-def _time(seconds: float) -> str:
+def time_of(seconds: float) -> str:
     """In a unit that fits."""
     for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
         if seconds >= size:

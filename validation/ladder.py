@@ -1,7 +1,7 @@
 """The cheapest model that a scene needs: rungs from closed forms to fine boundary elements, climbed one by one."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -115,11 +115,12 @@ class Climb:
         return sum(step.answer.cost.seconds for step in self.steps if step.answer is not None)
 
 
-def climb(rungs: Sequence[Rung], tolerance: float) -> Climb:
+def climb(rungs: Sequence[Rung], tolerance: float, *, tell: Callable[[Rung], None] = lambda _: None) -> Climb:
     """Ask rungs from the cheapest on, until one leaves no more than the tolerance.
 
-    rungs: in the order of their cost; tolerance: relative, positive. A rung that expects to miss it is skipped, one
-    that misses it is kept beside the next. Who misses it at the top is told so: see `Climb.met`.
+    rungs: in the order of their cost; tolerance: relative, positive; tell: is called with a rung before it is asked. A
+    rung that expects to miss it is skipped, one that misses it is kept beside the next. Where all miss it, the skipped
+    one that expects to leave the least is asked, too, if that is less than what others left; see `Climb.met`.
     Raises ValueError for a tolerance that is not finite and positive.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
@@ -132,8 +133,10 @@ def climb(rungs: Sequence[Rung], tolerance: float) -> Climb:
         elif claim.error > tolerance:
             steps.append(Step(rung, "skipped", claim.because, claim))
         else:
+            tell(rung)
             steps.append(_asked(rung, claim, tolerance))
-    return Climb(tolerance, tuple(steps))
+    climbed = Climb(tolerance, tuple(steps))
+    return climbed if climbed.met else _with_the_least_claim(climbed, tell)
 
 
 def needed(rungs: Sequence[Rung], tolerance: float) -> Rung | None:
@@ -174,6 +177,20 @@ def _asked(rung: Rung, claim: Claim, tolerance: float) -> Step:
         return Step(rung, "failed", answer.failed, claim, answer)
     fate: Fate = "enough" if answer.error <= tolerance else "not enough"
     return Step(rung, fate, answer.because, claim, answer)
+
+
+def _with_the_least_claim(climbed: Climb, tell: Callable[[Rung], None]) -> Climb:
+    # of equal claims the dearest, which has the finest grid
+    skipped = [i for i, step in reversed(list(enumerate(climbed.steps))) if step.fate == "skipped"]
+    least = min(skipped, key=lambda i: climbed.steps[i].claim.error, default=None)
+    if least is None:
+        return climbed
+    step, left = climbed.steps[least], climbed.best.answer.error if climbed.best and climbed.best.answer else math.inf
+    if not step.claim.error < left:
+        return climbed
+    tell(step.rung)
+    asked = _asked(step.rung, step.claim, climbed.tolerance)
+    return Climb(climbed.tolerance, (*climbed.steps[:least], asked, *climbed.steps[least + 1 :]))
 
 
 def _left(step: Step) -> float:

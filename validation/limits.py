@@ -88,6 +88,11 @@ class Sweep:
         return bool(failed.size and good.size and (failed > tolerance).all() and (good <= tolerance).all())
 
     @property
+    def refused(self) -> bool:
+        """Whether there is no answer anywhere beyond the border, so that no error is seen there."""
+        return not np.isfinite(self.error[self.beyond]).any()
+
+    @property
     def told(self) -> float:
         """The part of the values beyond the border, and of those on the good side, where it spoke and was silent."""
         return float(np.concatenate([self.spoke[self.beyond], ~self.spoke[self.within]]).mean())

@@ -47,10 +47,10 @@ GAP = Limit(
 )
 LEVEL = Limit(
     name="level",
-    method="MDR",
+    method="MDR, linear filter",
     title="level along the track",
     knob="wavenumber q a",
-    error="level of springs over 3D [dB]",
+    error="level over that of 3D [dB]",
     against="linear theory of the half-space, octaves",
     condition="q a = 1: shorter waves than the contact are Γ(H+3/2) / (√π Γ(H+2)) lower on the half-space",
     failing="above",
@@ -59,7 +59,7 @@ LEVEL = Limit(
 )
 ANISOTROPY = Limit(
     name="anisotropy",
-    method="MDR",
+    method="MDR, linear filter",
     title="anisotropic surface",
     knob="aspect ratio of the waves, less one",
     error="rms force, over that of 3D, less one",

@@ -20,6 +20,8 @@ FEWEST = 16
 """Points along each side, below which there is no spectrum to speak of."""
 RINGS = 5
 """To an octave of wavenumbers."""
+STEEP = 0.3
+"""Root mean square slope from where on it is warned of."""
 OBLONG, SKEWED, PEAKED = 1.5, 0.5, 1.0
 """From where on texture, skewness and excess kurtosis are warned of."""
 
@@ -95,6 +97,11 @@ class MeasuredHeights:
         """What Geike's rule takes for granted and these heights do not have, in sentences."""
         skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
         found = []
+        if self.slope > STEEP:
+            found.append(
+                f"heights are steep, rms slope {self.slope:.2g}: theory is that of small slopes; are the units of "
+                "heights and of their spacing right?"
+            )
         if self.texture > OBLONG:
             found.append(
                 f"heights are anisotropic, slopes along one axis {self.texture:.2g} times those along the other: "
@@ -107,9 +114,24 @@ class MeasuredHeights:
             )
         return tuple(found)
 
+    @property
+    def slope(self) -> float:
+        """Root mean square slope, between neighbouring points [-]."""
+        along, across = (np.diff(self.height, axis=i) / d for i, d in enumerate(self.spacing))
+        return math.sqrt(float(np.mean(along**2) + np.mean(across**2)))
+
     @cached_property
     def _rings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         return _spectrum(self.height, self.spacing)
+
+
+def check_points(heights: MeasuredHeights, contact_radius: float) -> None:
+    """Raises ValueError where a contact is smaller than the spacing of the points."""
+    if max(heights.spacing) > contact_radius:
+        raise ValueError(
+            f"heights.spacing must be no more than the contact radius, {contact_radius:.3g} m, got "
+            f"{max(heights.spacing):.3g} m"
+        )
 
 
 def measured(surface: Any) -> MeasuredHeights:
@@ -155,7 +177,9 @@ def _read(name: str, path: Path) -> FloatArray:
     except OSError as problem:
         raise OSError(f"{name} {path} cannot be read: {problem.strerror or problem}") from None
     except ValueError as problem:
-        raise ValueError(f"{name} {path} must hold a table of numbers, got: {str(problem).splitlines()[0]}") from None
+        hint = "" if path.suffix == ".npy" else " (a header belongs behind a #)"
+        got = str(problem).splitlines()[0]
+        raise ValueError(f"{name} {path} must hold a table of numbers, got: {got}{hint}") from None
     if values.dtype.kind not in "fiu":
         raise ValueError(f"{name} {path} must hold real numbers, got {values.dtype}")
     return np.asarray(values, dtype=np.float64)

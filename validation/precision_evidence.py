@@ -19,6 +19,7 @@ from validation.precision_front import (
     seconds,
     visits,
     why_nobody,
+    without_luck,
 )
 from validation.precision_scenes import PrecisionResult
 
@@ -48,7 +49,7 @@ class Charts:
         found: dict[tuple[str, str], list[Point]] = {}
         for point in self.points:
             found.setdefault((point.scene, point.quantity), []).append(point)
-        return list(found.values())
+        return [without_luck(group) for group in found.values()]
 
     def of(self, scene: str, quantity: str, line: str) -> list[Point]:
         """A line of a chart, as far as it has finished."""
@@ -76,8 +77,10 @@ def _compared(result: PrecisionResult) -> str:
         "Each method is a line, its knob turned along it: cells, springs, residual. Error: beside closed forms where "
         "there are any; elsewhere beside the two finest grids of boundary elements on the same surfaces, extrapolated "
         "to cells of no size, of which the last step is left open as a band; nothing is ranked below that, and each "
-        "method by the upper end of its 95 % interval. Spectra: root mean square, over one-third octaves, of level "
-        f"differences. Springs have roughness of their own, {case.fractal.profiles} profiles, {case.rolling.tracks} "
+        "method by the upper end of its 95 % interval, or of a finer setting's, where that is larger: luck is no "
+        "accuracy. Errors of those two grids are steps of their own extrapolation. Spectra: root mean square, over "
+        "one-third octaves, of level differences. "
+        f"Springs have roughness of their own, {case.fractal.profiles} profiles, {case.rolling.tracks} "
         f"tracks, {case.wheel.wheels} wheels; boundary elements {case.fractal.surfaces} surfaces, "
         f"{case.rolling.strips} and {case.wheel.strips} strips, whose linear force takes most of their scatter away; "
         "these are periodic, of which closed forms know nothing. "

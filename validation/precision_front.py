@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 from validation.precision import CLOSED, FINISHED
@@ -19,7 +19,8 @@ class Point:
 
     unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; line, knob,
     value: the method and its setting; referee: whether it is the reference itself; status: "finished", or why not;
-    error, half_width: with the interval of the sample; over: the answer over the reference; seconds: quartiles and
+    error, half_width: with the interval of the sample; finer: the largest upper end of an error that more of the same
+    leaves, see `without_luck`; over: the answer over the reference; seconds: quartiles and
     median, low, middle, high; runs: behind them; setup: seconds; visits: the cost that no machine changes.
     """
 
@@ -34,6 +35,7 @@ class Point:
     status: str = ""
     error: float = NAN
     half_width: float = 0.0
+    finer: float = 0.0
     over: float = NAN
     seconds: tuple[float, float, float] = (NAN, NAN, NAN)
     runs: int = 0
@@ -47,13 +49,22 @@ class Point:
 
     @property
     def rank(self) -> float:
-        """The upper end of its error, and never below the uncertainty of the reference."""
-        return max(self.error + self.half_width, self.band)
+        """The upper end of its error; never below the uncertainty of the reference, nor what finer settings leave."""
+        return max(self.error + self.half_width, self.band, self.finer)
 
     @property
     def setting(self) -> str:
         """The knob, in words."""
         return self.knob.replace("#", f"{self.value:g}")
+
+
+def without_luck(points: Sequence[Point]) -> list[Point]:
+    """Each point with the largest upper end of an error that its method leaves at more visits: luck is not accuracy."""
+    return [replace(point, finer=max((p.rank for p in points if _finer(p, point)), default=0.0)) for point in points]
+
+
+def _finer(other: Point, point: Point) -> bool:
+    return other.line == point.line and other.finished and other.visits > point.visits
 
 
 Cost = Callable[[Point], float]
@@ -117,7 +128,8 @@ def break_even(points: Sequence[Point]) -> str:
         begin, end = mine[0], mine[-1]
         settings = begin.setting if begin is end else end.knob.replace("#", f"{begin.value:g} to {end.value:g}")
         times = said(seconds(begin)) if begin is end else f"{said(seconds(begin))} to {said(seconds(end))}"
-        parts.append(f"down to {in_unit(end.rank, end.unit)} {line} ({settings}, {times})")
+        sample = ", most of it the sample's," if end.half_width > max(end.error, end.finer / 2) else ""
+        parts.append(f"down to {in_unit(end.rank, end.unit)}{sample} {line} ({settings}, {times})")
     last = front(others)[-1]
     below = (
         f"; below {in_unit(first.band, first.unit)} the reference cannot tell"

@@ -6,7 +6,7 @@ from typing import Literal
 
 from mdr.border import positive
 from validation import closed_forms
-from validation.measured import MeasuredHeights
+from validation.measured import MeasuredHeights, check_points
 from validation.roughness import Roughness, check_band
 from validation.scene_files import named
 
@@ -92,8 +92,13 @@ class PressedScene:
             raise TypeError(f"ground must be Roughness, MeasuredHeights or None, got {heights!r}")
         longest, shortest = max(heights.sides), min(heights.sides)
         if self.shape == "punch" and (longest - shortest > 1e-6 * longest or abs(longest / self.size - 1) > 1e-6):
-            raise ValueError(f"heights must cover the punch, {self.size:g} m a side, got {heights.sides}")
+            raise ValueError(
+                f"heights must be as large as the punch, punch.side = {self.size:g} m, got {heights.sides} m: "
+                "see heights.spacing"
+            )
         if self.shape == "sphere" and shortest < 3 * self.contact_radius:
             raise ValueError(
                 f"heights must be three contact radii wide, {3 * self.contact_radius:.3g} m, got {heights.sides}"
             )
+        if self.shape == "sphere":
+            check_points(heights, self.contact_radius)

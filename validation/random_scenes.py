@@ -16,7 +16,7 @@ WANTED = {
     "punch": ("stiffness",),
     "sphere": ("stiffness",),
     "rolling": ("force-rms", "force-spectrum"),
-    "wheel": ("acceleration",),
+    "wheel": ("acceleration", "acceleration-rms"),
 }
 """What each kind is asked for, in turns."""
 RANGES = (

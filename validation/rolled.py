@@ -229,6 +229,8 @@ def _tolerance(question: Question) -> float:
 
 
 def _resampled(heights: MeasuredHeights, grid: Rolled) -> FloatArray:
-    """Measured heights at the centres of cells."""
-    along, across = ((np.arange(n) - (n - 1) / 2) * grid.spacing for n in (grid.along // 2, grid.across))
-    return heights.at(along, across)
+    """Measured heights, their mean over each cell: what is shorter than that is no other wave."""
+    parts = max(1, math.ceil(grid.spacing / min(heights.spacing) * (1 - 1e-9)))
+    shape = (grid.along // 2, grid.across)
+    along, across = ((np.arange(parts * n) - (parts * n - 1) / 2) * grid.spacing / parts for n in shape)
+    return np.asarray(heights.at(along, across).reshape(shape[0], parts, shape[1], parts).mean(axis=(1, 3)))

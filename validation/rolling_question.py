@@ -18,6 +18,8 @@ Want = Literal["force-rms", "force-spectrum", "acceleration", "acceleration-rms"
 
 NODES = 8
 """Of Gauss and Legendre, on half a wave of sin^2."""
+PANEL = 1.4
+"""Ratio of the ends of a panel at the most."""
 WAVES = 4
 """Of the length that was measured, in the longest band."""
 
@@ -100,8 +102,13 @@ class Question:
 
 
 def _nodes(low: float, high: float, contact_radius: float) -> tuple[FloatArray, FloatArray]:
-    """Of Gauss and Legendre in a band, on panels no longer than half a wave of sin^2(q a), and their weights."""
+    """Of Gauss and Legendre in a band, and their weights.
+
+    On panels no longer than half a wave of sin^2(q a), nor than what a power law bends in.
+    """
     node, weight = np.polynomial.legendre.leggauss(NODES)
-    ends = np.linspace(low, high, 2 + math.floor((high - low) * contact_radius / math.pi))
+    waves = np.linspace(low, high, 2 + math.floor((high - low) * contact_radius / math.pi))
+    powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(PANEL)))
+    ends = np.union1d(waves, powers)
     half = np.diff(ends)[:, np.newaxis] / 2
     return (ends[:-1, np.newaxis] + half * (1 + node)).ravel(), (half * weight).ravel()

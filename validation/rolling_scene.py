@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from mdr.border import positive
 from validation.contact_laws import Wheel
-from validation.measured import MeasuredHeights
+from validation.measured import MeasuredHeights, check_points
 from validation.roughness import Roughness, check_band
 from validation.scene_files import named
 from validation.wheel_scene import WheelScene
@@ -101,3 +101,4 @@ class RollingScene:
                 f"rail.heights must be {4 * math.pi * a:.3g} m long and {3 * a:.3g} m wide for this contact, got "
                 f"{along:.3g} m and {across:.3g} m"
             )
+        check_points(heights, a)

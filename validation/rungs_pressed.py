@@ -11,7 +11,7 @@ import bem3d
 import mdr
 from validation.closed_forms import rough_punch_stiffness
 from validation.ensemble import generator
-from validation.ladder import Answer, Claim, Cost, Rung, counted, mean_error, realisations
+from validation.ladder import STUDENT, Answer, Claim, Cost, Rung, counted, mean_error, realisations
 from validation.measured import MeasuredHeights
 from validation.pressed_scene import PressedScene
 from validation.roughness import Roughness
@@ -38,8 +38,8 @@ FEWEST, MOST = 8, 1000
 DEEPEST = 4.0
 """Heights of roughness, in rms, that a rough sphere may carry outside of its smooth contact."""
 PUNCH_CLOSED = (
-    np.array([-1.5, -1.0, -0.7, -0.5, -0.3, -0.15, 0.0, 0.3, 0.5, 0.8, 1.0, 1.5]),
-    np.array([0.50, 0.30, 0.18, 0.08, 0.06, 0.080, 0.07, 0.055, 0.06, 0.075, 0.06, 0.03]),
+    np.array([-0.7, -0.5, -0.3, -0.15, 0.0, 0.3, 0.5, 0.8, 1.0, 1.5]),
+    np.array([0.25, 0.10, 0.07, 0.080, 0.07, 0.055, 0.06, 0.075, 0.06, 0.03]),
 )
 """lg Fbar, and the error there of a flat punch in series with its rough face, H from 0.3 to 1, as measured in 3D;
 below its range, none; above, it falls like 1 / Fbar."""
@@ -52,7 +52,7 @@ PUNCH_SPRINGS = (
 """lg Fbar, and the error of springs there without roll-off, H from 0.4 to 1: beside boundary elements."""
 ROLL_OFF = 0.06
 """By which it grows with each more of the longest waves on a side."""
-SPHERE_CLOSED, SPHERE_SPRINGS, SPHERE_FLOOR = 0.25, 0.15, 0.01
+SPHERE_CLOSED, SPHERE_SPRINGS, SPHERE_FLOOR = 0.32, 0.15, 0.01
 """Errors of a rough sphere, over h/d; and what the finest grid leaves."""
 RADIUS = 16
 """Cells to the contact radius of a smooth sphere, on the finest grid."""
@@ -87,6 +87,8 @@ class ClosedForm:
         """By the load or the height."""
         if self.scene.ground is None:
             return Claim(error=0.0, because="the body is smooth, the formula exact")
+        if said := beyond_spectra(self.scene.ground):
+            return Claim(error=math.inf, because=said)
         if self.scene.shape == "punch":
             return self._of_a_punch()
         ratio = self.scene.roughness_ratio
@@ -153,6 +155,8 @@ class Springs:
 
     def claim(self) -> Claim:
         """By the load, the height and the waves on a side, as measured beside boundary elements."""
+        if said := beyond_spectra(_ground(self.scene)):
+            return Claim(error=math.inf, because=said)
         model, because = _springs_model(self.scene)
         return Claim(error=model + self.tolerance / 5 + self._own_scatter, because=because)
 
@@ -210,10 +214,12 @@ class BoundaryElements:
     @property
     def count(self) -> int:
         """Surfaces that are expected to leave half of the tolerance."""
-        if self.measured:
-            return 1
-        scatter = SCATTER if self.scene.shape == "punch" else SPHERE_SCATTER * self.scene.roughness_ratio
-        return realisations(scatter, self.tolerance / 2, least=FEWEST, most=MOST)
+        return 1 if self.measured else realisations(self._scatter, self.tolerance / 2, least=FEWEST, most=MOST)
+
+    @property
+    def _scatter(self) -> float:
+        """Of one drawn surface, relative, about."""
+        return SCATTER if self.scene.shape == "punch" else SPHERE_SCATTER * self.scene.roughness_ratio
 
     def cost(self) -> Cost:
         """Operator applications times cells, on this grid and for some surfaces on the next coarser one."""
@@ -221,7 +227,7 @@ class BoundaryElements:
 
     def claim(self) -> Claim:
         """The sample's part: only a solve tells what the grid leaves."""
-        sample = 0.0 if self.measured else self.tolerance / 2
+        sample = 0.0 if self.measured else max(self.tolerance / 2, STUDENT * self._scatter / math.sqrt(MOST))
         return Claim(error=sample, because="the grid is judged by the next coarser one, once both are solved")
 
     def solve(self) -> Answer:
@@ -240,7 +246,7 @@ class BoundaryElements:
         return Answer(
             value=np.array([fine.mean()]),
             cost=cost,
-            grid=abs(float(change.mean())) + (0.0 if self.measured else mean_error(change)),
+            grid=self._grid_of_one(fine[0], coarse[0]) if self.measured else abs(change.mean()) + mean_error(change),
             sample=0.0 if self.measured else mean_error(fine[:, np.newaxis] / fine.mean()),
             because=f"{self.cells}² cells change {self.cells // 2}² by {math.expm1(float(change.mean())):+.1%}, "
             f"surfaces: {fine.size}",
@@ -250,6 +256,15 @@ class BoundaryElements:
         """Of surfaces on this grid, and on the next coarser one."""
         work = APPLICATIONS * self.cells**2 * (fine + coarse / 4)
         return Cost(work=work, unit="cell applications", seconds=CELL * work + PRESS * (fine + coarse))
+
+    def _grid_of_one(self, fine: float, coarse: float) -> float:
+        """The change by the last doubling or half of that before, with half as much again: one face may hide it.
+
+        And as much for each doubling that is left to the finest grid, which has waves that this one has not.
+        """
+        coarser = self._pressed(0, self.cells // 4) if self.cells >= 4 * FEW else coarse
+        change = max(abs(math.log(fine / coarse)), abs(math.log(coarse / coarser)) / 2)
+        return 1.5 * change * (1 + math.log2(_cells(self.scene) / self.cells))
 
     def _enough(self, found: list[float]) -> bool:
         if self.measured or len(found) < FEWEST:
@@ -289,6 +304,12 @@ def _springs_model(scene: PressedScene) -> tuple[float, str]:
     load, waves = scene.reduced_load, ground.q_min * scene.size / (2 * math.pi)
     level = float(np.interp(math.log10(load), *PUNCH_SPRINGS))
     return level + ROLL_OFF * (waves - 1), counted({"F / (E* h L)": load, "longest waves on a side": waves})
+
+
+def beyond_spectra(ground: Roughness | MeasuredHeights) -> str:
+    """Why a model that knows a surface by its spectrum alone has nothing to say of this one; empty where it has."""
+    doubts = ground.doubts() if isinstance(ground, MeasuredHeights) else ()
+    return f"knows the spectrum alone, and {doubts[0]}" if doubts else ""
 
 
 def _ground(scene: PressedScene) -> Roughness | MeasuredHeights:

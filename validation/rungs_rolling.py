@@ -12,6 +12,7 @@ from validation.rolled import Rolled, by_linear_theory, on_boundary_elements, on
 from validation.rolling_question import Question, Want
 from validation.rolling_scene import RollingScene
 from validation.rolling_theory import contact_lost
+from validation.rungs_pressed import beyond_spectra
 
 FloatArray = NDArray[np.float64]
 
@@ -34,6 +35,8 @@ MOST_CELLS = 64
 MEASURED_SCATTER = 0.5
 """Of the levels of one track about those of all that have its spectrum."""
 TRACKS = 60
+OF_COARSE, OF_FINE = 1.8, 0.8
+"""Error over the change between two grids in the ratio 1.5, of second order: of the coarse one, of the fine one."""
 FEWEST_STRIPS, MOST_STRIPS = 4, 10
 FINE, COARSE, LEAST = 4.0, 2.5, 8
 """Cells to the shortest wave on both grids, and to a contact radius at least."""
@@ -73,6 +76,8 @@ class LinearFilter:
 
     def claim(self) -> Claim:
         """By the height, and what Geike's spectrum makes of levels along the track."""
+        if said := beyond_spectra(self.question.scene.ground):
+            return Claim(error=math.inf, because=said)
         own = MEASURED_SCATTER if isinstance(self.question.scene.ground, MeasuredHeights) else 0.0
         if self.question.want == "force-rms":
             error, because = _claimed(LINEAR_RMS, self.question)
@@ -104,18 +109,20 @@ class LinearSpace:
 
     def claim(self) -> Claim:
         """By the height."""
-        error, because = _claimed(LINEAR_RMS if self.question.whole else LINEAR_BANDS, self.question)
+        error, because = _claimed(LINEAR_RMS if self.question.want == "force-rms" else LINEAR_BANDS, self.question)
         return Claim(error=error, because=because)
 
     def solve(self) -> Answer:
         """By quadrature, or on the heights themselves."""
         question, claim = self.question, self.claim()
         if isinstance(question.scene.ground, MeasuredHeights):
-            spacing = question.scene.contact_radius / LEAST
-            value = by_linear_theory(question, strip_of(question, LEAST, 0, 0), spacing)
+            cells = max(LEAST, math.ceil(FINE * question.q_max * question.scene.contact_radius / (2 * math.pi)))
+            spacing = question.scene.contact_radius / cells
+            value = by_linear_theory(question, strip_of(question, cells, 0, 0), spacing)
         else:
             value = question.expected(one_dimensional=False)
-        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because)
+        failed = "" if (value > 0).all() else "the heights have no waves in some band"
+        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because, failed=failed)
 
 
 @dataclass(frozen=True)
@@ -139,6 +146,8 @@ class Springs:
 
     def claim(self) -> Claim:
         """By the height."""
+        if said := beyond_spectra(self.question.scene.ground):
+            return Claim(error=math.inf, because=said)
         own = self._own_scatter + self.tolerance / 10
         if self.question.want == "force-rms":
             error, because = _claimed(SPRINGS_RMS, self.question)
@@ -187,13 +196,18 @@ class BoundaryElements:
 
     def cost(self) -> Cost:
         """Cells of the window times applications times positions, of all strips and the one beside."""
-        scatter = (STRIP_RMS if self.question.whole else STRIP_BANDS) * self.question.scene.roughness_ratio
-        strips = realisations(scatter, self.tolerance / 2, least=FEWEST_STRIPS, most=MOST_STRIPS)
+        strips = realisations(self._scatter, self.tolerance / 2, least=FEWEST_STRIPS, most=MOST_STRIPS)
         return self._cost(1 if self._measured else strips, 1)
 
     def claim(self) -> Claim:
-        """Only a solve tells what grid and sample leave."""
-        return Claim(error=0.0, because="grid and sample are judged once they are solved")
+        """Of the sample what as many strips as there may be leave at the least; only a solve tells of the grid."""
+        sample = 0.0 if self._measured else self._scatter / math.sqrt(MOST_STRIPS)
+        return Claim(error=sample, because=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted")
+
+    @property
+    def _scatter(self) -> float:
+        """Of one strip over linear theory on itself, about."""
+        return (STRIP_RMS if self.question.whole else STRIP_BANDS) * self.question.scene.roughness_ratio
 
     def solve(self) -> Answer:
         """Strip by strip, until the sample leaves half of the tolerance."""
@@ -208,7 +222,7 @@ class BoundaryElements:
         return Answer(
             value=np.exp(mean) * (1.0 if self._measured else self.question.expected(one_dimensional=False)),
             cost=cost,
-            grid=apart * (1.0 if self.beside > self.cells else 0.5),
+            grid=apart * (OF_COARSE if self.beside > self.cells else OF_FINE),
             sample=0.0 if self._measured else mean_error(np.array(change)),
             because=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change it by "
             f"{apart:.1%}; strips: {len(change)}",

@@ -8,7 +8,19 @@ from validation.measured import heights_of
 from validation.pressed_scene import PressedScene
 from validation.rolling_scene import RollingScene
 from validation.roughness import roughness_of
-from validation.scene_files import FORCE, LENGTH, MASS, SPEED, Reader, contact_modulus, named, path_of, table, tables_of
+from validation.scene_files import (
+    FORCE,
+    LENGTH,
+    MASS,
+    SPEED,
+    Reader,
+    contact_modulus,
+    named,
+    path_of,
+    shipped,
+    table,
+    tables_of,
+)
 from validation.wheel_scene import read_scene
 
 Scene = PressedScene | RollingScene
@@ -34,6 +46,11 @@ def read_any(scene: str | Path) -> Scene:
     if moving and not (isinstance(rail, dict) and "heights" in rail):
         return RollingScene.of_wheel(read_scene(path))
     return _rolling(tables, moving, path.parent)
+
+
+def comparable() -> tuple[str, ...]:
+    """Names of the shipped scenes that the ladder can be asked of: those of a smooth wheel, and of other bodies."""
+    return tuple(name for name in shipped() if "roughness" not in tables_of(path_of(name)).get("wheel", {}))
 
 
 def _pressed(body: str, tables: dict[str, Any], folder: Path) -> PressedScene:
