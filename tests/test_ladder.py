@@ -13,7 +13,7 @@ from scipy import integrate
 import bem3d
 import mdr
 from validation import ladder as ladder_of_models
-from validation import rungs_pressed
+from validation import rolled, rungs_pressed
 from validation.cases import CASES, ladder
 from validation.compare import WANTS, compare, rungs_of, told, wants_of
 from validation.ladder import Answer, Claim, Climb, Cost, Step, climb, distance, mean_error, needed, realisations
@@ -427,6 +427,34 @@ def test_measured_heights_are_pressed_themselves():
     assert found.sample == 0
     # springs know the spectrum and not the surface
     assert rungs_of(scene, "stiffness", 0.05, 0)[1].claim().error > 0.5
+
+
+def test_a_face_that_a_spectrum_does_not_tell_is_left_to_boundary_elements():
+    height = np.zeros((64, 64))
+    height[20:26, 20:26] = 1e-3
+    scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)), load=1.0)
+    closed, springs, *solvers = (rung.claim() for rung in rungs_of(scene, "stiffness", 0.3, 0))
+    assert closed.error == springs.error == math.inf
+    assert "not Gaussian" in closed.because
+    assert all(claim.error < 0.3 for claim in solvers)
+
+
+def test_a_coarse_grid_answers_for_waves_of_a_face_that_it_has_not():
+    rng = np.random.default_rng(5)
+    rough = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * 32, rms=1e-3)
+    height = bem3d.rough_surface(rough.c2d, shape=(128, 128), spacing=1 / 128, rng=rng, rms=1e-3)
+    scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 128, 1 / 128)), load=0.1)
+    coarse, _, fine = (rung.solve() for rung in rungs_of(scene, "stiffness", 0.2, 0)[2:])
+    assert distance(coarse.value, fine.value) <= coarse.error
+
+
+def test_short_waves_of_a_measured_track_are_no_longer_ones():
+    # cells of a / 8, and a wave of a / 7 along the track: at the centres alone one of a, of the same height
+    spacing, a = 1 / 32, 1.0
+    x = (np.arange(1024) + 0.5) * spacing
+    height = 1e-3 * np.add.outer(np.cos(2 * np.pi * 7 * x / a), np.zeros(128))
+    question = Question(wheel(ground=MeasuredHeights(height=height, spacing=(spacing, spacing))), "force-rms")
+    assert np.ptp(rolled.strip_of(question, 8, 0, 0)) < 0.25 * np.ptp(height)
 
 
 def test_a_measured_track_is_rolled_itself():

@@ -63,6 +63,7 @@ from validation import (
     precision_wheel,
     records,
     regions,
+    rolled,
     rolling_question,
     rolling_theory,
     rough_punch,
@@ -121,6 +122,13 @@ def one_standard_error(ratios):
 
 
 rungs_pressed_kept = rungs_pressed._kept
+
+
+def at_points(heights, grid):
+    along, across = ((np.arange(n) - (n - 1) / 2) * grid.spacing for n in (grid.along // 2, grid.across))
+    return heights.at(along, across)
+
+
 measured_spectrum = measured._spectrum
 
 
@@ -883,6 +891,18 @@ FAULTS = {
     "one standard error for a 95 % interval": (
         (ladder_of_models, "mean_error", one_standard_error),
         test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
+    ),
+    "twice the separation of a rough face": (
+        (closed_forms, "INTERFACE", 0.96),
+        functools.partial(test_ladder.test_the_law_of_interfaces_holds_as_it_claims, 1.0),
+    ),
+    "one panel of a quadrature over decades": (
+        (rolling_question, "PANEL", 1e9),
+        functools.partial(test_ladder.test_the_whole_is_the_root_of_the_sum_of_its_bands, False),
+    ),
+    "measured heights at points, not over cells": (
+        (rolled, "_resampled", at_points),
+        test_ladder.test_short_waves_of_a_measured_track_are_no_longer_ones,
     ),
     "other waves on every grid of the ladder": (
         (rungs_pressed, "_kept", other_waves_on_every_grid),

@@ -69,7 +69,7 @@ def rough_punch_stiffness(*, side: float, modulus: float, force: float, height: 
 
     The stiffness of a rough interface grows like the load, F / u0, and u0 is a fixed part of the height h (rms),
     whatever the spectrum: for loads that close the gaps of many waves and not the gap as a whole, F / (E* h L) from
-    0.3 to 3, about; beyond, it is the flat punch that counts. No exact law: 0.48 was measured.
+    0.3 to 3, about; below, the face is stiffer; beyond, the flat punch counts. No exact law: 0.48 was measured.
     Source: Persson, Phys. Rev. Lett. 99, 125502 (2007); Akarapu, Sharp, Robbins, Phys. Rev. Lett. 106, 204301 (2011).
     """
     _positive(side=side, modulus=modulus, force=force, height=height)

@@ -359,7 +359,7 @@ CASES = {
         "The cheapest model that a scene needs can be chosen beforehand, with an honest error.",
         "Random scenes up the ladder of models: claimed beside true error, and what was saved",
         ladder.Ladder(),
-        ladder.Ladder(punches=78, spheres=12, rolling=8, wheels=3, tolerances=(0.1, 0.3)),
+        ladder.Ladder(punches=110, spheres=24, rolling=8, wheels=4, tolerances=(0.1, 0.3)),
         ladder.run,
         ladder.evidence,
         needs.always("chosen scene by scene"),
