@@ -112,7 +112,7 @@ def _hermitian(wave: ComplexArray, amplitudes: Literal["fixed", "gaussian"]) -> 
     mirrored[-positive_rows] = np.conj(wave[positive_rows])
     own_mirror = [0, points // 2] if points % 2 == 0 else [0]
     real = np.sqrt(2) * wave[own_mirror].real
-    mirrored[own_mirror] = np.where(real < 0, -1, 1) if amplitudes == "fixed" else real
+    mirrored[own_mirror] = np.copysign(1.0, real) if amplitudes == "fixed" else real
     return mirrored
 
 
