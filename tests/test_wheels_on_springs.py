@@ -321,6 +321,23 @@ def test_a_force_whose_sums_round_is_refused():
         wheels.approach(0, 1e9 * HERTZ)
 
 
+def test_a_force_is_refused_where_the_sums_of_a_single_wheel_round():
+    """That over the smoother track rounds first, by its finer quantum; the other alone bears more."""
+    track = Tracks(np.array([0.0, 1.0]) * np.random.default_rng(0).normal(size=(300, 2)), 20.0)
+
+    def refused(which, force):
+        try:
+            track.wheels(which).approach(0, force)
+        except ArithmeticError:
+            return True
+        return False
+
+    forces = HERTZ * 2.0 ** np.arange(3, 20)
+    smooth, rougher, both = ([refused(which, force) for force in forces] for which in ([0], [1], [0, 1]))
+    assert both == smooth
+    assert sum(smooth) > sum(rougher) > 0
+
+
 def test_the_plane_from_which_heights_count_does_not_matter():
     """They are taken from the middle of each track: an offset costs what it rounds, and no more."""
     track = rough(0.1)

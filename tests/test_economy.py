@@ -1,0 +1,382 @@
+"""What saves operator applications: counts of small solves, to the last one, and the rules of the iteration one by one.
+
+Where an iteration begins, what it remembers and when it looks anew shows in no answer, but in these counts. No rounding
+changes them: they are the same where all heights are moved by a hundred millionth. Who changes them on purpose writes
+the new ones here.
+"""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import bem3d
+from bem3d import press, projected_cg, rolling
+from bem3d.projected_cg import Load, Memory, Step
+
+TRACK = {"spacing": 1 / 8, "radius": 1.0, "modulus": 1.0}
+HERTZ = 4 / 3
+"""Of the sphere on the track, at an approach of 1."""
+
+
+def rough(shape, *, rms, seed=3, shaken=0.0):
+    """White noise through a few running means: smooth from cell to cell; and shaken by so much of its height."""
+    rng = np.random.default_rng(seed)
+    h = rng.normal(size=shape)
+    for axis in (0, 1):
+        for _ in range(3):
+            h = h + 0.9 * np.roll(h, 1, axis) + 0.9 * np.roll(h, -1, axis)
+    return rms * ((h - h.mean()) / h.std() + shaken * rng.normal(size=shape))
+
+
+def body(shape, periodic):
+    return bem3d.HalfSpace(shape=shape, spacing=1 / 64, modulus=1.0, periodic=periodic)
+
+
+def of(contact):
+    """On coarser grids from the coarsest, and on its own."""
+    return [*(count for _, count in contact.coarse_applications), contact.operator_applications]
+
+
+def cold(shape, periodic, shaken):
+    """By a force, and by the approach that comes of it."""
+    half_space, gap = body(shape, periodic), -rough(shape, rms=0.01, shaken=shaken)
+    by_force = bem3d.solve(half_space, gap, force=0.004, tolerance=1e-8)
+    return [of(by_force), of(bem3d.solve(half_space, gap, approach=by_force.approach, tolerance=1e-8))]
+
+
+def warm(shape, periodic, shaken):
+    """From a contact under two thirds of the force, from its pressure alone, and by an approach of 2 % more."""
+    half_space, gap = body(shape, periodic), -rough(shape, rms=0.01, shaken=shaken)
+    start = bem3d.solve(half_space, gap, force=0.004, tolerance=1e-8)
+    harder = start.approach + 0.02 * abs(start.approach)
+    return [
+        of(bem3d.solve(half_space, gap, force=0.006, start=start, tolerance=1e-8)),
+        of(bem3d.solve(half_space, gap, force=0.006, start=start.pressure, tolerance=1e-8)),
+        of(bem3d.solve(half_space, gap, approach=harder, start=start, tolerance=1e-8)),
+    ]
+
+
+def path(by, stiffness, periodic, shaken):
+    """Up five loads and down again, every other of them; and the stiffness of each."""
+    half_space, gap = body((40, 33), periodic), -rough((40, 33), rms=0.01, shaken=shaken)
+    loads = np.geomspace(1e-4, 6e-3, 5)
+    if by == "approaches":
+        loads = [contact.approach for contact in bem3d.indent(half_space, gap, forces=loads)]
+    contacts = list(bem3d.indent(half_space, gap, **{by: [*loads, *loads[::-2]]}, stiffness=stiffness))
+    costs = [of(contact) for contact in contacts]
+    return [*costs, [contact.frozen.operator_applications for contact in contacts]] if stiffness else costs
+
+
+def sphere(by, shaken):
+    """a = 16 cells of 128, its middle at no point of symmetry of a cell."""
+    x, y = (np.arange(128) - 63.2)[:, np.newaxis] / 128, (np.arange(128) - 63.9) / 128
+    half_space = bem3d.HalfSpace(shape=(128, 128), spacing=1 / 128, modulus=1.0)
+    gap = (x**2 + y**2) / 2 + shaken / 64 * np.random.default_rng(3).normal(size=(128, 128))
+    load = {"approach": 1 / 64} if by == "approach" else {"force": HERTZ / 512}
+    return [of(bem3d.solve(half_space, gap, **load, tolerance=1e-8))]
+
+
+def plain(periodic, shaken):
+    """By a force, and by the approach that comes of it."""
+    half_space, gap = body((32, 32), periodic), -rough((32, 32), rms=0.01, shaken=shaken)
+    by_force = bem3d.solve_plain(half_space, gap, force=0.001, tolerance=1e-6)
+    return [of(by_force), of(bem3d.solve_plain(half_space, gap, approach=by_force.approach, tolerance=1e-6))]
+
+
+def rolled(by, rms, positions, shaken):
+    """Position by position."""
+    track = bem3d.Track(height=rough((60, 40), rms=rms, seed=5, shaken=shaken), **TRACK)
+    wheel = bem3d.RollingContact(track, tolerance=1e-6)
+    contacts = [wheel.carry(i, HERTZ) if by == "force" else wheel.press(i, 1.0) for i in range(positions)]
+    return [[contact.operator_applications for contact in contacts]]
+
+
+SCENES = {
+    **{
+        f"{kind.__name__}, {'x'.join(map(str, shape))}, {'periodic' if periodic else 'free'}": (kind, (shape, periodic))
+        for kind in (cold, warm)
+        for shape in ((40, 33), (65, 47))
+        for periodic in (False, True)
+    },
+    **{
+        f"path of {by}{', stiffness' * stiffness}, {'periodic' if periodic else 'free'}": (
+            path,
+            (by, stiffness, periodic),
+        )
+        for by in ("forces", "approaches")
+        for stiffness in (False, True)
+        for periodic in (False, True)
+    },
+    **{f"sphere by {by}": (sphere, (by,)) for by in ("approach", "force")},
+    **{f"plain, {'periodic' if periodic else 'free'}": (plain, (periodic,)) for periodic in (False, True)},
+    **{
+        f"rolled by {by}, {kind}": (rolled, (by, rms, positions))
+        for by in ("force", "approach")
+        for kind, rms, positions in (("smooth", 0.02, 4), ("rough", 0.3, 40))
+    },
+}
+
+COSTS = {
+    "cold, 40x33, free": [[8, 18], [6, 19]],
+    "cold, 40x33, periodic": [[8, 17], [4, 16]],
+    "cold, 65x47, free": [[8, 7, 18], [5, 7, 19]],
+    "cold, 65x47, periodic": [[7, 7, 16], [3, 7, 16]],
+    "warm, 40x33, free": [[19], [18], [13]],
+    "warm, 40x33, periodic": [[16], [16], [12]],
+    "warm, 65x47, free": [[17], [16], [13]],
+    "warm, 65x47, periodic": [[15], [15], [12]],
+    "path of forces, free": [[8, 9], [20], [12], [15], [16], [1], [13], [7]],
+    "path of forces, periodic": [[8, 9], [12], [11], [14], [14], [1], [13], [8]],
+    "path of forces, stiffness, free": [[8, 9], [11], [11], [15], [15], [1], [12], [8], [2, 5, 6, 7, 8, 1, 6, 3]],
+    "path of forces, stiffness, periodic": [[8, 9], [11], [9], [15], [14], [1], [11], [8], [2, 5, 5, 6, 7, 1, 5, 3]],
+    "path of approaches, free": [[4, 9], [9], [11], [13], [16], [1], [13], [9]],
+    "path of approaches, periodic": [[3, 9], [9], [10], [11], [12], [1], [11], [8]],
+    "path of approaches, stiffness, free": [[4, 9], [8], [9], [12], [15], [1], [11], [6], [2, 5, 6, 7, 8, 1, 6, 3]],
+    "path of approaches, stiffness, periodic": [[3, 9], [7], [8], [10], [12], [1], [10], [8], [2, 5, 5, 6, 7, 1, 5, 3]],
+    "sphere by approach": [[4, 6, 5, 15]],
+    "sphere by force": [[9, 3, 8, 14]],
+    "plain, free": [[35], [31]],
+    "plain, periodic": [[37], [27]],
+    "rolled by force, smooth": [[12, 9, 9, 9]],
+    "rolled by force, rough": [
+        [
+            15,
+            11,
+            15,
+            13,
+            9,
+            9,
+            9,
+            9,
+            9,
+            9,
+            9,
+            8,
+            9,
+            9,
+            9,
+            8,
+            16,
+            10,
+            18,
+            9,
+            14,
+            15,
+            14,
+            8,
+            8,
+            8,
+            9,
+            9,
+            9,
+            8,
+            8,
+            8,
+            8,
+            9,
+            10,
+            10,
+            10,
+            9,
+            9,
+            9,
+        ]
+    ],
+    "rolled by approach, smooth": [[12, 11, 10, 10]],
+    "rolled by approach, rough": [
+        [
+            23,
+            11,
+            15,
+            16,
+            9,
+            9,
+            9,
+            8,
+            10,
+            10,
+            9,
+            10,
+            10,
+            8,
+            9,
+            19,
+            11,
+            19,
+            11,
+            11,
+            18,
+            10,
+            9,
+            9,
+            10,
+            9,
+            10,
+            10,
+            9,
+            9,
+            10,
+            9,
+            10,
+            17,
+            9,
+            10,
+            15,
+            10,
+            16,
+            16,
+        ]
+    ],
+}
+
+
+@pytest.mark.parametrize("shaken", [0.0, 1e-8], ids=["as it is", "shaken"])
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_solve_costs_what_it_did(scene, shaken):
+    count, of_what = SCENES[scene]
+    assert count(*of_what, shaken) == COSTS[scene]
+
+
+class Cells:
+    """Cells that do not feel each other: u = p / 4, and an approximate inverse of anybody's choice."""
+
+    stiffness = 4.0
+
+    def __init__(self, inverse, compliance=0.25):
+        self.inverse, self.compliance = inverse, compliance
+
+    def displacement(self, pressure):
+        return self.compliance * pressure
+
+
+def downhill(inverse, pressure, w, memory=None, *, load=None, length=0.5):
+    cells, load = Cells(inverse), load or Load(overlap=1.0)
+    return projected_cg._downhill(cells, np.array(pressure), np.array(w), load, memory or Memory(len(w)), length)
+
+
+@pytest.mark.parametrize("wrong", [-3.0, 0.0], ids=["uphill", "nowhere"])
+def test_where_the_inverse_leads_nowhere_the_gradient_is_followed(wrong):
+    """p + length * stiffness * (-w) on free cells, and back to p >= 0: a step that says that it is cut."""
+    step = downhill(lambda u: wrong * u, [1.0, 1.0, 0.0, 0.0], [0.25, -0.5, -0.125, 0.5])
+    assert step.change == pytest.approx([-0.5, 1.0, 0.25, 0.0])
+    assert step.gain == pytest.approx(0.125 + 0.5 + 0.03125)
+    assert step.cut
+
+
+def test_under_a_force_the_gradient_keeps_it():
+    """(1.5, 1.5, 0) less a third of the excess each, 2 of 3; of cells beside a higher one that much is left."""
+    step = downhill(lambda u: -u, [1.0, 1.0, 0.0], [0.0, -0.5, -0.25], load=Load(total=2.0))
+    assert step.change == pytest.approx([-0.5, 0.5, 0.0])
+    assert step.gain == pytest.approx(0.25)
+
+
+def test_a_solution_has_no_way_down():
+    assert downhill(lambda u: 4 * u, [1.0, 0.0], [0.0, 0.5]) is None
+
+
+def test_cells_are_free_under_pressure_or_overlap_and_not_where_they_just_touch():
+    """The inverse, which spreads, may press no other."""
+    step = downhill(lambda u: u + 1.0, [1.0, 0.0, 0.0, 0.0], [0.0, -0.5, 0.0, 0.5])
+    assert (step.change != 0).tolist() == [True, True, False, False]
+    assert step.change[1] == pytest.approx(0.5 * 1.5)
+
+
+def test_steps_that_lead_uphill_are_forgotten():
+    """A remembered step whose image lies makes the next direction no way down: it goes, with all others."""
+    memory, w = Memory(2), np.array([-0.5, -0.25])
+    memory.add(np.array([1.0, 0.0]), np.array([1.0, 20.0]))
+    assert not np.array_equal(memory.improve(-w, -w), -w)
+    step = downhill(lambda u: 4 * u, [1.0, 1.0], w, memory)
+    assert step.change == pytest.approx([1.0, 0.5])
+    assert np.array_equal(memory.improve(-w, -w), -w)
+
+
+def test_an_operator_that_answers_nothing_ends_the_iteration():
+    cells = Cells(lambda u: u, compliance=0.0)
+    states = projected_cg.projected_cg(cells, np.ones(2), np.zeros(2), Load(overlap=1.0))
+    assert len(list(itertools.islice(states, 9))) == 1
+
+
+@pytest.mark.parametrize(
+    ("cut", "best", "length", "taken", "following"),
+    [
+        # not cut: as far as is best, to the first bound at 1.6; the length follows by a factor of 2 at most
+        (False, 0.25, 0.4, 0.25, 0.2),
+        (False, 0.75, 0.4, 0.75, 0.3),
+        (False, 1.5, 0.4, 1.5, 0.6),
+        (False, 1.9, 0.4, 1.6, 0.76),
+        (False, 3.0, 0.4, 1.6, 0.8),
+        # cut, and good: whole, and the length at least as long, towards 0.4
+        (True, 0.65, 0.1, 1.0, 0.2),
+        (True, 0.9, 0.3, 1.0, 0.4),
+        (True, 5.0, 0.7, 1.0, 0.7),
+        # cut, and too long: its best part, and the length shorter by half at most
+        (True, 0.64, 0.4, 0.64, 0.256),
+        (True, 0.3, 0.4, 0.3, 0.2),
+    ],
+)
+def test_how_much_of_a_step_is_taken(cut, best, length, taken, following):
+    step = Step(np.array([-1.0, -2.0, 1.0, 0.0]), 1.0, cut)
+    found = projected_cg._taken(step, best, np.array([1.6, 3.6, 0.0, 0.0]), length)
+    assert found == pytest.approx((taken, following))
+
+
+@pytest.mark.parametrize("size", [1.0, 2.0**20, 2.0**-20])
+@pytest.mark.parametrize(("left", "stays"), [(0.0, True), (0.9e-10, True), (1.1e-10, False), (1.9e-10, False)])
+def test_a_remembered_step_that_adds_nothing_stays_out(size, left, stays):
+    """Of two steps, the second is a multiple of the first but for so much of its own square."""
+    gram = [[size, size, 0.0], [size, size * (1 + left), 0.0], [0.0, 0.0, 3 * size]]
+    found = projected_cg.solved([row[:] for row in gram], [size, size * (1 + left / 2), 6 * size])
+    assert found[2] == 2.0
+    if stays:
+        assert found[:2] == [1.0, 0.0]
+    else:
+        assert found[:2] == pytest.approx([0.5, 0.5], rel=1e-4)
+
+
+def test_steps_that_are_nothing_stay_out():
+    assert projected_cg.solved([[0.0, 0.0], [0.0, 2.0]], [0.0, 3.0]) == [0.0, 1.5]
+
+
+def falling(factor, every):
+    """Residuals that fall by a factor every so many iterations, at a pressure that stays."""
+
+    def states(cells, pressure, separation, load, length=0.4):
+        return (projected_cg.State(pressure, separation, 1.0, 0.5 * factor ** (i // every)) for i in itertools.count())
+
+    return states
+
+
+def iterations_of_press(monkeypatch, states, tolerance, most):
+    monkeypatch.setattr(press, "projected_cg", states)
+    half_space = bem3d.HalfSpace(shape=(2, 2), spacing=1.0, modulus=1.0)
+    cells, attempt = press.Candidates(half_space, np.ones((2, 2), dtype=bool)), press.Attempt(np.zeros((2, 2)), 0.0)
+    field = np.ones((2, 2))
+    press._iterate(cells, field, field, Load(overlap=1.0), attempt, tolerance, most)
+    assert attempt.operator_applications == len(attempt.history)
+    assert attempt.status is None
+    return len(attempt.history)
+
+
+def iterations_of_rolling(monkeypatch, states, tolerance, most):
+    monkeypatch.setattr(rolling, "projected_cg", states)
+    track = bem3d.Track(height=np.zeros((40, 40)), **TRACK)
+    wheel = bem3d.RollingContact(track, tolerance=tolerance, max_iterations=most)
+    frame, attempt = rolling.Frame(track, ((0, 4), (18, 22))), rolling.Attempt(np.zeros((4, 4)), 0.0)
+    field = np.ones((4, 4))
+    wheel._iterated(frame, field > 0, field, field, Load(overlap=1.0), attempt)
+    assert attempt.operator_applications == len(attempt.history) - 1
+    assert attempt.status is None
+    return len(attempt.history) - 1
+
+
+@pytest.mark.parametrize(("count", "patience"), [(iterations_of_press, 100), (iterations_of_rolling, 30)])
+def test_patience_ends_where_the_residual_has_not_halved(count, patience, monkeypatch):
+    """By 0.45 in as many iterations is enough, for ever; by 0.6 is not, and the iteration ends at the next."""
+    assert count(monkeypatch, falling(0.45, patience + 1), 0.11, 10**6) == 2 * patience + 2
+    assert count(monkeypatch, falling(0.45, patience + 1), 0.05, 10**6) == 3 * patience + 3
+    assert count(monkeypatch, falling(0.6, patience + 1), 1e-9, 10**6) == patience + 1
+    assert count(monkeypatch, falling(0.45, patience + 2), 1e-9, 10**6) == patience + 1
+    assert count(monkeypatch, falling(0.9, 1), 0.04, 10**6) == 24
+    assert count(monkeypatch, falling(0.9, 1), 0.04, 7) in (7, 8)
