@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d import press, projected_cg, rolling
+from bem3d import convolution, press, projected_cg, rolling
 from bem3d.projected_cg import Load, Memory, Step
+from tests import oracles
 
 TRACK = {"spacing": 1 / 8, "radius": 1.0, "modulus": 1.0}
 HERTZ = 4 / 3
@@ -380,3 +381,85 @@ def test_patience_ends_where_the_residual_has_not_halved(count, patience, monkey
     assert count(monkeypatch, falling(0.45, patience + 2), 1e-9, 10**6) == patience + 1
     assert count(monkeypatch, falling(0.9, 1), 0.04, 10**6) == 24
     assert count(monkeypatch, falling(0.9, 1), 0.04, 7) in (7, 8)
+
+
+def rounds_of_press(monkeypatch, errors):
+    """Of a punch with a flat face, which all cells touch: iterations that leave an error of so much, in turn."""
+    half_space, depth = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0), 1.0
+    exact = np.linalg.solve(oracles.dense_operator(half_space), np.full(16, depth)).reshape(4, 4)
+    monkeypatch.setattr(press, "_iterate", lambda *_: (1 + next(errors)) * exact)
+    problem = bem3d.problem.Problem(half_space=half_space, gap=np.zeros((4, 4)), approach=depth)
+    attempt = press.press(problem, press.Start((1 + next(errors)) * exact), 1e-6, 99)
+    return attempt.operator_applications, str(attempt.status)
+
+
+def rounds_of_rolling(monkeypatch, errors):
+    """The same of a wheel so large that it is flat, on a frame of which it touches all."""
+    track = bem3d.Track(height=np.zeros((9, 9)), spacing=1.0, radius=1e12, modulus=1.0)
+    wheel, frame = (
+        bem3d.RollingContact(track, tolerance=1e-6, max_iterations=99),
+        rolling.Frame(track, ((-2, 2), (2, 6))),
+    )
+    exact = np.linalg.solve(oracles.dense_operator(frame.half_space), np.ones(16)).reshape(4, 4)
+
+    def iterated(*given):
+        given[-1].history.append(0.0)
+        return (1 + next(errors)) * exact
+
+    monkeypatch.setattr(wheel, "_iterated", iterated)
+    attempt = rolling.Attempt(np.zeros(0), 0.0)
+    start = rolling.Pressed.by(frame, (1 + next(errors)) * exact)
+    wheel._pressed(frame, np.zeros((4, 4)), Load(overlap=1.0), start, 1.0, attempt)
+    return attempt.operator_applications, str(attempt.status)
+
+
+@pytest.mark.parametrize("rounds", [rounds_of_press, rounds_of_rolling])
+def test_rounds_end_where_a_fresh_residual_is_not_half_of_the_last(rounds, monkeypatch):
+    """The residual is the error: by 0.48 a round to 1e-6 takes 19 of them; 0.52 is not enough."""
+    first = rounds is rounds_of_press
+    assert rounds(monkeypatch, (0.48**i for i in range(99))) == (19 + first, "converged")
+    assert rounds(monkeypatch, (0.52**i for i in range(99))) == (2, "stagnation")
+    assert rounds(monkeypatch, iter([1.0, 0.4, 0.1, 0.07, 0.0])) == (3 + first, "stagnation")
+
+
+@pytest.mark.parametrize(
+    ("padded", "small"),
+    [
+        ((256, 254), True),
+        ((256, 256), False),
+        ((64, 1022), True),
+        ((66, 1022), False),
+        ((512, 126), True),
+        ((1024, 64), False),
+    ],
+)
+def test_a_spectrum_of_32768_numbers_is_kept_as_a_whole(padded, small):
+    """Half of the waves along the second axis, and the one at the middle."""
+    symbol = np.ones((padded[0] // 2 + 1, padded[1] // 2 + 1))
+    found = convolution.padded_convolution(symbol, shape=(2, 2), padded=padded, planning="estimate")
+    assert type(found) is (convolution.CachedConvolution if small else convolution.PaddedConvolution)
+
+
+def test_the_last_four_windows_are_kept_with_their_plans():
+    half_space = bem3d.HalfSpace(shape=(9, 9), spacing=1.0, modulus=1.0)
+    windows = [half_space.like(shape=(n, 5)) for n in range(2, 6)]
+    assert half_space.like(shape=(9, 9)) is half_space
+    assert all(half_space.like(shape=window.shape) is window for window in windows)
+    half_space.like(shape=(2, 5))
+    half_space.like(shape=(6, 5))  # in the place of the one that was asked for longest ago
+    assert half_space.like(shape=(2, 5)) is windows[0]
+    assert half_space.like(shape=(5, 5)) is windows[3]
+    assert half_space.like(shape=(3, 5)) is not windows[1]
+
+
+def test_a_window_remembers_three_steps():
+    """A direction is made conjugate to the last three, by an operator that is diagonal: none of them is in it."""
+    memory, stiffness = Memory(5), np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+    left = np.ones(5)
+    for newest in range(5):
+        step = 8.0 * (np.arange(5) == newest)
+        memory.add(step, stiffness * step)
+        left = 1.0 * ((np.arange(5) > newest) | (np.arange(5) < newest - 2))
+        assert memory.improve(np.ones(5), np.zeros(5)) == pytest.approx(left, abs=1e-15)
+    # what lies in the steps themselves is gained at once
+    assert memory.improve(np.zeros(5), np.full(5, 6.0)) == pytest.approx([0, 0, 2.0, 1.5, 1.2])
