@@ -239,6 +239,61 @@ def test_a_solve_costs_what_it_did(scene, shaken):
     assert count(*of_what, shaken) == COSTS[scene]
 
 
+def windows(monkeypatch, contacts):
+    """Sides of the windows of 48 cells and fewer of which a residual is asked for, one row a contact."""
+    sides = []
+    apply = bem3d.HalfSpace.apply
+    monkeypatch.setattr(bem3d.HalfSpace, "apply", lambda self, p: sides.append(self.shape) or apply(self, p))
+    found = []
+    for _ in contacts:
+        found.append(sorted({side for shape in sides for side in shape}))
+        sides.clear()
+    return found
+
+
+def off_the_middle(**changes):
+    """A sphere of radius 1 over 96 cells a side of 1/96, lowest at 0.7 above the plane that approaches count from."""
+    x, y = (np.arange(96) - 50.2)[:, np.newaxis] / 96, (np.arange(96) - 46.9) / 96
+    half_space = bem3d.HalfSpace(shape=(96, 96), spacing=1 / 96, modulus=1.0, **changes)
+    return half_space, 0.7 + (x**2 + y**2) / 2
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "expected"),
+    [
+        (False, [[12, 24, 25], [25, 30], [40], [35], [25], [40]]),
+        (True, [[12, 24, 25], [30, 32], [40], [35], [25], [50]]),
+    ],
+)
+def test_windows_along_a_path_of_forces(stiffness, expected, monkeypatch):
+    """Wide enough for the overlap s that the secant or the tangent tells: 2 sqrt(2 * 1.1 s R)."""
+    half_space, gap = off_the_middle()
+    radii = np.array([8, 10, 12, 11, 6, 12]) / 96
+    path = bem3d.indent(half_space, gap, forces=HERTZ * radii**3, stiffness=stiffness, tolerance=1e-5)
+    found = windows(monkeypatch, path)
+    assert found == expected
+
+
+def test_windows_of_a_warm_start(monkeypatch):
+    """By its overlap, where it is a contact; a pressure alone tells none, and has all of the grid."""
+    half_space, gap = off_the_middle()
+    start = bem3d.solve(half_space, gap, force=HERTZ / 12**3, tolerance=1e-5)
+    again = {"force": 1.2 * HERTZ / 12**3, "tolerance": 1e-5}
+    from_contact = (bem3d.solve(half_space, gap, **again, start=start) for _ in range(1))
+    from_pressure = (bem3d.solve(half_space, gap, **again, start=start.pressure) for _ in range(1))
+    assert windows(monkeypatch, from_contact) == [[25]]
+    assert windows(monkeypatch, from_pressure) == [[96]]
+
+
+def test_windows_of_a_cold_start(monkeypatch):
+    """By the overlap on the next coarser grid, and of the coarsest all; by an approach it is known on each."""
+    half_space, gap = off_the_middle()
+    by_force = (bem3d.solve(half_space, gap, force=HERTZ / 12**3, tolerance=1e-5) for _ in range(1))
+    by_approach = (bem3d.solve(half_space, gap, approach=0.7 + 1 / 144, tolerance=1e-5) for _ in range(1))
+    assert windows(monkeypatch, by_force) == [[12, 24, 25]]
+    assert windows(monkeypatch, by_approach) == [[5, 6, 12, 24, 25]]
+
+
 class Cells:
     """Cells that do not feel each other: u = p / 4, and an approximate inverse of anybody's choice."""
 
