@@ -457,23 +457,43 @@ def test_a_failure_is_said_with_its_numbers(most, said):
     )
 
 
+FAILING = {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True}
+
+
 @pytest.mark.parametrize(
-    ("function", "defaults"),
+    ("function", "called", "defaults"),
     [
-        (bem3d.solve, {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True, "start": None}),
-        (bem3d.solve_plain, {"tolerance": 1e-6, "max_iterations": 2000, "raise_on_failure": True}),
-        (bem3d.indent, {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True, "stiffness": False}),
-        (bem3d.press_frozen, {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True}),
-        (bem3d.roll, {"tolerance": 1e-5, "max_iterations": 500, "raise_on_failure": True, "positions": None}),
-        (bem3d.rolling_force, {"tolerance": 1e-5}),
-        (bem3d.RollingContact, {"tolerance": 1e-5, "max_iterations": 500}),
-        (bem3d.HalfSpace, {"periodic": False, "planning": "estimate"}),
-        (bem3d.rough_surface, {"rms": None, "amplitudes": "fixed"}),
-        (mdr.rough_profile, {"rms": None, "amplitudes": "fixed"}),
-        (mdr.line_trace, {"nodes": 400}),
+        (bem3d.solve, solve, {**FAILING, "start": None}),
+        (bem3d.solve_plain, lambda: bem3d.solve_plain(half_space(), np.zeros((4, 5)), approach=1.0),
+         {**FAILING, "max_iterations": 2000}),
+        (bem3d.indent, lambda: list(bem3d.indent(half_space(), np.zeros((4, 5)), forces=[1.0])),
+         {**FAILING, "stiffness": False}),
+        (bem3d.press_frozen, frozen, FAILING),
+        (bem3d.roll, lambda: wide(positions=1), {**FAILING, "tolerance": 1e-5, "positions": None}),
+        (bem3d.rolling_force,
+         lambda: bem3d.rolling_force(np.zeros((4, 40)), spacing=0.6, radius=1.0, modulus=1.0, approach=1.0),
+         {"tolerance": 1e-5}),
+        (bem3d.RollingContact,
+         lambda: bem3d.RollingContact(bem3d.Track(height=np.zeros((4, 40)), spacing=0.6, radius=1.0, modulus=1.0)),
+         {"tolerance": 1e-5, "max_iterations": 500}),
+        (bem3d.HalfSpace, half_space, {"periodic": False, "planning": "estimate"}),
+        (bem3d.rough_surface, surface, {"rms": None, "amplitudes": "fixed"}),
+        (mdr.rough_profile, profile, {"rms": None, "amplitudes": "fixed"}),
+        (mdr.line_trace, lambda: mdr.line_trace(1.0, lambda q: q**-2, q_max=2.0), {"nodes": 400}),
     ],
-)
-def test_what_is_not_asked_for(function, defaults):
+)  # fmt: skip
+def test_what_is_not_asked_for(function, called, defaults):
     """Callers lean on it: what is asked of each function by who does not say."""
+    called()
     known = {name: one.default for name, one in inspect.signature(function).parameters.items()}
     assert {name: known[name] for name in defaults} == defaults
+
+
+def test_the_springs_of_sums_that_round_are_counted():
+    """2 sqrt(d R) / dx of them."""
+    wheels = mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=4.0, modulus=1.0, force=2.0)
+    with pytest.raises(ArithmeticError) as caught:
+        wheels.force(0, [1.1e10])
+    assert str(caught.value) == (
+        f"approach must be less deep for sums of {2 * int(np.sqrt(4.4e10)) + 1} springs without rounding, got 1.1e+10 m"
+    )

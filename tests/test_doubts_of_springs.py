@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import mdr
+from mdr import doubts
 
 WHEEL = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 
@@ -123,3 +124,20 @@ def test_low_roughness_is_not_doubted(height, warned):
 
 def test_a_smooth_track_is_not_doubted():
     assert said(mdr.roll, np.zeros(800), spacing=1 / 32, **WHEEL, contact="full")[1] == []
+
+
+@pytest.mark.parametrize(
+    ("pressed", "sentence"),
+    [
+        ([1], "only 1 spring in contact: the answer is that of the spacing, not of the profile"),
+        ([2], "only 2 springs in contact: k may be 50% off"),
+        ([5, 900], "only 5 springs in contact at 1 of 2 loads, at the lightest: k may be 20% off"),
+        ([0, 900, 1, 3], "only 1 spring in contact at 2 of 4 loads, at the lightest: the answer is that of the "
+         "spacing, not of the profile"),
+        ([0, 900], None),
+    ],
+)  # fmt: skip
+def test_few_springs_are_said_with_their_number(pressed, sentence):
+    found = doubts.doubts_of_load(np.array(pressed), 1000)
+    more = "; take more springs (16 or more in contact are not warned of)"
+    assert [said for _, said in found] == ([] if sentence is None else [sentence + more])
