@@ -151,3 +151,10 @@ def test_cells_at_the_edge_are_said_with_their_number():
 def test_a_small_sphere_is_said_with_its_cells(cells, warned):
     said = "the contact of the smooth sphere has only 32 cells: refine the grid (32 cells or more are not warned of)"
     assert [sentence for _, sentence in doubts.doubts_of_sphere(cells)] == [said] * warned
+
+
+@pytest.mark.parametrize(("short", "warned"), [(0.9e-9, 0), (1.1e-9, 1), (1.9e-9, 1)])
+def test_a_wave_is_too_short_by_a_billionth(short, warned):
+    """Of four cells, the longer ones."""
+    q = np.array([0.1, 2 * np.pi / (4 * (1 - short)) / 3, 3.0])
+    assert len(doubts.doubt_waves(np.array([1.0, 1.0, 0.0]), q, (3.0, 0.5))) == warned

@@ -309,6 +309,12 @@ def test_sums_that_round_are_refused_each_time():
     assert np.array_equal(wheels.force(5, np.ones(3)), expected)
 
 
+def test_the_quantum_of_a_track():
+    """Of heights from -1 to 2 under a smooth approach of 1: 5 * 4^(3/2) * (2 * 20 + 512) * 2^-53."""
+    height = np.tile([[-1.0, 0.0], [2.0, 0.0], [0.5, 0.0]], (40, 1))
+    assert Tracks(height, 20.0).wheels().quantum == pytest.approx(np.array([40, 5]) * 552 * ULP, rel=1e-14)
+
+
 @given(track=tracks())
 def test_the_quantum_is_that_of_its_formula(track):
     assert track.wheels().quantum == pytest.approx(track.quantum, rel=1e-12, abs=0)
