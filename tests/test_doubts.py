@@ -158,3 +158,11 @@ def test_a_wave_is_too_short_by_a_billionth(short, warned):
     """Of four cells, the longer ones."""
     q = np.array([0.1, 2 * np.pi / (4 * (1 - short)) / 3, 3.0])
     assert len(doubts.doubt_waves(np.array([1.0, 1.0, 0.0]), q, (3.0, 0.5))) == warned
+
+
+@pytest.mark.parametrize(("height", "warned"), [(32.0, 0), (32.1, 1)])
+def test_a_spike_may_carry_half_of_the_force(height, warned):
+    """Beside 32 cells of a unit each."""
+    pressure = np.zeros((12, 12))
+    pressure[1:5, 1:9], pressure[8, 8] = 1.0, height
+    assert len(doubts.doubts_of(pressure, periodic=False)) == warned

@@ -69,6 +69,13 @@ def path(by, stiffness, periodic, shaken):
     return [*costs, [contact.frozen.operator_applications for contact in contacts]] if stiffness else costs
 
 
+def from_nothing(periodic, shaken):
+    """From no load at all, up again, down to nothing and back: only what is loaded tells of the next."""
+    half_space, gap = body((40, 33), periodic), -rough((40, 33), rms=0.01, shaken=shaken)
+    loads = [0.0, 1e-3, 2e-3, 2.5e-3, 2.5e-3, 0.0, 2e-3, 3e-3]
+    return [of(contact) for contact in bem3d.indent(half_space, gap, forces=loads)]
+
+
 def sphere(by, shaken):
     """a = 16 cells of 128, its middle at no point of symmetry of a cell."""
     x, y = (np.arange(128) - 63.2)[:, np.newaxis] / 128, (np.arange(128) - 63.9) / 128
@@ -109,6 +116,10 @@ SCENES = {
         for stiffness in (False, True)
         for periodic in (False, True)
     },
+    **{
+        f"path from nothing, {'periodic' if periodic else 'free'}": (from_nothing, (periodic,))
+        for periodic in (False, True)
+    },
     **{f"sphere by {by}": (sphere, (by,)) for by in ("approach", "force")},
     **{f"plain, {'periodic' if periodic else 'free'}": (plain, (periodic,)) for periodic in (False, True)},
     **{
@@ -119,6 +130,8 @@ SCENES = {
 }
 
 COSTS = {
+    "path from nothing, free": [[0], [7, 15], [16], [11], [1], [0], [8, 15], [16]],
+    "path from nothing, periodic": [[0], [7, 13], [15], [11], [1], [0], [7, 14], [14]],
     "cold, 40x33, free": [[8, 18], [6, 19]],
     "cold, 40x33, periodic": [[8, 17], [4, 16]],
     "cold, 65x47, free": [[8, 7, 18], [5, 7, 19]],
@@ -338,13 +351,15 @@ def test_cells_are_free_under_pressure_or_overlap_and_not_where_they_just_touch(
     assert step.change[1] == pytest.approx(0.5 * 1.5)
 
 
-def test_steps_that_lead_uphill_are_forgotten():
+@pytest.mark.parametrize("second", [-0.25, -0.5], ids=["uphill", "level"])
+def test_steps_that_lead_uphill_are_forgotten(second):
     """A remembered step whose image lies makes the next direction no way down: it goes, with all others."""
-    memory, w = Memory(2), np.array([-0.5, -0.25])
+    memory, w = Memory(2), np.array([-0.5, second])
     memory.add(np.array([1.0, 0.0]), np.array([1.0, 20.0]))
     assert not np.array_equal(memory.improve(-w, -w), -w)
     step = downhill(lambda u: 4 * u, [1.0, 1.0], w, memory)
-    assert step.change == pytest.approx([1.0, 0.5])
+    assert step.change == pytest.approx([1.0, -2 * second])
+    assert not step.cut
     assert np.array_equal(memory.improve(-w, -w), -w)
 
 
