@@ -427,7 +427,7 @@ def wheels_at(**changes):
         ),
         (lambda: wheels_at(approach=np.array([5.0, np.inf])), "approach must be finite, got [ 5. inf]"),
         (
-            lambda: mdr.Wheels(np.zeros((2, 1)), spacing=1.0, radius=1.0, modulus=1.0, force=4 / 3),
+            lambda: mdr.Wheels(np.zeros((4, 1)), spacing=0.5, radius=1.0, modulus=1.0, force=4 / 3),
             "height must be longer than the contact, 2 m, got a track of 2 m",
         ),
     ],

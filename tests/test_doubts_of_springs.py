@@ -161,3 +161,18 @@ def test_a_wave_or_a_wheel_is_too_short_by_a_billionth(short, warned):
     q = np.array([1.0, 2 * np.pi / (4 * (1 - short)), 3.0])
     assert len(doubts.doubts_of_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
     assert len(doubts.doubts_of_wheel(16 * (1 - short))) == warned
+
+
+@pytest.mark.parametrize("contact", ["linear", "full"])
+@pytest.mark.parametrize("by", ["approach", "force"])
+def test_units_do_not_matter_to_what_is_left_out(contact, by):
+    """Lengths and moduli that are powers of two: the same sentence."""
+    height = rough(0.5)
+
+    def sentence(metre, pascal):
+        load = {"approach": metre} if by == "approach" else {"force": 4 / 3 * metre**2 * pascal}
+        wheel = {"spacing": metre / 32, "radius": metre, "modulus": pascal, "contact": contact}
+        ((_, words, _),) = said(mdr.roll, metre * height, **wheel, **load)[1]
+        return words
+
+    assert sentence(2.0**-6, 2.0**20) == sentence(1.0, 1.0)

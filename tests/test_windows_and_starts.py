@@ -272,3 +272,11 @@ def test_no_contact_costs_nothing(load):
     assert (contact.operator_applications, contact.history, contact.iterations) == (0, (0.0,), 0)
     assert contact.force == 0.0
     assert contact.approach == load.get("approach", 1.0)
+
+
+def test_sides_of_windows_are_few():
+    """The shortest that is long enough, as far as there are cells."""
+    sides = [window.fast_side(length, 99) for length in range(1, 36)]
+    assert sides == [*range(1, 9), *[10] * 2, *[12] * 2, *[14] * 2, *[16] * 2, *[20] * 4, *[25] * 5, *[28] * 3,
+                     *[30] * 2, *[32] * 2, *[35] * 3]  # fmt: skip
+    assert [window.fast_side(length, 9) for length in (8, 9)] == [8, 9]
