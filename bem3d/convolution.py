@@ -72,7 +72,7 @@ class Convolution(ABC):
     def at(self, places: IndexArray, values: FloatArray) -> FloatArray:
         """The convolution of a field that is zero but at these places, read back there alone."""
         with self._lock:
-            flat = self._rows.reshape(-1)
+            flat = self._rows.ravel()
             flat[:] = 0.0
             flat[places] = values
             self._convolve()

@@ -1,5 +1,6 @@
 """The textbook solver as it stands in the literature: the baseline of every speed chart."""
 
+import math
 from typing import cast
 
 import numpy as np
@@ -43,7 +44,7 @@ def solve_plain(
 
 
 def _iterate(problem: Problem, tolerance: float, max_iterations: int) -> Attempt:
-    attempt = Attempt(np.zeros(problem.half_space.shape), 0.0)
+    attempt = Attempt(np.empty(problem.half_space.shape), math.nan)
     iterates = polonsky_keer(problem)
     while attempt.status is None:
         iterate = next(iterates)

@@ -1,5 +1,6 @@
 """The textbook constrained conjugate gradient of Polonsky and Keer: the plain baseline of every speed chart."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import cast
@@ -39,7 +40,8 @@ def polonsky_keer(problem: Problem) -> Iterator[Iterate]:
     gap, depth = problem.gap - problem.first_touch, problem.depth
     pressure = first_pressure(problem)
     direction = np.zeros(half_space.shape)
-    restart, square_before = True, 1.0
+    # infinite where there is nothing to be conjugate to
+    square_before = math.inf
     applications = 0
     while True:
         separation = gap + half_space.apply(pressure)
@@ -50,8 +52,7 @@ def polonsky_keer(problem: Problem) -> Iterator[Iterate]:
         yield Iterate(pressure, problem.first_touch + s, residual(pressure, w, s), applications)
 
         square = float((w[contact] ** 2).sum())
-        conjugacy = 0.0 if restart else square / square_before
-        direction = np.where(contact, w + conjugacy * direction, 0.0)
+        direction = np.where(contact, w + square / square_before * direction, 0.0)
         yielding = half_space.apply(direction)
         applications += 1
         if force is not None:
@@ -66,7 +67,7 @@ def polonsky_keer(problem: Problem) -> Iterator[Iterate]:
         pressure[overlapping] -= step * w[overlapping]
         if force is not None:
             pressure = _loaded(problem, pressure, force)
-        restart, square_before = bool(overlapping.any()) or square == 0, square
+        square_before = math.inf if overlapping.any() or square == 0 else square
 
 
 def mean_over(contact: NDArray[np.bool_], values: FloatArray) -> float:

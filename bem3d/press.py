@@ -76,7 +76,7 @@ def _press_window(
     near, load = gap[box], Load(problem.depth, problem.total)
     window = problem.half_space.like(shape=(near.shape[0], near.shape[1]))
     pressure = attempt.pressure[box]
-    marked, confirmed = np.zeros(window.shape, dtype=np.bool_), math.nan
+    marked, confirmed = np.zeros(window.shape, dtype=np.bool_), math.inf
     while True:
         # the force is held to the last digit, which many small steps would lose
         pressure = load.scaled(pressure)
@@ -88,13 +88,11 @@ def _press_window(
         attempt.history = attempt.history[:-1]
         attempt.judge(residual(pressure, w, attempt.overlap), tolerance, max_iterations)
         known, marked = marked, marked | may_touch(pressure, w)
-        gained = attempt.history[-1] <= confirmed / 2 and attempt.history[-1] < confirmed
-        stuck = not math.isnan(confirmed) and not gained
-        if attempt.status is None and stuck and (marked == known).all():
+        gained, confirmed = attempt.history[-1] < confirmed / 2, attempt.history[-1]
+        if attempt.status is None and not gained and (marked == known).all():
             attempt.status = Status.STAGNATION
         if attempt.status is not None:
             break
-        confirmed = attempt.history[-1]
         pressure = _iterate(Candidates(window, marked), pressure, separation, load, attempt, tolerance, max_iterations)
     attempt.pressure = np.zeros(problem.half_space.shape)
     attempt.pressure[box] = pressure

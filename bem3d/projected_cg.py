@@ -108,7 +108,6 @@ def solved(gram: list[list[float]], wanted: list[float]) -> list[float]:
             for i in range(count):
                 gram[i][k] = gram[k][i] = 0.0
             gram[k][k], wanted[k] = 1.0, 0.0
-            continue
         for i in range(k + 1, count):
             factor = gram[i][k] / gram[k][k]
             wanted[i] -= factor * wanted[k]

@@ -189,7 +189,7 @@ class RollingContact:
         expected: approach, about; prescribed: the load, from the approach of first touch and the area of a cell.
         """
         frame = self._frame or self._around(self.track.smooth_contact(expected), MARGIN)
-        start, attempt = self._carried(position), Attempt(np.zeros(0), 0.0)
+        start, attempt = self._carried(position), Attempt(np.empty(frame.shape), math.nan)
         while True:
             gap = frame.gap(position)
             touch = float(gap.min())
@@ -241,7 +241,7 @@ class RollingContact:
                 # a fresh residual takes the place of the running one of the same pressure
                 attempt.history = attempt.history[:-1]
                 attempt.judge(residual(start.pressure, w, attempt.overlap), self.tolerance, self.max_iterations)
-                gained, confirmed = attempt.history[-1] <= confirmed / 2, attempt.history[-1]
+                gained, confirmed = attempt.history[-1] < confirmed / 2, attempt.history[-1]
             known, marked = marked, marked | may_touch(start.pressure, w) | (start.pressure < 0)
             if attempt.history and attempt.status is None and not gained and (marked == known).all():
                 attempt.status = Status.STAGNATION

@@ -91,7 +91,7 @@ def _random_waves(
     """Complex factors of mean square one on the half spectrum of a real field."""
     # the same order on every grid of these proportions: the waves of a coarse one come first on a finer one
     ring = np.maximum(np.abs(i) * shape[1], j * shape[0])
-    order = np.lexsort(((i + 0 * j).ravel(), (j + 0 * i).ravel(), ring.ravel()))
+    order = np.lexsort([key.ravel() for key in (*np.broadcast_arrays(i, j), ring)])
     wave = np.empty(ring.size, dtype=np.complex128)
     if amplitudes == "fixed":
         wave[order] = np.exp(2j * np.pi * rng.random(ring.size))
@@ -108,11 +108,11 @@ def _hermitian(wave: ComplexArray, amplitudes: Literal["fixed", "gaussian"]) -> 
     """The column with wave(-i) = conj(wave(i)): positive rows keep their value, mirror images follow."""
     mirrored = wave.copy()
     points = wave.size
-    positive_rows = np.arange(1, (points + 1) // 2)
+    positive_rows = np.arange(1, points // 2 + 1)
     mirrored[-positive_rows] = np.conj(wave[positive_rows])
     own_mirror = [0, points // 2] if points % 2 == 0 else [0]
     real = np.sqrt(2) * wave[own_mirror].real
-    mirrored[own_mirror] = np.where(real < 0, -1, 1) if amplitudes == "fixed" else real
+    mirrored[own_mirror] = np.copysign(1.0, real) if amplitudes == "fixed" else real
     return mirrored
 
 

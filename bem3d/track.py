@@ -167,7 +167,7 @@ class Frame:
         force, centre, variance = self._moments(pressure)
         distance = np.sqrt((self._rim_x - centre[0]) ** 2 + (self._rim_y - centre[1]) ** 2 + variance)
         least = force / (np.pi * track.modulus) / distance
-        height = track.height.reshape(-1).take(self._rim + position * track.height.shape[1], mode="wrap")
+        height = track.height.ravel().take(self._rim + position * track.height.shape[1], mode="wrap")
         touching = np.flatnonzero(self._rim_sphere - height + least < approach)
         if not touching.size:
             return None

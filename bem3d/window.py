@@ -63,7 +63,7 @@ class Candidates:
 
     def compress(self, field: FloatArray) -> FloatArray:
         """The vector of a field."""
-        return np.asarray(field.reshape(-1)[self._cells])
+        return np.asarray(field.ravel()[self._cells])
 
     def spread(self, vector: FloatArray) -> FloatArray:
         """The field of a vector, zero elsewhere."""

@@ -110,8 +110,9 @@ def _random_waves(
 ) -> np.ndarray:
     """Complex factors of mean square one; real where a wave is its own mirror image."""
     if amplitudes == "fixed":
-        turn = np.exp(2j * np.pi * rng.random(shape))
-        return np.where(own_mirror, np.where(turn.real < 0, -1, 1), turn)
+        turn = np.asarray(np.exp(2j * np.pi * rng.random(shape)))
+        turn[..., own_mirror] = np.copysign(1.0, turn[..., own_mirror].real)
+        return turn
     pair = rng.standard_normal((*shape, 2))
     return np.where(own_mirror, pair[..., 0], (pair[..., 0] + 1j * pair[..., 1]) / np.sqrt(2))
 

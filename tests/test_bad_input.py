@@ -1,5 +1,7 @@
 """Every public function refuses what it cannot answer, in one sentence that names the argument."""
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -388,3 +390,110 @@ def test_tracks_with_values_that_are_masked(function):
 def test_strips_with_rows_of_different_length(function):
     with pytest.raises(ValueError, match="height"):
         function(height=[[1.0], [1.0, 2.0]])
+
+
+def wide(**changes):
+    settings = {"height": np.zeros((12, 40)), "spacing": (0.5, 0.2), "radius": 1.0, "modulus": 1.0, "approach": 1.0}
+    return bem3d.roll(**{**settings, **changes})
+
+
+def wheels_at(**changes):
+    """Two tracks, whose middles are 1 and -2 from the plane that heights count from."""
+    settings = {"spacing": 1.0, "radius": 4.0, "modulus": 1.0, "force": 2.0}
+    wheels = mdr.Wheels(np.tile([1.0, -2.0], (9, 1)), **settings)
+    return wheels.force(**{"place": 0, "approach": np.zeros(2), **changes})
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        (
+            lambda: surface(c2d=lambda q: 3.0 - 0.5 * (q > 100) - 7 * (q < 10)),
+            "c2d must be finite and nowhere negative, got -4.0 to 3.0",
+        ),
+        (lambda: profile(c1d=lambda q: 3.0 - 7 * (q < 10)), "c1d must be nowhere negative, got -4.0"),
+        (lambda: curve().at_force([3.0, -2.0]), "force must be zero or positive, got -2.0"),
+        (
+            lambda: solve(start=np.arange(20.0).reshape(4, 5) - 2),
+            "start must be zero or positive everywhere, got -2.0",
+        ),
+        (lambda: wide(height=np.zeros((3, 40))), "height must be longer than the contact, 2 m, got a track of 1.5 m"),
+        (lambda: wide(height=np.zeros((4, 40))), "height must be longer than the contact, 2 m, got a track of 2 m"),
+        (lambda: wide(height=np.zeros((12, 9))), "height must be wider than the contact, 2 m, got a strip of 1.8 m"),
+        (lambda: wide(height=np.zeros((12, 10))), "height must be wider than the contact, 2 m, got a strip of 2 m"),
+        (
+            lambda: wide(height=np.outer(np.ones(12), 9.0 * (np.arange(40) == 39))),
+            "height must be wider than the contact, which reaches the edge of the strip of 40 cells at position 0",
+        ),
+        (lambda: wheels_at(approach=np.array([5.0, np.inf])), "approach must be finite, got [ 5. inf]"),
+        (
+            lambda: mdr.Wheels(np.zeros((4, 1)), spacing=0.5, radius=1.0, modulus=1.0, force=4 / 3),
+            "height must be longer than the contact, 2 m, got a track of 2 m",
+        ),
+    ],
+)
+def test_what_is_refused_is_said_with_its_numbers(wrong, sentence):
+    with pytest.raises(ValueError) as caught:
+        wrong()
+    assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize(("most", "said"), [(1, "1 iteration"), (2, "2 iterations")])
+def test_a_failure_is_said_with_its_numbers(most, said):
+    """Of a solve and of a wheel."""
+    gap = np.random.default_rng(0).normal(size=(4, 5))
+    with pytest.raises(bem3d.ConvergenceError) as caught:
+        bem3d.solve(half_space(), gap, approach=0.5, tolerance=1e-12, max_iterations=most)
+    residual = caught.value.history[-1]
+    assert str(caught.value) == (
+        f"residual {residual:.3g} after {said} (iteration limit), asked for 1e-12, at approach 0.5 m on 4 x 5 cells"
+    )
+    height = 0.1 * np.random.default_rng(0).normal(size=(12, 40))
+    with pytest.raises(bem3d.ConvergenceError) as caught:
+        wide(height=height, max_iterations=most, tolerance=1e-12)
+    residual = caught.value.history[-1]
+    assert str(caught.value) == (
+        f"residual {residual:.3g} after {most} iterations (iteration limit), asked for 1e-12, at position 0"
+    )
+
+
+FAILING = {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True}
+
+
+@pytest.mark.parametrize(
+    ("function", "called", "defaults"),
+    [
+        (bem3d.solve, solve, {**FAILING, "start": None}),
+        (bem3d.solve_plain, lambda: bem3d.solve_plain(half_space(), np.zeros((4, 5)), approach=1.0),
+         {**FAILING, "max_iterations": 2000}),
+        (bem3d.indent, lambda: list(bem3d.indent(half_space(), np.zeros((4, 5)), forces=[1.0])),
+         {**FAILING, "stiffness": False}),
+        (bem3d.press_frozen, frozen, FAILING),
+        (bem3d.roll, lambda: wide(positions=1), {**FAILING, "tolerance": 1e-5, "positions": None}),
+        (bem3d.rolling_force,
+         lambda: bem3d.rolling_force(np.zeros((4, 40)), spacing=0.6, radius=1.0, modulus=1.0, approach=1.0),
+         {"tolerance": 1e-5}),
+        (bem3d.RollingContact,
+         lambda: bem3d.RollingContact(bem3d.Track(height=np.zeros((4, 40)), spacing=0.6, radius=1.0, modulus=1.0)),
+         {"tolerance": 1e-5, "max_iterations": 500}),
+        (bem3d.HalfSpace, half_space, {"periodic": False, "planning": "estimate"}),
+        (bem3d.rough_surface, surface, {"rms": None, "amplitudes": "fixed"}),
+        (mdr.rough_profile, profile, {"rms": None, "amplitudes": "fixed"}),
+        (mdr.line_trace, lambda: mdr.line_trace(1.0, lambda q: q**-2, q_max=2.0), {"nodes": 400}),
+    ],
+)  # fmt: skip
+def test_what_is_not_asked_for(function, called, defaults):
+    """Callers lean on it: what is asked of each function by who does not say."""
+    called()
+    known = {name: one.default for name, one in inspect.signature(function).parameters.items()}
+    assert {name: known[name] for name in defaults} == defaults
+
+
+def test_the_springs_of_sums_that_round_are_counted():
+    """2 sqrt(d R) / dx of them."""
+    wheels = mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=4.0, modulus=1.0, force=2.0)
+    with pytest.raises(ArithmeticError) as caught:
+        wheels.force(0, [1.1e10])
+    assert str(caught.value) == (
+        f"approach must be less deep for sums of {2 * int(np.sqrt(4.4e10)) + 1} springs without rounding, got 1.1e+10 m"
+    )

@@ -1,5 +1,6 @@
 """The referees themselves: integrals, inverses and limits that tie one closed form to another."""
 
+import functools
 import math
 
 import numpy as np
@@ -93,6 +94,13 @@ def test_line_trace_has_less_than_geike(hurst):
         (closed_forms.square_punch_stiffness, ("side", "modulus")),
         (closed_forms.westergaard_full_pressure, ("amplitude", "wavelength", "modulus")),
         (closed_forms.westergaard_half_width, ("mean_pressure", "amplitude", "wavelength", "modulus")),
+        (closed_forms.westergaard_approach, ("mean_pressure", "amplitude", "wavelength", "modulus")),
+        (functools.partial(closed_forms.hertz_pressure, 0.5), ("radius", "modulus", "approach")),
+        (
+            functools.partial(closed_forms.westergaard_pressure, 0.1),
+            ("mean_pressure", "amplitude", "wavelength", "modulus"),
+        ),
+        (closed_forms.rough_punch_stiffness, ("side", "modulus", "force", "height")),
         (closed_forms.line_trace_ratio, ("hurst",)),
     ],
 )
@@ -104,8 +112,29 @@ def test_bad_input_is_named(form, names, bad):
 
 
 def test_westergaard_beyond_full_contact_is_refused():
-    with pytest.raises(ValueError, match="mean_pressure must not exceed"):
-        closed_forms.westergaard_half_width(mean_pressure=4.0, amplitude=1.0, wavelength=1.0, modulus=1.0)
+    wave = {"amplitude": 1.0, "wavelength": 1.0, "modulus": 1.0}
+    words = "^mean_pressure must not exceed the pressure of full contact, 3.14159, got 4.0$"
+    for form in (closed_forms.westergaard_half_width, closed_forms.westergaard_approach):
+        with pytest.raises(ValueError, match=words):
+            form(mean_pressure=4.0, **wave)
+        assert form(mean_pressure=math.pi, **wave) > 0
+
+
+@pytest.mark.parametrize("load", [0.01, 0.2, 0.7])
+def test_the_westergaard_approach_is_the_integral_of_the_compliance_of_strips(load):
+    """d(0) = 0 and dd/dp = -(2 lambda / (pi E*)) ln sin(pi a / lambda): a wave is closed where d is its amplitude."""
+    wave = {"amplitude": 0.3, "wavelength": 2.5, "modulus": 7.0}
+    full = closed_forms.westergaard_full_pressure(**wave)
+
+    def compliance(p):
+        a = closed_forms.westergaard_half_width(mean_pressure=p, **wave)
+        return -2 * 2.5 / (math.pi * 7.0) * math.log(math.sin(math.pi * a / 2.5))
+
+    for part in (load, 1.0):
+        whole, error = integrate.quad(compliance, 0, part * full)
+        found = closed_forms.westergaard_approach(mean_pressure=part * full, **wave)
+        assert found == pytest.approx(whole, abs=2 * error + 1e-12)
+    assert found == pytest.approx(0.3, rel=1e-14)
 
 
 def test_square_punch_lies_between_the_circles_of_its_area_and_of_its_diagonal():

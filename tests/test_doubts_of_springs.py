@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import mdr
+from mdr import doubts
 
 WHEEL = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 
@@ -123,3 +124,55 @@ def test_low_roughness_is_not_doubted(height, warned):
 
 def test_a_smooth_track_is_not_doubted():
     assert said(mdr.roll, np.zeros(800), spacing=1 / 32, **WHEEL, contact="full")[1] == []
+
+
+@pytest.mark.parametrize(
+    ("pressed", "sentence"),
+    [
+        ([1], "only 1 spring in contact: the answer is that of the spacing, not of the profile"),
+        ([2], "only 2 springs in contact: k may be 50% off"),
+        ([5, 900], "only 5 springs in contact at 1 of 2 loads, at the lightest: k may be 20% off"),
+        ([0, 900, 1, 3], "only 1 spring in contact at 2 of 4 loads, at the lightest: the answer is that of the "
+         "spacing, not of the profile"),
+        ([0, 900], None),
+    ],
+)  # fmt: skip
+def test_few_springs_are_said_with_their_number(pressed, sentence):
+    found = doubts.doubts_of_load(np.array(pressed), 1000)
+    more = "; take more springs (16 or more in contact are not warned of)"
+    assert [said for _, said in found] == ([] if sentence is None else [sentence + more])
+
+
+def test_what_a_linear_contact_leaves_out_is_said_with_its_part():
+    """(h^2 behind + h^2 ahead) / 4 d, its deviation over that of the force."""
+    rng = np.random.default_rng(2)
+    height, change = 0.3 * rng.normal(size=50), 0.2 * rng.normal(size=50)
+    left_out = np.array([(height[i - 7] ** 2 + height[(i + 7) % 50] ** 2) / (4 * 0.8) for i in range(50)])
+    part = np.std(left_out) / np.std(change)
+    ((category, sentence),) = doubts.doubts_of_linearity(height, change, approach=0.8, reach=7)
+    assert category is mdr.LinearityWarning
+    assert sentence.startswith(f"roughness of h_rms / d = {np.std(height) / 0.8:.2g} moves the ends of the contact")
+    assert f"to second order {part:.0%} of the fluctuation of its force" in sentence
+
+
+@pytest.mark.parametrize(("short", "warned"), [(0.9e-9, 0), (1.1e-9, 1), (1.9e-9, 1)])
+def test_a_wave_or_a_wheel_is_too_short_by_a_billionth(short, warned):
+    """Four springs to a wave, sixteen under a wheel."""
+    q = np.array([1.0, 2 * np.pi / (4 * (1 - short)), 3.0])
+    assert len(doubts.doubts_of_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
+    assert len(doubts.doubts_of_wheel(16 * (1 - short))) == warned
+
+
+@pytest.mark.parametrize("contact", ["linear", "full"])
+@pytest.mark.parametrize("by", ["approach", "force"])
+def test_units_do_not_matter_to_what_is_left_out(contact, by):
+    """Lengths and moduli that are powers of two: the same sentence."""
+    height = rough(0.5)
+
+    def sentence(metre, pascal):
+        load = {"approach": metre} if by == "approach" else {"force": 4 / 3 * metre**2 * pascal}
+        wheel = {"spacing": metre / 32, "radius": metre, "modulus": pascal, "contact": contact}
+        ((_, words, _),) = said(mdr.roll, metre * height, **wheel, **load)[1]
+        return words
+
+    assert sentence(2.0**-6, 2.0**20) == sentence(1.0, 1.0)

@@ -1,5 +1,7 @@
 """Profiles and surfaces drawn from a spectrum, measured back: moments, spectra, symmetry, Geike's rule between them."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -185,3 +187,138 @@ def test_a_wave_at_the_edge_of_the_band_survives_rounding():
         height = mdr.rough_profile(spectrum.c1d, length=length, points=32, rng=rng(1))
         waves = np.abs(np.fft.fft(height, norm="forward")) > 1e-6
         assert np.count_nonzero(waves) == 8
+
+
+def waves_of_a_profile(c1d, length, points, generator, amplitudes):
+    """The sum over waves of `rough_profile`, one after the other; at Nyquist, its own mirror image, up or down."""
+    x = (np.arange(points) + 0.5) * length / points
+    last = points // 2
+    if amplitudes == "fixed":
+        turns = [complex(math.cos(t), math.sin(t)) for t in 2 * math.pi * generator.random(last)]
+    else:
+        turns = [complex(a, b) / math.sqrt(2) for a, b in generator.standard_normal((last, 2))]
+    height = np.zeros(points)
+    for j, turn in enumerate(turns, 1):
+        q = 2 * math.pi * j / length
+        size = math.sqrt(2 * math.pi * float(c1d(np.array([q]))[0]) / length)
+        if 2 * j < points:
+            height += 2 * size * (turn.real * np.cos(q * x) - turn.imag * np.sin(q * x))
+        else:
+            own = math.copysign(1, turn.real) if amplitudes == "fixed" else math.sqrt(2) * turn.real
+            height += size * own * np.cos(math.pi * np.arange(points))
+    return height
+
+
+@pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
+@pytest.mark.parametrize("points", [2, 3, 8, 9, 20])
+def test_a_profile_is_the_sum_of_its_waves_in_the_order_of_their_numbers(points, amplitudes):
+    """One random number a wave, or two, from the longest to the shortest; the next draw goes on with the next one."""
+
+    def c1d(q):
+        return np.where(q <= math.pi * points / 2.5 * (1 + 1e-9), 0.02 / (0.1 + q**2), 0.0)
+
+    ours, theirs = rng(7), rng(7)
+    for _ in range(4):
+        height = mdr.rough_profile(c1d, length=2.5, points=points, rng=ours, amplitudes=amplitudes)
+        expected = waves_of_a_profile(c1d, 2.5, points, theirs, amplitudes)
+        assert height == pytest.approx(expected, abs=1e-13 * np.abs(expected).max())
+
+
+def waves_of_a_surface(c2d, shape, spacing, generator, amplitudes):
+    """The sum over waves of `rough_surface`, one wave after the other, by rings of equal max(|i| / nx, j / ny).
+
+    Within a ring by j, then by i; of waves with j = 0 or ny / 2, those with i > 0 stand for both.
+    """
+    (nx, ny), (dx, dy) = shape, spacing
+    x, y = (np.arange(nx) + 0.5)[:, np.newaxis] / nx, (np.arange(ny) + 0.5) / ny
+    rows = [i if 2 * i < nx else i - nx for i in range(nx)]
+    waves = sorted(
+        ((i, j) for i in rows for j in range(ny // 2 + 1)),
+        key=lambda wave: (max(abs(wave[0]) * ny, wave[1] * nx), wave[::-1]),
+    )
+    if amplitudes == "fixed":
+        turns = [complex(math.cos(t), math.sin(t)) for t in 2 * math.pi * generator.random(len(waves))]
+    else:
+        turns = [complex(a, b) / math.sqrt(2) for a, b in generator.standard_normal((len(waves), 2))]
+    height = np.zeros(shape)
+    for (i, j), turn in zip(waves, turns, strict=True):
+        own = 2 * i in (0, -nx) and 2 * j in (0, ny)
+        if (i, j) == (0, 0) or (not own and 2 * j in (0, ny) and not 0 < 2 * i < nx):
+            continue
+        q = 2 * math.pi * math.hypot(i / (nx * dx), j / (ny * dy))
+        size = 2 * math.pi * math.sqrt(float(c2d(np.array([q]))[0]) / (nx * dx * ny * dy))
+        # waves that the grid sees as up and down, one cell after the other, are not moved to the centres of the cells
+        along = np.pi * np.arange(nx)[:, np.newaxis] if 2 * i == -nx else 2 * np.pi * i * x
+        across = np.pi * np.arange(ny) if 2 * j == ny else 2 * np.pi * j * y
+        if own:
+            up = math.copysign(1, turn.real) if amplitudes == "fixed" else math.sqrt(2) * turn.real
+            height += size * up * np.cos(along) * np.cos(across)
+        else:
+            height += 2 * size * (turn.real * np.cos(along + across) - turn.imag * np.sin(along + across))
+    return height
+
+
+@pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
+@pytest.mark.parametrize(
+    ("shape", "spacing"),
+    [((6, 6), (1, 1)), ((5, 7), (1, 0.8)), ((8, 6), (0.7, 1)), ((6, 9), (1, 1)), ((1, 6), (1, 1)), ((3, 2), (1, 1))],
+)
+def test_a_surface_is_the_sum_of_its_waves_ring_by_ring(shape, spacing, amplitudes):
+    """The same seed is the same surface in every version; the next draw goes on with the next random number."""
+    nyquist = math.pi / max(spacing)
+
+    def c2d(q):
+        return np.where(q <= nyquist * (1 + 1e-9), 0.03 / (0.1 + q**2), 0.0)
+
+    ours, theirs = rng(8), rng(8)
+    for _ in range(4):
+        height = bem3d.rough_surface(c2d, shape=shape, spacing=spacing, rng=ours, amplitudes=amplitudes)
+        expected = waves_of_a_surface(c2d, shape, spacing, theirs, amplitudes)
+        assert height == pytest.approx(expected, abs=1e-13 * np.abs(expected).max())
+
+
+def profile_of(c1d):
+    return mdr.rough_profile(c1d, length=2 * np.pi, points=64, rng=rng(1))
+
+
+def surface_of(c2d):
+    return bem3d.rough_surface(c2d, shape=(64, 16), spacing=(np.pi / 32, np.pi / 32), rng=rng(1))
+
+
+DRAWS = [pytest.param(profile_of, 4, id="profile"), pytest.param(surface_of, 5, id="surface")]
+
+
+@pytest.mark.parametrize(("draw", "power"), DRAWS)
+def test_power_beyond_nyquist_may_be_a_billionth_of_the_curvature_and_no_more(draw, power):
+    """q^4 C_1D and q^5 C_2D beyond the Nyquist wavenumber 32, over the largest of the waves drawn: q = 8."""
+
+    def spectrum(share):
+        def density(q):
+            beyond = 1e-9 * share * 8.0**power / np.maximum(q, 32.0) ** power
+            return np.where(q < 32.5, (np.abs(q - 8) < 1e-9) * 1.0, beyond)
+
+        return density
+
+    assert draw(spectrum(0.9)).std() > 0
+    words = (
+        "^c.d must vanish beyond the Nyquist wavenumber of the (points|grid), 32 rad/m, got power there: lower q_max or"
+    )
+    with pytest.raises(ValueError, match=words):
+        draw(spectrum(1.1))
+
+
+@pytest.mark.parametrize(("draw", "power"), DRAWS)
+def test_power_is_looked_for_over_three_decades_beyond_nyquist(draw, power):
+    """At 4096 wavenumbers, from a millionth above it, in equal ratios: none by which a wave of the grid could be."""
+    asked = []
+
+    def none(q):
+        asked.append(q)
+        return 0.0 * q
+
+    with pytest.raises(ValueError, match="has no power at any wave"):
+        draw(none)
+    beyond = asked[-1]
+    assert beyond.size == 4096
+    assert beyond[[0, -1]] == pytest.approx([32 * (1 + 1e-6), 32e3], rel=1e-9)
+    assert np.diff(np.log(beyond)) == pytest.approx(np.log(1e3 / (1 + 1e-6)) / 4095, rel=1e-6)

@@ -142,3 +142,11 @@ def test_wrong_factors_are_refuted_through_the_height(spectrum, factor, share):
     kept = share_kept(wrong, spectrum.c2d, 0, spectrum.q_min, spectrum.q_max)
     assert kept == pytest.approx(share, rel=1e-9)
     assert abs(kept - 1) > 0.5
+
+
+def test_the_edges_of_a_band_belong_to_it_within_a_billionth():
+    """To the last bit of the wavenumber."""
+    band = mdr.SelfAffine(hurst=0.7, q_min=3.0, q_max=50.0, rms=1.0)
+    first, last = 3.0 * (1 - 1e-9), 50.0 * (1 + 1e-9)
+    assert (band.c2d([first, last]) > 0).all()
+    assert (band.c2d([np.nextafter(first, 0), np.nextafter(last, 99)]) == 0).all()

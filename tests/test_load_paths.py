@@ -128,3 +128,15 @@ def test_a_path_that_does_not_converge():
     assert [contact.status for contact in contacts] == ["iteration limit"] * 2
     with pytest.raises(bem3d.ConvergenceError, match="no stiffness"):
         contacts[0].stiffness()
+
+
+def test_a_stiffness_that_was_brought_along_is_not_solved_for_again(monkeypatch):
+    """Down to the residual that it has."""
+    (contact,) = bem3d.indent(BODY, GAP, forces=[3.0], stiffness=True)
+    brought = contact.frozen.residual
+    finer = contact.stiffness(tolerance=brought / 2)
+    monkeypatch.delattr("bem3d.contact.press_frozen")
+    assert contact.stiffness() == contact.stiffness(tolerance=brought) == contact.frozen.stiffness
+    with pytest.raises(NameError):
+        contact.stiffness(tolerance=brought / 2)
+    assert finer == pytest.approx(contact.frozen.stiffness, rel=1e-6)

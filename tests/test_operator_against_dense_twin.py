@@ -80,6 +80,12 @@ def test_self_compliance_is_the_diagonal(half_space):
     assert half_space.self_compliance == pytest.approx(diagonal[0], rel=1e-12, abs=1e-15)
 
 
+@pytest.mark.parametrize("periodic", [True, False])
+def test_self_compliance_goes_with_the_modulus(periodic):
+    half_space = bem3d.HalfSpace(shape=(4, 3), spacing=(0.5, 2.0), modulus=7.0, periodic=periodic)
+    assert half_space.self_compliance == pytest.approx(dense_operator(half_space)[0, 0], rel=1e-12)
+
+
 def test_far_away_a_loaded_cell_is_a_point_force():
     """u = F / (pi E* r), with a relative error of order (dx / r)^2."""
     half_space = bem3d.HalfSpace(shape=(101, 3), spacing=0.1, modulus=2.0)

@@ -513,3 +513,60 @@ def test_a_start_from_the_last_two_positions_saves_applications():
     """In counts: on a smooth strip fewer than the first position takes, from none."""
     found = bem3d.roll(strip(12, 0.02), spacing=1 / 12, **SPHERE, approach=1.0, tolerance=TOLERANCE)
     assert found.operator_applications[2:].mean() <= 0.9 * found.operator_applications[0]
+
+
+def long_cells(**changes):
+    """Cells three times as long as wide, E* = 2, R = 5."""
+    settings = {"height": np.zeros((30, 60)), "spacing": (0.6, 0.2), "radius": 5.0, "modulus": 2.0}
+    return bem3d.Track(**{**settings, **changes})
+
+
+@pytest.mark.parametrize("approach", [0.3, 0.9, 2.0])
+@pytest.mark.parametrize("highest", [0.0, 0.4])
+def test_rows_beyond_reach_cannot_overlap(approach, highest):
+    """g = x^2 / 2 R - h < d as far as sqrt(2 R (d + h)), in rows."""
+    track = long_cells(height=np.full((30, 60), highest) * (np.arange(60) == 7))
+    reach = track.reach(approach)
+    assert (reach * 0.6) ** 2 / 10 <= approach + highest < ((reach + 1) * 0.6) ** 2 / 10
+    assert track.reach(-highest - 0.1) == 0
+
+
+def test_a_frame_is_as_much_wider_as_its_longer_side_says():
+    """So many parts of it on each side, and two rows ahead."""
+    track = long_cells(height=np.zeros((200, 200)))
+    wheel = bem3d.RollingContact(track)
+    for spans, margin in ((((-3, 5), (80, 120)), 4), (((-30, 10), (90, 98)), 4), (((0, 9), (90, 99)), 0)):
+        found = wheel._around(spans, 0.1)
+        assert found.spans == track.widened((((spans[0][0]), spans[0][1] + 2), spans[1]), margin)
+        assert wheel._around(spans).spans == track.widened(((spans[0][0], spans[0][1] + 2), spans[1]), 0)
+
+
+def test_cells_outside_are_listed_for_a_twentieth_more():
+    """And anew for more than that, at an approach of either sign."""
+    frame = Frame(long_cells(height=np.full((30, 60), 3.0)), ((-2, 3), (25, 35)))
+    for approach in (1.0, -1.0):
+        frame._limit = -np.inf
+        frame.outside(0, approach, np.zeros(frame.shape))
+        listed = frame._rim
+        frame.outside(0, approach + 0.049, np.zeros(frame.shape))
+        assert frame._rim is listed
+        frame.outside(0, approach + 0.051, np.zeros(frame.shape))
+        assert frame._rim is not listed
+
+
+def test_moments_of_one_long_cell():
+    """Pressed evenly: (dx^2 + dy^2) / 12 about its centre."""
+    frame, pressure = Frame(long_cells(), ((-2, 3), (25, 35))), np.zeros((5, 10))
+    pressure[4, 1] = 7.0
+    force, centre, variance = frame._moments(pressure)
+    assert force == pytest.approx(7.0 * 0.12)
+    assert centre == pytest.approx((2 * 0.6, (26 - 29.5) * 0.2))
+    assert variance == pytest.approx((0.36 + 0.04) / 12)
+
+
+def test_a_wheel_that_just_touches_bears_nothing():
+    """At the very approach of first touch, over the middle of a cell."""
+    wheel = bem3d.RollingContact(bem3d.Track(height=np.zeros((9, 9)), spacing=1.0, **SPHERE))
+    contact = wheel.press(0, 0.0)
+    assert (contact.force, contact.operator_applications, contact.history) == (0.0, 0, (0.0,))
+    assert contact.converged

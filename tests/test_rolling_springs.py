@@ -264,3 +264,23 @@ def test_a_smooth_wheel_examines_no_spring():
     found = track.roll()
     assert not found.examined.any()
     assert found.force == pytest.approx(4 / 3, rel=0.01)
+
+
+@pytest.mark.parametrize("d", [0.37, 1.1])
+def test_a_full_contact_is_the_sum_over_springs_nearer_than_its_radius(d):
+    """One by one, whether they are compressed or pull; and their stiffness, by an approach and under a force."""
+    height = 0.3 * np.random.default_rng(1).normal(size=40)
+    near = [j for j in range(-40, 41) if (0.1 * j) ** 2 < 0.8 * d]
+    springs = 6.0 * 0.1
+    expected = [springs * sum(d - (0.1 * j) ** 2 / 0.8 + height[(i + j) % 40] for j in near) for i in range(40)]
+    wheel = {"spacing": 0.1, "radius": 0.8, "modulus": 6.0, "contact": "full"}
+    found = mdr.roll(height, **wheel, approach=d)
+    assert found.force == pytest.approx(expected)
+    assert found.stiffness == pytest.approx(np.full(40, springs * len(near)))
+    assert not found.examined.any()
+    force = 4 / 3 * 6.0 * math.sqrt(0.8) * d**1.5
+    under = mdr.roll(height, **wheel, force=force)
+    assert under.approach == pytest.approx(d + (force - np.array(expected)) / (springs * len(near)))
+    assert under.stiffness == pytest.approx(found.stiffness)
+    assert under.force == pytest.approx(np.full(40, force))
+    assert not under.examined.any()

@@ -395,3 +395,20 @@ def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
 def test_contact_is_lost_by_half_under_endless_roughness():
     c2d = lambda q: np.where((q >= 1) & (q <= 8), 1e12, 0.0)  # noqa: E731
     assert contact_lost(c2d, edges=(1.0, 8.0), contact_radius=1.0, radius=1.0) == pytest.approx(0.5, abs=1e-6)
+
+
+def test_a_rolling_spectrum_asks_for_24_wavenumbers_a_panel():
+    """Panels no wider than a ratio of 1.4, from q to each edge: 3 up to 2.5, and 5 from there to 10."""
+    asked = []
+
+    def c2d(s):
+        asked.append(s)
+        return s**-3.0
+
+    mdr.rolling_spectrum(1.0, c2d, edges=[0.5, 2.5, 10.0])
+    (s,) = asked
+    assert s.shape == (8, 24)
+    ends = [1.0, 1.4, 1.96, 2.5, 3.5, 4.9, 6.86, 9.604, 10.0]
+    assert (np.diff(s.ravel()) > 0).all()
+    for panel, (first, last) in zip(s, pairwise(ends), strict=True):
+        assert first < panel[0] < panel[-1] < last

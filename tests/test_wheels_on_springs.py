@@ -309,6 +309,12 @@ def test_sums_that_round_are_refused_each_time():
     assert np.array_equal(wheels.force(5, np.ones(3)), expected)
 
 
+def test_the_quantum_of_a_track():
+    """Of heights from -1 to 2 under a smooth approach of 1: 5 * 4^(3/2) * (2 * 20 + 512) * 2^-53."""
+    height = np.tile([[-1.0, 0.0], [2.0, 0.0], [0.5, 0.0]], (40, 1))
+    assert Tracks(height, 20.0).wheels().quantum == pytest.approx(np.array([40, 5]) * 552 * ULP, rel=1e-14)
+
+
 @given(track=tracks())
 def test_the_quantum_is_that_of_its_formula(track):
     assert track.wheels().quantum == pytest.approx(track.quantum, rel=1e-12, abs=0)
@@ -319,6 +325,23 @@ def test_a_force_whose_sums_round_is_refused():
     wheels = rough(0.1).wheels()
     with pytest.raises(ArithmeticError, match="force must be less for sums without rounding"):
         wheels.approach(0, 1e9 * HERTZ)
+
+
+def test_a_force_is_refused_where_the_sums_of_a_single_wheel_round():
+    """That over the smoother track rounds first, by its finer quantum; the other alone bears more."""
+    track = Tracks(np.array([0.0, 1.0]) * np.random.default_rng(0).normal(size=(300, 2)), 20.0)
+
+    def refused(which, force):
+        try:
+            track.wheels(which).approach(0, force)
+        except ArithmeticError:
+            return True
+        return False
+
+    forces = HERTZ * 2.0 ** np.arange(3, 20)
+    smooth, rougher, both = ([refused(which, force) for force in forces] for which in ([0], [1], [0, 1]))
+    assert both == smooth
+    assert sum(smooth) > sum(rougher) > 0
 
 
 def test_the_plane_from_which_heights_count_does_not_matter():

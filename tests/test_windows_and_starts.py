@@ -3,6 +3,7 @@
 import threading
 
 import numpy as np
+import pyfftw
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -11,6 +12,7 @@ from hypothesis.extra.numpy import arrays
 import bem3d
 from bem3d import nested, projected_cg, window
 from bem3d.problem import Problem
+from bem3d.window import smallest_box
 from tests.oracles import displacement
 from tests.strategies import half_spaces, pressed
 
@@ -242,3 +244,39 @@ def test_a_problem_shares_its_gap_with_those_along_a_path():
     frozen = gap.view()
     frozen.flags.writeable = False
     assert not np.shares_memory(Problem(half_space=body, gap=frozen, force=1.0).gap, gap)
+
+
+def test_the_memory_of_fftw_is_put_back_as_it_was():
+    """What others have measured in this process stays, and what a half-space has measured goes."""
+    field = pyfftw.empty_aligned(24, dtype=np.complex128)
+    try:
+        pyfftw.FFTW(field, field, flags=("FFTW_MEASURE",))
+        known = [set(part.splitlines()) for part in pyfftw.export_wisdom()]
+        bem3d.HalfSpace(shape=(20, 12), spacing=1.0, modulus=1.0, planning="measure").displacement(np.ones((20, 12)))
+        assert [set(part.splitlines()) for part in pyfftw.export_wisdom()] == known
+    finally:
+        pyfftw.forget_wisdom()
+
+
+def test_a_window_is_laid_around_the_middle_of_what_it_holds():
+    """21 cells in one of 25, with two to spare on each side, or as many as the grid has."""
+    half_space = bem3d.HalfSpace(shape=(60, 40), spacing=1.0, modulus=1.0)
+    marked = np.zeros((60, 40), dtype=bool)
+    marked[10:31, 39] = marked[10:31, 19] = True
+    assert smallest_box(half_space, marked) == (slice(8, 33), slice(15, 40))
+
+
+@pytest.mark.parametrize("load", [{"approach": 1.0}, {"approach": 0.0}, {"force": 0.0}])
+def test_no_contact_costs_nothing(load):
+    contact = bem3d.solve(bem3d.HalfSpace(shape=(5, 4), spacing=1.0, modulus=1.0), np.ones((5, 4)), **load)
+    assert (contact.operator_applications, contact.history, contact.iterations) == (0, (0.0,), 0)
+    assert contact.force == 0.0
+    assert contact.approach == load.get("approach", 1.0)
+
+
+def test_sides_of_windows_are_few():
+    """The shortest that is long enough, as far as there are cells."""
+    sides = [window.fast_side(length, 99) for length in range(1, 36)]
+    assert sides == [*range(1, 9), *[10] * 2, *[12] * 2, *[14] * 2, *[16] * 2, *[20] * 4, *[25] * 5, *[28] * 3,
+                     *[30] * 2, *[32] * 2, *[35] * 3]  # fmt: skip
+    assert [window.fast_side(length, 9) for length in (8, 9)] == [8, 9]
