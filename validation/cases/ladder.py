@@ -160,7 +160,7 @@ def evidence(result: LadderResult) -> Evidence:
             f"beside always running fine boundary elements a factor {saved:.3g} is saved in the median, "
             f"{mine['fine [s]'].sum() / mine['climb [s]'].sum():.3g} in all scenes together, where those that need "
             "fine boundary elements count most; the median is that of the ranges that were drawn. "
-            f"{np.count_nonzero(mine['met'] == 0)} scenes were said to be out of reach: their claims and their savings "
+            f"Scenes that were said to be out of reach: {np.count_nonzero(mine['met'] == 0)}; their claims and savings "
             f"count, too; without them {np.median(mine['saved'][mine['met'] == 1]):.3g}. {_ended(mine)}"
         )
     return Evidence(
