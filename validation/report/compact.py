@@ -1,26 +1,82 @@
 """An SVG of matplotlib without what nobody sees: indentation, comments, unused names, places beyond any printer."""
 
 import re
+from itertools import count
 
-COMMENT = re.compile(r"\s*<!--.*?-->", re.DOTALL)
+REMARK = re.compile(r"\s*(<!--.*?-->|<metadata>.*?</metadata>)", re.DOTALL)
 UNUSED = re.compile(r'<g id="[^"]*">')
+GROUPS, BARE, END = ("<g ", "<g>"), "<g>", "</g>"
 PATH = re.compile(r'(?<= d=")[^"]*')
 COMMAND = re.compile(r"\s*([MLQCZz])\s*")
 DECIMALS = re.compile(r"(\d*)\.\d{3,}")
 INDENTATION = re.compile(r"\n\s*")
 LINK, SPACE = "xlink:href=", ' xmlns:xlink="http://www.w3.org/1999/xlink"'
 """What SVG 2 says in one word."""
-GLYPH = "DejaVuSans"
-"""Of the names of glyphs, each written where it is used."""
+NAME = re.compile(r' id="([^"]+)"')
+NAMED = re.compile(r'( id="|#)([\w-]+)')
+PLACED = re.compile(r'(<use [^>]*)transform="translate\((\S+) (\S+)\)"/>')
+"""A glyph at its place in a word, in hundredths of the size of the type."""
+LOOK = re.compile(r'(?: (?:clip-path|style)="[^"]*")+')
+PROPERTY = re.compile(r'(clip-path|style)="([^"]*)"')
+RULES_END = "</style>"
 
 
 def compact(svg: str) -> str:
-    """The same picture in about two thirds of the bytes."""
-    svg = UNUSED.sub("<g>", COMMENT.sub("", svg)).replace(LINK, "href=").replace(SPACE, "")
-    svg = PATH.sub(lambda path: COMMAND.sub(r"\1", path.group()), svg)
-    return INDENTATION.sub("\n", DECIMALS.sub(_printed, svg)).replace(GLYPH, "D")
+    """The same picture in about half of the bytes."""
+    svg = UNUSED.sub("<g>", REMARK.sub("", svg)).replace(LINK, "href=").replace(SPACE, "")
+    svg = PATH.sub(lambda path: COMMAND.sub(r"\1", path.group()).strip(), svg)
+    svg = INDENTATION.sub("\n", DECIMALS.sub(_printed, svg))
+    return _ungrouped(_classed(_renamed(PLACED.sub(_place, svg))))
 
 
 def _printed(number: re.Match[str]) -> str:
     """Two decimals from one point on; a smaller number, as a scale is, stays."""
     return number.group() if number.group(1) in ("", "0") else f"{float(number.group()):.2f}"
+
+
+def _place(glyph: re.Match[str]) -> str:
+    """A translation is a place."""
+    start, *place = glyph.groups()
+    at = [f"{float(number):.1f}".removesuffix(".0") for number in place]
+    return start + " ".join(f'{axis}="{number}"' for axis, number in zip("xy", at, strict=True) if number != "0") + "/>"
+
+
+def _renamed(svg: str) -> str:
+    """Short names for what is drawn again and again: marks, glyphs, frames that clip."""
+    short = {name: f"n{number}" for number, name in enumerate(dict.fromkeys(NAME.findall(svg)))}
+    return NAMED.sub(lambda said: said[1] + short.get(said[2], said[2]), svg)
+
+
+def _classed(svg: str) -> str:
+    """Each look said once, as a class, instead of at every mark."""
+    names = (f"c{n}" for n in count())
+    classes: dict[str, str] = {}
+
+    def named(look: re.Match[str]) -> str:
+        rules = (
+            ";".join(value if name == "style" else f"{name}:{value}" for name, value in PROPERTY.findall(look.group()))
+            .replace("; ", ";")
+            .replace(": ", ":")
+        )
+        if rules not in classes:
+            classes[rules] = next(names)
+        return f' class="{classes[rules]}"'
+
+    svg = LOOK.sub(named, svg)
+    rules = "".join(f".{name}{{{rules}}}\n" for rules, name in classes.items())
+    return svg.replace(RULES_END, rules + RULES_END, 1)
+
+
+def _ungrouped(svg: str) -> str:
+    """Without the groups that say nothing; each tag has a line of its own."""
+    lines, bare = [], []
+    for line in svg.splitlines(keepends=True):
+        tag = line.strip()
+        if tag.startswith(GROUPS) and not tag.endswith("/>"):
+            bare.append(tag == BARE)
+            silent = bare[-1]
+        else:
+            silent = tag == END and bare.pop()
+        if not silent:
+            lines.append(line)
+    return "".join(lines)

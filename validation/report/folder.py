@@ -56,10 +56,16 @@ def as_json(value: object) -> bytes:
 
 
 def as_csv(table: Table) -> bytes:
-    """Numbers to their last digit; what is not finite is left empty."""
+    """Numbers to ten digits, more than any curve shows; what is not finite is left empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(table.columns)
     for row in zip(*table.columns.values(), strict=True):
-        writer.writerow("" if isinstance(value, float) and not math.isfinite(value) else value for value in row)
+        writer.writerow(_cell(value) for value in row)
     return text.getvalue().encode()
+
+
+def _cell(value: object) -> object:
+    if not isinstance(value, float):
+        return value
+    return f"{value:.10g}" if math.isfinite(value) else ""
