@@ -1,7 +1,7 @@
 """A scene that is pressed and whose answer is known: what every method does with it."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -12,9 +12,7 @@ import bem3d
 import mdr
 from validation.peers import CONTESTANTS, Contestant, Run, Task
 from validation.precision import (
-    BEM,
     CLOSED,
-    LOOSE,
     MDR,
     PLAIN,
     Answers,
@@ -24,6 +22,7 @@ from validation.precision import (
     Turn,
     Work,
 )
+from validation.precision_grids import OnGrids
 
 FROZEN = 1e-4
 """Residual of a frozen contact, whose stiffness is good to some tens of times its square."""
@@ -36,53 +35,34 @@ def logarithm(name: str) -> Callable[[Answers], FloatArray]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pressed:
+class Pressed(OnGrids):
     """A scene whose answer is known.
 
-    cells: on a length of the scene, ascending; plain, peers: those of them for the textbook's iteration, and for peers;
-    tight: residual on all of these; tolerances: residuals on the grid `fixed`; springs: on the length, whose name is
-    `length`.
+    peers: of the cells, those for peers; springs: on the length.
     """
 
-    cells: tuple[int, ...]
-    plain: tuple[int, ...]
     peers: tuple[int, ...]
     springs: tuple[float, ...]
-    fixed: int
     tight: float = 1e-8
     tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3, 1e-4)
-    length: str = "a side"
 
     def attempts(self) -> tuple[Attempt, ...]:
         """The closed form, springs, plain and fast boundary elements, and peers where they are installed."""
         return (
             Exact(line=CLOSED, knob="exact", value=1.0, referee=True, scene=self),
-            *(Springs(line=MDR, knob=f"# springs {self.length}", value=n, scene=self) for n in self.springs),
-            *(self._grid(PLAIN, n, self.tight) for n in self.plain),
-            *(self._grid(BEM, n, self.tight) for n in self.cells),
-            *(self._grid(LOOSE, self.fixed, tolerance) for tolerance in self.tolerances),
+            *(Springs(line=MDR, knob=f"# springs {self.per}", value=n, scene=self) for n in self.springs),
+            *self.grids(),
             *(self._peer(c, n) for c in CONTESTANTS[2:] if c.version for n in self.peers),
         )
 
-    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
-        """Grids of which one has twice the cells of the other."""
-        return tuple(doublings([self._grid(BEM, n, self.tight) for n in self.cells]))
-
-    def _grid(self, line: str, cells: int, tolerance: float) -> "OnGrid":
-        loose = line == LOOSE
-        return OnGrid(
-            line=line,
-            knob=f"residual #, {cells} cells {self.length}" if loose else f"# cells {self.length}",
-            value=tolerance if loose else cells,
-            scene=self,
-            cells=cells,
-            tolerance=tolerance,
-        )
+    def on_grid(self, **settings: Any) -> "OnGrid":
+        """Boundary elements."""
+        return OnGrid(scene=self, **settings)
 
     def _peer(self, contestant: Contestant, cells: int) -> "Peer":
         return Peer(
             line=contestant.name,
-            knob=f"# cells {self.length}",
+            knob=f"# cells {self.per}",
             value=cells,
             lane=contestant.name,
             scene=self,
@@ -227,8 +207,3 @@ def _loosest(contestant: Contestant, task: Task, residual: float) -> float:
         if reached <= residual:
             return part * residual
     raise RuntimeError(f"residual {reached:.2g} at its tightest tolerance")
-
-
-def doublings(grids: Sequence[Attempt]) -> list[tuple[Attempt, Attempt]]:
-    """Of some grids, ascending, all pairs of which one has twice the cells of the other."""
-    return [(coarse, fine) for coarse in grids for fine in grids if fine.value == 2 * coarse.value]

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -15,12 +15,10 @@ import bem3d
 import mdr
 from validation import rolling_theory
 from validation.precision import (
-    BEM,
     CLOSED,
     FED,
     FILTER_1D,
     FILTER_3D,
-    LOOSE,
     MDR,
     PLAIN,
     Answers,
@@ -31,7 +29,8 @@ from validation.precision import (
     Turn,
     Work,
 )
-from validation.precision_pressed import MOST_ITERATIONS, doublings
+from validation.precision_grids import Refined
+from validation.precision_pressed import MOST_ITERATIONS
 from validation.rolling_strip import HERTZ, Feed, PowerLaws, Strip, Tracks, narrowed, self_affine
 from validation.spectra import Bands, levels, waves
 
@@ -56,13 +55,11 @@ def log_levels(answers: Answers) -> FloatArray:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rolling:
+class Rolling(Refined):
     """A wheel over self-affine roughness, q a from 1 to `last`, at a fixed approach.
 
     hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; strips, tracks:
-    realisations; cells: to a contact radius, ascending, of which the last two give the reference; plain: of them for
-    the textbook's iteration; filtered: of them for the linear filter; springs: to a contact radius; tight: residual;
-    tolerances: on the grid `fixed`; seed: zero or positive.
+    realisations; filtered: cells for the linear filter; springs: to a contact radius; seed: zero or positive.
     """
 
     hurst: float = 0.7
@@ -77,8 +74,7 @@ class Rolling:
     filtered: tuple[int, ...] = (4, 6)
     springs: tuple[int, ...] = (3, 4, 8, 16, 32)
     fixed: int = 6
-    tight: float = 1e-5
-    tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3)
+    per: ClassVar[str] = "to a radius"
     seed: int = 151
 
     @property
@@ -147,32 +143,12 @@ class Rolling:
                 Filtered(line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self)
                 for n in self.filtered
             ),
-            *(self._grid(PLAIN, n, self.tight) for n in self.plain),
-            *(self._grid(BEM, n, self.tight) for n in self.cells),
-            *(self._grid(LOOSE, self.fixed, tolerance) for tolerance in self.tolerances),
+            *self.grids(),
         )
 
-    def reference(self) -> tuple[Attempt, Attempt]:
-        """The two finest grids."""
-        coarse, fine = (self._grid(BEM, n, self.tight) for n in self.cells[-2:])
-        return coarse, fine
-
-    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
-        """Grids of which one has twice the cells of the other; not those of the reference."""
-        grids = [self._grid(BEM, n, self.tight) for n in self.cells]
-        return tuple(pair for pair in doublings(grids) if pair != self.reference())
-
-    def _grid(self, line: str, cells: int, tolerance: float) -> "OnStrip":
-        loose = line == LOOSE
-        return OnStrip(
-            line=line,
-            knob=f"residual #, {cells} cells to a radius" if loose else "# cells to a radius",
-            value=tolerance if loose else cells,
-            realisations=self.strips,
-            scene=self,
-            cells=cells,
-            tolerance=tolerance,
-        )
+    def on_grid(self, **settings: Any) -> "OnStrip":
+        """Boundary elements."""
+        return OnStrip(realisations=self.strips, scene=self, **settings)
 
     def read(self, force: FloatArray, linear: FloatArray, mean: Answers, spacing: float, visits: float) -> Work:
         """Variance and levels of a force, and of the linear one on the same surface; over the force of Hertz."""

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -10,9 +11,7 @@ import bem3d
 import mdr
 from validation.closed_forms import rough_punch_stiffness
 from validation.precision import (
-    BEM,
     CLOSED,
-    LOOSE,
     MDR,
     PLAIN,
     Answers,
@@ -23,7 +22,8 @@ from validation.precision import (
     Turn,
     Work,
 )
-from validation.precision_pressed import FROZEN, MOST_ITERATIONS, doublings, logarithm, visited
+from validation.precision_grids import Refined
+from validation.precision_pressed import FROZEN, MOST_ITERATIONS, logarithm, visited
 from validation.rough_punch import Roughness
 
 
@@ -36,12 +36,11 @@ def log_deviation(answers: Answers) -> FloatArray:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fractal:
+class Fractal(Refined):
     """A square punch of side L = 1, self-affine from q_min = 2 pi / L to q_max, under Fbar = F / (E* h L).
 
     hurst; waves: on a side, of the shortest; force: Fbar; surfaces: realisations; profiles: of springs, their own;
-    cells: on a side, ascending, of which the last two give the reference; plain: of them for the textbook's iteration;
-    springs: of a profile; tight: residual; tolerances: on the grid `fixed`; seed: zero or positive.
+    springs: of a profile; seed: zero or positive.
     """
 
     hurst: float = 0.7
@@ -53,8 +52,6 @@ class Fractal:
     plain: tuple[int, ...] = (32, 64)
     springs: tuple[int, ...] = (24, 32, 64, 128, 256, 512)
     fixed: int = 64
-    tight: float = 1e-5
-    tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3)
     seed: int = 150
 
     @property
@@ -80,20 +77,8 @@ class Fractal:
         return (
             SeriesPunch(line=CLOSED, knob="flat punch on its rough face", value=1.0, paired=False, scene=self),
             *(self._springs(n) for n in self.springs),
-            *(self._grid(PLAIN, n, self.tight) for n in self.plain),
-            *(self._grid(BEM, n, self.tight) for n in self.cells),
-            *(self._grid(LOOSE, self.fixed, tolerance) for tolerance in self.tolerances),
+            *self.grids(),
         )
-
-    def reference(self) -> tuple[Attempt, Attempt]:
-        """The two finest grids."""
-        coarse, fine = (self._grid(BEM, n, self.tight) for n in self.cells[-2:])
-        return coarse, fine
-
-    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
-        """Grids of which one has twice the cells of the other; not those of the reference."""
-        grids = [self._grid(BEM, n, self.tight) for n in self.cells]
-        return tuple(pair for pair in doublings(grids) if pair != self.reference())
 
     def _springs(self, springs: int) -> "RoughSprings":
         return RoughSprings(
@@ -105,17 +90,9 @@ class Fractal:
             scene=self,
         )
 
-    def _grid(self, line: str, cells: int, tolerance: float) -> "RoughGrid":
-        loose = line == LOOSE
-        return RoughGrid(
-            line=line,
-            knob=f"residual #, {cells} cells a side" if loose else "# cells a side",
-            value=tolerance if loose else cells,
-            realisations=self.surfaces,
-            scene=self,
-            cells=cells,
-            tolerance=tolerance,
-        )
+    def on_grid(self, **settings: Any) -> "RoughGrid":
+        """Boundary elements."""
+        return RoughGrid(realisations=self.surfaces, scene=self, **settings)
 
 
 @dataclass(frozen=True, kw_only=True)

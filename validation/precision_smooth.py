@@ -5,6 +5,7 @@ Units: E* = 1 and a length of each scene.
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -24,7 +25,7 @@ class Sphere(Pressed):
     peers: tuple[int, ...] = (8, 16)
     springs: tuple[float, ...] = (2.4, 4.4, 8.4, 16.4, 32.4, 64.4)
     fixed: int = 16
-    length: str = "to a radius"
+    per: ClassVar[str] = "to a radius"
 
     @property
     def name(self) -> str:
@@ -163,7 +164,7 @@ class Wave(Pressed):
     springs: tuple[float, ...] = (64,)
     fixed: int = 128
     pressure: float = 0.3
-    length: str = "to a wavelength"
+    per: ClassVar[str] = "to a wavelength"
 
     @property
     def name(self) -> str:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +11,10 @@ from numpy.typing import NDArray
 from validation import rolling_theory, wheel_theory
 from validation.contact_laws import BoundaryElements, Linear, Springs, Wheel
 from validation.precision import (
-    BEM,
     CLOSED,
     FED,
     FILTER_1D,
     FILTER_3D,
-    LOOSE,
     MDR,
     Attempt,
     Draw,
@@ -25,7 +23,7 @@ from validation.precision import (
     Turn,
     Work,
 )
-from validation.precision_pressed import doublings
+from validation.precision_grids import Refined
 from validation.precision_rolling import log_levels
 from validation.records import band_levels, one_third_octaves, spectra
 from validation.wheel import Motion, repeating, simulate
@@ -40,13 +38,12 @@ WARM = 40
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wheels:
+class Wheels(Refined):
     """Wheels of a scene over isotropic surfaces, in one round of a track.
 
     scene: whose rail alone is rough; turns: whole, of the resonance, to which a half is added; width: of surfaces over
-    the longest wave; strips: realisations; wheels: on springs, in step; cells: to a contact radius, ascending,
-    multiples of `shared`, of which the last two give the reference; springs: to a contact radius; tight: residual;
-    tolerances: on the grid `fixed`; seed: zero or positive.
+    the longest wave; strips: realisations; wheels: on springs, in step; filtered: cells for the linear filter; shared:
+    of which all cells are multiples; springs: to a contact radius; seed: zero or positive.
     """
 
     scene: WheelScene = field(default=SCENE)
@@ -59,7 +56,7 @@ class Wheels:
     shared: int = 3
     springs: tuple[int, ...] = (12, 25)
     fixed: int = 6
-    tight: float = 1e-5
+    per: ClassVar[str] = "to a radius"
     tolerances: tuple[float, ...] = (1e-2, 1e-3)
     seed: int = 152
 
@@ -114,31 +111,12 @@ class Wheels:
                 Filtered(line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self)
                 for n in self.filtered
             ),
-            *(self._grid(BEM, n, self.tight) for n in self.cells),
-            *(self._grid(LOOSE, self.fixed, tolerance) for tolerance in self.tolerances),
+            *self.grids(),
         )
 
-    def reference(self) -> tuple[Attempt, Attempt]:
-        """The two finest grids."""
-        coarse, fine = (self._grid(BEM, n, self.tight) for n in self.cells[-2:])
-        return coarse, fine
-
-    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
-        """Grids of which one has twice the cells of the other; not those of the reference."""
-        grids = [self._grid(BEM, n, self.tight) for n in self.cells]
-        return tuple(pair for pair in doublings(grids) if pair != self.reference())
-
-    def _grid(self, line: str, cells: int, tolerance: float) -> "InTheLoop":
-        loose = line == LOOSE
-        return InTheLoop(
-            line=line,
-            knob=f"residual #, {cells} cells to a radius" if loose else "# cells to a radius",
-            value=tolerance if loose else cells,
-            realisations=self.strips,
-            scene=self,
-            cells=cells,
-            tolerance=tolerance,
-        )
+    def on_grid(self, **settings: Any) -> "InTheLoop":
+        """Boundary elements."""
+        return InTheLoop(realisations=self.strips, scene=self, **settings)
 
     def read(self, acceleration: FloatArray, beside: "Beside", visits: float) -> Work:
         """Levels of a wheel, and of the linear one on the same surface."""

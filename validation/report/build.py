@@ -189,6 +189,7 @@ def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, byt
     )
     environment.filters["resolved"] = _resolved
     environment.filters["badged"] = _badged
+    environment.filters["duration"] = lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s"
     environment.filters["small"] = lambda value: f"{value:.2g}"
     page = environment.get_template("page.html").render(
         sections=sections,
