@@ -70,6 +70,15 @@ def test_a_tilt_is_taken_off():
     assert level == pytest.approx(height, abs=0.2 * 1e-7)
 
 
+@pytest.mark.parametrize("times", [0.5, 2.0])
+def test_a_tilt_larger_than_the_roughness_is_told(times):
+    ramp = np.arange(N)[:, np.newaxis] - (N - 1) / 2 + np.zeros(N)
+    level = heights(drawn()).height
+    found = heights(level + 3e-6 + times * level.std() / ramp.std() * ramp)
+    assert found.tilt == pytest.approx(times, rel=1e-9)
+    assert [f"{times:.2g} times as rough" in doubt for doubt in found.doubts()] == [True] * (times > 1)
+
+
 def test_isotropic_gaussian_heights_leave_no_doubt():
     assert heights(drawn()).texture == pytest.approx(1.0, abs=0.1)
     assert heights(drawn()).doubts() == ()
@@ -114,7 +123,7 @@ def test_other_objects_are_refused():
     [
         (np.ones((4, 64)), "heights must be 16 points or more along two sides, got shape (4, 64)"),
         (np.ones(64), "heights must be 16 points or more along two sides, got shape (64,)"),
-        (np.full((64, 64), np.nan), "heights must be finite, got 4096 values that are not"),
+        (np.full((64, 64), np.nan), "heights must be finite, got 4096 values that are not, the first at [0, 0]"),
         (np.add.outer(np.arange(64.0), np.arange(64.0)), "heights must be rough, got a plane"),
     ],
 )

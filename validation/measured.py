@@ -1,7 +1,7 @@
 """Measured heights: read, levelled, and asked what Geike's rule takes for granted, isotropy and Gaussian heights."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -22,20 +22,22 @@ RINGS = 5
 """To an octave of wavenumbers."""
 STEEP = 0.3
 """Root mean square slope from where on it is warned of."""
-OBLONG, SKEWED, PEAKED = 1.5, 0.5, 1.0
-"""From where on texture, skewness and excess kurtosis are warned of."""
+OBLONG, SKEWED, PEAKED, TILTED = 1.5, 0.5, 1.0, 1.0
+"""From where on texture, skewness, excess kurtosis and tilt are warned of."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MeasuredHeights:
     """Heights of a surface on a regular grid, their mean plane removed.
 
-    height: shape (nx, ny), positive towards the other body [m]; spacing: (dx, dy) [m].
+    height: shape (nx, ny), positive towards the other body [m]; spacing: (dx, dy) [m]; tilt: root mean square of the
+    plane that was removed, over that of what is left [-].
     Raises ValueError for fewer than 16 points along a side, values that are not finite, or a plane.
     """
 
     height: FloatArray
     spacing: tuple[float, float]
+    tilt: float = field(init=False)
 
     def __post_init__(self) -> None:
         height = _grid(self.height)
@@ -45,6 +47,7 @@ class MeasuredHeights:
         if not level.std() > 1e-9 * np.abs(height).max():
             raise ValueError("heights must be rough, got a plane")
         object.__setattr__(self, "height", level)
+        object.__setattr__(self, "tilt", float((height - level).std() / level.std()))
 
     @property
     def sides(self) -> tuple[float, float]:
@@ -101,6 +104,11 @@ class MeasuredHeights:
             found.append(
                 f"heights are steep, rms slope {self.slope:.2g}: theory is that of small slopes; are the units of "
                 "heights and of their spacing right?"
+            )
+        if self.tilt > TILTED:
+            found.append(
+                f"heights are tilted: the plane that was taken off them is {self.tilt:.2g} times as rough as what is "
+                "left, and a body that may not turn would feel it."
             )
         if self.texture > OBLONG:
             found.append(
@@ -198,7 +206,8 @@ def _grid(height: ArrayLike) -> FloatArray:
     if values.ndim != 2 or min(values.shape) < FEWEST:
         raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
     if not np.isfinite(values).all():
-        raise ValueError(f"heights must be finite, got {int((~np.isfinite(values)).sum())} values that are not")
+        bad = np.argwhere(~np.isfinite(values))
+        raise ValueError(f"heights must be finite, got {len(bad)} values that are not, the first at {bad[0].tolist()}")
     return values
 
 
