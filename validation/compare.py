@@ -87,7 +87,8 @@ def told(comparison: Comparison) -> list[str]:
     spent = f"solves that were done: about {time_of(climbed.spent)} by their count, the start of the program apart"
     lines.append(f"{spent}; the rungs that were not asked would have cost {time_of(unasked)}" if unasked else spent)
     if not climbed.met:
-        lines.append(f"not reached: the tolerance of {_percent(climbed.tolerance)}; this is the best there is")
+        left = f"{100 * best.answer.error:.3g} %"
+        lines.append(f"not reached: the tolerance of {_percent(climbed.tolerance)}; the best there is leaves {left}")
     return lines
 
 
