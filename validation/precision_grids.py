@@ -1,6 +1,5 @@
 """Boundary elements on a chart of speed against accuracy: along cells, along residuals, and two finest grids beyond."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -46,7 +45,8 @@ class OnGrids:
 
     def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
         """Grids of which one has twice the cells of the other."""
-        return doublings([self._along_cells(BEM, n) for n in self.cells])
+        doubled = [n for n in self.cells if 2 * n in self.cells]
+        return tuple((self._along_cells(BEM, n), self._along_cells(BEM, 2 * n)) for n in doubled)
 
     def _along_cells(self, line: str, cells: int) -> Attempt:
         return self.on_grid(line=line, knob=f"# cells {self.per}", value=cells, cells=cells, tolerance=self.tight)
@@ -64,8 +64,3 @@ class Refined(OnGrids):
     def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
         """Grids of which one has twice the cells of the other; not those of the reference."""
         return tuple(pair for pair in super().pairs() if pair != self.reference())
-
-
-def doublings(grids: Sequence[Attempt]) -> tuple[tuple[Attempt, Attempt], ...]:
-    """Of some grids, ascending, all pairs of which one has twice the cells of the other."""
-    return tuple((coarse, fine) for coarse in grids for fine in grids if fine.value == 2 * coarse.value)

@@ -1,7 +1,6 @@
 """An SVG of matplotlib without what nobody sees: indentation, comments, unused names, places beyond any printer."""
 
 import re
-from itertools import count
 
 REMARK = re.compile(r"\s*(<!--.*?-->|<metadata>.*?</metadata>)", re.DOTALL)
 UNUSED = re.compile(r'<g id="[^"]*">')
@@ -49,18 +48,12 @@ def _renamed(svg: str) -> str:
 
 def _classed(svg: str) -> str:
     """Each look said once, as a class, instead of at every mark."""
-    names = (f"c{n}" for n in count())
     classes: dict[str, str] = {}
 
     def named(look: re.Match[str]) -> str:
-        rules = (
-            ";".join(value if name == "style" else f"{name}:{value}" for name, value in PROPERTY.findall(look.group()))
-            .replace("; ", ";")
-            .replace(": ", ":")
-        )
-        if rules not in classes:
-            classes[rules] = next(names)
-        return f' class="{classes[rules]}"'
+        said = [value if name == "style" else f"{name}: {value}" for name, value in PROPERTY.findall(look.group())]
+        rules = "; ".join(said).replace("; ", ";").replace(": ", ":")
+        return f' class="{classes.setdefault(rules, f"c{len(classes)}")}"'
 
     svg = LOOK.sub(named, svg)
     rules = "".join(f".{name}{{{rules}}}\n" for rules, name in classes.items())
