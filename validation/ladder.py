@@ -13,18 +13,32 @@ FloatArray = NDArray[np.float64]
 
 STUDENT = 2.0
 """Standard errors of a 95 % interval; samples here have eight realisations or more, or say so by a wider one."""
+BOUNDARY_ELEMENTS = "boundary elements"
+"""The model that judges all others, on whichever grid."""
+FEWEST_IN_CONTACT = 6
+"""Cells or springs: an answer that stands on fewer is that of the grid, and none."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
     """What a rung says of itself before it has computed anything.
 
-    error: relative half-width of 95 % that it expects to leave, infinite where it does not hold at all; because: the
+    error: relative half-width of 95 % that it expects to leave, infinite where it claims nothing; because: the
     condition that this rests on, with its numbers.
     """
 
     error: float
     because: str
+
+    @classmethod
+    def out_of_range(cls, because: str) -> "Claim":
+        """None: the scene is not of those on which the error was measured, or the model cannot serve it at all."""
+        return cls(error=math.inf, because=because)
+
+    @property
+    def in_range(self) -> bool:
+        """Whether there is one."""
+        return math.isfinite(self.error)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,8 +77,12 @@ class Rung(Protocol):
     """A model of a scene, with what it costs, when it claims to hold, and how to ask it."""
 
     @property
+    def model(self) -> str:
+        """What kind of model it is, its resolution apart."""
+
+    @property
     def name(self) -> str:
-        """For tables."""
+        """The model with its resolution, for tables."""
 
     def cost(self) -> Cost:
         """Expected, before anything is computed."""
@@ -76,7 +94,9 @@ class Rung(Protocol):
         """Compute, and estimate the error from what was computed."""
 
 
-Fate = Literal["enough", "not enough", "skipped", "not needed", "failed"]
+Fate = Literal["enough", "not enough", "skipped", "not needed", "failed", "out of range"]
+REFUSALS = (ValueError, ArithmeticError, MemoryError)
+"""What a solve raises where it cannot serve a scene; it is a row of the table, and the other rungs go on."""
 
 
 @dataclass(frozen=True)
@@ -119,8 +139,9 @@ def climb(rungs: Sequence[Rung], tolerance: float, *, tell: Callable[[Rung], Non
     """Ask rungs from the cheapest on, until one leaves no more than the tolerance.
 
     rungs: in the order of their cost; tolerance: relative, positive; tell: is called with a rung before it is asked. A
-    rung that expects to miss it is skipped, one that misses it is kept beside the next. Where all miss it, the skipped
-    one that expects to leave the least is asked, too, if that is less than what others left; see `Climb.met`.
+    rung without a claim is out of range and never asked; one that expects to miss the tolerance is skipped, one that
+    misses it is kept beside the next. Where all miss it, the skipped one that expects to leave the least is asked, too,
+    if that is less than what others left; see `Climb.met`. A solve that raises one of `REFUSALS` has failed.
     Raises ValueError for a tolerance that is not finite and positive.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
@@ -130,6 +151,8 @@ def climb(rungs: Sequence[Rung], tolerance: float, *, tell: Callable[[Rung], Non
         claim = rung.claim()
         if any(step.fate == "enough" for step in steps):
             steps.append(Step(rung, "not needed", "a cheaper rung was enough", claim))
+        elif not claim.in_range:
+            steps.append(Step(rung, "out of range", claim.because, claim))
         elif claim.error > tolerance:
             steps.append(Step(rung, "skipped", claim.because, claim))
         else:
@@ -158,6 +181,29 @@ def mean_error(ratios: FloatArray) -> float:
     return float(_student(len(ratios)) * np.sqrt(np.mean(of_means**2)))
 
 
+def too_few(count: float, what: str) -> str:
+    """Why there is no answer where half of the contacts have fewer than six cells or springs; empty where they have."""
+    if count >= FEWEST_IN_CONTACT:
+        return ""
+    return f"half of the contacts have {count:.2g} {what} or fewer: the answer would be that of the grid"
+
+
+def grid_error(earlier: FloatArray, last: FloatArray) -> float:
+    """Half-width of 95 % that a grid leaves, of the changes of the logarithm by the last two refinements.
+
+    earlier, last: one a realisation, the same ones on all grids. The mean of the last changes, and what the sample
+    leaves of it. Where that mean can be told from zero and is more than half of the one before, it is multiplied by
+    r / (1 - r), r their ratio, the rest of a geometric series; infinite where it does not shrink: such a sequence of
+    grids has no limit to see.
+    """
+    before, after = (abs(float(change.mean())) for change in (earlier, last))
+    noise_before, noise = (mean_error(change[:, np.newaxis]) for change in (earlier, last))
+    ratio = after / max(before + noise_before, 1e-300)
+    if after <= noise or ratio <= 0.5:
+        return after + noise
+    return math.inf if ratio >= 1 else after * ratio / (1 - ratio) + noise
+
+
 def realisations(deviation: float, error: float, *, least: int = 8, most: int = 2000) -> int:
     """How many leave a mean within a relative error, 95 %: (2 s / e)^2, between two bounds.
 
@@ -171,8 +217,16 @@ def counted(conditions: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {value:.3g}" for name, value in conditions.items())
 
 
+def answered(rung: Rung) -> Answer:
+    """Its answer, or why there is none."""
+    try:
+        return rung.solve()
+    except REFUSALS as problem:
+        return Answer(value=np.array([np.nan]), cost=rung.cost(), failed=str(problem) or type(problem).__name__)
+
+
 def _asked(rung: Rung, claim: Claim, tolerance: float) -> Step:
-    answer = rung.solve()
+    answer = answered(rung)
     if answer.failed:
         return Step(rung, "failed", answer.failed, claim, answer)
     fate: Fate = "enough" if answer.error <= tolerance else "not enough"

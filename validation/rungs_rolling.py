@@ -2,16 +2,19 @@
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.ladder import Answer, Claim, Cost, Rung, counted, distance, mean_error, realisations
+from validation.calibrated import Ranges, outside
+from validation.ladder import BOUNDARY_ELEMENTS, Answer, Claim, Cost, Rung, counted, distance, mean_error, realisations
 from validation.measured import MeasuredHeights
 from validation.rolled import Rolled, by_linear_theory, on_boundary_elements, on_springs, springs_to_a_radius, strip_of
 from validation.rolling_question import Question, Want
 from validation.rolling_scene import RollingScene
 from validation.rolling_theory import contact_lost
+from validation.roughness import Roughness
 from validation.rungs_pressed import beyond_spectra
 
 FloatArray = NDArray[np.float64]
@@ -38,8 +41,15 @@ TRACKS = 60
 OF_COARSE, OF_FINE = 1.8, 0.8
 """Error over the change between two grids in the ratio 1.5, of second order: of the coarse one, of the fine one."""
 FEWEST_STRIPS, MOST_STRIPS = 4, 10
+MOST_ON_A_STRIP, MOST_ON_TRACKS = 2**26, 2**27
+"""Cells and springs that are drawn at once at the most; they take up to four gigabytes."""
 FINE, COARSE, LEAST = 4.0, 2.5, 8
 """Cells to the shortest wave on both grids, and to a contact radius at least."""
+HEIGHT, LONG, SHORT = "h/d", "q a of the longest wave", "q a of the shortest wave"
+RATIO, HURST = "longest over shortest wave", "Hurst exponent"
+"""What decides how far cheap models are off, in words."""
+RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), HURST: (0.2, 1.2)}
+"""Scenes on which the errors above were measured. Longer waves only move the contact, which linear theory knows."""
 
 
 def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[Rung]:
@@ -63,12 +73,10 @@ def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[
 class LinearFilter:
     """(14.12) with Geike's spectrum: exact over ridges; over isotropic ground in the variance of the force alone."""
 
-    question: Question
+    model: ClassVar = "linear filter, 1D"
+    name: ClassVar = model
 
-    @property
-    def name(self) -> str:
-        """For tables."""
-        return "linear filter, 1D"
+    question: Question
 
     def cost(self) -> Cost:
         """A formula at each node."""
@@ -76,8 +84,8 @@ class LinearFilter:
 
     def claim(self) -> Claim:
         """By the height, and what Geike's spectrum makes of levels along the track."""
-        if said := beyond_spectra(self.question.scene.ground):
-            return Claim(error=math.inf, because=said)
+        if said := beyond_spectra(self.question.scene.ground) or _outside(self.question):
+            return Claim.out_of_range(said)
         own = MEASURED_SCATTER if isinstance(self.question.scene.ground, MeasuredHeights) else 0.0
         if self.question.want == "force-rms":
             error, because = _claimed(LINEAR_RMS, self.question)
@@ -96,12 +104,10 @@ class LinearFilter:
 class LinearSpace:
     """The spectrum of the force on the half-space, for a contact that keeps its radius; of heights, on themselves."""
 
-    question: Question
+    model: ClassVar = "linear filter, 3D"
+    name: ClassVar = model
 
-    @property
-    def name(self) -> str:
-        """For tables."""
-        return "linear filter, 3D"
+    question: Question
 
     def cost(self) -> Cost:
         """A quadrature across the track at each node."""
@@ -109,6 +115,8 @@ class LinearSpace:
 
     def claim(self) -> Claim:
         """By the height."""
+        if said := _outside(self.question):
+            return Claim.out_of_range(said)
         error, because = _claimed(LINEAR_RMS if self.question.want == "force-rms" else LINEAR_BANDS, self.question)
         return Claim(error=error, because=because)
 
@@ -129,14 +137,12 @@ class LinearSpace:
 class Springs:
     """One-sided springs, over what the linear filter has on the same tracks, times what linear theory expects."""
 
+    model: ClassVar = "springs"
+    name: ClassVar = model
+
     question: Question
     tolerance: float
     seed: int
-
-    @property
-    def name(self) -> str:
-        """For tables."""
-        return "springs"
 
     def cost(self) -> Cost:
         """Positions of all tracks, and what linear theory expects."""
@@ -146,8 +152,11 @@ class Springs:
 
     def claim(self) -> Claim:
         """By the height."""
-        if said := beyond_spectra(self.question.scene.ground):
-            return Claim(error=math.inf, because=said)
+        if said := beyond_spectra(self.question.scene.ground) or _outside(self.question):
+            return Claim.out_of_range(said)
+        springs = self.cost().work
+        if springs > MOST_ON_TRACKS:
+            return Claim.out_of_range(f"{TRACKS} tracks need {springs:.2g} springs, more than {MOST_ON_TRACKS:.2g}")
         own = self._own_scatter + self.tolerance / 10
         if self.question.want == "force-rms":
             error, because = _claimed(SPRINGS_RMS, self.question)
@@ -183,6 +192,8 @@ class BoundaryElements:
     beside: the grid that is asked, on one strip, what the cells leave open.
     """
 
+    model: ClassVar = BOUNDARY_ELEMENTS
+
     question: Question
     tolerance: float
     seed: int
@@ -191,8 +202,8 @@ class BoundaryElements:
 
     @property
     def name(self) -> str:
-        """For tables."""
-        return f"boundary elements, a = {self.cells} cells"
+        """With the cells of its grid."""
+        return f"{self.model}, a = {self.cells} cells"
 
     def cost(self) -> Cost:
         """Cells of the window times applications times positions, of all strips and the one beside."""
@@ -201,6 +212,8 @@ class BoundaryElements:
 
     def claim(self) -> Claim:
         """Of the sample what as many strips as there may be leave at the least; only a solve tells of the grid."""
+        if said := self._too_large():
+            return Claim.out_of_range(said)
         sample = 0.0 if self._measured else self._scatter / math.sqrt(MOST_STRIPS)
         return Claim(error=sample, because=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted")
 
@@ -247,6 +260,16 @@ class BoundaryElements:
         work, positions = sum(n * grid.work for n, grid in rolled), sum(n * grid.along for n, grid in rolled)
         return Cost(work=work, unit="cell applications", seconds=CELL * work + POSITION * positions)
 
+    def _too_large(self) -> str:
+        """Why no grid that fits into memory holds the waves; empty where one does."""
+        waves = min(self.cells, self.beside) / self.cells * self._waves
+        if waves < 2:
+            return f"the shortest wave has {waves:.2g} cells on the finest grids that are offered, fewer than 2"
+        grid = Rolled.of(self.question, max(self.cells, self.beside))
+        if grid.along * grid.across > MOST_ON_A_STRIP:
+            return f"a strip needs {grid.along} x {grid.across} cells, more than {MOST_ON_A_STRIP:.2g}"
+        return ""
+
     @property
     def _waves(self) -> float:
         """Cells to the shortest wave."""
@@ -257,6 +280,16 @@ class BoundaryElements:
         return on_boundary_elements(self.question, cells, realisation, self.seed)
 
 
+def _outside(question: Question) -> str:
+    """Why the errors of cheap models are not known for a scene; empty where they are."""
+    scene, ground = question.scene, question.scene.ground
+    first, last = (q * scene.contact_radius for q in (ground.q_min, question.q_max))
+    conditions = {HEIGHT: scene.roughness_ratio, LONG: first, SHORT: last, RATIO: last / first}
+    if isinstance(ground, Roughness):
+        conditions[HURST] = ground.hurst
+    return outside(conditions, RANGES)
+
+
 def _claimed(rule: Rule, question: Question) -> tuple[float, str]:
     """The error by a rule, and what it rests on."""
     scene, ratio = question.scene, question.scene.roughness_ratio
@@ -265,3 +298,7 @@ def _claimed(rule: Rule, question: Question) -> tuple[float, str]:
     )
     error = float(np.dot(rule, (lost, ratio, 1.0)))
     return error, counted({"contact that linear theory loses": lost, "h/d": ratio})
+
+
+CHEAP = (LinearFilter.model, LinearSpace.model, Springs.model)
+"""The models below boundary elements, by their names."""

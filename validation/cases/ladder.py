@@ -1,33 +1,28 @@
 """The ladder held to account: random scenes, what it claims beside fine boundary elements, and what it saves."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats
 
+from validation import rungs_pressed, rungs_rolling
 from validation.compare import rungs_of
 from validation.ensemble import SERIAL, Engine, Outcome
 from validation.evidence import Evidence, NotConvergedError, Number, Role, Table, table_of
-from validation.ladder import climb, distance
+from validation.ladder import BOUNDARY_ELEMENTS, Rung, answered, climb, distance
 from validation.pressed_scene import PressedScene
 from validation.random_scenes import KINDS, RANGES, WANTED, random_scene
-from validation.scene_kinds import Scene
 
 GOAL_COVERED, GOAL_SAVED = 0.95, 50.0
 OTHER_SEED = 1_000_003
 """Added to the seed of what the ladder draws: the referee has surfaces of its own."""
-RUNGS = (
-    "closed form",
-    "linear filter, 1D",
-    "linear filter, 3D",
-    "springs",
-    "coarse boundary elements",
-    "fine boundary elements",
-)
-NONE = "none"
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
+CHEAP = tuple(dict.fromkeys((*rungs_pressed.CHEAP[:1], *rungs_rolling.CHEAP, *rungs_pressed.CHEAP)))
+RUNGS = (*CHEAP, COARSE, FINE)
+"""What a climb may end on: the models below boundary elements by their own names, and those on two kinds of grid."""
+NONE = "none"
 REFEREE = 0.1
 """Tolerance of the referee: a sample that leaves half of it."""
 
@@ -103,10 +98,11 @@ def hold_to_account(trial: Trial) -> Outcome:
     """
     scene = random_scene(trial.kind, trial.number, trial.seed)
     finest = rungs_of(scene, trial.want, REFEREE, trial.seed + OTHER_SEED)[-1]
-    referee = finest.solve()
+    referee = answered(finest)
     taken = referee.cost.seconds / finest.cost().seconds
     rows = np.array([_climbed(trial, tolerance, referee.value, taken) for tolerance in trial.tolerances])
-    every = np.array([_asked(trial, scene, name, referee.value) for name in RUNGS])
+    rungs = rungs_of(scene, trial.want, REFEREE, trial.seed)
+    every = np.array([_asked(rungs, name, referee.value) for name in RUNGS])
     punch = isinstance(scene, PressedScene) and scene.shape == "punch"
     return {
         "truth": np.array(referee.error if not referee.failed else math.nan),
@@ -128,19 +124,25 @@ def _climbed(trial: Trial, tolerance: float, truth: np.ndarray, taken: float) ->
     if best is None or best.answer is None:
         return -1.0, math.nan, math.nan, climbed.spent, fine, 0.0
     true = distance(best.answer.value, truth) if np.isfinite(truth).all() else math.nan
-    name = best.rung.name
+    index = RUNGS.index(_rung_of(best.rung, rungs))
+    return float(index), best.answer.error, true, climbed.spent, fine, float(climbed.met)
+
+
+def _rung_of(rung: Rung, rungs: Sequence[Rung]) -> str:
+    """Which of RUNGS it is. Raises ValueError for a model that is none of them: its claims would not be tested."""
+    name = (FINE if rung is rungs[-1] else COARSE) if rung.model == BOUNDARY_ELEMENTS else rung.model
     if name not in RUNGS:
-        name = FINE if best.rung is rungs[-1] else COARSE
-    return float(RUNGS.index(name)), best.answer.error, true, climbed.spent, fine, float(climbed.met)
+        raise ValueError(f"the model of a rung must be one of {', '.join((*CHEAP, BOUNDARY_ELEMENTS))}, got {name}")
+    return name
 
 
-def _asked(trial: Trial, scene: Scene, name: str, truth: np.ndarray) -> tuple[float, float]:
-    """Claimed and true error of a rung below boundary elements; NaN where the scene has none of that name."""
-    rung = next((r for r in rungs_of(scene, trial.want, REFEREE, trial.seed) if r.name == name), None)
-    answer = None if rung is None else rung.solve()
-    if answer is None or answer.failed:
+def _asked(rungs: Sequence[Rung], name: str, truth: np.ndarray) -> tuple[float, float]:
+    """Claimed and true error of a rung below boundary elements; NaN where the scene has none, or it claims nothing."""
+    rung = next((rung for rung in rungs if _rung_of(rung, rungs) == name), None)
+    if name not in CHEAP or rung is None or not rung.claim().in_range:
         return math.nan, math.nan
-    return answer.error, distance(answer.value, truth)
+    answer = answered(rung)
+    return (math.nan, math.nan) if answer.failed else (answer.error, distance(answer.value, truth))
 
 
 def evidence(result: LadderResult) -> Evidence:
