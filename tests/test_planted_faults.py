@@ -23,6 +23,7 @@ from mdr import rolling as wheel_on_springs
 from mdr import wheels as wheels_in_step
 from mdr.doubts import doubts_of_linearity
 from tests import (
+    test_claims,
     test_closed_forms,
     test_contact_properties,
     test_convergence_rates,
@@ -61,6 +62,7 @@ from validation import (
     precision,
     precision_error,
     precision_wheel,
+    pressed_heights,
     records,
     regions,
     rolled,
@@ -69,6 +71,8 @@ from validation import (
     rough_punch,
     rough_springs,
     rungs_pressed,
+    rungs_pressed_grids,
+    rungs_rolling,
     spectra,
     statistics,
     wheel_ensemble,
@@ -121,7 +125,7 @@ def one_standard_error(ratios):
     return float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
 
 
-rungs_pressed_kept = rungs_pressed._kept
+drawn_on_a_grid = pressed_heights._drawn
 
 
 def at_points(heights, grid):
@@ -138,7 +142,11 @@ def half_of_the_level(height, spacing):
 
 
 def other_waves_on_every_grid(ground, shortest, cells, side, rng):
-    return rungs_pressed_kept(ground, shortest, cells, side, np.random.default_rng(cells))
+    return drawn_on_a_grid(ground, shortest, cells, side, np.random.default_rng(cells))
+
+
+def the_last_change_alone(earlier, last):
+    return abs(float(last.mean())) + ladder_of_models.mean_error(last[:, np.newaxis])
 
 
 def scaled(function, factor):
@@ -905,8 +913,30 @@ FAULTS = {
         test_ladder.test_short_waves_of_a_measured_track_are_no_longer_ones,
     ),
     "other waves on every grid of the ladder": (
-        (rungs_pressed, "_kept", other_waves_on_every_grid),
+        (pressed_heights, "_drawn", other_waves_on_every_grid),
         test_ladder.test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed,
+    ),
+    "an answer that stands on one cell": (
+        (rungs_pressed_grids, "too_few", lambda *_: ""),
+        test_claims.test_few_springs_and_few_cells_are_no_answer,
+    ),
+    "grids that do not converge with the error bar of those that do": (
+        (test_claims, "grid_error", the_last_change_alone),
+        test_claims.test_grids_that_do_not_converge_have_no_error_bar,
+    ),
+    "the error of a grid without that of its sample": (
+        (ladder_of_models, "mean_error", lambda _: 0.0),
+        test_claims.test_grids_that_do_not_converge_have_no_error_bar,
+    ),
+    "a table of errors held constant beyond its end": (
+        (rungs_pressed, "outside", lambda *_: ""),
+        functools.partial(test_claims.test_light_loads_have_no_answer_unless_it_is_that_of_the_summits, 1e-5, 8),
+    ),
+    "a linear filter for waves shorter than the contact": (
+        (rungs_rolling, "outside", lambda *_: ""),
+        functools.partial(
+            test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15
+        ),
     ),
     "measured heights over half of their mean square": (
         (measured, "_spectrum", half_of_the_level),

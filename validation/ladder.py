@@ -13,6 +13,8 @@ FloatArray = NDArray[np.float64]
 
 STUDENT = 2.0
 """Standard errors of a 95 % interval; samples here have eight realisations or more, or say so by a wider one."""
+SLOWEST = 0.8
+"""Ratio of two changes that a sample may hide behind: four times the last change is then left."""
 BOUNDARY_ELEMENTS = "boundary elements"
 """The model that judges all others, on whichever grid."""
 FEWEST_IN_CONTACT = 6
@@ -192,16 +194,17 @@ def grid_error(earlier: FloatArray, last: FloatArray) -> float:
     """Half-width of 95 % that a grid leaves, of the changes of the logarithm by the last two refinements.
 
     earlier, last: one a realisation, the same ones on all grids. The mean of the last changes, and what the sample
-    leaves of it. Where that mean can be told from zero and is more than half of the one before, it is multiplied by
-    r / (1 - r), r their ratio, the rest of a geometric series; infinite where it does not shrink: such a sequence of
-    grids has no limit to see.
+    leaves of it, times r / (1 - r), the rest of a geometric series, where their ratio r is above a half; infinite where
+    they do not shrink and that is not for want of a larger sample: such a sequence of grids has no limit to see.
     """
     before, after = (abs(float(change.mean())) for change in (earlier, last))
     noise_before, noise = (mean_error(change[:, np.newaxis]) for change in (earlier, last))
-    ratio = after / max(before + noise_before, 1e-300)
-    if after <= noise or ratio <= 0.5:
+    if after <= noise:
         return after + noise
-    return math.inf if ratio >= 1 else after * ratio / (1 - ratio) + noise
+    if after >= before + noise_before:
+        return math.inf
+    ratio = min(after / before, SLOWEST)
+    return (after + noise) * max(1.0, ratio / (1 - ratio))
 
 
 def realisations(deviation: float, error: float, *, least: int = 8, most: int = 2000) -> int:

@@ -13,6 +13,7 @@ import bem3d
 import mdr
 from validation.contact_laws import BoundaryElements, ContactLaw, Linear, Springs
 from validation.ensemble import generator
+from validation.ladder import too_few
 from validation.measured import MeasuredHeights
 from validation.rolling_question import Question
 from validation.rolling_theory import linear_force
@@ -112,6 +113,8 @@ def by_boundary_elements(question: Question, surface: FloatArray, spacing: float
     )
     if not found.converged.all():
         return np.full(len(question.bands.edges) - 1, np.nan)
+    if few := too_few(float(np.median(found.area)) / spacing**2, "cells"):
+        raise ValueError(few)
     return _levels(question, found.force, spacing)
 
 
@@ -137,7 +140,7 @@ def on_springs(question: Question, tracks: int, seed: int) -> FloatArray:
     roll = partial(mdr.roll, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
     with warnings.catch_warnings():
         # how far a linear contact is off is what both are compared for
-        warnings.simplefilter("ignore", mdr.ContactWarning)
+        warnings.simplefilter("ignore", mdr.LinearityWarning)
         found = _levels(question, np.array([roll(track).force for track in height.T]), spacing)
         if question.want == "force-rms":
             linear = np.array([roll(track, contact="linear").force for track in height.T])
