@@ -20,6 +20,7 @@ from validation.wheel_scene import read_scene
 
 N, DX = 256, 1e-6
 BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)
+IN_FILE = r"scene \S+scene\.toml: "
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
 
@@ -76,28 +77,28 @@ def test_a_tilt_larger_than_the_roughness_is_told(times):
     level = heights(drawn()).height
     found = heights(level + 3e-6 + times * level.std() / ramp.std() * ramp)
     assert found.tilt == pytest.approx(times, rel=1e-9)
-    assert [f"{times:.2g} times as rough" in doubt for doubt in found.doubts()] == [True] * (times > 1)
+    assert [f"{times:.2g} times as rough" in doubt for doubt in found.notes()] == [True] * (times > 1)
 
 
 def test_isotropic_gaussian_heights_leave_no_doubt():
     assert heights(drawn()).texture == pytest.approx(1.0, abs=0.1)
-    assert heights(drawn()).doubts() == ()
+    assert heights(drawn()).notes() == ()
 
 
 def test_ridges_are_told():
     x = np.arange(N) * DX
     ridges = 1e-7 * np.cos(2 * np.pi * 16 * x / (N * DX))[:, np.newaxis] + 0.1 * drawn()
-    (doubt,) = (d for d in heights(ridges).doubts() if "anisotropic" in d)
+    (doubt,) = (d for d in heights(ridges).notes() if "anisotropic" in d)
     assert "boundary elements do" in doubt
     # slopes of a stretched surface are as many times steeper across
     stretched = heights(drawn(), spacing=(DX, 3 * DX))
     assert stretched.texture == pytest.approx(3.0, rel=0.1)
-    assert "times those along the other" in stretched.doubts()[0]
+    assert "times those along the other" in stretched.notes()[0]
 
 
 def test_heights_that_are_not_gaussian_are_told():
     worn = np.minimum(drawn(), 0.3e-7)
-    (doubt,) = heights(worn).doubts()
+    (doubt,) = heights(worn).notes()
     assert re.match(r"heights are not Gaussian, skewness -\d", doubt)
 
 
@@ -123,7 +124,11 @@ def test_other_objects_are_refused():
     [
         (np.ones((4, 64)), "heights must be 16 points or more along two sides, got shape (4, 64)"),
         (np.ones(64), "heights must be 16 points or more along two sides, got shape (64,)"),
-        (np.full((64, 64), np.nan), "heights must be finite, got 4096 values that are not, the first at [0, 0]"),
+        (
+            np.full((64, 64), np.nan),
+            "heights must be known everywhere, got 4096 of 4096 (100 %) not finite, the first at [0, 0]: cut out a "
+            "part that is known, or fill them in from their neighbours",
+        ),
         (np.add.outer(np.arange(64.0), np.arange(64.0)), "heights must be rough, got a plane"),
     ],
 )
@@ -193,13 +198,13 @@ def test_a_unit_of_heights_is_taken(tmp_path):
 )
 def test_files_without_heights_are_refused(tmp_path, contents, sentence):
     (tmp_path / "face.csv").write_bytes(contents)
-    with pytest.raises(ValueError, match=f"^{sentence}"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}{sentence}"):
         read_any(with_heights(tmp_path, "face.csv"))
 
 
 def test_files_of_another_kind_are_refused(tmp_path):
     (tmp_path / "face.npy").write_bytes(b"no array")
-    with pytest.raises(ValueError, match=r"^heights.file .* must hold a table of numbers, got: "):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}heights.file .* must hold a table of numbers, got: "):
         read_any(with_heights(tmp_path, "face.npy"))
     np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
     with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
@@ -243,13 +248,13 @@ def test_files_of_another_kind_are_refused(tmp_path):
     ],
 )
 def test_scenes_are_refused_by_the_key(tmp_path, text, old, new, sentence):
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
         read_any(written(tmp_path, text, (old, new)))
 
 
 def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
     start, _, _ = ROLLING.partition("[rail.roughness]")
-    with pytest.raises(ValueError, match=r"^rail must have roughness or heights, got a smooth one$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have roughness or heights, got a smooth one$"):
         read_any(written(tmp_path, start + "[rail]\n"))
     with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
         read_any("rough_wheel")
@@ -258,7 +263,7 @@ def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
 def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
     np.save(tmp_path / "face.npy", drawn())
     text = PUNCH + '\n[heights]\nfile = "face.npy"\nspacing = "1 um"\n'
-    with pytest.raises(ValueError, match=r"^a scene must have roughness or heights, got both$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}a scene must have roughness or heights, got both$"):
         read_any(written(tmp_path, text))
 
 
@@ -295,9 +300,9 @@ def test_heights_must_cover_the_body():
 
 def test_heights_in_the_wrong_unit_are_steep():
     ground = heights(drawn())
-    assert not any("steep" in doubt for doubt in ground.doubts())
+    assert not any("steep" in doubt for doubt in ground.notes())
     metres = MeasuredHeights(height=1e6 * ground.height, spacing=ground.spacing)
-    assert "rms slope" in metres.doubts()[0]
+    assert "rms slope" in metres.notes()[0]
     ramp = np.add.outer(np.abs(np.arange(32) - 15.5), np.zeros(32))
     assert MeasuredHeights(height=ramp, spacing=(2.0, 1.0)).slope == pytest.approx(0.5 * math.sqrt(30 / 31))
 

@@ -287,9 +287,7 @@ def _scene(scene: WheelScene) -> Table:
     values = {
         "R": f"{scene.radius:g} m",
         "M": f"{scene.mass:g} kg",
-        "E": f"{scene.youngs_modulus / 1e9:g} GPa",
-        "ν": f"{scene.poisson_ratio:.4g}",
-        "E* = E / (1 - ν²), one body rigid": f"{scene.modulus / 1e9:.5g} GPa",
+        "E*": f"{scene.modulus / 1e9:.5g} GPa: {scene.material.because}",
         "F_N": f"{scene.load:g} N",
         "v₀": f"{scene.speed:g} m/s",
         "h₀": f"{1e6 * scene.rms:.3g} µm",
