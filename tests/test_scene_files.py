@@ -498,11 +498,6 @@ def test_scenes_are_refused_by_the_key(changes, error, sentence):
             "a wheel carries whole waves only.",
         ),
         (
-            {"rail": replace(ROUGH, rms=2e-6), "wheel": replace(ROUGH, rms=2e-6)},
-            {"rail": replace(ROUGH, rms=2e-6), "wheel": replace(ROUGH, rms=1e-6)},
-            "the roughness is 0.36 of the approach of 7.86e-06 m, more than a third: the wheel may lift off.",
-        ),
-        (
             {"speed": 0.13},
             {"speed": 0.14},
             "a time step is 0.209 over the eigenfrequency, more than 0.2, and 2 is unstable: "

@@ -24,9 +24,11 @@ def in_quotes(value: object) -> str:
     return f'"{printable(text.translate(ESCAPED))}"'
 
 
-def printable(text: object, *, keep: str = "") -> str:
-    """A text whose control characters, line breaks too, are written as escapes; keep: those that stay."""
-    return "".join(c if c in keep or _harmless(c) else c.encode("unicode_escape").decode() for c in str(text))
+def printable(text: object, *, lines: bool = False) -> str:
+    """A text whose control characters are written as escapes, its line breaks, too, unless it may have lines."""
+    return "".join(
+        c if (lines and c == "\n") or _harmless(c) else c.encode("unicode_escape").decode() for c in str(text)
+    )
 
 
 def is_printable(text: str) -> bool:

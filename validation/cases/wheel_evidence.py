@@ -80,7 +80,7 @@ def evidence(result: WheelResult) -> Evidence:
             *_hidden(case.scene),
             *_conclusions(features, base, level),
             _flight(result.batches[base]),
-            *case.scene.doubts(),
+            *filter(None, (case.scene.no_steady_answer(), *case.scene.doubts())),
         ),
         captions=_captions(result),
     )
