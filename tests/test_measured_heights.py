@@ -11,6 +11,7 @@ import pytest
 import bem3d
 import mdr
 from validation.__main__ import main
+from validation.compare import rungs_of
 from validation.measured import MeasuredHeights, measured
 from validation.pressed_scene import PressedScene
 from validation.rolling_scene import RollingScene
@@ -117,6 +118,107 @@ def test_other_objects_are_refused():
         measured([1.0])
     with pytest.raises(ValueError, match=r"^heights must be two-dimensional"):
         measured(SimpleNamespace(heights=np.ones(8), physical_sizes=(1.0,)))
+
+
+def surface(height, sizes=(N * DX, N * DX), **more):
+    return SimpleNamespace(heights=height, physical_sizes=sizes, **more)
+
+
+def refusal(question):
+    """What is said of what is refused; nothing where it is not."""
+    try:
+        question()
+    except ValueError as problem:
+        return str(problem)
+    return ""
+
+
+def test_points_without_data_are_refused():
+    """A masked point is no height: what stands behind the mask entered as one, and gave a stiffness 8 % off."""
+    height, gone = drawn(), np.zeros((N, N), dtype=bool)
+    gone[3, 5:40] = gone[200:, 7] = True
+    sentence = (
+        f"heights must be known everywhere, got {gone.sum()} of 65536 (0.139 %) masked, the first at [3, 5]: "
+        "cut out a part that is known, or fill them in from their neighbours"
+    )
+    masked = np.ma.masked_array(height, gone)
+    for refused in (surface(masked), surface(lambda: masked), surface(masked, unit="um")):
+        assert refusal(lambda given=refused: measured(given)) == sentence
+    assert refusal(lambda: heights(masked)) == sentence
+    unknown = surface(np.where(gone, np.nan, height))
+    assert refusal(lambda: measured(unknown)) == sentence.replace("masked", "not finite")
+    # an array that could have a mask and has none is as good as any
+    assert (measured(surface(np.ma.masked_array(height))).height == heights(height).height).all()
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.int32, np.uint16])
+def test_numbers_of_any_kind_are_heights(kind):
+    height = (1e4 * np.abs(drawn() / 1e-7)).astype(kind)
+    assert (measured(surface(height)).height == heights(height.astype(float)).height).all()
+
+
+@pytest.mark.parametrize("kind", [complex, object, str, bool])
+def test_what_are_no_real_numbers_are_no_heights(kind):
+    with pytest.raises(TypeError, match=r"^heights must be real numbers, got dtype "):
+        measured(surface(drawn().astype(kind)))
+
+
+def test_rows_of_different_length_are_no_heights():
+    with pytest.raises(ValueError, match=r"^heights must be a regular array of numbers, got rows of different length$"):
+        measured(surface([[1.0, 2.0], [3.0]]))
+
+
+@pytest.mark.parametrize("more", [{"unit": "um"}, {"info": {"unit": "µm"}}, {"unit": None, "info": {"unit": "um"}}])
+def test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes(more):
+    found = measured(surface(1e6 * drawn(), (1e6 * N * DX, 1e6 * N * DX), **more))
+    assert found.rms == pytest.approx(heights(drawn()).rms, rel=1e-12)
+    assert found.spacing == pytest.approx((DX, DX), rel=1e-12)
+    assert found.notes() == ()
+
+
+def test_a_unit_that_is_none_is_refused():
+    with pytest.raises(ValueError, match=r"^unit of the surface must be one of m, mm, um, µm, nm, km, got 'parsec'$"):
+        measured(surface(drawn(), unit="parsec"))
+    assert measured(surface(drawn(), unit=None, info={})).rms == heights(drawn()).rms
+
+
+@pytest.mark.parametrize("sizes", [(1.0,), (1.0, 1.0, 1.0), None, 3.0, "mm"])
+def test_sizes_that_are_not_two_are_refused(sizes):
+    with pytest.raises(
+        (ValueError, TypeError), match=r"^heights must be two-dimensional with two|^physical_sizes\[0\] must be a real"
+    ):
+        measured(surface(drawn(), sizes))
+
+
+@pytest.mark.parametrize("side", [0.0, -1.0, math.nan, math.inf])
+def test_sizes_that_are_no_lengths_are_refused(side):
+    with pytest.raises(ValueError, match=r"^physical_sizes\[1\] must be (finite|positive), got "):
+        measured(surface(drawn(), (1.0, side)))
+
+
+def test_sizes_in_the_other_order_are_told():
+    half, (long, short) = drawn()[:, : N // 2], (N * DX, N // 2 * DX)
+    assert not any("order of the axes" in note for note in measured(surface(half, (long, short))).notes())
+    (note,) = (n for n in measured(surface(half, (short, long))).notes() if "order of the axes" in n)
+    assert "points are 4 times as far apart along one side as along the other" in note
+    # three times as far apart, and no square points either way
+    assert not any("order of the axes" in note for note in measured(surface(half, (3 * long, short))).notes())
+
+
+def test_a_tilt_and_steepness_are_notes_and_texture_and_skewness_are_reasons():
+    ramp = 1e-4 * (np.arange(N)[:, np.newaxis] + np.zeros(N))
+    tilted, steep = heights(drawn() + ramp), heights(1e4 * drawn())
+    assert len(tilted.notes()) == len(steep.notes()) == 1
+    scene = {"name": "it", "shape": "punch", "size": N * DX, "load": 0.1, "modulus": 1e9}
+    for ground in (tilted, steep):
+        assert ground.beyond_a_spectrum() == ()
+        claims = [rung.claim() for rung in rungs_of(PressedScene(**scene, ground=ground), "stiffness", 0.1, 0)]
+        assert not any("knows the spectrum alone" in claim.because for claim in claims)
+        assert PressedScene(**scene, ground=ground).doubts() == ground.notes()
+    for ground in (heights(drawn(), spacing=(DX, 3 * DX)), heights(np.minimum(drawn(), 0.3e-7))):
+        assert ground.beyond_a_spectrum() == ground.notes() != ()
+    worn = PressedScene(**scene, ground=heights(np.minimum(drawn(), 0.3e-7)))
+    assert "knows the spectrum alone" in rungs_of(worn, "stiffness", 0.1, 0)[0].claim().because
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from codecs import BOM_UTF8
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from tokenize import TokenError
 from typing import IO
 
 import numpy as np
@@ -13,7 +14,7 @@ from validation.files import check_regular
 from validation.measured import FEWEST, MeasuredHeights
 from validation.quantities import quantity
 from validation.scene_files import LENGTH, Reader, named, table
-from validation.shown import printable
+from validation.shown import printable, shown
 
 FloatArray = NDArray[np.float64]
 
@@ -72,7 +73,7 @@ def _of_array(file: IO[bytes], size: int) -> NDArray[np.generic]:
     for side in shape:
         count *= side
     if min(shape, default=0) < 0 or count * dtype.itemsize > size - file.tell():
-        raise ValueError(f"a header of {shape} values of {dtype.itemsize} bytes, and {size - file.tell()} bytes")
+        raise ValueError(f"a header of {shown(shape)} values of {dtype.itemsize} bytes, and {size - file.tell()} bytes")
     file.seek(0)
     return np.asarray(np.lib.format.read_array(file, allow_pickle=False))
 
@@ -86,10 +87,10 @@ def _header(file: IO[bytes]) -> tuple[tuple[int, ...], np.dtype[np.generic]]:
     header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
     try:
         shape, _, dtype = header(file)
-    except (ValueError, RecursionError, MemoryError) as problem:
-        raise ValueError(
-            f"a header that cannot be read, {(str(problem).splitlines() or ['nested too deep'])[0]}"
-        ) from None
+    except (ValueError, TypeError, SyntaxError, TokenError, RecursionError, MemoryError) as problem:
+        # whatever a parser of Python meets in a text that is none
+        why = "".join(f", {line}" for line in str(problem).splitlines()[:1])
+        raise ValueError(f"a header that cannot be read{why}") from None
     return shape, dtype
 
 
