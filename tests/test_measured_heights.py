@@ -11,6 +11,7 @@ import pytest
 import bem3d
 import mdr
 from validation.__main__ import main
+from validation.compare import rungs_of
 from validation.measured import MeasuredHeights, measured
 from validation.pressed_scene import PressedScene
 from validation.rolling_scene import RollingScene
@@ -20,6 +21,7 @@ from validation.wheel_scene import read_scene
 
 N, DX = 256, 1e-6
 BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)
+IN_FILE = r"scene \S+scene\.toml: "
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
 
@@ -76,28 +78,28 @@ def test_a_tilt_larger_than_the_roughness_is_told(times):
     level = heights(drawn()).height
     found = heights(level + 3e-6 + times * level.std() / ramp.std() * ramp)
     assert found.tilt == pytest.approx(times, rel=1e-9)
-    assert [f"{times:.2g} times as rough" in doubt for doubt in found.doubts()] == [True] * (times > 1)
+    assert [f"{times:.2g} times as rough" in doubt for doubt in found.notes()] == [True] * (times > 1)
 
 
 def test_isotropic_gaussian_heights_leave_no_doubt():
     assert heights(drawn()).texture == pytest.approx(1.0, abs=0.1)
-    assert heights(drawn()).doubts() == ()
+    assert heights(drawn()).notes() == ()
 
 
 def test_ridges_are_told():
     x = np.arange(N) * DX
     ridges = 1e-7 * np.cos(2 * np.pi * 16 * x / (N * DX))[:, np.newaxis] + 0.1 * drawn()
-    (doubt,) = (d for d in heights(ridges).doubts() if "anisotropic" in d)
+    (doubt,) = (d for d in heights(ridges).notes() if "anisotropic" in d)
     assert "boundary elements do" in doubt
     # slopes of a stretched surface are as many times steeper across
     stretched = heights(drawn(), spacing=(DX, 3 * DX))
     assert stretched.texture == pytest.approx(3.0, rel=0.1)
-    assert "times those along the other" in stretched.doubts()[0]
+    assert "times those along the other" in stretched.notes()[0]
 
 
 def test_heights_that_are_not_gaussian_are_told():
     worn = np.minimum(drawn(), 0.3e-7)
-    (doubt,) = heights(worn).doubts()
+    (doubt,) = heights(worn).notes()
     assert re.match(r"heights are not Gaussian, skewness -\d", doubt)
 
 
@@ -118,12 +120,117 @@ def test_other_objects_are_refused():
         measured(SimpleNamespace(heights=np.ones(8), physical_sizes=(1.0,)))
 
 
+def surface(height, sizes=(N * DX, N * DX), **more):
+    return SimpleNamespace(heights=height, physical_sizes=sizes, **more)
+
+
+def refusal(question):
+    """What is said of what is refused; nothing where it is not."""
+    try:
+        question()
+    except ValueError as problem:
+        return str(problem)
+    return ""
+
+
+def test_points_without_data_are_refused():
+    """A masked point is no height: what stands behind the mask entered as one, and gave a stiffness 8 % off."""
+    height, gone = drawn(), np.zeros((N, N), dtype=bool)
+    gone[3, 5:40] = gone[200:, 7] = True
+    sentence = (
+        f"heights must be known everywhere, got {gone.sum()} of 65536 (0.139 %) masked, the first at [3, 5]: "
+        "cut out a part that is known, or fill them in from their neighbours"
+    )
+    masked = np.ma.masked_array(height, gone)
+    for refused in (surface(masked), surface(lambda: masked), surface(masked, unit="um")):
+        assert refusal(lambda given=refused: measured(given)) == sentence
+    assert refusal(lambda: heights(masked)) == sentence
+    unknown = surface(np.where(gone, np.nan, height))
+    assert refusal(lambda: measured(unknown)) == sentence.replace("masked", "not finite")
+    # an array that could have a mask and has none is as good as any
+    assert (measured(surface(np.ma.masked_array(height))).height == heights(height).height).all()
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.int32, np.uint16])
+def test_numbers_of_any_kind_are_heights(kind):
+    height = (1e4 * np.abs(drawn() / 1e-7)).astype(kind)
+    assert (measured(surface(height)).height == heights(height.astype(float)).height).all()
+
+
+@pytest.mark.parametrize("kind", [complex, object, str, bool])
+def test_what_are_no_real_numbers_are_no_heights(kind):
+    with pytest.raises(TypeError, match=r"^heights must be real numbers, got dtype "):
+        measured(surface(drawn().astype(kind)))
+
+
+def test_rows_of_different_length_are_no_heights():
+    with pytest.raises(ValueError, match=r"^heights must be a regular array of numbers, got rows of different length$"):
+        measured(surface([[1.0, 2.0], [3.0]]))
+
+
+@pytest.mark.parametrize("more", [{"unit": "um"}, {"info": {"unit": "µm"}}, {"unit": None, "info": {"unit": "um"}}])
+def test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes(more):
+    found = measured(surface(1e6 * drawn(), (1e6 * N * DX, 1e6 * N * DX), **more))
+    assert found.rms == pytest.approx(heights(drawn()).rms, rel=1e-12)
+    assert found.spacing == pytest.approx((DX, DX), rel=1e-12)
+    assert found.notes() == ()
+
+
+def test_a_unit_that_is_none_is_refused():
+    with pytest.raises(ValueError, match=r"^unit of the surface must be one of m, mm, um, µm, nm, km, got 'parsec'$"):
+        measured(surface(drawn(), unit="parsec"))
+    assert measured(surface(drawn(), unit=None, info={})).rms == heights(drawn()).rms
+
+
+@pytest.mark.parametrize("sizes", [(1.0,), (1.0, 1.0, 1.0), None, 3.0, "mm"])
+def test_sizes_that_are_not_two_are_refused(sizes):
+    with pytest.raises(
+        (ValueError, TypeError), match=r"^heights must be two-dimensional with two|^physical_sizes\[0\] must be a real"
+    ):
+        measured(surface(drawn(), sizes))
+
+
+@pytest.mark.parametrize("side", [0.0, -1.0, math.nan, math.inf])
+def test_sizes_that_are_no_lengths_are_refused(side):
+    with pytest.raises(ValueError, match=r"^physical_sizes\[1\] must be (finite|positive), got "):
+        measured(surface(drawn(), (1.0, side)))
+
+
+def test_sizes_in_the_other_order_are_told():
+    half, (long, short) = drawn()[:, : N // 2], (N * DX, N // 2 * DX)
+    assert not any("order of the axes" in note for note in measured(surface(half, (long, short))).notes())
+    (note,) = (n for n in measured(surface(half, (short, long))).notes() if "order of the axes" in n)
+    assert "points are 4 times as far apart along one side as along the other" in note
+    # three times as far apart, and no square points either way
+    assert not any("order of the axes" in note for note in measured(surface(half, (3 * long, short))).notes())
+
+
+def test_a_tilt_and_steepness_are_notes_and_texture_and_skewness_are_reasons():
+    ramp = 1e-4 * (np.arange(N)[:, np.newaxis] + np.zeros(N))
+    tilted, steep = heights(drawn() + ramp), heights(1e4 * drawn())
+    assert len(tilted.notes()) == len(steep.notes()) == 1
+    scene = {"name": "it", "shape": "punch", "size": N * DX, "load": 0.1, "modulus": 1e9}
+    for ground in (tilted, steep):
+        assert ground.beyond_a_spectrum() == ()
+        claims = [rung.claim() for rung in rungs_of(PressedScene(**scene, ground=ground), "stiffness", 0.1, 0)]
+        assert not any("knows the spectrum alone" in claim.because for claim in claims)
+        assert PressedScene(**scene, ground=ground).doubts() == ground.notes()
+    for ground in (heights(drawn(), spacing=(DX, 3 * DX)), heights(np.minimum(drawn(), 0.3e-7))):
+        assert ground.beyond_a_spectrum() == ground.notes() != ()
+    worn = PressedScene(**scene, ground=heights(np.minimum(drawn(), 0.3e-7)))
+    assert "knows the spectrum alone" in rungs_of(worn, "stiffness", 0.1, 0)[0].claim().because
+
+
 @pytest.mark.parametrize(
     ("height", "sentence"),
     [
         (np.ones((4, 64)), "heights must be 16 points or more along two sides, got shape (4, 64)"),
         (np.ones(64), "heights must be 16 points or more along two sides, got shape (64,)"),
-        (np.full((64, 64), np.nan), "heights must be finite, got 4096 values that are not, the first at [0, 0]"),
+        (
+            np.full((64, 64), np.nan),
+            "heights must be known everywhere, got 4096 of 4096 (100 %) not finite, the first at [0, 0]: cut out a "
+            "part that is known, or fill them in from their neighbours",
+        ),
         (np.add.outer(np.arange(64.0), np.arange(64.0)), "heights must be rough, got a plane"),
     ],
 )
@@ -193,13 +300,13 @@ def test_a_unit_of_heights_is_taken(tmp_path):
 )
 def test_files_without_heights_are_refused(tmp_path, contents, sentence):
     (tmp_path / "face.csv").write_bytes(contents)
-    with pytest.raises(ValueError, match=f"^{sentence}"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}{sentence}"):
         read_any(with_heights(tmp_path, "face.csv"))
 
 
 def test_files_of_another_kind_are_refused(tmp_path):
     (tmp_path / "face.npy").write_bytes(b"no array")
-    with pytest.raises(ValueError, match=r"^heights.file .* must hold a table of numbers, got: "):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}heights.file .* must hold a table of numbers, got: "):
         read_any(with_heights(tmp_path, "face.npy"))
     np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
     with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
@@ -243,13 +350,13 @@ def test_files_of_another_kind_are_refused(tmp_path):
     ],
 )
 def test_scenes_are_refused_by_the_key(tmp_path, text, old, new, sentence):
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
         read_any(written(tmp_path, text, (old, new)))
 
 
 def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
     start, _, _ = ROLLING.partition("[rail.roughness]")
-    with pytest.raises(ValueError, match=r"^rail must have roughness or heights, got a smooth one$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have roughness or heights, got a smooth one$"):
         read_any(written(tmp_path, start + "[rail]\n"))
     with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
         read_any("rough_wheel")
@@ -258,7 +365,7 @@ def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
 def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
     np.save(tmp_path / "face.npy", drawn())
     text = PUNCH + '\n[heights]\nfile = "face.npy"\nspacing = "1 um"\n'
-    with pytest.raises(ValueError, match=r"^a scene must have roughness or heights, got both$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}a scene must have roughness or heights, got both$"):
         read_any(written(tmp_path, text))
 
 
@@ -295,9 +402,9 @@ def test_heights_must_cover_the_body():
 
 def test_heights_in_the_wrong_unit_are_steep():
     ground = heights(drawn())
-    assert not any("steep" in doubt for doubt in ground.doubts())
+    assert not any("steep" in doubt for doubt in ground.notes())
     metres = MeasuredHeights(height=1e6 * ground.height, spacing=ground.spacing)
-    assert "rms slope" in metres.doubts()[0]
+    assert "rms slope" in metres.notes()[0]
     ramp = np.add.outer(np.abs(np.arange(32) - 15.5), np.zeros(32))
     assert MeasuredHeights(height=ramp, spacing=(2.0, 1.0)).slope == pytest.approx(0.5 * math.sqrt(30 / 31))
 

@@ -35,6 +35,7 @@ from tests import (
     test_ladder,
     test_limits,
     test_load_paths,
+    test_materials,
     test_measured_heights,
     test_operator_against_dense_twin,
     test_precision,
@@ -43,6 +44,7 @@ from tests import (
     test_rolling_theory,
     test_rough_punches,
     test_springs_against_brute_force,
+    test_steadiness,
     test_wheel_cases,
     test_wheel_motion,
     test_wheel_spectra,
@@ -58,6 +60,7 @@ from validation import (
     integrators,
     limits,
     limits_mdr,
+    material,
     measured,
     precision,
     precision_error,
@@ -70,11 +73,13 @@ from validation import (
     rolling_theory,
     rough_punch,
     rough_springs,
+    roughness,
     rungs_pressed,
     rungs_pressed_grids,
     rungs_rolling,
     spectra,
     statistics,
+    steadiness,
     wheel_ensemble,
     wheel_scene,
     wheel_theory,
@@ -134,6 +139,13 @@ def at_points(heights, grid):
 
 
 measured_spectrum = measured._spectrum
+
+
+def behind_the_mask(height):
+    return np.asarray(height, dtype=np.float64)
+
+
+slope_in_one_direction = roughness.Roughness.slope_along.fget
 
 
 def half_of_the_level(height, spacing):
@@ -941,6 +953,32 @@ FAULTS = {
     "measured heights over half of their mean square": (
         (measured, "_spectrum", half_of_the_level),
         test_measured_heights.test_the_spectrum_has_the_height,
+    ),
+    "heights behind a mask": (
+        (measured, "_numbers", behind_the_mask),
+        test_measured_heights.test_points_without_data_are_refused,
+    ),
+    "a surface in micrometres taken for one in metres": (
+        (measured, "_metres", lambda surface: 1.0),
+        functools.partial(
+            test_measured_heights.test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes, {"unit": "um"}
+        ),
+    ),
+    "the other body taken for a rigid one": (
+        (material.Material, "modulus", property(lambda both: both._body.against_rigid)),
+        test_materials.test_two_bodies_share_the_compliance,
+    ),
+    "the slope of the gradient for that along the track": (
+        (roughness.Roughness, "slope_along", property(lambda rough: math.sqrt(2) * slope_in_one_direction(rough))),
+        test_materials.test_slopes_are_those_of_the_spectrum,
+    ),
+    "half of the force that throws a wheel": (
+        (steadiness, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
+        functools.partial(test_steadiness.test_the_force_on_the_way_against_a_plain_sum, 9.0),
+    ),
+    "a flight that nobody foretells": (
+        (steadiness, "MOST_FORCE", math.inf),
+        functools.partial(test_steadiness.test_flight_is_foretold, 0.33, 30e-3, "by linear theory"),
     ),
     "factor 2 pi lost over frequency, seen in an ensemble": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),

@@ -11,13 +11,16 @@ from hypothesis import strategies as st
 from scipy.fft import next_fast_len
 
 import mdr
+from validation.material import Material
 from validation.quantities import UNITS, quantity
 from validation.roughness import Roughness
 from validation.scene_files import SCENES, shipped
 from validation.wheel_scene import WheelScene, read_scene, shipped_wheels
 
+IN_FILE = r"scene \S+scene\.toml: "
 TABLE = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")
 WHEELS = ("rough_wheel", "table_14_1")
+STEEL = Material(youngs_modulus=210e9, poisson_ratio=1 / 3, counterface="rigid")
 ROUGH = Roughness(rms=0.5e-6, hurst=0.7, longest=0.01, shortest=0.2e-3)
 
 # what a unit is in SI, written down here once more
@@ -163,8 +166,7 @@ def test_table_14_1_is_what_the_book_prints_and_we_chose():
         mass=500.0,
         load=4905.0,
         speed=20.0,
-        youngs_modulus=210e9,
-        poisson_ratio=1 / 3,
+        material=STEEL,
         rail=Roughness(rms=0.5e-6, hurst=0.7, longest=0.01, shortest=0.2e-3),
         wheel=None,
         distance=0.65,
@@ -366,7 +368,7 @@ def test_without_roughness_the_rail_is_smooth(tmp_path, rail):
     ],
 )
 def test_files_are_refused_by_the_key(tmp_path, old, new, sentence):
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
         read_scene(written(tmp_path, (old, new)))
 
 
@@ -382,7 +384,7 @@ def test_what_must_be_a_table_is_refused_otherwise(tmp_path, line, sentence):
     start, _, rest = TABLE.partition("[rail.roughness]")
     # keys of the file itself stand before its tables
     path = written(tmp_path, text=f"{line}\n{start}[simulation]{rest.partition('[simulation]')[2]}")
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
         read_scene(path)
 
 
@@ -402,7 +404,7 @@ def test_files_that_cannot_be_read_are_refused_by_name(tmp_path):
     missing = tmp_path / "missing.toml"
     with pytest.raises(FileNotFoundError, match=rf"^scene {re.escape(str(missing))} cannot be read: No such file"):
         read_scene(missing)
-    with pytest.raises(OSError, match=rf"^scene {re.escape(str(tmp_path))} cannot be read"):
+    with pytest.raises(ValueError, match=rf"^scene {re.escape(str(tmp_path))} must be a regular file, got a folder$"):
         read_scene(tmp_path)
 
 
@@ -422,9 +424,7 @@ def test_unknown_names_are_answered_with_the_shipped_ones(name):
         ({"mass": -1.0}, ValueError, "wheel.mass must be positive, got -1.0"),
         ({"load": math.nan}, ValueError, "wheel.load must be finite, got nan"),
         ({"speed": math.inf}, ValueError, "wheel.speed must be finite, got inf"),
-        ({"youngs_modulus": 0}, ValueError, "material.youngs_modulus must be positive, got 0.0"),
-        ({"poisson_ratio": -0.1}, ValueError, "material.poisson_ratio must lie in [0, 0.5], got -0.1"),
-        ({"poisson_ratio": 0.51}, ValueError, "material.poisson_ratio must lie in [0, 0.5], got 0.51"),
+        ({"material": 210e9}, TypeError, "material must be a Material, got 210000000000.0"),
         ({"distance": 0}, ValueError, "simulation.distance must be positive, got 0.0"),
         ({"springs": 99.0}, TypeError, "simulation.springs must be a whole number, got 99.0"),
         ({"springs": True}, TypeError, "simulation.springs must be a whole number, got True"),
@@ -480,11 +480,6 @@ def test_scenes_are_refused_by_the_key(changes, error, sentence):
         scene(**{**changes, **rough})
 
 
-@pytest.mark.parametrize("poisson_ratio", [0, 0.5])
-def test_the_ends_of_what_poissons_ratio_may_be_belong_to_it(poisson_ratio):
-    assert scene(poisson_ratio=poisson_ratio).modulus == pytest.approx(210e9 / (1 - poisson_ratio**2), rel=1e-15)
-
-
 # Doubts
 
 
@@ -501,11 +496,6 @@ def test_the_ends_of_what_poissons_ratio_may_be_belong_to_it(poisson_ratio):
             {"wheel": replace(ROUGH, longest=1.5), "distance": 20.0},
             "wheel.roughness.longest is 1.6 m, more than half of the circumference of 3.14 m: "
             "a wheel carries whole waves only.",
-        ),
-        (
-            {"rail": replace(ROUGH, rms=2e-6), "wheel": replace(ROUGH, rms=2e-6)},
-            {"rail": replace(ROUGH, rms=2e-6), "wheel": replace(ROUGH, rms=1e-6)},
-            "the roughness is 0.36 of the approach of 7.86e-06 m, more than a third: the wheel may lift off.",
         ),
         (
             {"speed": 0.13},

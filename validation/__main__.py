@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from enum import IntEnum
+from functools import partial
 from pathlib import Path
 
 from validation.cases import CASES, TIMED
@@ -18,6 +19,8 @@ from validation.ladder import Rung
 from validation.peers import peers_installed
 from validation.report.build import Section, build
 from validation.scene_kinds import comparable, read_any
+from validation.shown import printable
+from validation.understood import said_first
 from validation.wheel_scene import WheelScene, read_scene, shipped_wheels
 
 CLOCKED = {
@@ -54,7 +57,7 @@ def main(words: Sequence[str] | None = None) -> int:
     try:
         return int(arguments.command(arguments))
     except (ValueError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {printable(error, lines=True)}", file=sys.stderr)
         return Exit.BAD_INPUT
     except KeyboardInterrupt:
         print("interrupted; finished solves are kept, the same command goes on from there", file=sys.stderr)
@@ -80,32 +83,33 @@ def clock(arguments: argparse.Namespace) -> Exit:
 
 
 def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
-    """The scene that was asked for; refused where no case takes one, and with notes of what may be wrong with it."""
+    """The scene that was asked for, refused where no case takes one."""
     if arguments.scene is None:
         return None
     without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
     if without:
         raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
-    scene = read_scene(arguments.scene)
-    for doubt in scene.doubts():
-        print(f"note: {doubt}", file=sys.stderr)
-    return scene
+    return read_scene(arguments.scene)
 
 
 def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exit:
     """Write a report and say how it came out."""
+    scene = _scene_of(arguments, names)
+    if scene is not None:
+        print("\n".join([scene.name, *said_first(scene), ""]), flush=True)
+    unsteady = scene is not None and bool(scene.no_steady_answer())
     sections = build(
         names,
         profile=arguments.profile,
         out=out,
         workers=arguments.workers,
         seed=arguments.seed,
-        scene=_scene_of(arguments, names),
+        scene=scene,
         executor=arguments.executor,
-        tell=_tell,
+        tell=partial(_tell, unsteady=unsteady),
     )
     print(f"report: {out / 'index.html'}")
-    if any(section.unconverged for section in sections):
+    if unsteady or any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
 
@@ -131,10 +135,12 @@ def cases(arguments: argparse.Namespace) -> Exit:
     return Exit.MET
 
 
-def _tell(section: Section) -> None:
-    """A line for a case that is finished, and one for each thing in it that is amiss."""
+def _tell(section: Section, *, unsteady: bool = False) -> None:
+    """A line for a case that is finished, and one for each thing in it that is amiss; unsteady: of such a scene."""
     met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
     found = ", ".join(f"{section.findings(v)} {v}" for v in Verdict if section.findings(v))
+    if unsteady:
+        met, found = "no steady answer, what is found is that of this distance", ""
     print(f"{section.name:15s} {'no result' if section.failure else met}" + (f"; findings: {found}" if found else ""))
     for number in section.missed:
         print(f"    missed: {number.sentence}")
@@ -169,7 +175,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="mdr-validation",
         description="Reduced contact models beside three-dimensional boundary elements.",
         epilog="Exit status: 0 all criteria met; 1 a criterion failed, or could not be decided; 2 bad usage or input; "
-        "3 something did not converge; 130 interrupted.",
+        "3 something did not converge, or has no steady answer; 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=importlib.metadata.version("mdr-validation"))
     commands = parser.add_subparsers(required=True, metavar="COMMAND")

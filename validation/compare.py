@@ -10,6 +10,7 @@ from validation.ladder import Climb, Rung, Step, climb
 from validation.pressed_scene import PressedScene
 from validation.rolling_question import Question
 from validation.scene_kinds import Scene
+from validation.understood import said_first
 
 PRESSED = ("stiffness",)
 ROLLING = ("force-rms", "force-spectrum")
@@ -76,7 +77,7 @@ def told(comparison: Comparison) -> list[str]:
     """Lines for a person: the result with its error, why the ladder ended there, and what every rung costs."""
     scene, climbed = comparison.scene, comparison.climb
     lines = [f"{scene.name}: {comparison.want} within {_percent(climbed.tolerance)}"]
-    lines += [f"note: {doubt}" for doubt in scene.doubts()]
+    lines += said_first(scene, moving=comparison.want in MOVING)
     lines += ["", f"{'rung':36s}{'what became of it':18s}{'error':>10s}{'cost':>14s}   because"]
     lines += [_row(step) for step in climbed.steps]
     best = climbed.best

@@ -1,9 +1,9 @@
-"""Measured heights: read, levelled, and asked what Geike's rule takes for granted, isotropy and Gaussian heights."""
+"""Measured heights: checked, levelled, and asked what Geike's rule takes for granted, isotropy and Gaussian heights."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
-from pathlib import Path
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import interpolate, stats
 
 from mdr.border import positive
-from validation.quantities import quantity
-from validation.scene_files import LENGTH, Reader, named, table
+from validation.quantities import UNITS, quantity
+from validation.shown import shown
 
 FloatArray = NDArray[np.float64]
 
@@ -32,7 +32,8 @@ class MeasuredHeights:
 
     height: shape (nx, ny), positive towards the other body [m]; spacing: (dx, dy) [m]; tilt: root mean square of the
     plane that was removed, over that of what is left [-].
-    Raises ValueError for fewer than 16 points along a side, values that are not finite, or a plane.
+    Raises ValueError for fewer than 16 points along a side, values that are masked or not finite, or a plane, TypeError
+    for values that are no real numbers.
     """
 
     height: FloatArray
@@ -96,9 +97,8 @@ class MeasuredHeights:
         small, large = np.linalg.eigvalsh(np.array(tensor))
         return math.sqrt(large / max(small, 1e-12 * large))
 
-    def doubts(self) -> tuple[str, ...]:
-        """What Geike's rule takes for granted and these heights do not have, in sentences."""
-        skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
+    def notes(self) -> tuple[str, ...]:
+        """All that may be wrong about these heights though they are valid, in sentences."""
         found = []
         if self.slope > STEEP:
             found.append(
@@ -110,6 +110,19 @@ class MeasuredHeights:
                 f"heights are tilted: the plane that was taken off them is {self.tilt:.2g} times as rough as what is "
                 "left, and a body that may not turn would feel it."
             )
+        (nx, ny), (dx, dy) = self.height.shape, self.spacing
+        if nx != ny and abs(dx * nx / (dy * ny) * nx / ny - 1) < 1e-6:
+            found.append(
+                f"{nx} x {ny} heights are {dx * nx:.3g} m x {dy * ny:.3g} m large, so that their points are "
+                f"{max(dx / dy, dy / dx):.3g} times as far apart along one side as along the other; with both sides "
+                "exchanged they would be as far: are the sides in the order of the axes?"
+            )
+        return (*found, *self.beyond_a_spectrum())
+
+    def beyond_a_spectrum(self) -> tuple[str, ...]:
+        """What Geike's rule takes for granted and these heights do not have: isotropy, Gaussian heights."""
+        skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
+        found = []
         if self.texture > OBLONG:
             found.append(
                 f"heights are anisotropic, slopes along one axis {self.texture:.2g} times those along the other: "
@@ -125,8 +138,17 @@ class MeasuredHeights:
     @property
     def slope(self) -> float:
         """Root mean square slope, between neighbouring points [-]."""
+        return math.hypot(*self._slopes)
+
+    @property
+    def slope_along(self) -> float:
+        """The same along the first axis alone [-]."""
+        return self._slopes[0]
+
+    @cached_property
+    def _slopes(self) -> tuple[float, float]:
         along, across = (np.diff(self.height, axis=i) / d for i, d in enumerate(self.spacing))
-        return math.sqrt(float(np.mean(along**2) + np.mean(across**2)))
+        return math.sqrt(float(np.mean(along**2))), math.sqrt(float(np.mean(across**2)))
 
     @cached_property
     def _rings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -143,71 +165,66 @@ def check_points(heights: MeasuredHeights, contact_radius: float) -> None:
 
 
 def measured(surface: Any) -> MeasuredHeights:
-    """Of any object that has heights, a method or an array (nx, ny) [m], and physical_sizes, (Lx, Ly) [m].
+    """Of any object that has heights, a method or an array (nx, ny), and physical_sizes, (Lx, Ly).
 
-    Raises TypeError for other objects.
+    Both in metres, or in the unit that the object names: unit, "um", or an entry of that name in a dict info.
+    Raises TypeError for other objects, ValueError for heights that are masked, as points without data are, or not
+    finite, and for sizes and units that are none.
     """
     if not (hasattr(surface, "heights") and hasattr(surface, "physical_sizes")):
         raise TypeError(f"surface must have heights and physical_sizes, got {type(surface).__name__}")
-    height = np.asarray(surface.heights() if callable(surface.heights) else surface.heights, dtype=np.float64)
-    sizes = tuple(surface.physical_sizes)
-    if height.ndim != 2 or len(sizes) != 2:
-        raise ValueError(f"heights must be two-dimensional with two physical_sizes, got {height.shape} and {sizes}")
-    return MeasuredHeights(height=height, spacing=(sizes[0] / height.shape[0], sizes[1] / height.shape[1]))
+    height = _numbers(surface.heights() if callable(surface.heights) else surface.heights)
+    metres, sizes = _metres(surface), surface.physical_sizes
+    if not isinstance(sizes, (Sequence, np.ndarray)) or height.ndim != 2 or len(sizes) != 2:
+        raise ValueError(
+            f"heights must be two-dimensional with two physical_sizes, got shape {height.shape} and {shown(sizes)}"
+        )
+    sides = [positive(f"physical_sizes[{i}]", size) * metres for i, size in enumerate(sizes)]
+    spacing = sides[0] / max(height.shape[0], 1), sides[1] / max(height.shape[1], 1)
+    return MeasuredHeights(height=height * metres, spacing=spacing)
 
 
-def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
-    """Of a table in a scene file: file, .npy or CSV beside it; spacing of its points; unit of its values."""
-    readers: dict[str, Reader] = {
-        "file": named,
-        "spacing": LENGTH,
-        "unit": partial(_unit),
-    }
-    found = table(readers, ("unit",), name, given)
-    height = _read(f"{name}.file", folder / found["file"]) * found.get("unit", 1.0)
+def _metres(surface: Any) -> float:
+    """The unit of a surface, one metre where it names none."""
+    info = getattr(surface, "info", None)
+    unit = getattr(surface, "unit", None) or (info.get("unit") if isinstance(info, Mapping) else None)
+    if unit is None:
+        return 1.0
     try:
-        return MeasuredHeights(height=height, spacing=(found["spacing"], found["spacing"]))
-    except ValueError as problem:
-        raise ValueError(f"{name}: {problem}") from None
+        return quantity("unit", f"1 {unit}", "length")
+    except ValueError:
+        raise ValueError(
+            f"unit of the surface must be one of {', '.join(UNITS['length'])}, got {shown(unit)}"
+        ) from None
 
 
-def _unit(name: str, given: object) -> float:
-    return quantity(name, f"1 {given}", "length")
-
-
-def _read(name: str, path: Path) -> FloatArray:
-    """Rows are lines across the track, x along the first axis."""
+def _numbers(height: ArrayLike) -> FloatArray:
+    """Real numbers without a mask."""
+    if isinstance(height, np.ma.MaskedArray) and np.ma.is_masked(height):
+        raise ValueError(_undefined("masked", np.ma.getmaskarray(height)))
     try:
-        if path.suffix == ".npy":
-            values = np.load(path, allow_pickle=False)
-        else:
-            values = np.loadtxt(path, delimiter=_delimiter(path), ndmin=2, encoding="utf-8-sig")
-    except OSError as problem:
-        raise OSError(f"{name} {path} cannot be read: {problem.strerror or problem}") from None
-    except ValueError as problem:
-        hint = "" if path.suffix == ".npy" else " (a header belongs behind a #)"
-        got = str(problem).splitlines()[0]
-        raise ValueError(f"{name} {path} must hold a table of numbers, got: {got}{hint}") from None
+        values = np.asarray(height)
+    except ValueError:
+        raise ValueError("heights must be a regular array of numbers, got rows of different length") from None
     if values.dtype.kind not in "fiu":
-        raise ValueError(f"{name} {path} must hold real numbers, got {values.dtype}")
-    return np.asarray(values, dtype=np.float64)
+        raise TypeError(f"heights must be real numbers, got dtype {values.dtype}")
+    return values.astype(np.float64)
 
 
-def _delimiter(path: Path) -> str | None:
-    with path.open(encoding="utf-8-sig") as lines:
-        first = next((line for line in lines if line.strip() and not line.startswith("#")), "")
-    if not first:
-        raise ValueError("an empty file")
-    return next((sign for sign in (";", ",", "\t") if sign in first), None)
+def _undefined(what: str, places: NDArray[np.bool_]) -> str:
+    count, first = int(places.sum()), np.argwhere(places)[0].tolist()
+    return (
+        f"heights must be known everywhere, got {count} of {places.size} ({100 * count / places.size:.3g} %) {what}, "
+        f"the first at {first}: cut out a part that is known, or fill them in from their neighbours"
+    )
 
 
 def _grid(height: ArrayLike) -> FloatArray:
-    values = np.asarray(height, dtype=np.float64)
+    values = _numbers(height)
     if values.ndim != 2 or min(values.shape) < FEWEST:
         raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
     if not np.isfinite(values).all():
-        bad = np.argwhere(~np.isfinite(values))
-        raise ValueError(f"heights must be finite, got {len(bad)} values that are not, the first at {bad[0].tolist()}")
+        raise ValueError(_undefined("not finite", ~np.isfinite(values)))
     return values
 
 

@@ -6,6 +6,7 @@ from typing import Literal
 
 from mdr.border import positive
 from validation import closed_forms
+from validation.material import Material, check_modulus
 from validation.measured import MeasuredHeights, check_points
 from validation.roughness import Roughness, check_band
 from validation.scene_files import named
@@ -19,7 +20,7 @@ class PressedScene:
     """An elastic half-space under a rigid sphere or square punch.
 
     shape; size: radius of the sphere or side of the punch [m]; load: F [N]; modulus: E* [Pa]; ground: roughness, None
-    where smooth. A measured punch is as large as its heights.
+    where smooth; material: what E* is that of, None where it is given. A measured punch is as large as its heights.
     Raises ValueError or TypeError naming the key of a scene file that is out of range.
     """
 
@@ -29,6 +30,7 @@ class PressedScene:
     load: float
     modulus: float
     ground: Ground | None = None
+    material: Material | None = None
 
     def __post_init__(self) -> None:
         named("name", self.name)
@@ -37,6 +39,7 @@ class PressedScene:
         positive("sphere.radius" if self.shape == "sphere" else "punch.side", self.size)
         positive(f"{self.shape}.load", self.load)
         positive("modulus", self.modulus)
+        check_modulus(self.modulus, self.material)
         if isinstance(self.ground, Roughness):
             self._check_waves(self.ground)
         elif self.ground is not None:
@@ -71,7 +74,7 @@ class PressedScene:
 
     def doubts(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        found = self.ground.doubts() if isinstance(self.ground, MeasuredHeights) else ()
+        found = self.ground.notes() if isinstance(self.ground, MeasuredHeights) else ()
         if self.shape == "sphere" and self.contact_radius > self.size / 10:
             return (
                 *found,

@@ -1,10 +1,11 @@
 """Quantities with units, as they stand in scene files: "0.5 m", "210 GPa", "72 km/h"."""
 
-import json
 import math
 from decimal import Context, Decimal, InvalidOperation
 from fractions import Fraction
 from typing import Literal
+
+from validation.shown import in_quotes
 
 Dimension = Literal["length", "mass", "force", "pressure", "speed"]
 
@@ -30,6 +31,14 @@ EXAMPLES: dict[Dimension, str] = {
     "pressure": "210 GPa",
     "speed": "20 m/s",
 }
+SAID: dict[Dimension, tuple[str, ...]] = {
+    "length": ("nm", "µm", "mm", "m"),
+    "mass": ("g", "kg", "t"),
+    "force": ("mN", "N", "kN", "MN"),
+    "pressure": ("Pa", "kPa", "MPa", "GPa"),
+    "speed": ("mm/s", "m/s"),
+}
+"""Units in which a quantity is said, the smallest first."""
 # decimal, so that "0.5 um" is the float nearest to 5e-7; nothing trapped, since what is not finite is refused anyway
 DECIMAL = Context(prec=60, traps=[InvalidOperation])
 
@@ -43,12 +52,19 @@ def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = 
     found = _read(text, dimension)
     if found is None:
         accepted = f'a {dimension}, as "{EXAMPLES[dimension]}", in one of {", ".join(UNITS[dimension])}'
-        raise ValueError(f"{name} must be {accepted}, got {_shown(text)}")
+        raise ValueError(f"{name} must be {accepted}, got {in_quotes(text)}")
     if not math.isfinite(found):
-        raise ValueError(f"{name} must be finite, got {_shown(text)}")
+        raise ValueError(f"{name} must be finite, got {in_quotes(text)}")
     if positive and found <= 0:
-        raise ValueError(f"{name} must be positive, got {_shown(text)}")
+        raise ValueError(f"{name} must be positive, got {in_quotes(text)}")
     return found
+
+
+def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
+    """A quantity in SI units with so many digits, in the largest unit that leaves one or more before the point."""
+    units = [unit for unit in SAID[dimension] if abs(value) * (1 + 1e-9) >= UNITS[dimension][unit]]
+    unit = units[-1] if units else SAID[dimension][0]
+    return f"{value / UNITS[dimension][unit]:.{digits}g} {unit}"
 
 
 def _read(text: object, dimension: Dimension) -> float | None:
@@ -65,8 +81,3 @@ def _read(text: object, dimension: Dimension) -> float | None:
     if not number.is_finite():
         return math.nan
     return float(DECIMAL.divide(DECIMAL.multiply(number, Decimal(unit.numerator)), Decimal(unit.denominator)))
-
-
-def _shown(text: object) -> str:
-    """What came, on one line: strings in double quotes."""
-    return json.dumps(text, ensure_ascii=False) if isinstance(text, str) else repr(text)

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 
 from mdr.border import positive
 from validation.contact_laws import Wheel
+from validation.material import Material, check_modulus
 from validation.measured import MeasuredHeights, check_points
 from validation.roughness import Roughness, check_band
 from validation.scene_files import named
+from validation.steadiness import no_steady_answer
 from validation.wheel_scene import WheelScene
 
 Ground = Roughness | MeasuredHeights
@@ -19,7 +21,7 @@ class RollingScene:
 
     radius: R [m]; load: F_N [N]; modulus: E* [Pa]; ground: isotropic roughness, or
     heights, rolled over along their first axis; mass: M [kg]; speed: v0 [m/s], both or neither: without them the wheel
-    keeps its approach.
+    keeps its approach; material: what E* is that of, None where it is given.
     Raises ValueError or TypeError naming the key of a scene file that is out of range.
     """
 
@@ -30,12 +32,14 @@ class RollingScene:
     ground: Ground
     mass: float | None = None
     speed: float | None = None
+    material: Material | None = None
 
     def __post_init__(self) -> None:
         named("name", self.name)
         for key in ("radius", "load"):
             positive(f"wheel.{key}", getattr(self, key))
         positive("modulus", self.modulus)
+        check_modulus(self.modulus, self.material)
         if (self.mass is None) != (self.speed is None):
             raise ValueError(f"wheel.mass and wheel.speed must both be given or neither, got {self.mass}, {self.speed}")
         for key in ("mass", "speed"):
@@ -59,6 +63,7 @@ class RollingScene:
             ground=scene.rail,
             mass=scene.mass,
             speed=scene.speed,
+            material=scene.material,
         )
 
     @property
@@ -83,7 +88,7 @@ class RollingScene:
 
     def doubts(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        found = list(self.ground.doubts()) if isinstance(self.ground, MeasuredHeights) else []
+        found = list(self.ground.notes()) if isinstance(self.ground, MeasuredHeights) else []
         if self.roughness_ratio > 1 / 3:
             found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
         if self.contact_radius > self.radius / 10:
@@ -92,6 +97,10 @@ class RollingScene:
                 "half-space; are the units of wheel.load and material.youngs_modulus right?"
             )
         return tuple(found)
+
+    def no_steady_answer(self) -> str:
+        """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""
+        return "" if self.speed is None else no_steady_answer(self.body, self.speed, [self.ground])
 
     def _check_measured(self, heights: MeasuredHeights) -> None:
         along, across = heights.sides

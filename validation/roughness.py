@@ -34,6 +34,14 @@ class Roughness:
         return 2 * math.pi / self.shortest
 
     @property
+    def slope_along(self) -> float:
+        """Root mean square slope in one direction, h'^2 = pi int_0^inf q^3 C_2D dq, half of the gradient's [-]."""
+        width, power = math.log(self.q_max / self.q_min), 2 - 2 * self.hurst
+        height = -math.expm1(-2 * self.hurst * width) / (2 * self.hurst)
+        slope = math.expm1(power * width) / power if abs(power * width) > 1e-9 else width
+        return self.rms * self.q_min * math.sqrt(slope / height / 2)
+
+    @property
     def spectrum(self) -> SelfAffine:
         """C_2D ~ q^(-2H-2) between q_min and q_max."""
         return SelfAffine(hurst=self.hurst, q_min=self.q_min, q_max=self.q_max, rms=self.rms)

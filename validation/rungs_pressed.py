@@ -226,8 +226,8 @@ def _springs_model(scene: PressedScene) -> tuple[float, str]:
 
 def beyond_spectra(ground: Roughness | MeasuredHeights) -> str:
     """Why a model that knows a surface by its spectrum alone has nothing to say of this one; empty where it has."""
-    doubts = ground.doubts() if isinstance(ground, MeasuredHeights) else ()
-    return f"knows the spectrum alone, and {doubts[0]}" if doubts else ""
+    beyond = ground.beyond_a_spectrum() if isinstance(ground, MeasuredHeights) else ()
+    return f"knows the spectrum alone, and {beyond[0]}" if beyond else ""
 
 
 CHEAP = (ClosedForm.model, Springs.model)

@@ -4,7 +4,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from validation.measured import heights_of
+from validation.height_files import heights_of
+from validation.material import Material, material_of
 from validation.pressed_scene import PressedScene
 from validation.rolling_scene import RollingScene
 from validation.roughness import roughness_of
@@ -14,14 +15,14 @@ from validation.scene_files import (
     MASS,
     SPEED,
     Reader,
-    contact_modulus,
     named,
+    naming,
     path_of,
     shipped,
     table,
     tables_of,
 )
-from validation.wheel_scene import read_scene
+from validation.wheel_scene import wheel_of
 
 Scene = PressedScene | RollingScene
 
@@ -34,18 +35,23 @@ def read_any(scene: str | Path) -> Scene:
     """
     path = path_of(scene)
     tables = tables_of(path)
+    with naming(path):
+        return _scene_of(tables, path.parent)
+
+
+def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
     bodies = [body for body in ("sphere", "punch", "wheel") if body in tables]
     if len(bodies) != 1:
         found = " and ".join(bodies) or "none"
         raise ValueError(f"a scene must have one table of sphere, punch and wheel, got {found}")
     body = bodies[0]
     if body != "wheel":
-        return _pressed(body, tables, path.parent)
+        return _pressed(body, tables, folder)
     wheel, rail = tables["wheel"], tables.get("rail")
     moving = isinstance(wheel, dict) and "mass" in wheel
     if moving and not (isinstance(rail, dict) and "heights" in rail):
-        return RollingScene.of_wheel(read_scene(path))
-    return _rolling(tables, moving, path.parent)
+        return RollingScene.of_wheel(wheel_of(tables))
+    return _rolling(tables, moving, folder)
 
 
 def comparable() -> tuple[str, ...]:
@@ -58,7 +64,7 @@ def _pressed(body: str, tables: dict[str, Any], folder: Path) -> PressedScene:
     readers: dict[str, Reader] = {
         "name": named,
         body: partial(table, {size: LENGTH, "load": FORCE}, ()),
-        "material": contact_modulus,
+        "material": material_of,
         "roughness": roughness_of,
         "heights": partial(heights_of, folder=folder),
     }
@@ -68,7 +74,8 @@ def _pressed(body: str, tables: dict[str, Any], folder: Path) -> PressedScene:
         shape="sphere" if body == "sphere" else "punch",
         size=found[body][size],
         load=found[body]["load"],
-        modulus=found["material"],
+        modulus=found["material"].modulus,
+        material=found["material"],
         ground=_one_ground("a scene", found),
     )
 
@@ -79,14 +86,15 @@ def _rolling(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene
     readers: dict[str, Reader] = {
         "name": named,
         "wheel": partial(table, {"radius": LENGTH, "load": FORCE, **motion}, ()),
-        "material": contact_modulus,
+        "material": material_of,
         "rail": partial(table, ground, tuple(ground)),
     }
     found = table(readers, (), "", tables)
     rough = _one_ground("rail", found["rail"])
     if rough is None:
         raise ValueError("rail must have roughness or heights, got a smooth one")
-    return RollingScene(name=found["name"], ground=rough, modulus=found["material"], **found["wheel"])
+    material: Material = found["material"]
+    return RollingScene(name=found["name"], ground=rough, modulus=material.modulus, material=material, **found["wheel"])
 
 
 def _one_ground(name: str, found: dict[str, Any]) -> Any:

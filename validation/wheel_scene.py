@@ -5,34 +5,35 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from scipy.fft import next_fast_len
 
-from mdr.border import count, finite, positive
+from mdr.border import count, positive
 from validation.contact_laws import Wheel
+from validation.material import Material, material_of
 from validation.roughness import Roughness, check_band, roughness_of
 from validation.scene_files import (
     FORCE,
     LENGTH,
     MASS,
-    NUMBER,
-    PRESSURE,
     SPEED,
     WHOLE,
     Reader,
     named,
+    naming,
     path_of,
     shipped,
     table,
     tables_of,
 )
+from validation.steadiness import no_steady_answer
 
 KEYS = {
     "radius": "wheel.radius",
     "mass": "wheel.mass",
     "load": "wheel.load",
     "speed": "wheel.speed",
-    "youngs_modulus": "material.youngs_modulus",
     "distance": "simulation.distance",
 }
 """Where what must be positive stands in a scene file."""
@@ -49,9 +50,9 @@ HIGH = 1e-4
 
 @dataclass(frozen=True, kw_only=True)
 class WheelScene:
-    """An elastic wheel on a rigid rail, either of them rough or smooth.
+    """A wheel on a rail, either of them rough or smooth.
 
-    radius: R [m]; mass: M [kg]; load: F [N]; speed: v0 [m/s]; youngs_modulus: E [Pa]; poisson_ratio: nu in [0, 0.5];
+    radius: R [m]; mass: M [kg]; load: F [N]; speed: v0 [m/s]; material: what both bodies are made of;
     rail, wheel: their roughness, None where smooth; distance: to roll at least, before the track begins again [m];
     springs: to a contact radius.
     Raises ValueError or TypeError naming the key of a scene file that is out of range.
@@ -62,8 +63,7 @@ class WheelScene:
     mass: float
     load: float
     speed: float
-    youngs_modulus: float
-    poisson_ratio: float
+    material: Material
     rail: Roughness | None
     wheel: Roughness | None
     distance: float
@@ -73,8 +73,8 @@ class WheelScene:
         named("name", self.name)
         for name, key in KEYS.items():
             positive(key, getattr(self, name))
-        if not 0 <= finite("material.poisson_ratio", self.poisson_ratio) <= 0.5:
-            raise ValueError(f"material.poisson_ratio must lie in [0, 0.5], got {self.poisson_ratio}")
+        if not isinstance(self.material, Material):
+            raise TypeError(f"material must be a Material, got {self.material!r}")
         count("simulation.springs", self.springs, least=1)
         for key, rough in (("rail.roughness", self.rail), ("wheel.roughness", self.wheel)):
             if rough is not None:
@@ -83,8 +83,8 @@ class WheelScene:
 
     @property
     def modulus(self) -> float:
-        """E* = E / (1 - nu^2), the rail being rigid [Pa]."""
-        return self.youngs_modulus / (1 - self.poisson_ratio**2)
+        """E* of wheel and rail [Pa]."""
+        return self.material.modulus
 
     @property
     def body(self) -> Wheel:
@@ -127,6 +127,11 @@ class WheelScene:
         return math.hypot(*(rough.rms for rough in (self.rail, self.wheel) if rough is not None))
 
     @property
+    def slope_along(self) -> float:
+        """Root mean square slope of both together along the track [-]."""
+        return math.hypot(*(rough.slope_along for rough in (self.rail, self.wheel) if rough is not None))
+
+    @property
     def spacing(self) -> float:
         """dx = a / springs [m]."""
         return self.contact_radius / self.springs
@@ -155,6 +160,12 @@ class WheelScene:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
         return (*_doubts_of_roughness(self), *_doubts_of_motion(self))
 
+    def no_steady_answer(self) -> str:
+        """Why the motion has no level that the distance leaves alone, in a sentence; empty where it has."""
+        if self.rail is None and self.wheel is None:
+            return ""
+        return no_steady_answer(self.body, self.speed, list(self._rough().values()))
+
     def _rough(self) -> dict[str, Roughness]:
         """What is rough, by its key."""
         both = {"rail.roughness": self.rail, "wheel.roughness": self.wheel}
@@ -176,14 +187,22 @@ def read_scene(scene: str | Path) -> WheelScene:
     Raises ValueError naming the first thing that is missing, unknown or out of range, and OSError for files that
     cannot be read.
     """
-    found = table(SCENE, ("rail",), "", tables_of(path_of(scene)))
+    path = path_of(scene)
+    tables = tables_of(path)
+    with naming(path):
+        return wheel_of(tables)
+
+
+def wheel_of(tables: dict[str, Any]) -> WheelScene:
+    """The scene in the tables of a file."""
+    found = table(SCENE, ("rail",), "", tables)
     wheel, rail = found["wheel"], found.get("rail", {})
     return WheelScene(
         name=found["name"],
         wheel=wheel.pop("roughness", None),
         rail=rail.get("roughness"),
         **wheel,
-        **found["material"],
+        material=found["material"],
         **found["simulation"],
     )
 
@@ -192,7 +211,7 @@ WHEEL: dict[str, Reader] = {"radius": LENGTH, "mass": MASS, "load": FORCE, "spee
 SCENE: dict[str, Reader] = {
     "name": named,
     "wheel": partial(table, WHEEL, ("roughness",)),
-    "material": partial(table, {"youngs_modulus": PRESSURE, "poisson_ratio": NUMBER}, ()),
+    "material": material_of,
     "rail": partial(table, {"roughness": roughness_of}, ("roughness",)),
     "simulation": partial(table, {"distance": LENGTH, "springs": WHOLE}, ()),
 }
@@ -253,12 +272,7 @@ def _doubts_of_roughness(scene: WheelScene) -> Iterator[str]:
 
 
 def _doubts_of_motion(scene: WheelScene) -> Iterator[str]:
-    d, a, turn = scene.approach, scene.contact_radius, scene.time_step * scene.eigenfrequency
-    if scene.rms > d / 3:
-        yield (
-            f"the roughness is {scene.rms / d:.3g} of the approach of {d:.3g} m, more than a third: "
-            "the wheel may lift off."
-        )
+    a, turn = scene.contact_radius, scene.time_step * scene.eigenfrequency
     if turn > 0.2:
         yield (
             f"a time step is {turn:.3g} over the eigenfrequency, more than 0.2, and 2 is unstable: "

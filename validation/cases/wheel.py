@@ -46,10 +46,10 @@ class Wheel:
 
     def variations(self) -> Mapping[str, WheelScene]:
         """Scenes by what is other than in the first."""
-        found = {self.scene.name: self.scene}
-        if self.parameters:
-            found |= _varied(self.scene)
-        return found
+        varied = _varied(self.scene) if self.parameters else {}
+        if self.scene.name in varied:
+            raise ValueError(f"name must be another than those of variations, {', '.join(varied)}, got that")
+        return {self.scene.name: self.scene, **varied}
 
     def rides(self, scene: WheelScene, realisations: int) -> list[Rides]:
         """Batches of equal size, each of whole groups: a few wheels more where that asks for them."""

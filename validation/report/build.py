@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from urllib.parse import quote
 
@@ -18,6 +19,7 @@ from validation.report.figures import DRAW
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
 from validation.report.style import drawn, pdf, svg
+from validation.understood import understood
 from validation.wheel_scene import WheelScene
 
 SAFE = " !$'()*+,-./;=?@[]_~{}<>|^`"
@@ -110,13 +112,13 @@ def build(
     about = provenance(profile, seeds, engine, seconds)
     folder.write("provenance.json", as_json(about))
     # times differ from run to run: the results are to be the same to the byte without them
-    folder.write(RESULTS, as_json(_results([s for s in sections if s.name not in TIMED], profile)))
+    results = _results([s for s in sections if s.name not in TIMED], profile)
+    folder.write(RESULTS, as_json(results if scene is None else {**results, "scene": _said(scene)}))
     timed = [section for section in sections if section.name in TIMED]
     for section in timed:
         folder.write(f"{section.name}.json", as_json(_results([section], profile)))
-    folder.write(
-        "index.html", _page(sections, profile, pictures, {**about, "timed": [section.name for section in timed]})
-    )
+    about = {**about, "timed": [section.name for section in timed]}
+    folder.write("index.html", _page(sections, profile, pictures, about, scene))
     folder.clear_old()
     return sections
 
@@ -165,12 +167,28 @@ def _resolved(value: float, tolerance: float) -> str:
     return f"{value:.{min(digits, 7)}f}"
 
 
-def _badged(cell: object) -> Markup:
+def _said(scene: WheelScene) -> dict[str, object]:
+    """What is said first of a scene of the user's own."""
+    return {
+        "name": scene.name,
+        "no steady answer": scene.no_steady_answer(),
+        "doubts": list(scene.doubts()),
+        "understood": dict(understood(scene)),
+    }
+
+
+def _badge(verdict: str, count: str = "", *, unsteady: bool = False) -> Markup:
+    """A verdict as it looks on the page; of a scene without a steady answer there is none."""
+    if unsteady:
+        return Markup('<span class="verdict undecided">? no steady answer</span>')
+    return Markup('<span class="verdict {0}">{1} {2}{0}</span>').format(verdict, SYMBOL[verdict], count)
+
+
+def _badged(cell: object, *, unsteady: bool = False) -> Markup:
     """Text of a table with its verdict, if it has one, as it looks elsewhere on the page."""
     text = escape(f"{cell:.4g}" if isinstance(cell, float) else str(cell))
-    for verdict, symbol in SYMBOL.items():
-        badge = Markup('<br><span class="verdict {0}">{1} {0}</span>').format(verdict, symbol)
-        text = text.replace(f": {verdict}", badge)
+    for verdict in SYMBOL:
+        text = text.replace(f": {verdict}", Markup("<br>") + _badge(verdict, unsteady=unsteady))
     return text
 
 
@@ -179,7 +197,13 @@ def _address(picture: bytes) -> str:
     return quote(" ".join(picture.decode().replace('"', "'").split()), safe=SAFE)
 
 
-def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, bytes], about: dict[str, object]) -> bytes:
+def _page(
+    sections: Sequence[Section],
+    profile: Profile,
+    pictures: dict[str, bytes],
+    about: dict[str, object],
+    scene: WheelScene | None,
+) -> bytes:
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=True,
@@ -188,7 +212,9 @@ def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, byt
         lstrip_blocks=True,
     )
     environment.filters["resolved"] = _resolved
-    environment.filters["badged"] = _badged
+    unsteady = scene is not None and bool(scene.no_steady_answer())
+    environment.filters["badged"] = partial(_badged, unsteady=unsteady)
+    environment.filters["badge"] = partial(_badge, unsteady=unsteady)
     environment.filters["duration"] = lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s"
     environment.filters["small"] = lambda value: f"{value:.2g}"
     page = environment.get_template("page.html").render(
@@ -199,6 +225,7 @@ def _page(sections: Sequence[Section], profile: Profile, pictures: dict[str, byt
         about=about,
         verdicts=list(Verdict),
         zip=zip,
-        symbol=SYMBOL,
+        said=_said(scene) if scene else None,
+        unsteady=unsteady,
     )
     return (page + "\n").encode()

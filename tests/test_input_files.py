@@ -1,0 +1,213 @@
+"""Files of others: what is no file, too large, or not what it says is refused at once, in one sentence."""
+
+import os
+import struct
+
+import numpy as np
+import pytest
+
+from validation import height_files
+from validation.__main__ import main
+from validation.files import check_regular, contents_of
+from validation.height_files import read_heights
+from validation.scene_files import LONGEST_LINE, MOST_BYTES, SCENES
+from validation.shown import in_quotes, is_printable, printable, shown
+
+PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
+HEIGHT = 1e-6 * np.random.default_rng(1).standard_normal((64, 64))
+
+
+def refused(capsys, *words):
+    """The one sentence in which a command refuses its input."""
+    assert main(words) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    return line
+
+
+def with_heights(folder, file):
+    start, _, _ = PUNCH.partition("[roughness]")
+    path = folder / "scene.toml"
+    path.write_text(f'{start}[heights]\nfile = "{file}"\nspacing = "15.625 um"\n')
+    return str(path)
+
+
+def header(path, shape, behind=b""):
+    """An .npy of doubles that tells a shape, and holds what it holds."""
+    with path.open("wb") as file:
+        np.lib.format.write_array_header_1_0(file, {"descr": "<f8", "fortran_order": False, "shape": shape})
+        file.write(behind)
+
+
+def archive(path):
+    np.savez(path.with_suffix(".npz"), HEIGHT)
+    path.with_suffix(".npz").rename(path)
+
+
+MAKE = {
+    "an archive, .npz": archive,
+    "an empty file": lambda path: path.write_bytes(b""),
+    r"a header of \(10000000, 10000000\) values of 8 bytes, and 0 bytes": lambda path: header(path, (10**7, 10**7)),
+    r"a header of \(64, 64\) values of 8 bytes, and 32760 bytes": lambda path: header(path, (64, 64), bytes(8 * 4095)),
+    r"a header of \(-1, 64\) values": lambda path: header(path, (-1, 64), bytes(512)),
+    "a header that cannot be read": lambda path: path.write_bytes(
+        b"\x93NUMPY\x02\x00" + struct.pack("<I", 9) + b"{" * 9
+    ),
+    r"an .npy of the unknown version \(9, 0\)|only support format version": lambda path: path.write_bytes(
+        b"\x93NUMPY\x09\x00" + bytes(100)
+    ),
+    "objects in place of numbers": lambda path: np.save(path, np.full((64, 64), None)),
+    "the magic string is not correct": lambda path: path.write_bytes(b"no array"),
+}
+
+
+@pytest.mark.parametrize("said", MAKE)
+def test_arrays_that_are_none_are_refused_before_anything_is_allocated(tmp_path, capsys, said):
+    MAKE[said](tmp_path / "face.npy")
+    line = refused(capsys, "compare", with_heights(tmp_path, "face.npy"))
+    assert line.startswith(
+        f"error: scene {tmp_path}/scene.toml: heights.file {tmp_path}/face.npy must hold a table of "
+    )
+    with pytest.raises(ValueError, match=f"got: ({said})"):
+        read_heights("it", tmp_path / "face.npy")
+
+
+@pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_arrays_of_every_version_and_order_are_read(tmp_path, version, order):
+    with (tmp_path / "face.NPY").open("wb") as file:
+        np.lib.format.write_array(file, np.array(HEIGHT, order=order), version=version)
+    assert (read_heights("it", tmp_path / "face.NPY") == HEIGHT).all()
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.int16, np.uint8, ">f8"])
+def test_numbers_of_other_kinds_are_read(tmp_path, kind):
+    np.save(tmp_path / "face.npy", (100 * np.abs(HEIGHT) / HEIGHT.max()).astype(kind))
+    assert read_heights("it", tmp_path / "face.npy").dtype == np.float64
+
+
+def test_what_is_no_regular_file_is_refused_without_reading_it(tmp_path, capsys):
+    os.mkfifo(tmp_path / "pipe.csv")
+    os.mkfifo(tmp_path / "pipe.toml")
+    (tmp_path / "folder.npy").mkdir()
+    for file, kind in (("pipe.csv", "a pipe"), ("folder.npy", "a folder"), ("/dev/zero", "a device")):
+        line = refused(capsys, "compare", with_heights(tmp_path, file))
+        assert line.endswith(f"{tmp_path / file} must be a regular file, got {kind}")
+    for command in (["compare"], ["report", "--scene"]):
+        assert refused(capsys, *command, str(tmp_path / "pipe.toml")).endswith("must be a regular file, got a pipe")
+        assert refused(capsys, *command, "/dev/zero") == "error: scene /dev/zero must be a regular file, got a device"
+
+
+def test_sizes_are_bounded_and_said(tmp_path, monkeypatch):
+    path = tmp_path / "file"
+    path.write_bytes(b"12345")
+    assert contents_of("it", path, most=5) == b"12345"
+    assert check_regular("it", path, most=5) == 5
+    with pytest.raises(ValueError, match=r"^it \S+file must have at most 4 bytes, got 5$"):
+        contents_of("it", path, most=4)
+    # a file of the system tells no size before it is read
+    with pytest.raises(ValueError, match=r"^it /proc/self/environ must have at most 4 bytes, got more$"):
+        contents_of("it", type(path)("/proc/self/environ"), most=4)
+    np.save(tmp_path / "face.npy", HEIGHT)
+    monkeypatch.setattr(height_files, "MOST_VALUES", 4095)
+    with pytest.raises(ValueError, match=r"must hold at most 4095 heights, got 4096$"):
+        read_heights("it", tmp_path / "face.npy")
+    monkeypatch.setattr(height_files, "MOST_BYTES", 4096)
+    with pytest.raises(ValueError, match=r"must have at most 4096 bytes, got \d+$"):
+        read_heights("it", tmp_path / "face.npy")
+
+
+@pytest.mark.parametrize(
+    ("contents", "said"),
+    [
+        (b"1, 2, 3\n1, 2\n", "rows of different length, the number of columns changed from 3 to 2 at row 2"),
+        (
+            b"x, y\n1, 2\n",
+            r"could not convert string 'x' to float64 at row 0, column 1. \(a header belongs behind a #\)",
+        ),
+        (b"1, \x1b[31m2\n", r"could not convert string ' \\x1b\[31m2' "),
+        (b"1," * 500, "more than 99 lines, or one of more than 100 characters"),
+        (b"1\n" * 500, "more than 99 lines, or one of more than 100 characters"),
+        (b"1, 2\n" + b"1," * 500, "more than 99 lines, or one of more than 100 characters"),
+        (b"\xff\xfe1, 2\n", "'utf-8' codec can't decode"),
+    ],
+)
+def test_tables_that_are_none_are_refused_in_one_line(tmp_path, monkeypatch, contents, said):
+    monkeypatch.setattr(height_files, "MOST_LINES", 99)
+    monkeypatch.setattr(height_files, "LONGEST_LINE", 100)
+    (tmp_path / "face.csv").write_bytes(contents)
+    with pytest.raises(ValueError, match=rf"^it \S+face\.csv must hold a table of numbers, got: {said}[^\n]*$"):
+        read_heights("it", tmp_path / "face.csv")
+
+
+@pytest.mark.parametrize("mark", ["", "\ufeff"])
+@pytest.mark.parametrize("sign", [",", ";", "\t", " "])
+def test_an_editors_mark_and_a_header_behind_a_sign_are_read(tmp_path, mark, sign):
+    rows = "\n".join(sign.join(map(repr, row)) for row in HEIGHT.tolist())
+    (tmp_path / "face.csv").write_text(f"{mark}# x, y\n\n{rows}\n", encoding="utf-8")
+    assert (read_heights("it", tmp_path / "face.csv") == HEIGHT).all()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a = " + 50000 * "[" + 50000 * "]", f"must have at most {MOST_BYTES} bytes, got 100004"),
+        ("a = " + 20000 * "[" + 20000 * "]", f"must have lines of at most {LONGEST_LINE} bytes, got 40004"),
+        ("a = " + 20000 * "[\n" + 20000 * "]\n", "must be valid TOML, got: values nested too deep"),
+        (".".join(60000 * "a") + " = 1", f"must have at most {MOST_BYTES} bytes, got 120003"),
+        (".".join(30000 * "a") + " = 1", f"must have lines of at most {LONGEST_LINE} bytes, got 60003"),
+        ("wheel." + ".".join(400 * "a") + " = 1", "name is missing, a scene must have it"),
+        (
+            PUNCH.replace("name", "name." + ".".join(400 * "a")),
+            "name must be a text that is not blank, got {'a': {'a':",
+        ),
+        (PUNCH.replace("hurst", "hurst." + ".".join(400 * "a")), "roughness.hurst must be a number, got {'a': {'a':"),
+        (
+            "punch = 1\n" + PUNCH.replace("[punch]\n", "").replace('side = "1 mm"\n', "").replace("load", "#"),
+            "punch must be a table, got 1",
+        ),
+        ("a = 1" + 5000 * "0", "must have lines of at most"),
+    ],
+)
+def test_scenes_that_are_bombs_are_refused_in_one_sentence(tmp_path, capsys, text, said):
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    line = refused(capsys, "compare", str(path))
+    assert line.startswith(f"error: scene {path}")
+    assert said in line
+    assert len(line) < 400
+
+
+def test_control_characters_do_not_reach_the_terminal(tmp_path, capsys):
+    path = tmp_path / "one\n\x1b[31mtwo.toml"
+    shown_path = str(tmp_path / r"one\n\x1b[31mtwo.toml")
+    for old, new, said in (
+        ('"Rough punch"', r'"a\u001b[31m\nb"', r"name must be one line without control characters, got 'a\x1b[31m\nb'"),
+        ('"Rough punch"', r'"a\u202eb"', r"name must be one line without control characters, got 'a\u202eb'"),
+        ("side =", r'"si\u001bde\n" =', r"punch.si\x1bde\n is unknown, punch must be made of side, load"),
+        (
+            '"1 mm"',
+            r'"1 \u009bmm"',
+            r'punch.side must be a length, as "0.5 m", in one of m, mm, um, µm, nm, km, got "1 ',
+        ),
+        ("[roughness]", "[rough", r"got: Expected"),
+    ):
+        assert old in PUNCH
+        path.write_text(PUNCH.replace(old, new, 1), encoding="utf-8")
+        line = refused(capsys, "compare", str(path))
+        assert said in line
+        assert shown_path in line
+        assert is_printable(line)
+    assert r"\x1b[31m" in refused(capsys, "compare", "no\x1b[31mscene")
+    assert is_printable(refused(capsys, "compare", "no\n\x1b[31m/scene"))
+
+
+def test_what_is_shown_is_short_and_on_one_line():
+    deep = [1]
+    for _ in range(5000):
+        deep = [deep]
+    assert shown(deep) == "[[[[...]]]]"
+    assert len(shown("x" * 10**6)) < 200
+    assert len(in_quotes("x" * 10**6)) < 200
+    assert in_quotes('a"\\\n') == r'"a\"\\\n"'
+    assert printable("a\x07b\N{NO-BREAK SPACE}µ²\u2028") == "a\\x07b\N{NO-BREAK SPACE}µ²\\u2028"
+    assert printable("a\nb\x1b", lines=True) == "a\nb\\x1b"

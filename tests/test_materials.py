@@ -1,0 +1,263 @@
+"""Whose modulus it is: E* of two bodies, no default for the other one, and what a scene tells of it."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import bem3d
+from validation.__main__ import main
+from validation.material import Elastic, Material
+from validation.measured import MeasuredHeights
+from validation.pressed_scene import PressedScene
+from validation.quantities import in_unit
+from validation.rolling_scene import RollingScene
+from validation.roughness import Roughness
+from validation.scene_files import SCENES, shipped
+from validation.scene_kinds import read_any
+from validation.understood import said_first, understood
+from validation.wheel_scene import read_scene
+
+SPHERE, WHEEL, PUNCH = (
+    (SCENES / f"{name}.toml").read_text(encoding="utf-8") for name in ("sphere", "table_14_1", "rough_punch")
+)
+LINE = re.compile(r"counterface = .*\n")
+ALUMINIUM = '[material.counterface]\nyoungs_modulus = "70 GPa"\npoisson_ratio = 0.33\n'
+
+
+def steel(**changes):
+    return Material(**{"youngs_modulus": 210e9, "poisson_ratio": 0.3, "counterface": "rigid", **changes})
+
+
+def written(folder, text, line=""):
+    """A scene whose material ends in another line."""
+    assert len(LINE.findall(text)) == 1
+    path = folder / "scene.toml"
+    path.write_text(LINE.sub(line, text), encoding="utf-8")
+    return path
+
+
+# E*
+
+
+def test_two_bodies_share_the_compliance():
+    for first, other in ((210e9, 70e9), (1e6, 3e9)):
+        body = steel(youngs_modulus=first, counterface=Elastic(youngs_modulus=other, poisson_ratio=0.33))
+        assert 1 / body.modulus == pytest.approx((1 - 0.3**2) / first + (1 - 0.33**2) / other, rel=1e-14)
+
+
+def test_the_words_are_the_ends_of_the_sum():
+    rigid, same = steel(), steel(counterface="same")
+    assert rigid.modulus == 210e9 / (1 - 0.3**2)
+    assert same.modulus == rigid.modulus / 2
+    assert steel(counterface=Elastic(youngs_modulus=210e9, poisson_ratio=0.3)).modulus == pytest.approx(same.modulus)
+    assert steel(counterface=Elastic(youngs_modulus=1e30, poisson_ratio=0.3)).modulus == pytest.approx(rigid.modulus)
+
+
+@pytest.mark.parametrize("poisson_ratio", [0, 0.5])
+def test_the_ends_of_what_poissons_ratio_may_be_belong_to_it(poisson_ratio):
+    assert steel(poisson_ratio=poisson_ratio).modulus == pytest.approx(210e9 / (1 - poisson_ratio**2), rel=1e-15)
+
+
+def test_a_contact_modulus_stands_for_itself():
+    assert Material(contact_modulus=2e9).modulus == 2e9
+    assert Material(contact_modulus=2e9).because == "as it was given"
+
+
+@pytest.mark.parametrize(
+    ("changes", "error", "sentence"),
+    [
+        ({"youngs_modulus": 0}, ValueError, "material.youngs_modulus must be positive, got 0.0"),
+        ({"youngs_modulus": math.inf}, ValueError, "material.youngs_modulus must be finite, got inf"),
+        ({"youngs_modulus": "1"}, TypeError, "material.youngs_modulus must be a real number, got '1'"),
+        ({"youngs_modulus": None}, ValueError, "material.youngs_modulus is missing, material must have it"),
+        ({"poisson_ratio": None}, ValueError, "material.poisson_ratio is missing, material must have it"),
+        ({"poisson_ratio": -0.1}, ValueError, "material.poisson_ratio must lie in [0, 0.5], got -0.1"),
+        ({"poisson_ratio": 0.51}, ValueError, "material.poisson_ratio must lie in [0, 0.5], got 0.51"),
+        ({"poisson_ratio": math.nan}, ValueError, "material.poisson_ratio must be finite, got nan"),
+        ({"counterface": None}, ValueError, "material.counterface is missing: E* depends on the other body, too"),
+        (
+            {"counterface": "Steel"},
+            ValueError,
+            'material.counterface must be "rigid", "same", or a table with youngs_modulus and poisson_ratio of the '
+            'other body, got "Steel"',
+        ),
+        (
+            {"counterface": Elastic(youngs_modulus=-1.0, poisson_ratio=0.3)},
+            ValueError,
+            "material.counterface.youngs_modulus must be positive, got -1.0",
+        ),
+        (
+            {"counterface": Elastic(youngs_modulus=1e9, poisson_ratio=0.7)},
+            ValueError,
+            "material.counterface.poisson_ratio must lie in [0, 0.5], got 0.7",
+        ),
+        (
+            {"contact_modulus": 1e9},
+            ValueError,
+            "material.contact_modulus must stand alone, got youngs_modulus, poisson_ratio, counterface beside it",
+        ),
+        ({"youngs_modulus": 1.7e308, "poisson_ratio": 0.5}, ValueError, "material: E* of both bodies must be finite"),
+    ],
+)
+def test_materials_are_refused_by_the_key(changes, error, sentence):
+    with pytest.raises(error, match=f"^{re.escape(sentence)}"):
+        steel(**changes)
+
+
+def test_no_material_is_refused():
+    with pytest.raises(ValueError, match=r"^material must have contact_modulus, or else youngs_modulus, .* got none"):
+        Material()
+
+
+def test_a_modulus_is_that_of_its_material():
+    settings = {"name": "it", "load": 1.0, "material": steel()}
+    with pytest.raises(ValueError, match=r"^modulus must be that of the material, 2.30769e\+11 Pa, got 2e\+11 Pa$"):
+        PressedScene(shape="punch", size=1.0, modulus=2e11, **settings)
+    with pytest.raises(ValueError, match="must be that of the material"):
+        RollingScene(radius=1.0, modulus=2e11, ground=Roughness(rms=1, hurst=0.7, longest=2, shortest=1), **settings)
+
+
+# Scene files
+
+
+@pytest.mark.parametrize(("name", "modulus"), [("rough_punch", 210e9 / (1 - 0.3**2))])
+def test_shipped_scenes_are_those_of_the_book(name, modulus):
+    assert read_any(name).modulus == modulus
+    for other in set(shipped()) - {name, "rough_wheel"}:
+        assert read_any(other).modulus == 210e9 / (1 - (1 / 3) ** 2)
+        assert read_any(other).material.counterface == "rigid"
+
+
+@pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
+def test_a_scene_that_does_not_say_is_shown_both_lines(tmp_path, capsys, text):
+    path = written(tmp_path, text)
+    assert main(["compare", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"error: scene {path}: material.counterface is missing")
+    lines = [line.strip() for line in said.splitlines() if line.startswith("    counterface = ")]
+    assert [line.partition("#")[0].strip() for line in lines] == ['counterface = "rigid"', 'counterface = "same"']
+    rigid, same = (read_any(written(tmp_path, text, f"{line}\n")) for line in lines)
+    assert rigid.modulus == 2 * same.modulus
+    for scene, line in zip((rigid, same), lines, strict=True):
+        assert line.endswith(f" = {in_unit(scene.modulus, 'pressure')}")
+
+
+def test_two_equal_bodies_are_softer_than_one_on_a_rigid_body(tmp_path):
+    rigid, same = (read_any(written(tmp_path, SPHERE, f'counterface = "{word}"\n')) for word in ("rigid", "same"))
+    # k = 2 E* a and a^3 = 3 F R / (4 E*)
+    assert rigid.stiffness / same.stiffness == pytest.approx(2 ** (2 / 3), rel=1e-12)
+
+
+@pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
+def test_another_body_is_a_table_of_its_own(tmp_path, text):
+    scene = read_any(written(tmp_path, text, ALUMINIUM))
+    assert scene.material.counterface == Elastic(youngs_modulus=70e9, poisson_ratio=0.33)
+    assert scene.modulus == scene.material.modulus < 70e9 / (1 - 0.33**2)
+
+
+@pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
+def test_a_contact_modulus_may_be_given_instead(tmp_path, text):
+    path = tmp_path / "scene.toml"
+    path.write_text(re.sub(r"\[material\]\n(.+\n)+", '[material]\ncontact_modulus = "115 GPa"\n', text))
+    assert read_any(path).modulus == 115e9
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ('counterface = "steel"\n', 'material.counterface must be "rigid", "same", or a table'),
+        ("counterface = 3\n", 'material.counterface must be "rigid", "same", or a table'),
+        ('counterface = "same"\ncontact_modulus = "1 GPa"\n', "material.contact_modulus must stand alone, got youngs"),
+        (ALUMINIUM.replace("poisson_ratio = 0.33\n", ""), "material.counterface.poisson_ratio is missing"),
+        (ALUMINIUM.replace("0.33", "0.66"), "material.counterface.poisson_ratio must lie in [0, 0.5], got 0.66"),
+        (ALUMINIUM.replace("70 GPa", "70 N"), "material.counterface.youngs_modulus must be a pressure"),
+    ],
+)
+@pytest.mark.parametrize("text", [SPHERE, WHEEL])
+def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, line, sentence):
+    path = written(tmp_path, text, line)
+    with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
+        read_any(path)
+    if text == WHEEL:
+        with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
+            read_scene(path)
+
+
+# What was understood
+
+
+def test_slopes_are_those_of_the_spectrum():
+    for hurst in (0.3, 0.7, 1.0, 1.2):
+        rough = Roughness(rms=2e-6, hurst=hurst, longest=1e-3, shortest=1e-4)
+        q = np.geomspace(rough.q_min, rough.q_max, 20001)
+        assert rough.slope_along == pytest.approx(math.sqrt(np.pi * np.trapezoid(q**3 * rough.c2d(q), q)), rel=1e-5)
+
+
+def test_slopes_are_those_of_heights():
+    rough, n = Roughness(rms=1e-6, hurst=0.7, longest=2.5e-4, shortest=3.2e-5), 512
+    height = bem3d.rough_surface(rough.c2d, shape=(n, n), spacing=1e-3 / n, rng=np.random.default_rng(1), rms=1e-6)
+    found = MeasuredHeights(height=height, spacing=(1e-3 / n, 1e-3 / n))
+    # differences of 16 points to the shortest wave are 2 % low, one surface has a few hundred waves
+    assert found.slope_along == pytest.approx(rough.slope_along, rel=0.1)
+    assert math.hypot(found.slope_along, MeasuredHeights(height=height.T, spacing=found.spacing).slope_along) == (
+        pytest.approx(found.slope, rel=1e-12)
+    )
+
+
+@pytest.mark.parametrize(
+    ("value", "dimension", "shown"),
+    [
+        (236.25e9, "pressure", "236.25 GPa"),
+        (1e-3, "length", "1 mm"),
+        (0.5e-6, "length", "500 nm"),
+        (1e-12, "length", "0.001 nm"),
+        (4905.0, "force", "4.905 kN"),
+        (20.0, "speed", "20 m/s"),
+        (500.0, "mass", "500 kg"),
+    ],
+)
+def test_quantities_are_said_in_a_unit_that_fits(value, dimension, shown):
+    assert in_unit(value, dimension) == shown
+
+
+def test_table_14_1_is_understood_as_what_it_is():
+    pairs = dict(understood(read_scene("table_14_1")))
+    assert pairs == {
+        "contact modulus E*": "236.25 GPa: the other body is rigid, E = 210 GPa, nu = 0.33333",
+        "wheel": "radius 500 mm, load 4.905 kN",
+        "contact radius a": "1.982 mm, of the smooth body",
+        "approach d": "7.8565 µm, of the smooth body",
+        "motion": "mass 500 kg, speed 20 m/s, resonance at 1369 rad/s, undamped",
+        "rms height h": "500 nm, h/d = 0.0636",
+        "rms slope h'": "0.00105, in one direction, h' a/d = 0.264",
+        "waves of the rail": "10 mm to 200 µm, Hurst exponent 0.7, 1.257e+04 to 6.283e+05 rad/s",
+    }
+    assert dict(understood(read_any("table_14_1"))).items() >= {k: pairs[k] for k in list(pairs)[:-1]}.items()
+
+
+def test_punches_are_understood_by_their_load():
+    pairs = dict(understood(read_any("rough_punch")))
+    assert pairs["rms height h"] == "1 µm, F / (E* h L) = 0.1"
+    assert pairs["waves"].endswith("longest waves on a side: 1")
+    smooth = PressedScene(name="flat", shape="punch", size=1.0, load=1.0, modulus=2e9)
+    assert dict(understood(smooth)) == {
+        "contact modulus E*": "2 GPa: as it was given",
+        "punch": "side L = 1 m, load 1 N",
+        "roughness": "none",
+    }
+
+
+@pytest.mark.parametrize("name", [name for name in shipped() if name != "rough_wheel"])
+def test_every_comparison_begins_with_what_was_understood(name, capsys):
+    scene = read_any(name)
+    assert said_first(scene) == [f"  {key:18s}  {value}" for key, value in understood(scene)]
+    assert main(["compare", name, "--tolerance", "90%"]) in (0, 3)
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1 : 1 + len(understood(scene))] == said_first(scene)
+
+
+def test_two_equal_bodies_are_told(tmp_path, capsys):
+    assert main(["compare", str(written(tmp_path, SPHERE, 'counterface = "same"\n'))]) == 0
+    assert "  contact modulus E*  118.12 GPa: two equal bodies, E = 210 GPa, nu = 0.33333" in capsys.readouterr().out
