@@ -40,6 +40,11 @@ class Question:
         """Whether the wheel has a mass."""
         return self.want.startswith("acceleration")
 
+    @cached_property
+    def unsteady(self) -> str:
+        """Why there is no level of what is wanted, whatever the model; empty where there is one."""
+        return self.scene.no_steady_answer() if self.dynamic else ""
+
     @property
     def whole(self) -> bool:
         """Whether all bands are one."""

@@ -212,7 +212,7 @@ class BoundaryElements:
 
     def claim(self) -> Claim:
         """Of the sample what as many strips as there may be leave at the least; only a solve tells of the grid."""
-        if said := self._too_large():
+        if said := self.question.unsteady or self._too_large():
             return Claim.out_of_range(said)
         sample = 0.0 if self._measured else self._scatter / math.sqrt(MOST_STRIPS)
         return Claim(error=sample, because=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted")
@@ -282,6 +282,8 @@ class BoundaryElements:
 
 def _outside(question: Question) -> str:
     """Why the errors of cheap models are not known for a scene; empty where they are."""
+    if said := question.unsteady:
+        return said
     scene, ground = question.scene, question.scene.ground
     first, last = (q * scene.contact_radius for q in (ground.q_min, question.q_max))
     conditions = {HEIGHT: scene.roughness_ratio, LONG: first, SHORT: last, RATIO: last / first}

@@ -152,18 +152,19 @@ def evidence(result: LadderResult) -> Evidence:
     for tolerance in case.tolerances:
         mine = table.where(tolerance=tolerance)
         known = np.isfinite(mine["true error"])
+        if not known.any():
+            continue
         claimed, true = mine["claimed error"][known], mine["true error"][known]
         covered, saved = float(np.mean(true <= claimed)), float(np.median(mine["saved"][known]))
         least, most = _interval(int(np.count_nonzero(true <= claimed)), true.size)
         numbers += _numbers(tolerance, covered, least, saved)
+        together = mine["fine [s]"][known].sum() / mine["climb [s]"][known].sum()
         sentences.append(
             f"At {tolerance:.0%}: the true error is within the claimed one in {covered:.1%} of {true.size} scenes "
             f"(95 % interval {least:.0%} to {most:.0%}), within the tolerance in {np.mean(true <= tolerance):.1%}; "
             f"beside always running fine boundary elements a factor {saved:.3g} is saved in the median, "
-            f"{mine['fine [s]'].sum() / mine['climb [s]'].sum():.3g} in all scenes together, where those that need "
-            "fine boundary elements count most; the median is that of the ranges that were drawn. "
-            f"Scenes that were said to be out of reach: {np.count_nonzero(mine['met'] == 0)}; their claims and savings "
-            f"count, too; without them {np.median(mine['saved'][mine['met'] == 1]):.3g}. {_ended(mine)}"
+            f"{together:.3g} in all scenes together, where those that need fine boundary elements count most; the "
+            f"median is that of the ranges that were drawn. {_out_of_reach(mine, known)} {_ended(mine)}"
         )
     return Evidence(
         title="No more model than a scene needs: the ladder held to account",
@@ -182,6 +183,15 @@ def evidence(result: LadderResult) -> Evidence:
         unconverged=result.unconverged,
         shown=(_summary(case, table), _by_rung(claims)),
     )
+
+
+def _out_of_reach(table: Table, known: np.ndarray) -> str:
+    """Of scenes whose tolerance was not met, with an answer or without."""
+    met = known & (table["met"] == 1)
+    found = f"Scenes that were said to be out of reach: {np.count_nonzero(table['met'] == 0)}"
+    if met.any():
+        found += f"; where they have an answer, it counts, too; without them {np.median(table['saved'][met]):.3g}"
+    return f"{found}. Scenes without any answer: {np.count_nonzero(~known)}."
 
 
 CAPTION = (
@@ -249,7 +259,7 @@ def _table(result: LadderResult) -> Table:
                     "error of the referee": float(outcome["truth"]),
                     "climb [s]": float(outcome["spent"][i]),
                     "fine [s]": float(outcome["fine"][i]),
-                    "saved": float(outcome["fine"][i] / outcome["spent"][i]),
+                    "saved": float(outcome["fine"][i] / outcome["spent"][i]) if outcome["spent"][i] > 0 else math.nan,
                 }
             )
     return table_of("scenes", rows)
