@@ -216,6 +216,8 @@ def test_slopes_are_those_of_heights():
         (4905.0, "force", "4.905 kN"),
         (20.0, "speed", "20 m/s"),
         (500.0, "mass", "500 kg"),
+        (500, "mass", "500 kg"),
+        (np.float32(0.5), "mass", "500 g"),
     ],
 )
 def test_quantities_are_said_in_a_unit_that_fits(value, dimension, shown):
