@@ -65,6 +65,17 @@ def test_flight_is_foretold(height, longest, said):
     assert (air > 1e-3) == bool(said)
 
 
+@pytest.mark.parametrize(("longest", "grows"), [(2e-3, True), (10e-3, False)])
+def test_short_waves_that_feed_the_free_vibration_are_told(longest, grows):
+    wheels = scene(0.25, longest=longest, springs=20)
+    assert wheels.no_steady_answer() == ""
+    told = [doubt for doubt in wheels.doubts() if "feeds the free vibration" in doubt]
+    assert bool(told) == grows
+    assert RollingScene.of_wheel(wheels).doubts() == tuple(told)
+    growth, _ = rolled(wheels)
+    assert growth > 1.4 if grows else growth < 1.3
+
+
 @pytest.mark.parametrize("ratio", [0.2, 1.05, 9.0])
 def test_the_force_on_the_way_against_a_plain_sum(ratio):
     wheels = scene(0.1, ratio=ratio)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from enum import IntEnum
 from functools import partial
 from pathlib import Path
+from typing import NoReturn
 
 from validation.cases import CASES, TIMED
 from validation.compare import WANTS, time_of, told
@@ -170,8 +171,15 @@ def _tell_heats(evidence: Evidence) -> None:
         print(f"    {problem:38s} {area:5.1%} {name:17s}{result}")
 
 
+class _Parser(argparse.ArgumentParser):
+    """Words that are refused are shown without their control characters."""
+
+    def error(self, message: str) -> NoReturn:
+        super().error(printable(message))
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="mdr-validation",
         description="Reduced contact models beside three-dimensional boundary elements.",
         epilog="Exit status: 0 all criteria met; 1 a criterion failed, or could not be decided; 2 bad usage or input; "

@@ -110,7 +110,8 @@ def _of_text(file: IO[bytes]) -> NDArray[np.generic]:
         if "number of columns changed" in str(problem):
             changed = str(problem).partition(";")[0].removeprefix("the ")
             raise ValueError(f"rows of different length, the {changed}") from None
-        raise ValueError(f"{str(problem).splitlines()[0]} (a header belongs behind a #)") from None
+        hint = " (a header belongs behind a #)" if "could not convert" in str(problem) else ""
+        raise ValueError(f"{str(problem).splitlines()[0]}{hint}") from None
 
 
 def _lines(file: IO[bytes]) -> Iterator[bytes]:

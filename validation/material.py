@@ -89,7 +89,7 @@ class Material:
     def _check_counterface(self) -> None:
         other, alone = self.counterface, self._body.against_rigid
         if other is None:
-            rigid, same = in_unit(alone, "pressure"), in_unit(alone / 2, "pressure")
+            rigid, same = in_unit(alone, "pressure", digits=6), in_unit(alone / 2, "pressure", digits=6)
             raise ValueError(
                 "material.counterface is missing: E* depends on the other body, too. Add one of these lines to "
                 "[material]\n"

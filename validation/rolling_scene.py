@@ -9,7 +9,7 @@ from validation.material import Material, check_modulus
 from validation.measured import MeasuredHeights, check_points
 from validation.roughness import Roughness, check_band
 from validation.scene_files import named
-from validation.steadiness import no_steady_answer
+from validation.steadiness import doubts_of_short_waves, no_steady_answer
 from validation.wheel_scene import WheelScene
 
 Ground = Roughness | MeasuredHeights
@@ -91,6 +91,8 @@ class RollingScene:
         found = list(self.ground.notes()) if isinstance(self.ground, MeasuredHeights) else []
         if self.roughness_ratio > 1 / 3:
             found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
+        if self.mass is not None:
+            found += doubts_of_short_waves(self.body, [self.ground])
         if self.contact_radius > self.radius / 10:
             found.append(
                 f"the contact radius is {self.contact_radius / self.radius:.3g} of wheel.radius, more than a tenth: no "

@@ -27,7 +27,7 @@ from validation.scene_files import (
     table,
     tables_of,
 )
-from validation.steadiness import no_steady_answer
+from validation.steadiness import doubts_of_short_waves, no_steady_answer
 
 KEYS = {
     "radius": "wheel.radius",
@@ -158,7 +158,9 @@ class WheelScene:
 
     def doubts(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        return (*_doubts_of_roughness(self), *_doubts_of_motion(self))
+        grounds = [rough for rough in (self.rail, self.wheel) if rough is not None]
+        short = doubts_of_short_waves(self.body, grounds) if grounds else ()
+        return (*_doubts_of_roughness(self), *_doubts_of_motion(self), *short)
 
     def no_steady_answer(self) -> str:
         """Why the motion has no level that the distance leaves alone, in a sentence; empty where it has."""

@@ -93,7 +93,8 @@ def draw_parameters(evidence: Evidence) -> Figure:
             style = {**style, "markersize": 3, "markevery": 6}
             axis.plot(rows["omega [rad/s]"], rows["A [(m/s2)2 s]"], label=name, **style)
         axis.set(xscale="log", yscale="log")
-        axis.legend(loc="lower left", fontsize=7)
+        if mine:
+            axis.legend(loc="lower left", fontsize=7)
     for axis in axes[3:]:
         axis.set_xlabel("ω [rad/s]")
     for axis in axes[::3]:
