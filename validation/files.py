@@ -1,20 +1,88 @@
-"""Files that appear whole or not at all."""
+"""Files that appear whole or not at all, and that are plain files."""
 
+import errno
 import os
+import re
+import stat
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+
+BEGUN = re.compile(r"\.mdr-validation-[a-z0-9_]{8}\.part")
+"""The name of a file that is being written, or was when its process was killed."""
+UNUSABLE = frozenset(
+    {
+        errno.ENOENT,
+        errno.ENOTDIR,
+        errno.EISDIR,
+        errno.EEXIST,
+        errno.EACCES,
+        errno.EPERM,
+        errno.EROFS,
+        errno.ENAMETOOLONG,
+        errno.ELOOP,
+        errno.EINVAL,
+    }
+)
+"""Errors that speak of the path that was given; all others speak of the machine."""
 
 
 def write_whole(path: Path, contents: bytes) -> None:
-    """Write beside the place and rename: no reader ever sees half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
-    temporary = Path(name)
+    """Write beside the place and rename: no reader ever sees half a file. Raises OSError, which names the place."""
+    temporary = begin(path, contents)
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(contents)
-        temporary.chmod(0o644)
-        temporary.replace(path)
+        with naming(path):
+            temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def begin(path: Path, contents: bytes) -> Path:
+    """The contents in a file beside their place, to be renamed. Raises OSError, which names the place."""
+    with naming(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".mdr-validation-", suffix=".part")
+        temporary = Path(name)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(contents)
+            temporary.chmod(0o644)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+    return temporary
+
+
+def read_plain(path: Path) -> bytes:
+    """What a plain file holds. Raises OSError where there is none: a link is not followed, a pipe not waited for."""
+    handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    try:
+        if not stat.S_ISREG(os.fstat(handle).st_mode):
+            raise OSError(errno.EINVAL, "not a plain file", str(path))
+        with os.fdopen(handle, "rb", closefd=False) as file:
+            return file.read()
+    finally:
+        os.close(handle)
+
+
+def is_plain(path: Path) -> bool:
+    """Whether a plain file is there, and no link to one."""
+    return path.is_file() and not path.is_symlink()
+
+
+def is_there(path: Path) -> bool:
+    """Whether anything is there, a link to nothing too."""
+    return os.path.lexists(path)
+
+
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """An error of the system names this path: writing to a full disk names none."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
