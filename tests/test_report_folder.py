@@ -1,6 +1,7 @@
 """A report replaces an earlier one and touches nothing else; one run at a time; what a folder must be."""
 
 import errno
+import fcntl
 import io
 import json
 import os
@@ -264,6 +265,15 @@ def test_the_lock_of_another_host_is_respected(tmp_path, capsys):
     refused(tmp_path, capsys, "process 1 on elsewhere?[2J since yesterday", f"remove {tmp_path / LOCK}")
     (tmp_path / LOCK).unlink()
     assert report(tmp_path, "geike") == command.Exit.MET
+
+
+def test_a_file_system_without_locks_is_refused(tmp_path, capsys, monkeypatch):
+    def flock(handle, how):
+        raise OSError(errno.EOPNOTSUPP, "Operation not supported")
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    assert report(tmp_path / "out", "geike") == command.Exit.BAD_INPUT
+    assert "must be on a file system that has locks: Operation not supported" in capsys.readouterr().err
 
 
 TAKE = """

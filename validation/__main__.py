@@ -7,6 +7,7 @@ import os
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from enum import IntEnum
 from pathlib import Path
 
@@ -69,8 +70,14 @@ def main(words: Sequence[str] | None = None) -> int:
         if isinstance(error, BrokenPipeError):
             # what is left in its buffer would be written, and fail, once more
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        print("".join(c if c.isprintable() else "?" for c in said), file=sys.stderr)
+        with suppress(OSError):
+            print(_on_one_line(said), file=sys.stderr)
         return status
+
+
+def _on_one_line(text: str) -> str:
+    """As a terminal may be given it, whatever a name holds."""
+    return "".join(character if character.isprintable() else "?" for character in text)
 
 
 def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
@@ -136,7 +143,7 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
         executor=arguments.executor,
         tell=_tell,
     )
-    print(f"report: {out / 'index.html'}")
+    print(_on_one_line(f"report: {out / 'index.html'}"))
     if any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET

@@ -10,6 +10,8 @@ from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
+from validation.files import naming
+
 LOCK = ".mdr-validation.lock"
 """The file, there while a run writes, and after one that was killed."""
 KIND = "mdr-validation lock"
@@ -21,7 +23,8 @@ def locked(folder: Path) -> Iterator[None]:
 
     The system gives its lock back when a process ends, however it ends, so a file without a lock is that of a run that
     was killed; unless the run was on another host, whose locks may not be seen from here.
-    Raises ValueError where another run is at work, or may be; OSError where no lock can be had.
+    Raises ValueError where another run is at work, or may be, and where there are no locks; OSError, which names the
+    file, where it cannot be written.
     """
     path = folder / LOCK
     handle = _taken(path)
@@ -56,6 +59,8 @@ def _held(handle: int, path: Path) -> bool:
         raise ValueError(
             f"{path.parent} is being written by {_holder(_content(handle))}: wait for it, or name another folder"
         ) from None
+    except OSError as error:
+        raise ValueError(f"{path.parent} must be on a file system that has locks: {error.strerror}") from None
     try:
         if not os.path.samestat(os.fstat(handle), path.lstat()):
             return False
@@ -71,10 +76,11 @@ def _held(handle: int, path: Path) -> bool:
                 f"{path.parent} is being written by {_holder(content)}, on another host: wait for it, or remove {path} "
                 "if it is over"
             )
-    os.ftruncate(handle, 0)
     since = datetime.now().astimezone().isoformat(" ", timespec="seconds")
     signature = {"kind": KIND, "host": socket.gethostname(), "process": os.getpid(), "since": since}
-    os.pwrite(handle, json.dumps(signature).encode(), 0)
+    with naming(path):
+        os.ftruncate(handle, 0)
+        os.pwrite(handle, json.dumps(signature).encode(), 0)
     return True
 
 
