@@ -302,6 +302,22 @@ def test_no_two_ever_have_the_lock(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["log"]
 
 
+def test_a_lock_whose_file_was_removed_is_taken_anew(tmp_path, monkeypatch):
+    """Its last holder removes the file between our opening and our locking it: what we have then is nobody's."""
+    flock, removed = fcntl.flock, []
+
+    def late(handle, how):
+        if not removed:
+            removed.append((tmp_path / LOCK).unlink())
+        flock(handle, how)
+
+    monkeypatch.setattr(fcntl, "flock", late)
+    with locked(tmp_path):
+        assert (tmp_path / LOCK).exists()
+        with pytest.raises(ValueError, match="is being written by process"), locked(tmp_path):
+            pass
+
+
 def test_a_lock_is_given_back_whatever_happens(tmp_path):
     with pytest.raises(KeyboardInterrupt), locked(tmp_path):
         raise KeyboardInterrupt
@@ -385,7 +401,7 @@ def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, 
 
 
 def test_only_may_be_said_more_than_once(tmp_path):
-    words = ["report", "--only", "geike", "--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1"]
+    words = ["report", "--only", "geike", "geike", "--only", "hertz", "--out", str(tmp_path), "--workers", "1"]
     assert command.main(words) == command.Exit.MET
     assert list(json.loads((tmp_path / "results.json").read_text())["cases"]) == ["geike", "hertz"]
     assert (tmp_path / "index.html").read_text().count('id="geike"') == 1
