@@ -29,8 +29,8 @@ thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
 
 # reports and cases execute the methods without looking at them: they do not count here
-AT_WORK := architecture command_line ensemble evidence fractal_punch ladder limits measured_heights planted_faults \
-	precision race readme rolling_cases rough_punches scene_files wheel_cases wheel_spectra wheel_stability
+AT_WORK := architecture command_line endings ensemble evidence fractal_punch ladder limits measured_heights planted_faults \
+	precision race readme report_folder rolling_cases rough_punches scene_files wheel_cases wheel_spectra wheel_stability
 
 coverage: $(STRENGTH)  ## every branch of mdr and bem3d, by the tests of these alone; fails where one is missed
 	$(RUN) pytest -n auto --cov --cov-context=test --junitxml=$(RECORD) \

@@ -8,8 +8,8 @@ import pytest
 
 from validation import height_files
 from validation.__main__ import main
-from validation.files import check_regular, contents_of
 from validation.height_files import read_heights
+from validation.input_files import check_regular, contents_of
 from validation.scene_files import LONGEST_LINE, MOST_BYTES, SCENES
 from validation.shown import in_quotes, is_printable, printable, shown
 

@@ -40,7 +40,7 @@ from validation.precision_front import Point, asked, break_even, cheapest, front
 from validation.precision_pressed import logarithm
 from validation.precision_rolling import Rolling
 from validation.precision_rough import Fractal, log_deviation
-from validation.precision_scenes import STORED, Precision, run
+from validation.precision_scenes import Precision, run
 from validation.precision_smooth import Punch, Sphere, Wave
 from validation.precision_wheel import Wheels, beside, mean_levels, steady_acceleration
 from validation.rolling_strip import HERTZ
@@ -502,7 +502,7 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     monkeypatch.setattr(Precision, "scenes", lambda self: (scene,))
     engine = Engine(store=tmp_path)
     engine.map(precision.measure, [Trial(scene, slow=1.0, enough=0.0)])
-    assert [file.match(STORED) for file in tmp_path.iterdir()] == [True]
+    assert [file.match("precision-measure-*.npz") for file in tmp_path.iterdir()] == [True]
     run(SMALL, engine)
     assert not list(tmp_path.iterdir())
 

@@ -5,7 +5,9 @@ import importlib.metadata
 import math
 import os
 import sys
+import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from enum import IntEnum
 from functools import partial
 from pathlib import Path
@@ -14,13 +16,16 @@ from typing import NoReturn
 from validation.cases import CASES, TIMED
 from validation.compare import WANTS, time_of, told
 from validation.compare import compare as compared
-from validation.ensemble import LOCAL
+from validation.ensemble import KEPT, LOCAL, WorkerLostError
 from validation.evidence import Evidence, Verdict
+from validation.files import UNUSABLE
 from validation.ladder import Rung
 from validation.peers import peers_installed
 from validation.report.build import Section, build
+from validation.scene_files import SceneError
 from validation.scene_kinds import comparable, read_any
 from validation.shown import printable
+from validation.termination import TerminatedError, terminable
 from validation.understood import said_first
 from validation.wheel_scene import WheelScene, read_scene, shipped_wheels
 
@@ -49,20 +54,50 @@ class Exit(IntEnum):
     CRITERION_FAILED = 1
     BAD_INPUT = 2
     NOT_CONVERGED = 3
+    UNFINISHED = 4
+    FAULT = 70
     INTERRUPTED = 130
+    TERMINATED = 143
 
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run one command, return its exit status."""
     arguments = _parser().parse_args(words)
     try:
-        return int(arguments.command(arguments))
-    except (ValueError, OSError) as error:
-        print(f"error: {printable(error, lines=True)}", file=sys.stderr)
-        return Exit.BAD_INPUT
-    except KeyboardInterrupt:
-        print("interrupted; finished solves are kept, the same command goes on from there", file=sys.stderr)
-        return Exit.INTERRUPTED
+        with terminable():
+            status = int(arguments.command(arguments))
+            sys.stdout.flush()
+            return status
+    except (Exception, KeyboardInterrupt) as error:
+        status, said = _ended(error, f"; {KEPT}" if "out" in arguments else "")
+        if status is Exit.FAULT:
+            traceback.print_exc()
+        if isinstance(error, BrokenPipeError):
+            # what is left in its buffer would be written, and fail, once more
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        with suppress(OSError):
+            print(printable(said, lines=isinstance(error, SceneError)), file=sys.stderr)
+        return status
+
+
+def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
+    """What the end of a command says to who called it, by status and in a sentence. kept: what is kept of a report."""
+    if isinstance(error, TerminatedError):
+        return Exit.TERMINATED, f"terminated{kept}"
+    if isinstance(error, KeyboardInterrupt):
+        return Exit.INTERRUPTED, f"interrupted{kept}"
+    if isinstance(error, MemoryError):
+        return Exit.UNFINISHED, f"error: the memory is full: {error}{kept}"
+    if isinstance(error, OSError) and error.errno is not None:
+        named = ": ".join(printable(part) for part in (error.filename, error.strerror) if part)
+        if error.errno in UNUSABLE:
+            return Exit.BAD_INPUT, f"error: {named}"
+        return Exit.UNFINISHED, f"error: {named}{kept}"
+    if isinstance(error, (WorkerLostError, ConnectionError)):
+        return Exit.UNFINISHED, f"error: {error}"
+    if isinstance(error, (ValueError, OSError)):
+        return Exit.BAD_INPUT, f"error: {error}"
+    return Exit.FAULT, f"error: a fault of this program, {type(error).__name__}, as told above"
 
 
 def report(arguments: argparse.Namespace) -> Exit:
@@ -109,7 +144,7 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
         executor=arguments.executor,
         tell=partial(_tell, unsteady=unsteady),
     )
-    print(f"report: {out / 'index.html'}")
+    print(printable(f"report: {out / 'index.html'}"))
     if unsteady or any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
@@ -183,13 +218,17 @@ def _parser() -> argparse.ArgumentParser:
         prog="mdr-validation",
         description="Reduced contact models beside three-dimensional boundary elements.",
         epilog="Exit status: 0 all criteria met; 1 a criterion failed, or could not be decided; 2 bad usage or input; "
-        "3 something did not converge, or has no steady answer; 130 interrupted.",
+        "3 something did not converge, has no steady answer, or a tolerance was not reached; 4 could not be finished: "
+        "a worker was killed, the disk or the memory is full, the scheduler is lost (finished solves are kept, the "
+        "same command goes on from there); 70 a fault of the program; 130 interrupted; 143 terminated.",
     )
     parser.add_argument("--version", action="version", version=importlib.metadata.version("mdr-validation"))
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     making = commands.add_parser("report", help="run cases and write a report folder")
     making.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
-    making.add_argument("--only", nargs="+", choices=list(CASES), metavar="CASE", help="these cases alone; see `cases`")
+    making.add_argument(
+        "--only", nargs="+", action="extend", choices=list(CASES), metavar="CASE", help="these cases alone; see `cases`"
+    )
     making.add_argument(
         "--out",
         type=Path,

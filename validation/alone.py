@@ -9,16 +9,30 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
+from types import TracebackType
 from typing import TypeVar
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
 T = TypeVar("T")
 
 
+class OwnProcess(ProcessPoolExecutor):
+    """Ended at once where an exception leaves it, since nobody waits for its answer then."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Wait for what it is at, or end it."""
+        if kind is not None:
+            for process in list((self._processes or {}).values()):
+                process.kill()
+        super().__exit__(kind, error, trace)
+
+
 def own_process() -> ProcessPoolExecutor:
     """A fresh process, which leaves an interruption to its parent."""
     spawn = multiprocessing.get_context("spawn")
-    return ProcessPoolExecutor(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
+    return OwnProcess(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
 
 
 def timed(function: Callable[[], T]) -> tuple[T, float]:

@@ -2,13 +2,12 @@
 
 import hashlib
 import importlib.metadata
-import io
 import json
 import logging
 import re
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import CancelledError
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -16,12 +15,11 @@ from typing import Any, Generic, TypeVar
 
 import joblib
 import numpy as np
-from numpy.typing import NDArray
 
-from validation.files import write_whole
+from validation import stored
 from validation.progress import Progress
 
-Outcome = dict[str, NDArray[np.float64]]
+Outcome = stored.Outcome
 P = TypeVar("P")
 
 ROOT = Path(__file__).parents[1]
@@ -29,9 +27,9 @@ NUMERICS = ("mdr", "bem3d", "validation")
 ON_PAPER = ROOT / "validation" / "report"
 LIBRARIES = ("numpy", "scipy", "pyfftw")
 LOCAL = "local"
-SEAL = hashlib.sha256().digest_size
 PATIENCE = 10
 """Seconds in which a scheduler and its first worker must answer."""
+KEPT = "finished solves are kept, the same command goes on from there"
 
 
 def generator(entropy: int, *key: int) -> np.random.Generator:
@@ -40,6 +38,10 @@ def generator(entropy: int, *key: int) -> np.random.Generator:
     entropy: seed of the whole run, zero or positive; key: address of the realisation, whole numbers.
     """
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(entropy, spawn_key=key)))
+
+
+class WorkerLostError(RuntimeError):
+    """A worker died at its work, so that no run can end; what was finished is kept."""
 
 
 @dataclass(frozen=True)
@@ -52,8 +54,9 @@ class Engine:
     the same; damaged or foreign files are computed anew. A result is stored as soon as it is there, by the worker that
     found it, or, where that may be on another machine without a disk in common, as it comes in here: who is
     interrupted, or killed, loses no finished one.
-    Raises ValueError for any other executor, and where the scheduler or its workers do not answer; ConnectionError
-    where the scheduler is lost.
+    Raises ValueError for any other executor, fewer workers than one, a place in the store that something else has
+    taken, and where the scheduler or its workers do not answer; ConnectionError where the scheduler is lost;
+    WorkerLostError where a worker is killed; OSError, which names the place, where a result cannot be stored.
     """
 
     workers: int = 1
@@ -64,6 +67,8 @@ class Engine:
     def __post_init__(self) -> None:
         if self.executor != LOCAL and not re.fullmatch(r"dask://[^/\s]+:\d+", self.executor):
             raise ValueError(f'executor must be "local" or dask://HOST:PORT, got {self.executor!r}')
+        if self.workers < 1:
+            raise ValueError(f"workers must be at least 1, got {self.workers}")
 
     def map(self, solve: Callable[[P], Outcome], problems: Sequence[P]) -> list[Outcome]:
         """solve(problem) for each problem, in their order, whatever the number of workers.
@@ -79,19 +84,32 @@ class Engine:
         name = solve.__name__.replace("_", " ")
         with Progress(name, total=len(problems), stored=len(known), failed=failed, shown=self.progress) as progress:
             tasks = [_Task(solve, problems[i], i, places[i], keys[i]) for i in missing]
-            for i, outcome in self._solved(tasks):
-                known[i] = outcome
-                progress.step(_failed(outcome))
+            # whatever is raised meanwhile ends the workers here and now
+            with closing(self._solved(tasks)) as solved:
+                for i, outcome in solved:
+                    known[i] = outcome
+                    progress.step(_failed(outcome))
         return [known[i] for i in range(len(problems))]
 
-    def _solved(self, tasks: Sequence["_Task[P]"]) -> Iterator[tuple[int, Outcome]]:
+    def forget(self, *modules: str) -> None:
+        """Remove what the solves of these modules have stored, so that they are computed anew the next time."""
+        if self.store is not None:
+            stored.forget(self.store, modules)
+
+    def _solved(self, tasks: Sequence["_Task[P]"]) -> Generator[tuple[int, Outcome], None, None]:
         """Each as soon as it is finished."""
         if not tasks:
             return
         if self.executor == LOCAL:
             calls = [joblib.delayed(_solve_and_save)(task, _numerics()) for task in tasks]
-            with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
-                yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
+            try:
+                with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
+                    yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
+            except BrokenExecutor:
+                raise WorkerLostError(
+                    "a worker was killed, perhaps by the system for want of memory, which fewer workers need less of; "
+                    + KEPT
+                ) from None
             return
         by_index = {task.index: task for task in tasks}
         with _client(self.executor) as (client, as_completed):
@@ -105,8 +123,7 @@ class Engine:
     def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
         if self.store is None:
             return None
-        case, digest = solve.__module__.rpartition(".")[2], hashlib.sha256(key.encode()).hexdigest()
-        return self.store / f"{case}-{solve.__name__}-{digest[:24]}.npz"
+        return stored.place_of(self.store, solve.__module__.rpartition(".")[2], solve.__name__, key)
 
 
 SERIAL = Engine()
@@ -148,7 +165,8 @@ def _failed(outcome: Outcome) -> bool:
 def _client(executor: str) -> Iterator[tuple[Any, Any]]:
     """A connection to a scheduler that has a worker, and what hands out results as they come."""
     try:
-        from distributed import Client, as_completed
+        from distributed import Client, KilledWorker, as_completed
+        from distributed.comm.core import CommClosedError
     except ImportError:
         raise ValueError(f"executor {executor} needs the extra dask: pip install 'mdr-validation[dask]'") from None
     address = executor.replace("dask://", "tcp://")
@@ -169,38 +187,21 @@ def _client(executor: str) -> Iterator[tuple[Any, Any]]:
             except TimeoutError:
                 raise ValueError(f"executor must have workers, got {executor} without any") from None
             yield client, as_completed
-    except CancelledError:
-        raise ConnectionError(
-            f"the scheduler at {executor} is gone; finished solves are kept, the same command goes on from there"
-        ) from None
+    except (CancelledError, CommClosedError):
+        raise ConnectionError(f"the scheduler at {executor} is gone; {KEPT}") from None
+    except KilledWorker:
+        raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {KEPT}") from None
     finally:
         logger.setLevel(level)
 
 
 def _load(path: Path | None, key: str) -> Outcome | None:
-    """A stored result, or None if there is none that can be trusted."""
-    if path is None:
-        return None
-    try:
-        whole = path.read_bytes()
-    except OSError:
-        return None
-    archive, seal = whole[:-SEAL], whole[-SEAL:]
-    if hashlib.sha256(archive).digest() != seal:
-        return None
-    with np.load(io.BytesIO(archive), allow_pickle=False) as arrays:
-        contents = {name: arrays[name] for name in arrays.files}
-    return contents if str(contents.pop("key", "")) == key else None
+    return stored.load(path, key) if path else None
 
 
 def _save(path: Path | None, key: str, outcome: Outcome) -> None:
-    if path is None:
-        return
-    archive = io.BytesIO()
-    np.savez(archive, **{"key": np.array(key), **outcome})  # type: ignore[arg-type]  # stubs take a name for a flag
-    contents = archive.getvalue()
-    # behind an archive a seal disturbs no reader of archives
-    write_whole(path, contents + hashlib.sha256(contents).digest())
+    if path:
+        stored.save(path, key, outcome)
 
 
 @cache

@@ -1,63 +1,88 @@
-"""Files that appear whole or not at all, and files of others: regular ones, of bounded size."""
+"""Files that appear whole or not at all, and that are plain files."""
 
+import errno
 import os
+import re
 import stat
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from validation.shown import printable
-
-KINDS = {
-    stat.S_IFDIR: "a folder",
-    stat.S_IFIFO: "a pipe",
-    stat.S_IFSOCK: "a socket",
-    stat.S_IFCHR: "a device",
-    stat.S_IFBLK: "a device",
-}
-"""Of what is no regular file."""
+BEGUN = re.compile(r"\.mdr-validation-[a-z0-9_]{8}\.part")
+"""The name of a file that is being written, or was when its process was killed."""
+UNUSABLE = frozenset(
+    {
+        errno.ENOENT,
+        errno.ENOTDIR,
+        errno.EISDIR,
+        errno.EEXIST,
+        errno.EACCES,
+        errno.EPERM,
+        errno.EROFS,
+        errno.ENAMETOOLONG,
+        errno.ELOOP,
+        errno.EINVAL,
+    }
+)
+"""Errors that speak of the path that was given; all others speak of the machine."""
 
 
 def write_whole(path: Path, contents: bytes) -> None:
-    """Write beside the place and rename: no reader ever sees half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
-    temporary = Path(name)
+    """Write beside the place and rename: no reader ever sees half a file. Raises OSError, which names the place."""
+    temporary = begin(path, contents)
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(contents)
-        temporary.chmod(0o644)
-        temporary.replace(path)
+        with naming(path):
+            temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
 
 
-def check_regular(name: str, path: Path, *, most: int) -> int:
-    """The size of a regular file [bytes].
+def begin(path: Path, contents: bytes) -> Path:
+    """The contents in a file beside their place, to be renamed. Raises OSError, which names the place."""
+    with naming(path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".mdr-validation-", suffix=".part")
+        temporary = Path(name)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(contents)
+            temporary.chmod(0o644)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+    return temporary
 
-    Raises OSError for one that is not there, ValueError for a folder, a pipe or a device, and beyond so many bytes.
-    """
+
+def read_plain(path: Path) -> bytes:
+    """What a plain file holds. Raises OSError where there is none: a link is not followed, a pipe not waited for."""
+    handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
-        status = path.stat()
-    except OSError as problem:
-        raise type(problem)(f"{name} {printable(path)} cannot be read: {problem.strerror}") from None
-    if not stat.S_ISREG(status.st_mode):
-        kind = KINDS.get(stat.S_IFMT(status.st_mode), "something else")
-        raise ValueError(f"{name} {printable(path)} must be a regular file, got {kind}")
-    if status.st_size > most:
-        raise ValueError(f"{name} {printable(path)} must have at most {most} bytes, got {status.st_size}")
-    return status.st_size
+        if not stat.S_ISREG(os.fstat(handle).st_mode):
+            raise OSError(errno.EINVAL, "not a plain file", str(path))
+        with os.fdopen(handle, "rb", closefd=False) as file:
+            return file.read()
+    finally:
+        os.close(handle)
 
 
-def contents_of(name: str, path: Path, *, most: int) -> bytes:
-    """All that a regular file holds. Raises OSError and ValueError as `check_regular`."""
-    check_regular(name, path, most=most)
+def is_plain(path: Path) -> bool:
+    """Whether a plain file is there, and no link to one."""
+    return path.is_file() and not path.is_symlink()
+
+
+def is_there(path: Path) -> bool:
+    """Whether anything is there, a link to nothing too."""
+    return os.path.lexists(path)
+
+
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """An error of the system names this path: writing to a full disk names none."""
     try:
-        with path.open("rb") as file:
-            # some files of the system have no size before they are read
-            contents = file.read(most + 1)
-    except OSError as problem:
-        raise type(problem)(f"{name} {printable(path)} cannot be read: {problem.strerror}") from None
-    if len(contents) > most:
-        raise ValueError(f"{name} {printable(path)} must have at most {most} bytes, got more")
-    return contents
+        yield
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error

@@ -10,7 +10,7 @@ from typing import IO
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.files import check_regular
+from validation.input_files import check_regular
 from validation.measured import FEWEST, MeasuredHeights
 from validation.quantities import quantity
 from validation.scene_files import LENGTH, Reader, named, table

@@ -10,8 +10,6 @@ from validation.precision_rough import Fractal
 from validation.precision_smooth import Punch, Sphere, Wave
 from validation.precision_wheel import Wheels
 
-STORED = "precision-*.npz"
-
 
 @dataclass(frozen=True, kw_only=True)
 class Precision:
@@ -52,6 +50,5 @@ def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
     trials = [Trial(scene, case.slow, case.enough, entrants) for scene in case.scenes()]
     outcomes = alone.map(measure, trials)
     # what was interrupted goes on; what is over is timed anew the next time
-    for file in engine.store.glob(STORED) if engine.store else ():
-        file.unlink()
+    engine.forget("precision")
     return PrecisionResult(case, outcomes)

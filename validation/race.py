@@ -211,8 +211,7 @@ def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
         began,
     )
     # a race that was interrupted goes on; one that is over is run anew the next time
-    for file in engine.store.glob("race*.npz") if engine.store else ():
-        file.unlink()
+    engine.forget("race", "race_rolling", "race_wheel")
     return result
 
 

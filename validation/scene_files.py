@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mdr.border import count, finite
-from validation.files import contents_of
+from validation.input_files import contents_of
 from validation.quantities import quantity
 from validation.shown import is_printable, printable, shown
 
@@ -55,13 +55,17 @@ def tables_of(path: Path) -> dict[str, Any]:
         raise ValueError(f"scene {printable(path)} must be valid TOML, got: {got}") from None
 
 
+class SceneError(ValueError):
+    """What is wrong with a scene file, and where it can be shown, the lines that would be right."""
+
+
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
     """What is refused of a scene is refused with the name of its file."""
     try:
         yield
     except ValueError as problem:
-        raise ValueError(f"scene {printable(path)}: {problem}") from None
+        raise SceneError(f"scene {printable(path)}: {problem}") from None
 
 
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:

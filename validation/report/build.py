@@ -87,40 +87,46 @@ def build(
     dynamic wheel, None for its own; executor: see `Engine`;
     progress: a bar on a terminal, lines in a log; tell: called with each case as it is finished.
     Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
-    Raises ValueError for a folder that holds something else, or an executor that is none.
+    Raises ValueError for a folder that holds something else or that another run is at, or an executor that is none;
+    see `Engine` for what is raised where a run cannot be finished.
     """
     engine = Engine(workers=workers, store=out / REALISATIONS, progress=progress, executor=executor)
-    folder = Folder(out)
-    sections, seconds = [], {}
-    for name in names:
-        start = time.perf_counter()
-        sections.append(_section(name, profile, seed, scene, engine))
-        seconds[name] = time.perf_counter() - start
-        tell(sections[-1])
-    pictures = {}
+    with Folder(out) as folder:
+        sections, seconds = [], {}
+        for name in names:
+            start = time.perf_counter()
+            sections.append(_section(name, profile, seed, scene, engine))
+            seconds[name] = time.perf_counter() - start
+            tell(sections[-1])
+        seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
+        folder.replace(_files(sections, profile, provenance(profile, seeds, engine, seconds), scene))
+    return sections
+
+
+def _files(
+    sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
+) -> dict[str, bytes]:
+    """All that a report is, the page last. about: its provenance."""
+    files, pictures = {}, {}
     for section in sections:
         if section.evidence is None:
             continue
         for name in section.evidence.captions:
             figure = drawn(DRAW[name], section.evidence, profile)
-            pictures[name] = svg(figure)
-            folder.write(f"figures/{name}.svg", pictures[name])
-            folder.write(f"figures/{name}.pdf", pdf(figure))
+            pictures[name] = files[f"figures/{name}.svg"] = svg(figure)
+            files[f"figures/{name}.pdf"] = pdf(figure)
         for table in section.evidence.tables:
-            folder.write(f"data/{section.name}-{table.name}.csv", as_csv(table))
-    seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
-    about = provenance(profile, seeds, engine, seconds)
-    folder.write("provenance.json", as_json(about))
+            files[f"data/{section.name}-{table.name}.csv"] = as_csv(table)
+    files["provenance.json"] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     results = _results([s for s in sections if s.name not in TIMED], profile)
-    folder.write(RESULTS, as_json(results if scene is None else {**results, "scene": _said(scene)}))
+    files[RESULTS] = as_json(results if scene is None else {**results, "scene": _said(scene)})
     timed = [section for section in sections if section.name in TIMED]
     for section in timed:
-        folder.write(f"{section.name}.json", as_json(_results([section], profile)))
+        files[f"{section.name}.json"] = as_json(_results([section], profile))
     about = {**about, "timed": [section.name for section in timed]}
-    folder.write("index.html", _page(sections, profile, pictures, about, scene))
-    folder.clear_old()
-    return sections
+    files["index.html"] = _page(sections, profile, pictures, about, scene)
+    return files
 
 
 def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | None, engine: Engine) -> Section:

@@ -1,53 +1,132 @@
 """The report folder, and how values are written in it."""
 
 import csv
+import hashlib
 import io
 import json
 import math
-import tempfile
+import os
+from collections.abc import Mapping
+from contextlib import ExitStack
 from pathlib import Path
+from types import TracebackType
 
 from validation.evidence import Table
-from validation.files import write_whole
+from validation.files import BEGUN, UNUSABLE, begin, is_plain, is_there, naming, write_whole
+from validation.report.lock import LOCK, locked
+from validation.report.manifest import MANIFEST, Listed, as_manifest, both, digest_of, listed_in
 
 REALISATIONS = "realisations"
 RESULTS = "results.json"
+ROOMS = ("figures", "data", REALISATIONS)
 
 
 class Folder:
-    """A folder that holds a report, or nothing yet.
+    """A folder that holds a report, or nothing yet, for one run at a time: a context manager.
 
-    Made if need be. Raises ValueError for a path that is a file, a folder with something else in it, or one that
-    cannot be written.
+    Made if need be; a link to a folder is followed. What its list names was written by a report: nothing else in it is
+    ever replaced or removed, but what killed runs had begun to write, under names of its own. A folder that is refused
+    is left as it was.
+    Raises ValueError for a path that is no folder, a folder with something else in it, a report that has been changed
+    since, and one that cannot be written or that another run is at; OSError for a full disk.
     """
 
     def __init__(self, path: Path):
-        if path.exists() and not path.is_dir():
-            raise ValueError(f"--out must be a folder, got the file {path}")
-        if path.exists() and any(path.iterdir()) and not ((path / RESULTS).exists() or (path / REALISATIONS).exists()):
-            raise ValueError(f"--out must be a new or empty folder or an earlier report, got {path} with other files")
-        try:
-            path.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=path):
-                pass
-        except OSError as error:
-            raise ValueError(f"--out must be a folder that can be written, got {path}: {error.strerror}") from None
         self.path = path
-        self._written: set[Path] = set()
+        self._open = ExitStack()
 
-    def write(self, name: str, contents: bytes) -> None:
-        """A file of the report, whole or not at all."""
-        write_whole(self.path / name, contents)
-        self._written.add(self.path / name)
+    def __enter__(self) -> "Folder":
+        try:
+            with ExitStack() as opening:
+                _listed(self.path)
+                self.path.mkdir(parents=True, exist_ok=True)
+                opening.enter_context(locked(self.path))
+                # once more, now that nobody else is at it; its list comes before anything else, so that whatever is
+                # killed can go on
+                self._list(_listed(self.path))
+                self._open = opening.pop_all()
+        except OSError as error:
+            if error.errno not in UNUSABLE:
+                raise
+            raise ValueError(f"--out must be a folder that can be written, got {self.path}: {error.strerror}") from None
+        return self
 
-    def clear_old(self) -> None:
-        """Remove figures and data that an earlier report left, and what a killed run had begun to write."""
-        for room in ("figures", "data"):
-            for file in (self.path / room).glob("*.*"):
-                if file not in self._written:
-                    file.unlink()
-        for begun in self.path.rglob("*.part"):
-            begun.unlink(missing_ok=True)
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._open.close()
+
+    def replace(self, contents: Mapping[str, bytes]) -> None:
+        """Put a report in the place of the one before: all of it, or nothing where the disk is full.
+
+        Raises ValueError for a file of others in one of its places, OSError, which names the place, for a full disk.
+        """
+        before = _listed(self.path)
+        after = {name: (digest_of(some),) for name, some in contents.items()}
+        for name in after.keys() - before.keys():
+            if is_there(self.path / name):
+                raise ValueError(f"{self.path / name} is not of this report and in its way: move it away")
+        with ExitStack() as begun:
+            places = {}
+            for name, some in contents.items():
+                temporary = begin(self.path / name, some)
+                begun.callback(temporary.unlink, missing_ok=True)
+                places[temporary] = self.path / name
+            self._list(both(before, after))
+            for temporary, place in places.items():
+                with naming(place):
+                    temporary.replace(place)
+        for name in before.keys() - after.keys():
+            (self.path / name).unlink(missing_ok=True)
+        self._list(after)
+        self._sweep()
+
+    def _list(self, listed: Listed) -> None:
+        write_whole(self.path / MANIFEST, as_manifest(listed))
+
+    def _sweep(self) -> None:
+        """Remove what killed runs had begun to write."""
+        for room in (self.path, *(self.path / name for name in ROOMS)):
+            for file in room.glob("*.part"):
+                if BEGUN.fullmatch(file.name) and is_plain(file):
+                    file.unlink(missing_ok=True)
+
+
+def _listed(folder: Path) -> Listed:
+    """What a report has written in a folder, as it was written or gone since; nothing where there is none yet."""
+    if "\0" in str(folder):
+        raise ValueError(f"--out must be a name that a folder can have, got {str(folder)!r}")
+    if not folder.is_dir():
+        if is_there(folder):
+            raise ValueError(f"--out must be a folder, got a file, or a link to nothing: {folder}")
+        return {}
+    if not is_there(folder / MANIFEST):
+        if any(entry.name != LOCK and not BEGUN.fullmatch(entry.name) for entry in folder.iterdir()):
+            raise ValueError(
+                f"--out must be a new or empty folder or an earlier report, got {folder} with other files and without "
+                f"{MANIFEST}, by which reports are known: name another, or remove it yourself if it is an old report"
+            )
+        return {}
+    _check_rooms(folder)
+    listed = listed_in(folder)
+    for name, digests in listed.items():
+        if is_there(folder / name) and not (is_plain(folder / name) and _digest(folder / name) in digests):
+            raise ValueError(f"{folder / name} has been changed since the report was written: move it away")
+    return listed
+
+
+def _check_rooms(folder: Path) -> None:
+    """Raise ValueError where files of the report would be written elsewhere, or nowhere."""
+    for room in (folder / name for name in ROOMS):
+        if is_there(room) and (room.is_symlink() or not room.is_dir()):
+            raise ValueError(f"{room} must be a folder of the report's own, got a link or a file: move it away")
+        if is_there(room) and not os.access(room, os.W_OK | os.X_OK):
+            raise ValueError(f"{room} must be a folder that can be written")
+
+
+def _digest(file: Path) -> str:
+    with file.open("rb") as contents:
+        return hashlib.file_digest(contents, "sha256").hexdigest()
 
 
 def as_json(value: object) -> bytes:

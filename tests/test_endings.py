@@ -1,0 +1,200 @@
+"""How runs end that do not come to their end: one sentence, the status that the table promises, no worker left."""
+
+import errno
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.test_ensemble import ENVIRONMENT, ROOT
+from validation import __main__ as command
+from validation.alone import own_process
+from validation.cases import CASES
+from validation.ensemble import Engine, WorkerLostError
+
+
+@dataclass(frozen=True)
+class Job:
+    number: int
+    folder: str
+
+
+def die_at_once(job):
+    """The first ends well, the others as the system ends a process that wants too much memory."""
+    if job.number > 0:
+        while not list(Path(job.folder).rglob("*.npz")):
+            time.sleep(0.02)
+        os.kill(os.getpid(), signal.SIGKILL)
+    return {"value": np.ones(1)}
+
+
+def stay(job):
+    """Says which process it is, and never ends, but the first."""
+    if job.number > 0:
+        (Path(job.folder) / f"{os.getpid()}.pid").touch()
+        time.sleep(600)
+    return {"value": np.ones(1)}
+
+
+def stay_alone(job):
+    """In a process of its own, as what is timed."""
+    with own_process() as lane:
+        return lane.submit(stay, job).result()
+
+
+def lose_alone(job):
+    with own_process() as lane:
+        return lane.submit(os._exit, 1).result()
+
+
+def run_of(solve, folder):
+    """A run of a case that is nothing but these solves."""
+
+    def run(case, engine):
+        return engine.map(solve, [Job(i, str(folder)) for i in range(3)])
+
+    return replace(CASES["hertz"], run=run)
+
+
+def raising(error):
+    def run(case, engine):
+        raise error
+
+    return replace(CASES["hertz"], run=run)
+
+
+def report(folder, *words):
+    return command.main(["report", "--only", "hertz", "--out", str(folder), "--workers", "2", *words])
+
+
+def test_a_worker_that_is_killed_is_exit_4(tmp_path, monkeypatch, capsys):
+    """In a sentence; and what was finished is kept."""
+    monkeypatch.setitem(CASES, "hertz", run_of(die_at_once, tmp_path))
+    assert report(tmp_path) == command.Exit.UNFINISHED == 4
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert re.fullmatch(r"error: a worker was killed, .*; finished solves are kept, the same command goes on .*", said)
+    assert len(list((tmp_path / "realisations").glob("*.npz"))) == 1
+    assert not (tmp_path / "results.json").exists()
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_process_of_its_own_that_dies_is_a_lost_worker(workers, tmp_path):
+    with pytest.raises(WorkerLostError, match="a worker was killed"):
+        Engine(workers=workers).map(lose_alone, [Job(i, str(tmp_path)) for i in range(2)])
+
+
+RUN = """
+import sys
+from pathlib import Path
+from tests import test_endings
+from validation import __main__ as command
+from validation.cases import CASES
+solve, folder, workers = sys.argv[1:]
+CASES["hertz"] = test_endings.run_of(getattr(test_endings, solve), Path(folder))
+words = ["report", "--only", "hertz", "--out", folder + "/out", "--workers", workers]
+sys.exit(command.main(words))
+"""
+
+
+@pytest.mark.parametrize(
+    ("asked", "status", "said", "solve", "workers"),
+    [
+        (signal.SIGTERM, 143, "terminated", "stay", 2),
+        (signal.SIGHUP, 143, "terminated", "stay_alone", 1),
+        (signal.SIGINT, 130, "interrupted", "stay", 2),
+    ],
+)
+def test_who_is_asked_to_end_takes_all_workers_along(asked, status, said, solve, workers, tmp_path):
+    """However long a solve would take; in a sentence; and the next run has what was finished."""
+    words = [sys.executable, "-c", RUN, solve, str(tmp_path), str(workers)]
+    run = subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
+    while len(list(tmp_path.glob("*.pid"))) < workers:
+        assert run.poll() is None, "it ended before its workers were at work"
+        time.sleep(0.05)
+    run.send_signal(asked)
+    _, told = run.communicate()
+    assert run.returncode == status
+    assert told.splitlines()[-1] == f"{said}; finished solves are kept, the same command goes on from there"
+    assert "Traceback" not in told
+    for pid in tmp_path.glob("*.pid"):
+        with pytest.raises(ProcessLookupError):
+            os.kill(int(pid.stem), 0)
+    assert len(list((tmp_path / "out" / "realisations").glob("*.npz"))) == 1
+    assert not list((tmp_path / "out").glob(".mdr-validation*"))
+
+
+def test_a_process_of_its_own_that_nobody_waits_for_is_ended(tmp_path):
+    with pytest.raises(ZeroDivisionError), own_process() as lane:
+        answer = lane.submit(stay, Job(1, str(tmp_path)))
+        while not list(tmp_path.glob("*.pid")):
+            time.sleep(0.02)
+        raise ZeroDivisionError
+    with pytest.raises(BrokenProcessPool):
+        answer.result()
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "said"),
+    [
+        (MemoryError("unable to allocate 12 GiB"), 4, "error: the memory is full: unable to allocate 12 GiB; finished"),
+        (OSError(errno.ENOSPC, "No space left", "here/x"), 4, "error: here/x: No space left; finished solves are kept"),
+        (OSError(errno.EIO, "Input/output error"), 4, "error: Input/output error; finished"),
+        (ConnectionError("the scheduler is gone"), 4, "error: the scheduler is gone"),
+        (FileNotFoundError(errno.ENOENT, "No such file", "a.toml"), 2, "error: a.toml: No such file"),
+        (PermissionError(errno.EACCES, "Permission denied", "x"), 2, "error: x: Permission denied"),
+        (ValueError("radius must be\n\x1b[2Jpositive"), 2, r"error: radius must be\n\x1b[2Jpositive"),
+        (ZeroDivisionError("division by zero"), 70, "error: a fault of this program, ZeroDivisionError"),
+    ],
+)
+def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(CASES, "hertz", raising(error))
+    assert report(tmp_path) == status
+    told = capsys.readouterr().err
+    assert told.splitlines()[-1].startswith(said)
+    assert ("Traceback" in told) == (status == command.Exit.FAULT)
+
+
+def test_the_table_of_statuses_is_told(capsys):
+    """Each of them by --help and by the README."""
+    with pytest.raises(SystemExit):
+        command.main(["--help"])
+    told = " ".join(capsys.readouterr().out.split())
+    readme = " ".join((ROOT / "README.md").read_text().split())
+    for text in (told, readme):
+        table = text[text.index("Exit status: 0") :]
+        for status in command.Exit:
+            assert re.search(rf"[:;] {int(status)} \w", table), status
+
+
+def test_nobody_reads_what_is_printed():
+    """A pipe that is closed early is no bad input."""
+    words = [sys.executable, "-m", "validation", "cases"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, text=True, **pipes) as run:
+        run.stdout.close()
+        told = run.stderr.read()
+    assert run.returncode == command.Exit.UNFINISHED
+    assert told == "error: Broken pipe\n"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
+def test_what_is_printed_goes_to_a_full_disk():
+    words = [sys.executable, "-m", "validation", "cases"]
+    with Path("/dev/full").open("w") as full:
+        run = subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert run.returncode == command.Exit.UNFINISHED
+    assert run.stderr == "error: No space left on device\n"
+
+
+@pytest.mark.parametrize("workers", [0, -1])
+def test_there_is_at_least_one_worker(workers):
+    with pytest.raises(ValueError, match="workers must be at least 1"):
+        Engine(workers=workers)

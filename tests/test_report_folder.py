@@ -1,0 +1,419 @@
+"""A report replaces an earlier one and touches nothing else; one run at a time; what a folder must be."""
+
+import errno
+import fcntl
+import io
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.test_ensemble import ENVIRONMENT, ROOT
+from validation import __main__ as command
+from validation import files
+from validation.cases import CASES, geike, hertz
+from validation.report import build
+from validation.report.folder import Folder
+from validation.report.lock import LOCK, locked
+from validation.report.manifest import MANIFEST, as_manifest, digest_of, listed_in
+
+SMALL = {
+    "hertz": hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2),
+    "geike": geike.Geike(cells=128, surfaces=2, longest=4),
+}
+
+
+@pytest.fixture(autouse=True)
+def _small(monkeypatch):
+    for name, case in SMALL.items():
+        monkeypatch.setitem(CASES, name, replace(CASES[name], quick=case))
+    # how figures look is no matter here, and takes longest
+    monkeypatch.setattr(build, "drawn", lambda draw, evidence, profile: draw.__module__)
+    monkeypatch.setattr(build, "svg", lambda name: f"<svg>{name}</svg>".encode())
+    monkeypatch.setattr(build, "pdf", lambda name: f"%PDF {name}".encode())
+
+
+def report(out, *names):
+    return command.main(["report", "--only", *names, "--out", str(out), "--workers", "1"])
+
+
+def tree(folder):
+    """All that is below, links as links."""
+    return {str(path.relative_to(folder)): held_by(path) for path in sorted(folder.rglob("*"))}
+
+
+def held_by(path):
+    if path.is_symlink():
+        return path.readlink()
+    return path.read_bytes() if path.is_file() else None
+
+
+def refused(out, capsys, *said, names=("geike",)):
+    """Bad input in one sentence, and nothing has changed."""
+    before = tree(out)
+    capsys.readouterr()
+    assert report(out, *names) == command.Exit.BAD_INPUT
+    sentence = capsys.readouterr().err.splitlines()[-1]
+    assert sentence.startswith("error: ")
+    for part in said:
+        assert part in sentence
+    assert tree(out) == before
+
+
+def fill(folder, contents):
+    for name, text in contents.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+
+
+THESIS = {"figures/thesis.svg": "mine", "data/measured.csv": "mine", "data/half.part": "mine"}
+
+
+@pytest.mark.parametrize(
+    "marks",
+    [
+        {"results.json": "mine"},
+        {"results.json": json.dumps({"profile": "quick", "cases": {}}), "index.html": "<html>"},
+        {"realisations/x.npz": "mine"},
+        {MANIFEST: '{"name": "an app of the web"}'},
+        {MANIFEST: "half of"},
+        {MANIFEST: "[" * 100_000},
+        {MANIFEST: json.dumps({"kind": "mdr-validation report", "format": 99, "files": {}})},
+        {MANIFEST: json.dumps({"kind": "mdr-validation report", "format": 1, "files": ["index.html"]})},
+    ],
+)
+def test_a_folder_of_others_is_refused_and_left_as_it_is(marks, tmp_path, capsys):
+    """results.json or realisations/ alone are no report, nor is a list that is not ours; an old report has none."""
+    fill(tmp_path, THESIS | marks)
+    refused(tmp_path, capsys, str(tmp_path), MANIFEST)
+
+
+@pytest.mark.parametrize(
+    "name", ["../thesis.svg", "/etc/passwd.csv", "figures/../../x.svg", "data/.hidden.csv", "notes.txt", "a/b.csv"]
+)
+def test_a_list_never_reaches_out_of_its_folder(name, tmp_path, capsys):
+    """Not even where it knows what is there."""
+    out = tmp_path / "out"
+    fill(tmp_path, {"thesis.svg": "mine", "out/notes.txt": "mine", "x.svg": "mine"})
+    (out / MANIFEST).write_bytes(as_manifest({name: (digest_of(b"mine"),)}))
+    refused(out, capsys, MANIFEST)
+    assert (tmp_path / "thesis.svg").exists()
+
+
+def test_an_earlier_report_is_replaced_and_files_of_others_stay(tmp_path):
+    """What the list names goes; all else, whatever it is called, is as it was."""
+    assert report(tmp_path, "hertz", "geike") == command.Exit.MET
+    ours = set(listed_in(tmp_path))
+    assert ours == {n for n, text in tree(tmp_path).items() if text} - {MANIFEST} - realisations(tmp_path)
+    others = {
+        **THESIS,
+        "notes.txt": "mine",
+        "figures/hertz-mine.svg": "mine",
+        "figures/deeper/a.svg": "mine",
+        "realisations/race-run_heat-0123456789abcdef01234567.npz": "mine",
+        "realisations/race.npz": "mine",
+        "realisations/mine.part": "mine",
+        "tmpabcdefgh.part": "mine",
+    }
+    fill(tmp_path, others)
+    begun = ["figures/.mdr-validation-abcdefgh.part", ".mdr-validation-a1_cdefg.part"]
+    fill(tmp_path, dict.fromkeys(begun, "half of"))
+    assert report(tmp_path, "geike") == command.Exit.MET
+    assert {name: (tmp_path / name).read_text() for name in others} == others
+    left = {n for n, text in tree(tmp_path).items() if text} - {MANIFEST} - realisations(tmp_path)
+    assert left - others.keys() == set(listed_in(tmp_path))
+    assert not any("hertz" in name for name in left - others.keys())
+
+
+def realisations(folder):
+    return {name for name in tree(folder) if name.startswith("realisations/")}
+
+
+@pytest.mark.parametrize("room", ["figures", "data", "realisations"])
+@pytest.mark.parametrize("taken", ["link", "file", "dangling"])
+def test_a_room_that_is_a_link_is_refused(room, taken, tmp_path, capsys):
+    out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
+    assert report(out, "geike") == command.Exit.MET
+    elsewhere.mkdir()
+    for name, text in tree(out / room).items():
+        (elsewhere / name).write_bytes(text)
+        (out / room / name).unlink()
+    (out / room).rmdir()
+    if taken == "file":
+        (out / room).write_text("mine")
+    else:
+        (out / room).symlink_to(elsewhere if taken == "link" else tmp_path / "nowhere")
+    before = tree(elsewhere)
+    refused(out, capsys, str(out / room), names=("hertz",))
+    assert tree(elsewhere) == before
+
+
+@pytest.mark.parametrize("name", [MANIFEST, LOCK])
+@pytest.mark.parametrize("kind", ["link", "pipe", "folder", "text"])
+def test_a_marker_that_is_no_plain_file_of_ours_is_refused(name, kind, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert report(out, "geike") == command.Exit.MET
+    (tmp_path / "mine").write_bytes((out / MANIFEST).read_bytes() if name == MANIFEST else b"mine")
+    (out / name).unlink(missing_ok=True)
+    if kind == "link":
+        (out / name).symlink_to(tmp_path / "mine")
+    elif kind == "pipe":
+        os.mkfifo(out / name)
+    elif kind == "folder":
+        (out / name).mkdir()
+    else:
+        (out / name).write_text("mine")
+    refused(out, capsys, str(out))
+    assert (out / name).is_symlink() == (kind == "link")
+
+
+def test_a_file_in_the_way_is_never_overwritten(tmp_path, capsys):
+    """One of others at a place of the new report, and one of the old report that somebody has changed since."""
+    assert report(tmp_path, "hertz") == command.Exit.MET
+    fill(tmp_path, {"figures/geike.svg": "mine"})
+    assert report(tmp_path, "geike") == command.Exit.BAD_INPUT
+    assert "figures/geike.svg is not of this report" in capsys.readouterr().err
+    assert (tmp_path / "figures/geike.svg").read_text() == "mine"
+    assert (tmp_path / "figures/hertz.svg").exists()
+    (tmp_path / "figures/geike.svg").unlink()
+    fill(tmp_path, {"figures/hertz.svg": "mine"})
+    refused(tmp_path, capsys, "figures/hertz.svg", "changed")
+    (tmp_path / "figures/hertz.svg").unlink()
+    (tmp_path / "figures/hertz.svg").symlink_to("hertz.pdf")
+    refused(tmp_path, capsys, "figures/hertz.svg", "changed")
+
+
+def test_a_report_that_was_cut_short_while_it_was_replaced_is_still_one(tmp_path, monkeypatch):
+    """Old files, new files and a list of both: the next run ends as if nothing had been."""
+    assert report(tmp_path, "hertz") == command.Exit.MET
+    replaced = Path.replace
+    count = []
+
+    def cut(self, target):
+        count.append(target)
+        if len(count) == 4:
+            raise KeyboardInterrupt
+        return replaced(self, target)
+
+    monkeypatch.setattr(Path, "replace", cut)
+    with pytest.raises(KeyboardInterrupt), Folder(tmp_path) as folder:
+        folder.replace(dict.fromkeys(("figures/hertz.svg", "figures/a.svg", "results.json", "index.html"), b"new"))
+    monkeypatch.undo()
+    assert {(tmp_path / name).read_bytes() == b"new" for name in ("figures/hertz.svg", "index.html")} == {True, False}
+    with Folder(tmp_path) as folder:
+        folder.replace({"figures/b.svg": b"newer"})
+    assert sorted(set(tree(tmp_path)) - realisations(tmp_path)) == [
+        "data",
+        "figures",
+        "figures/b.svg",
+        MANIFEST,
+        "realisations",
+    ]
+
+
+def test_a_run_that_was_killed_before_anything_goes_on(tmp_path):
+    """A lock and half a list, nothing else."""
+    fill(tmp_path, {LOCK: "", ".mdr-validation-abcdefgh.part": "{"})
+    assert report(tmp_path, "geike") == command.Exit.MET
+    assert not list(tmp_path.rglob(".mdr*"))
+
+
+HOLD = """
+import sys, time
+from pathlib import Path
+from validation.report.lock import locked
+with locked(Path(sys.argv[1])):
+    print("here", flush=True)
+    time.sleep(1e6)
+"""
+
+
+@pytest.fixture
+def holder(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-c", HOLD, str(tmp_path)], cwd=ROOT, env=ENVIRONMENT, stdout=subprocess.PIPE
+    )
+    assert process.stdout.readline() == b"here\n"
+    yield process
+    process.kill()
+    process.communicate()
+
+
+def test_the_second_of_two_runs_is_refused_and_a_killed_one_forgotten(tmp_path, holder, capsys):
+    for command_name in ("report", "precision", "race"):
+        assert command.main([command_name, "--out", str(tmp_path)]) == command.Exit.BAD_INPUT
+        said = capsys.readouterr().err
+        assert f"is being written by process {holder.pid} on {socket.gethostname()} since 20" in said
+    assert [path.name for path in tmp_path.iterdir()] == [LOCK]
+    holder.send_signal(signal.SIGKILL)
+    holder.wait()
+    assert (tmp_path / LOCK).exists()
+    assert report(tmp_path, "geike") == command.Exit.MET
+    assert not (tmp_path / LOCK).exists()
+
+
+def test_the_lock_of_another_host_is_respected(tmp_path, capsys):
+    """Its process cannot be seen from here; the sentence says what to remove."""
+    signature = {"kind": "mdr-validation lock", "host": "elsewhere\x1b[2J", "process": 1, "since": "yesterday"}
+    fill(tmp_path, {LOCK: json.dumps(signature)})
+    refused(tmp_path, capsys, r"process 1 on elsewhere\x1b[2J since yesterday", f"remove {tmp_path / LOCK}")
+    (tmp_path / LOCK).unlink()
+    assert report(tmp_path, "geike") == command.Exit.MET
+
+
+def test_a_file_system_without_locks_is_refused(tmp_path, capsys, monkeypatch):
+    def flock(handle, how):
+        raise OSError(errno.EOPNOTSUPP, "Operation not supported")
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    assert report(tmp_path / "out", "geike") == command.Exit.BAD_INPUT
+    assert "must be on a file system that has locks: Operation not supported" in capsys.readouterr().err
+
+
+TAKE = """
+import os, sys
+from pathlib import Path
+from validation.report.lock import locked
+log = os.open(sys.argv[2], os.O_WRONLY | os.O_APPEND | os.O_CREAT)
+taken = 0
+while taken < 40:
+    try:
+        with locked(Path(sys.argv[1])):
+            os.write(log, b"in ")
+            taken += 1
+            os.write(log, b"out ")
+    except ValueError:
+        pass
+"""
+
+
+def test_no_two_ever_have_the_lock(tmp_path):
+    """Three processes take it and give it back as fast as they can: never a second one in between."""
+    words = [sys.executable, "-c", TAKE, str(tmp_path), str(tmp_path / "log")]
+    takers = [subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT) for _ in range(3)]
+    assert [taker.wait() for taker in takers] == [0, 0, 0]
+    assert (tmp_path / "log").read_text() == "in out " * 120
+    assert [path.name for path in tmp_path.iterdir()] == ["log"]
+
+
+def test_a_lock_whose_file_was_removed_is_taken_anew(tmp_path, monkeypatch):
+    """Its last holder removes the file between our opening and our locking it: what we have then is nobody's."""
+    flock, removed = fcntl.flock, []
+
+    def late(handle, how):
+        if not removed:
+            removed.append((tmp_path / LOCK).unlink())
+        flock(handle, how)
+
+    monkeypatch.setattr(fcntl, "flock", late)
+    with locked(tmp_path):
+        assert (tmp_path / LOCK).exists()
+        with pytest.raises(ValueError, match="is being written by process"), locked(tmp_path):
+            pass
+
+
+def test_a_lock_is_given_back_whatever_happens(tmp_path):
+    with pytest.raises(KeyboardInterrupt), locked(tmp_path):
+        raise KeyboardInterrupt
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_link_to_a_folder_is_followed_and_one_to_nothing_refused(tmp_path, capsys):
+    (tmp_path / "there").mkdir()
+    (tmp_path / "link").symlink_to("there")
+    assert report(tmp_path / "link", "geike") == command.Exit.MET
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "there" / "index.html").exists()
+    (tmp_path / "dangling").symlink_to("nowhere")
+    refused(tmp_path / "dangling", capsys, "--out must be a folder")
+    assert not (tmp_path / "nowhere").exists()
+
+
+@pytest.mark.parametrize("name", ["file", "file/below", "x" * 300, "nul\0", "/proc/none/report"])
+def test_a_path_that_can_be_no_folder_is_refused(name, tmp_path, capsys):
+    (tmp_path / "file").write_text("mine")
+    assert report(tmp_path / name, "geike") == command.Exit.BAD_INPUT
+    assert capsys.readouterr().err.startswith("error: --out must be a")
+    assert (tmp_path / "file").read_text() == "mine"
+
+
+@pytest.mark.parametrize("refusal", [errno.EROFS, errno.EACCES])
+def test_a_folder_that_cannot_be_written_is_refused(refusal, tmp_path, capsys, monkeypatch):
+    opened = os.open
+
+    def read_only(path, flags, *rest, **more):
+        if flags & os.O_CREAT and str(path).startswith(str(tmp_path)):
+            raise OSError(refusal, os.strerror(refusal), str(path))
+        return opened(path, flags, *rest, **more)
+
+    monkeypatch.setattr(os, "open", read_only)
+    refused(tmp_path, capsys, "--out must be a folder that can be written", os.strerror(refusal))
+
+
+def test_a_room_that_cannot_be_written_is_refused(tmp_path, capsys, monkeypatch):
+    """Before anything is computed."""
+    assert report(tmp_path, "geike") == command.Exit.MET
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path).name != "realisations")
+    refused(tmp_path, capsys, f"{tmp_path / 'realisations'} must be a folder that can be written")
+
+
+class Full(io.BytesIO):
+    """A file on a full disk, which says so without a name."""
+
+    def __init__(self, handle):
+        super().__init__()
+        os.close(handle)
+
+    def write(self, contents):
+        raise OSError(self.says, os.strerror(self.says))
+
+
+@pytest.mark.parametrize("says", [errno.ENOSPC, errno.EDQUOT])
+@pytest.mark.parametrize("what", [".npz", ".svg", MANIFEST])
+def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, monkeypatch):
+    """While a result is stored, a figure or the list written: the report before is still whole."""
+    assert report(tmp_path, "hertz") == command.Exit.MET
+    before = tree(tmp_path)
+    begin = files.begin
+    monkeypatch.setattr(Full, "says", says, raising=False)
+
+    def begun(path, contents):
+        with monkeypatch.context() as patch:
+            if path.name.endswith(what):
+                patch.setattr(os, "fdopen", lambda handle, mode: Full(handle))
+            return begin(path, contents)
+
+    for module in ("validation.files", "validation.report.folder"):
+        monkeypatch.setattr(f"{module}.begin", begun)
+    assert report(tmp_path, "geike") == command.Exit.UNFINISHED == 4
+    sentence = capsys.readouterr().err.splitlines()[-1]
+    assert sentence.startswith(f"error: {tmp_path}")
+    assert f"{what}: {os.strerror(says)}; finished solves are kept" in sentence
+    after = tree(tmp_path)
+    assert {name: after[name] for name in before} == before
+    assert not [name for name in after if name.endswith(".part")]
+
+
+def test_only_may_be_said_more_than_once(tmp_path):
+    words = ["report", "--only", "geike", "geike", "--only", "hertz", "--out", str(tmp_path), "--workers", "1"]
+    assert command.main(words) == command.Exit.MET
+    assert list(json.loads((tmp_path / "results.json").read_text())["cases"]) == ["geike", "hertz"]
+    assert (tmp_path / "index.html").read_text().count('id="geike"') == 1
+
+
+def test_the_reference_report_is_a_report():
+    """It can be made anew where it is: its list names what it holds, and nothing else."""
+    folder = ROOT / "reports" / "reference"
+    listed = listed_in(folder)
+    held = {
+        str(path.relative_to(folder)): (digest_of(path.read_bytes()),)
+        for path in folder.rglob("*")
+        if path.is_file() and path.relative_to(folder).parts[0] not in (MANIFEST, "realisations")
+    }
+    assert listed == held

@@ -1,0 +1,49 @@
+"""The list by which a folder is known as that of a report: what has been written in it, and nothing else."""
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from validation.files import read_plain
+
+MANIFEST = "manifest.json"
+KIND, FORMAT = "mdr-validation report", 1
+NAME = re.compile(r"(?:(?:figures|data)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv)")
+"""Names that a report may have; a list that holds others was not written here."""
+
+Listed = Mapping[str, tuple[str, ...]]
+"""Files below the folder, each with the SHA-256 of what it holds, or of what it may hold while it is replaced."""
+
+
+def as_manifest(listed: Listed) -> bytes:
+    """The file that holds a list."""
+    files = {name: list(digests) for name, digests in listed.items()}
+    return (json.dumps({"kind": KIND, "format": FORMAT, "files": files}, indent=1, sort_keys=True) + "\n").encode()
+
+
+def listed_in(folder: Path) -> Listed:
+    """The list of a folder. Raises ValueError where it is not that of a report, OSError where there is none."""
+    try:
+        manifest = json.loads(read_plain(folder / MANIFEST))
+        if (manifest["kind"], manifest["format"]) != (KIND, FORMAT):
+            raise ValueError("of another kind")
+        listed = {name: tuple(digests) for name, digests in manifest["files"].items()}
+        if not all(NAME.fullmatch(name) and name != MANIFEST for name in listed):
+            raise ValueError("names that no report has")
+    # a file of others may hold anything
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise ValueError(f"{folder / MANIFEST} is not the list of a report: name another folder") from None
+    return listed
+
+
+def digest_of(contents: bytes) -> str:
+    """As it stands in a list."""
+    return hashlib.sha256(contents).hexdigest()
+
+
+def both(before: Listed, after: Listed) -> Listed:
+    """What may be in the folder while one report takes the place of another."""
+    names: Iterable[str] = {**before, **after}
+    return {name: tuple(dict.fromkeys((*before.get(name, ()), *after.get(name, ())))) for name in names}
