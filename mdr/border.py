@@ -69,6 +69,14 @@ def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None) -> Fl
     return array
 
 
+def stiffness_of_springs(name: str, modulus: float, length: float, springs: int = 1) -> float:
+    """E* dx of so many springs on a length, a number above zero, or ValueError."""
+    stiffness = modulus * length / springs
+    if not (math.isfinite(stiffness) and stiffness > 0):
+        raise ValueError(f"modulus and {name} must give a finite stiffness, got {modulus} and {length}")
+    return stiffness
+
+
 def density(name: str, values: ArrayLike) -> FloatArray:
     """Values of a power spectral density: finite and nowhere negative."""
     array = finite_array(name, values)

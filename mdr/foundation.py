@@ -7,7 +7,7 @@ from typing import Generic, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, finite, finite_array, not_negative, positive
+from mdr.border import FloatArray, finite, finite_array, not_negative, positive, stiffness_of_springs
 from mdr.doubts import doubts_of_load, warn
 
 Value = TypeVar("Value", float, FloatArray)
@@ -78,9 +78,7 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     Source: Popov and Hess, chapter 10: rough profiles on the foundation.
     """
     heights = finite_array("height", height, ndim=1)
-    spring = positive("modulus", modulus) * positive("length", length) / heights.size
-    if not (math.isfinite(spring) and spring > 0):
-        raise ValueError(f"modulus and length must give a finite stiffness, got {modulus} and {length}")
+    spring = _spring(modulus, length, heights.size)
     approach = np.sort(-heights)
     stiffness = spring * np.searchsorted(approach, approach, side="left").astype(np.float64)
     steps = spring * np.arange(1, heights.size) * np.diff(approach)
@@ -98,7 +96,7 @@ def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: 
     """
     heights = finite_array("height", height, ndim=2)
     points = heights.shape[1]
-    spring = positive("modulus", modulus) * positive("length", length) / points
+    spring = _spring(modulus, length, points)
     descending = -np.sort(-heights, axis=1)
     steps = np.arange(1, points) * -np.diff(descending, axis=1)
     reached = np.cumsum(steps, axis=1) < positive("force", force) / spring
@@ -136,6 +134,11 @@ def press_sphere(
         d = finite("approach", approach)
     a = math.sqrt(radius * max(d, 0.0))
     return SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
+
+
+def _spring(modulus: float, length: float, points: int) -> float:
+    """Stiffness of one of so many springs [N/m]."""
+    return stiffness_of_springs("length", positive("modulus", modulus), positive("length", length), points)
 
 
 def _point(approach: FloatArray, force: FloatArray, stiffness: FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:

@@ -442,7 +442,7 @@ spectra_of_records, peak = records.spectra, regions.peak
 places_of, heights_of = wheel_ensemble.Rides.places.fget, wheel_ensemble.Rides.heights
 amplification, linear_response = free_vibration.amplification, rough_springs.linear_response
 force_in_step, other_turning_point = mdr.Wheels.force, wheel_theory._other_turning_point
-moments, reach, two_sided = Frame._moments, wheel_on_springs._Track.reach, spectra.Waves.spectrum.fget
+moments, reach, two_sided = Frame._moments, wheel_on_springs.Track.reach, spectra.Waves.spectrum.fget
 # the function of this name hides the module in the package
 feed = importlib.import_module("mdr.rolling_spectrum")
 FAULTS = {
@@ -660,11 +660,11 @@ FAULTS = {
         functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
     ),
     "a for 2a under the wheel": (
-        (wheel_on_springs._Track, "reach", half_the_contact),
+        (wheel_on_springs.Track, "reach", half_the_contact),
         test_rolling_springs.test_full_contact_tends_to_the_filter_at_second_order,
     ),
     "x^2 / 2R under the wheel": (
-        (wheel_on_springs._Track, "wheel", scaled(wheel_on_springs._Track.wheel, 0.5)),
+        (wheel_on_springs.Track, "wheel", scaled(wheel_on_springs.Track.wheel, 0.5)),
         test_rolling_springs.test_force_is_the_sum_over_all_springs,
     ),
     "springs that pull under the smooth wheel": (
