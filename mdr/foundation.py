@@ -7,7 +7,7 @@ from typing import Generic, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, finite, finite_array, not_negative, positive, stiffness_of_springs
+from mdr.border import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
 from mdr.doubts import doubts_of_load, warn
 
 Value = TypeVar("Value", float, FloatArray)
@@ -44,11 +44,16 @@ class LoadCurve:
     def at_approach(self, approach: float | FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:
         """The state at a rigid approach [m], a number or an array; zero force before the first touch."""
         d = finite_array("approach", approach)
+        deepest = float(np.max(d, initial=-math.inf))
         pressed = np.searchsorted(self.approach, d, side="left")
         warn(doubts_of_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
-        return _point(d, self.force[last] + stiffness * (d - self.approach[last]), stiffness)
+        with doubles(approach=deepest):
+            force = self.force[last] + stiffness * (d - self.approach[last])
+            held(force)
+            held(np.where(pressed > 0, force, 1.0), positive=True)
+        return _point(d, force, stiffness)
 
     @overload
     def at_force(self, force: float) -> LoadPoint[float]: ...
@@ -63,8 +68,10 @@ class LoadCurve:
         warn(doubts_of_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
-        beyond = (given - self.force[last]) / np.maximum(stiffness, self.spring)
-        return _point(self.approach[last] + beyond, given, stiffness)
+        with doubles(force=float(np.max(given, initial=0.0))):
+            d = self.approach[last] + (given - self.force[last]) / np.maximum(stiffness, self.spring)
+            held(d)
+        return _point(d, given, stiffness)
 
 
 def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve:
@@ -81,8 +88,10 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     spring = _spring(modulus, length, heights.size)
     approach = np.sort(-heights)
     stiffness = spring * np.searchsorted(approach, approach, side="left").astype(np.float64)
-    steps = spring * np.arange(1, heights.size) * np.diff(approach)
-    force = np.concatenate([[0.0], np.cumsum(steps)])
+    with doubles(height=float(np.abs(heights).max()), length=length, modulus=modulus):
+        steps = spring * np.arange(1, heights.size) * np.diff(approach)
+        force = np.concatenate([[0.0], np.cumsum(steps)])
+        held(force, stiffness)
     return LoadCurve(approach, force, stiffness, spring)
 
 
@@ -98,9 +107,13 @@ def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: 
     points = heights.shape[1]
     spring = _spring(modulus, length, points)
     descending = -np.sort(-heights, axis=1)
-    steps = np.arange(1, points) * -np.diff(descending, axis=1)
-    reached = np.cumsum(steps, axis=1) < positive("force", force) / spring
-    return np.asarray(spring * (1 + np.count_nonzero(reached, axis=1)))
+    with doubles(force=force, length=length, modulus=modulus):
+        wanted = positive("force", force) / spring
+        held(wanted, positive=True)
+        steps = np.arange(1, points) * -np.diff(descending, axis=1)
+        stiffness = np.asarray(spring * (1 + np.count_nonzero(np.cumsum(steps, axis=1) < wanted, axis=1)))
+        held(stiffness)
+    return stiffness
 
 
 @dataclass(frozen=True)
@@ -127,13 +140,14 @@ def press_sphere(
     radius, modulus = positive("radius", radius), positive("modulus", modulus)
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
-    if approach is None:
-        ratio = 0.75 * not_negative("force", force) / modulus
-        d = math.cbrt(ratio) ** 2 / math.cbrt(radius)
-    else:
-        d = finite("approach", approach)
-    a = math.sqrt(radius * max(d, 0.0))
-    return SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
+    load = not_negative("force", force) if approach is None else finite("approach", approach)
+    with doubles(radius=radius, modulus=modulus, **{"force" if approach is None else "approach": load}):
+        d = math.cbrt(0.75 * load / modulus) ** 2 / math.cbrt(radius) if approach is None else load
+        a = math.sqrt(radius * max(d, 0.0))
+        contact = SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
+        held(d)
+        held(contact.force, contact.stiffness, a, positive=load > 0)
+    return contact
 
 
 def _spring(modulus: float, length: float, points: int) -> float:

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, finite_array, positive
+from mdr.border import FloatArray, doubles, finite_array, held, positive
 from mdr.borne import Borne, by_sorting
 from mdr.doubts import Doubt, doubts_of_linearity, warn
 from mdr.near import Near
@@ -68,7 +68,7 @@ def roll(
     Source: Popov and Hess, (14.2), (14.5) and (14.11).
     """
     track = Track(height, spacing, radius, modulus)
-    rolled, doubts = _rolled(track, approach, force, contact)
+    rolled, doubts = _within_doubles(track, approach, force, contact)
     warn(doubts)
     return rolled
 
@@ -77,9 +77,24 @@ def rolling_force(
     height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
 ) -> FloatArray:
     """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
-    rolled, doubts = _rolled(Track(height, spacing, radius, modulus), approach, None, "one-sided")
+    track = Track(height, spacing, radius, modulus)
+    rolled, doubts = _within_doubles(track, approach, None, "one-sided")
     warn(doubts)
     return rolled.force
+
+
+def _within_doubles(
+    track: Track, approach: float | ArrayLike | None, force: float | None, contact: Contact
+) -> tuple[Rolling, tuple[Doubt, ...]]:
+    """`_rolled`, refused where its numbers are too large or too small."""
+    load = {"force": force} if approach is None else {"approach": approach}
+    given = {"height": float(np.abs(track.height).max()), "spacing": track.spacing, "radius": track.radius}
+    with doubles(**given, modulus=track.modulus, **load):
+        rolled, doubts = _rolled(track, approach, force, contact)
+        held(rolled.force, rolled.approach)
+        held(rolled.stiffness, positive=force is not None)
+        held(float(rolled.force.any() or not rolled.stiffness.any()), positive=True)
+    return rolled, doubts
 
 
 def _rolled(
@@ -92,6 +107,7 @@ def _rolled(
         raise ValueError(f'contact must be "one-sided", "full" or "linear", got {contact!r}')
     if force is not None:
         d, prescribed = smooth_approach(track.radius, positive("force", force) / track.modulus), force
+        held(d, force / track.spring, positive=True)
     elif np.ndim(approach) == 0:  # type: ignore[arg-type]
         d, prescribed = positive("approach", approach), None
     else:
