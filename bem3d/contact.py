@@ -11,6 +11,7 @@ from bem3d.convergence import ConvergenceError
 from bem3d.doubts import Doubt, doubts_of
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.problem import Problem
+from bem3d.read_only import ReadOnly
 
 Level = tuple[tuple[int, int], int]
 """Shape of a coarser grid, and the operator applications on it."""
@@ -26,7 +27,7 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Contact:
+class Contact(ReadOnly):
     """Pressure between a rigid indenter and a half-space, with the problem it answers and the tolerance asked for.
 
     pressure: never negative, shape of the half-space [Pa]; approach: [m];

@@ -14,6 +14,7 @@ from bem3d.convergence import ConvergenceError
 from bem3d.doubts import doubts_of_sphere, warn
 from bem3d.press import Attempt, may_touch
 from bem3d.projected_cg import Load, projected_cg
+from bem3d.read_only import ReadOnly
 from bem3d.track import Frame, Spans, Track
 from bem3d.window import Candidates, smallest_box
 
@@ -30,7 +31,7 @@ REFIT = 32
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Rolling:
+class Rolling(ReadOnly):
     """A wheel at each cell of its track: arrays of shape (positions,).
 
     force: normal force [N]; approach: of the sphere to the plane of height zero [m]; area: of the cells in contact
@@ -119,7 +120,8 @@ def rolling_force(
     tolerance: float = 1e-5,
 ) -> FloatArray:
     """The normal force of a sphere that rolls along a rough strip at a fixed approach, shape (nx,) [N]: see `roll`."""
-    return roll(height, spacing=spacing, radius=radius, modulus=modulus, approach=approach, tolerance=tolerance).force
+    rolled = roll(height, spacing=spacing, radius=radius, modulus=modulus, approach=approach, tolerance=tolerance)
+    return rolled.force.copy()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -71,7 +71,7 @@ def known_at_once(problem: Problem, tolerance: float) -> Contact | None:
     return Contact(
         problem=problem,
         tolerance=tolerance,
-        pressure=_read_only(np.full(problem.half_space.shape, mean)),
+        pressure=np.full(problem.half_space.shape, mean),
         approach=d,
         history=(0.0,),
         operator_applications=0,
@@ -98,18 +98,13 @@ def contact_of(problem: Problem, tolerance: float, attempt: Attempt, levels: tup
     return Contact(
         problem=problem,
         tolerance=tolerance,
-        pressure=_read_only(attempt.pressure),
+        pressure=attempt.pressure,
         approach=problem.first_touch + attempt.overlap if problem.approach is None else problem.approach,
         history=tuple(attempt.history),
         operator_applications=attempt.operator_applications,
         status=attempt.status or Status.BREAKDOWN,
         coarse_applications=levels,
     )
-
-
-def _read_only(pressure: FloatArray) -> FloatArray:
-    pressure.flags.writeable = False
-    return pressure
 
 
 def _start(start: Contact | ArrayLike | None, problem: Problem) -> Start | None:

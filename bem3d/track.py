@@ -8,6 +8,7 @@ import numpy as np
 
 from bem3d.border import BoolArray, FloatArray, IndexArray, grid_spacing, positive, strip
 from bem3d.halfspace import HalfSpace
+from bem3d.read_only import ReadOnly, kept
 from bem3d.window import Box, fast_side
 
 Span = tuple[int, int]
@@ -16,7 +17,7 @@ Spans = tuple[Span, Span]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Track:
+class Track(ReadOnly):
     """A strip of roughness, periodic along axis 0, and a rigid sphere of which the lowest point runs along its middle.
 
     Where the contact reaches further along the track than a period, it meets the same roughness again.
@@ -35,9 +36,7 @@ class Track:
     modulus: float
 
     def __post_init__(self) -> None:
-        height = np.array(strip("height", self.height), order="C")
-        height.flags.writeable = False
-        object.__setattr__(self, "height", height)
+        object.__setattr__(self, "height", kept(strip("height", self.height)))
         object.__setattr__(self, "spacing", grid_spacing(self.spacing))
         object.__setattr__(self, "radius", positive("radius", self.radius))
         object.__setattr__(self, "modulus", positive("modulus", self.modulus))

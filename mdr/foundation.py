@@ -9,12 +9,13 @@ from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
 from mdr.doubts import doubts_of_load, warn
+from mdr.read_only import ReadOnly
 
 Value = TypeVar("Value", float, FloatArray)
 
 
 @dataclass(frozen=True)
-class LoadPoint(Generic[Value]):
+class LoadPoint(ReadOnly, Generic[Value]):
     """One state of a load curve (or an array of states): approach [m], force [N], stiffness dF/dd [N/m]."""
 
     approach: Value
@@ -23,7 +24,7 @@ class LoadPoint(Generic[Value]):
 
 
 @dataclass(frozen=True, eq=False)
-class LoadCurve:
+class LoadCurve(ReadOnly):
     """Force of a rigid rough profile on the spring foundation, exact at every approach.
 
     F(d) = E* dx sum_i max(d + h_i, 0): linear between the breakpoints d = -h_i, where one more spring is met.

@@ -11,6 +11,7 @@ from mdr.border import FloatArray, doubles, finite_array, held, positive
 from mdr.borne import Borne, by_sorting
 from mdr.doubts import Doubt, doubts_of_linearity, warn
 from mdr.near import Near
+from mdr.read_only import ReadOnly
 from mdr.track import Track
 
 BLOCK = 1024
@@ -23,7 +24,7 @@ Contact = Literal["one-sided", "full", "linear"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Rolling:
+class Rolling(ReadOnly):
     """A wheel at each point of its track: arrays of shape (points,).
 
     force [N]; approach: to the plane of height zero [m]; stiffness: dF/dd of the springs in contact [N/m];
@@ -80,7 +81,7 @@ def rolling_force(
     track = Track(height, spacing, radius, modulus)
     rolled, doubts = _within_doubles(track, approach, None, "one-sided")
     warn(doubts)
-    return rolled.force
+    return rolled.force.copy()
 
 
 def _within_doubles(

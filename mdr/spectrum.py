@@ -101,7 +101,8 @@ class SelfAffine:
             raise ValueError(f"hurst must lie in (0, 1.2], got {hurst}")
         if not positive("q_min", self.q_min) < positive("q_max", self.q_max):
             raise ValueError(f"q_min must be below q_max, got q_min={self.q_min} and q_max={self.q_max}")
-        positive("rms", self.rms)
+        for name in ("hurst", "q_min", "q_max", "rms"):
+            object.__setattr__(self, name, positive(name, getattr(self, name)))
         with doubles(q_min=self.q_min, q_max=self.q_max, rms=self.rms):
             held(self._level, positive=True)
 
