@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
-from mdr.doubts import doubts_of_load, warn
+from mdr.doubts import doubts_of_load, doubts_of_units, warn
 from mdr.read_only import ReadOnly
 
 Value = TypeVar("Value", float, FloatArray)
@@ -136,6 +136,7 @@ def press_sphere(
 
     radius: R [m]; modulus: E* [Pa]; exactly one of approach (zero or less: no contact) [m] and force (>= 0) [N].
     Raises ValueError if both or neither are given, or one is out of range.
+    Asks whether the units are right (UnitsWarning) where the radius of contact is above that of the sphere.
     Source: Popov and Hess, (14.2), (14.4) and (14.5) without roughness; equal to Hertz.
     """
     radius, modulus = positive("radius", radius), positive("modulus", modulus)
@@ -148,6 +149,7 @@ def press_sphere(
         contact = SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
         held(d)
         held(contact.force, contact.stiffness, a, positive=load > 0)
+    warn(doubts_of_units(approach=d, radius=radius))
     return contact
 
 

@@ -63,8 +63,8 @@ def roll(
     spike, concern the positions that they reach; `examined` counts all but the first kind.
     Raises ValueError for a track that is not longer than the contact of the smooth wheel, for values out of range, and
     for more than 2^28 springs to a side of the wheel.
-    Warns of a smooth contact of few springs (ResolutionWarning), and of roughness for which a linear or full contact
-    leaves out too much (LinearityWarning).
+    Warns of a smooth contact of few springs (ResolutionWarning), of roughness for which a linear or full contact
+    leaves out too much (LinearityWarning), and of a smooth contact as `press_sphere` does (UnitsWarning).
     Where the roughness makes the contact longer than that, it meets the same roughness again.
     Source: Popov and Hess, (14.2), (14.5) and (14.11).
     """

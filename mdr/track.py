@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, finite_array, positive, stiffness_of_springs
-from mdr.doubts import Doubt, doubts_of_wheel
+from mdr.doubts import Doubt, doubts_of_units, doubts_of_wheel
 
 MOST_SPRINGS = 2**28
 """To each side of a wheel: more would take gigabytes and hours."""
@@ -29,7 +29,10 @@ class Track:
 
     def doubts(self, approach: float) -> tuple[Doubt, ...]:
         """What to doubt about the contact of the smooth wheel."""
-        return doubts_of_wheel(2 * math.sqrt(self.radius * approach) / self.spacing) if approach > 0 else ()
+        if not approach > 0:
+            return ()
+        units = doubts_of_units(approach=approach, radius=self.radius)
+        return (*doubts_of_wheel(2 * math.sqrt(self.radius * approach) / self.spacing), *units)
 
     def longer_than(self, contact: float) -> None:
         """Refuse a track that the wheel covers as a whole."""

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.border import FloatArray, count, doubles, finite_array, held, positive
-from mdr.doubts import doubts_of_wheel, warn
+from mdr.doubts import doubts_of_units, doubts_of_wheel, warn
 from mdr.rolling import smooth_approach
 from mdr.track import MOST_SPRINGS
 
@@ -39,7 +39,7 @@ class Wheels:
         height: shape (points, wheels), positive towards the wheel [m]; spacing: dx of the springs [m]; radius: R [m];
         modulus: E* [Pa]; force: under which the wheels roll, whose smooth approach the quantum goes by [N].
         Raises ValueError for tracks that are not longer than the contact of the smooth wheel, and values out of range.
-        Warns (ResolutionWarning) of a smooth contact of few springs.
+        Warns (ResolutionWarning) of a smooth contact of few springs, and (UnitsWarning) as `roll` does.
         """
         h = finite_array("height", height, ndim=2)
         self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
@@ -57,7 +57,8 @@ class Wheels:
         if self.points * self.spacing <= diameter:
             length = self.points * self.spacing
             raise ValueError(f"height must be longer than the contact, {diameter:.6g} m, got a track of {length:.6g} m")
-        warn(doubts_of_wheel(diameter / self.spacing))
+        units = doubts_of_units(approach=self.smooth_approach, radius=self.radius)
+        warn((*doubts_of_wheel(diameter / self.spacing), *units))
 
     def _quantise(self, h: FloatArray, springs: float) -> None:
         """The quantum of each wheel, in which so many springs are added without rounding, and heights in these."""
