@@ -8,6 +8,10 @@ from numpy.typing import ArrayLike
 from mdr.border import FloatArray, Spectrum, density, doubles, finite_array, held, positive
 from mdr.border import count as whole
 from mdr.doubts import Doubt, doubts_of_waves, warn
+from mdr.memory import fits
+
+BYTES_A_POINT = 40
+"""At the height of a draw, measured: five times what it returns."""
 
 
 def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
@@ -47,11 +51,13 @@ def rough_profile(
     expected (gaussian) [m].
     Returns height, shape (points,), positive towards the other body [m].
     Warns (ResolutionWarning) of a shortest wave of fewer than four springs.
-    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry.
+    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry;
+    MemoryError for more points than this machine has room for.
     Source: Popov and Hess, (14.8), and (14.9) with the root over all of it.
     """
     length, points = positive("length", length), whole("points", points, least=2)
     _check_draw(rng, amplitudes)
+    fits("points", points, BYTES_A_POINT * points)
     amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
     warn(doubts)
     return _drawn(amplitude * _random_waves((amplitude.size,), own_mirror, amplitudes, rng), own_mirror, points)
@@ -71,10 +77,12 @@ def rough_profiles(
     Amplitudes are fixed; everything else as there.
     """
     length, points = positive("length", length), whole("points", points, least=2)
+    count = whole("count", count, least=1)
     _check_draw(rng, "fixed")
+    fits("count", f"{count} of {points} points", BYTES_A_POINT * points * count)
     amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
     warn(doubts)
-    turns = _random_waves((whole("count", count, least=1), amplitude.size), own_mirror, "fixed", rng)
+    turns = _random_waves((count, amplitude.size), own_mirror, "fixed", rng)
     return _drawn(amplitude * turns, own_mirror, points)
 
 
