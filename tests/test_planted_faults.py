@@ -14,18 +14,21 @@ import pytest
 
 import bem3d
 import mdr
-from bem3d import contact, frozen, halfspace, kernel, press, projected_cg, surface, window
+from bem3d import contact, frozen, halfspace, kernel, press, problem, projected_cg, surface, window
 from bem3d import rolling as wheel_on_strip
 from bem3d.track import Frame, Track
 from mdr import foundation
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
 from mdr import wheels as wheels_in_step
+from mdr.borne import Borne, by_sorting
 from mdr.doubts import doubts_of_linearity
+from mdr.near import Near
 from tests import (
     test_closed_forms,
     test_contact_properties,
     test_convergence_rates,
+    test_doubts,
     test_doubts_of_springs,
     test_drawn_roughness,
     test_evidence,
@@ -37,6 +40,7 @@ from tests import (
     test_measured_heights,
     test_operator_against_dense_twin,
     test_precision,
+    test_read_only_results,
     test_rolling_contact,
     test_rolling_springs,
     test_rolling_theory,
@@ -139,6 +143,12 @@ def half_of_the_level(height, spacing):
 
 def other_waves_on_every_grid(ground, shortest, cells, side, rng):
     return rungs_pressed_kept(ground, shortest, cells, side, np.random.default_rng(cells))
+
+
+def on_the_highest_spring_alone(track, block, wanted, d):
+    """Only the approach is wrong where more than one touches."""
+    borne = by_sorting(track, block, wanted, d)
+    return Borne(borne.approach + wanted * (1 - 1 / borne.pressed), borne.pressed, borne.looked)
 
 
 def scaled(function, factor):
@@ -967,6 +977,26 @@ FAULTS = {
     "a filtered acceleration in continuous time": (
         (precision_wheel, "transfer", in_continuous_time),
         test_precision.test_the_filtered_acceleration_is_the_motion_that_repeats_itself,
+    ),
+    "a spike that nobody rolls over": (
+        (Near, "beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)),
+        test_rolling_springs.test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness,
+    ),
+    "a light wheel on its highest spring alone": (
+        (wheel_on_springs, "by_sorting", on_the_highest_spring_alone),
+        functools.partial(test_rolling_springs.test_a_light_wheel_over_a_spike, 0.1),
+    ),
+    "a modulus in gigapascals that nobody asks about": (
+        (contact, "doubts_of_units", lambda **_: ()),
+        test_doubts.test_a_modulus_in_gigapascals_is_asked_about,
+    ),
+    "a contact wider than its sphere that nobody asks about": (
+        (foundation, "doubts_of_units", lambda **_: ()),
+        functools.partial(test_doubts_of_springs.test_units_of_a_sphere_are_asked_about, 1.0, 1.21, 1),
+    ),
+    "a gap that the caller may still write to": (
+        (problem, "kept", lambda values: values),
+        test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,
     ),
 }
 
