@@ -182,6 +182,13 @@ def test_sorting_agrees_with_exact_arithmetic(track, share, spikes, ties):
         assert ties or found.pressed[i] == pressed
 
 
+def test_a_spring_that_just_touches_is_not_in_contact():
+    """Under a force that brings the wheel down to its neighbours and no farther."""
+    found = by_sorting(Track(np.zeros(7), 1.0, 1.0, 1.0), slice(0, 7), 1.0, 0.5)
+    assert np.array_equal(found.approach, np.ones(7))
+    assert np.array_equal(found.pressed, np.ones(7))
+
+
 def test_blocks_that_are_too_large_are_sorted_in_parts(monkeypatch):
     height = spiky(60, spike=0.1)
     track, wheel = Track(height, 0.005, 1.0, 1.0), slice(0, 60)
