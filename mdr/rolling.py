@@ -193,8 +193,7 @@ def _by_newton(track: Track, block: slice, wanted: float, d: float) -> Borne | N
     if track.distance(deep + float(track.height.max())) > FARTHEST:
         return None
     approach, looked = np.full(block.stop - block.start, deep), 0.0
-    before, again = approach, 1
-    for step in range(1, MOST_STEPS + 1):
+    for _ in range(MOST_STEPS):
         found, count, more = _pressed(Near(track, block, float(approach.max())), approach)
         if not count.all():
             return None
@@ -203,11 +202,6 @@ def _by_newton(track: Track, block: slice, wanted: float, d: float) -> Borne | N
         approach = approach + change
         if (np.abs(change) <= 1e-14 * d + 4 * np.spacing(np.abs(approach))).all():
             return Borne(approach, count, looked)
-        if (approach == before).all():
-            # what comes next has come before
-            return None
-        if step == again:
-            before, again = approach, 2 * again
     return None
 
 

@@ -544,6 +544,9 @@ EXTREME = [
     (springs, {"approach": 1e-10, "modulus": 1e-320}),
     (springs, {"approach": None, "force": HUGE, "modulus": TINY}),
     (springs, {"contact": "full", "height": np.full(8, 1.7e308)}),
+    (springs, {"approach": np.full(8, 1e-10), "modulus": 1e-320}),
+    (springs, {"height": [0.0, 1e100] * 4}),
+    (springs, {"height": [0.0, 1e100] * 4, "approach": None, "force": 1.0}),
     (springs, {"contact": "linear", "height": np.full(8, 1.7e308)}),
     (springs, {"radius": HUGE, "spacing": 1e300, "height": np.full(8, 1e20)}),
     (lambda **changes: mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=HUGE, force=TINY), {}),
@@ -555,3 +558,12 @@ def test_numbers_that_no_double_holds_are_refused(function, changes):
     """With what was given, and no zero, infinity or division by zero in the place of an answer."""
     with pytest.raises(ValueError, match=NO_DOUBLE):
         function(**changes)
+
+
+def test_wheels_in_step_are_not_laid_over_more_springs_than_memory_holds():
+    wheels = mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=1.0, force=1.0)
+    for deep in (1e17, 1e300):
+        with pytest.raises(ArithmeticError, match="approach must be less deep, or spacing larger"):
+            wheels.force(0, np.array([deep]))
+    with pytest.raises(ArithmeticError, match="approach must be less deep, or spacing larger"):
+        wheels.approach(0, 1e100)

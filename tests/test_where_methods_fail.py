@@ -338,3 +338,16 @@ def test_a_wheel_that_ends_at_twice_its_tolerance_does_not_stand():
     ended = bem3d.roll(**wheel, positions=1, **short)
     assert ended.residual[0] == pytest.approx(2 * short["tolerance"], rel=0.3)
     assert not ended.converged[0]
+
+
+@pytest.mark.parametrize("solve", [bem3d.solve, bem3d.solve_plain])
+@pytest.mark.parametrize("load", [{"approach": 0.3}, {"force": 40.0}])
+@pytest.mark.parametrize("limit", [3, 500])
+def test_the_residual_is_that_of_the_pressure(solve, load, limit):
+    """The first and the last of the history, against the definition, with an operator of the test's own."""
+    found = solve(UNDER, ROUGH, **load, tolerance=1e-5, max_iterations=limit, raise_on_failure=False)
+    w = ROUGH + displacement(UNDER, found.pressure) - found.approach
+    deepest = found.approach - ROUGH.min()
+    pressed_open = (found.pressure * np.abs(w)).sum() / found.pressure.sum()
+    assert found.residual == pytest.approx(max(pressed_open, -w.min()) / deepest, rel=1e-6)
+    assert found.converged == (limit == 500)
