@@ -5,7 +5,7 @@ All lengths in metres, forces in newtons; ``modulus`` is always the contact modu
 
 from bem3d.contact import Contact, Status, residual
 from bem3d.convergence import ConvergenceError
-from bem3d.doubts import ContactWarning, EdgeWarning, ResolutionWarning
+from bem3d.doubts import ContactWarning, EdgeWarning, ResolutionWarning, UnitsWarning
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
@@ -29,6 +29,7 @@ __all__ = [
     "RollingContact",
     "Status",
     "Track",
+    "UnitsWarning",
     "WheelContact",
     "indent",
     "press_frozen",

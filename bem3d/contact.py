@@ -8,9 +8,10 @@ import numpy as np
 
 from bem3d.border import FloatArray
 from bem3d.convergence import ConvergenceError
-from bem3d.doubts import Doubt, doubts_of
+from bem3d.doubts import Doubt, doubts_of, doubts_of_units
 from bem3d.frozen import FrozenContact, press_frozen
 from bem3d.problem import Problem
+from bem3d.read_only import ReadOnly
 
 Level = tuple[tuple[int, int], int]
 """Shape of a coarser grid, and the operator applications on it."""
@@ -26,7 +27,7 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Contact:
+class Contact(ReadOnly):
     """Pressure between a rigid indenter and a half-space, with the problem it answers and the tolerance asked for.
 
     pressure: never negative, shape of the half-space [Pa]; approach: [m];
@@ -70,7 +71,14 @@ class Contact:
     @property
     def doubts(self) -> tuple[Doubt, ...]:
         """What a converged answer may still be wrong about, (category, sentence) of each; see `doubts`."""
-        return doubts_of(self.pressure, periodic=self.problem.half_space.periodic)
+        half_space, cells = self.problem.half_space, int(np.count_nonzero(self.pressure))
+        units = doubts_of_units(
+            pressure=float(self.pressure.sum()) / max(cells, 1),
+            modulus=half_space.modulus,
+            approach=self.approach - self.problem.first_touch if cells else 0.0,
+            side=max(n * step for n, step in zip(half_space.shape, half_space.steps, strict=True)),
+        )
+        return (*doubts_of(self.pressure, periodic=half_space.periodic), *units)
 
     @property
     def converged(self) -> bool:

@@ -11,6 +11,8 @@ FEWEST_CELLS = 32
 FEWEST_CELLS_TO_JUDGE = 6
 FEWEST_CELLS_A_WAVE = 4.0
 MOST_ALONE = 0.5
+HIGHEST_PRESSURE = 0.1
+"""Over E*: what no solid bears elastically. A modulus of exactly 1 is the unit of pressure, and tells nothing."""
 
 
 class ContactWarning(UserWarning):
@@ -23,6 +25,10 @@ class ResolutionWarning(ContactWarning):
 
 class EdgeWarning(ContactWarning):
     """The contact reaches the edge of a grid in free space. No cause for doubt under a punch that ends there."""
+
+
+class UnitsWarning(ContactWarning):
+    """A load that a body of these units would hardly bear, as where a modulus in GPa is taken as one in Pa."""
 
 
 Doubt = tuple[type[ContactWarning], str]
@@ -83,6 +89,20 @@ def _doubts_of_a_spike(pressure: FloatArray) -> tuple[Doubt, ...]:
             f"check its height, or refine the grid (up to {MOST_ALONE:.0%} is not warned of)",
         ),
     )
+
+
+def doubts_of_units(*, pressure: float, modulus: float, approach: float, side: float) -> tuple[Doubt, ...]:
+    """What to doubt about a mean pressure under an E* [Pa], and an approach from the first touch on a grid [m]."""
+    found = []
+    if modulus != 1 and pressure > HIGHEST_PRESSURE * modulus:
+        found.append(
+            f"the mean pressure is {pressure / modulus:.2g} E* (up to {HIGHEST_PRESSURE:g} E* is not asked about)"
+        )
+    if approach > side:
+        found.append(
+            f"the approach beyond the first touch, {approach:.3g} m, is more than the side of the grid, {side:.3g} m"
+        )
+    return ((UnitsWarning, f"{', and '.join(found)}: are the units right?"),) if found else ()
 
 
 def doubts_of_sphere(cells: float) -> tuple[Doubt, ...]:

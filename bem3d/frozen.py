@@ -7,11 +7,12 @@ import numpy as np
 from bem3d.border import BoolArray, FloatArray, count, field, fraction
 from bem3d.convergence import ConvergenceError
 from bem3d.halfspace import HalfSpace
+from bem3d.read_only import ReadOnly
 from bem3d.window import Candidates, dot, smallest_box
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class FrozenContact:
+class FrozenContact(ReadOnly):
     """Pressure under a unit approach of a fixed contact set [Pa/m], its stiffness [N/m] and how it was reached.
 
     history: relative residual |1 - K p| / |1| over the contact, before and after each iteration.
@@ -111,7 +112,6 @@ def _conjugate_gradients(
         history.append(_length(remainder))
     whole = np.zeros(half_space.shape)
     whole[box] = cells.spread(pressure)
-    whole.flags.writeable = False
     return FrozenContact(
         pressure=whole,
         stiffness=float(pressure.sum() + dot(pressure, remainder)) * half_space.cell_area,

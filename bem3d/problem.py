@@ -1,13 +1,14 @@
 """The statement of a contact problem: half-space, gap, and what is prescribed."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from bem3d.border import FloatArray, field, finite, not_negative
 from bem3d.halfspace import HalfSpace
+from bem3d.read_only import ReadOnly, kept
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Problem:
+class Problem(ReadOnly):
     """p >= 0, w = gap + u - approach >= 0, p w = 0, at a given approach or a given force.
 
     half_space: the operator u = K p and its grid; gap: undeformed separation, shape of the half-space, a bump makes
@@ -27,11 +28,10 @@ class Problem:
         if not isinstance(self.half_space, HalfSpace):
             raise TypeError(f"half_space must be a bem3d.HalfSpace, got {type(self.half_space).__name__}")
         # a result carries the problem it answers, whatever the caller does with the array afterwards
-        gap = field("gap", self.gap, self.half_space.shape)
-        if gap.flags.writeable or gap.base is not None:
-            gap = gap.copy()
-            gap.flags.writeable = False
-        object.__setattr__(self, "gap", gap)
+        object.__setattr__(self, "gap", kept(field("gap", self.gap, self.half_space.shape)))
+        self._check_load()
+
+    def _check_load(self) -> None:
         if (self.approach is None) == (self.force is None):
             raise ValueError(f"give either approach or force, got approach={self.approach} and force={self.force}")
         if self.force is not None:
@@ -62,7 +62,11 @@ class Problem:
 
     def under(self, value: float) -> "Problem":
         """The same problem at another approach or force, whichever is prescribed; the gap is shared."""
-        return replace(self, force=value) if self.approach is None else replace(self, approach=value)
+        other = object.__new__(Problem)
+        other.__dict__.update(self.__dict__)
+        object.__setattr__(other, "force" if self.approach is None else "approach", value)
+        other._check_load()
+        return other
 
     @property
     def uniform(self) -> bool:

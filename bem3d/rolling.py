@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from bem3d.border import BoolArray, FloatArray, count, finite, fraction, positive
 from bem3d.contact import Status, residual
 from bem3d.convergence import ConvergenceError
-from bem3d.doubts import doubts_of_sphere, warn
+from bem3d.doubts import warn
 from bem3d.press import Attempt, may_touch
 from bem3d.projected_cg import Load, projected_cg
+from bem3d.read_only import ReadOnly
 from bem3d.track import Frame, Spans, Track
 from bem3d.window import Candidates, smallest_box
 
@@ -30,7 +31,7 @@ REFIT = 32
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Rolling:
+class Rolling(ReadOnly):
     """A wheel at each cell of its track: arrays of shape (positions,).
 
     force: normal force [N]; approach: of the sphere to the plane of height zero [m]; area: of the cells in contact
@@ -75,7 +76,7 @@ def roll(
     Each position is solved on a frame of cells that moves with the wheel, from the pressures of the two before, carried
     along with the ground. The frame is proved large enough at each position, see `Frame.outside`, and grows where it is
     not.
-    Warns (ResolutionWarning) of a smooth contact of few cells.
+    Warns of a smooth contact of few cells (ResolutionWarning), and of one as `solve` does (UnitsWarning).
     Raises ValueError or TypeError for input out of range, and where the contact reaches the edge of the strip;
     ConvergenceError with the history of the position that did not converge.
     """
@@ -85,7 +86,7 @@ def roll(
     prescribed = positive("approach" if force is None else "force", approach if force is None else force)
     smooth = prescribed if force is None else hertz_approach(track, prescribed)
     _wide_enough(track, smooth)
-    warn(doubts_of_sphere(math.pi * radius * smooth / track.cell_area))
+    warn(track.doubts(smooth))
     stop = track.height.shape[0] if positions is None else count("positions", positions)
     wheel = RollingContact(track, tolerance=tolerance, max_iterations=max_iterations)
     along = []
@@ -119,7 +120,8 @@ def rolling_force(
     tolerance: float = 1e-5,
 ) -> FloatArray:
     """The normal force of a sphere that rolls along a rough strip at a fixed approach, shape (nx,) [N]: see `roll`."""
-    return roll(height, spacing=spacing, radius=radius, modulus=modulus, approach=approach, tolerance=tolerance).force
+    rolled = roll(height, spacing=spacing, radius=radius, modulus=modulus, approach=approach, tolerance=tolerance)
+    return rolled.force.copy()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -39,7 +39,9 @@ def solve(
     An approach at or below min(gap), or zero force, is no contact: zero pressure, zero stiffness.
     Raises ValueError or TypeError for input out of range, ConvergenceError with the history if not converged.
     Warns, with numbers, of few cells in contact or a lone one that carries much (ResolutionWarning), and of contact at
-    the edge of a free-space grid (EdgeWarning).
+    the edge of a free-space grid (EdgeWarning). Asks whether the units are right (UnitsWarning) where the mean pressure
+    is above 0.1 E*, or the approach, from the first touch, is more than the longer side of the grid. A modulus of
+    exactly 1 is taken as the unit of pressure, which may be anything: it is not asked about its pressure.
     Method: nested iteration (`nested`), on the smallest window (`window`), by projected and preconditioned conjugate
     directions (`projected_cg`), one operator application an iteration. The textbook's: `solve_plain`.
     """
@@ -71,7 +73,7 @@ def known_at_once(problem: Problem, tolerance: float) -> Contact | None:
     return Contact(
         problem=problem,
         tolerance=tolerance,
-        pressure=_read_only(np.full(problem.half_space.shape, mean)),
+        pressure=np.full(problem.half_space.shape, mean),
         approach=d,
         history=(0.0,),
         operator_applications=0,
@@ -98,18 +100,13 @@ def contact_of(problem: Problem, tolerance: float, attempt: Attempt, levels: tup
     return Contact(
         problem=problem,
         tolerance=tolerance,
-        pressure=_read_only(attempt.pressure),
+        pressure=attempt.pressure,
         approach=problem.first_touch + attempt.overlap if problem.approach is None else problem.approach,
         history=tuple(attempt.history),
         operator_applications=attempt.operator_applications,
         status=attempt.status or Status.BREAKDOWN,
         coarse_applications=levels,
     )
-
-
-def _read_only(pressure: FloatArray) -> FloatArray:
-    pressure.flags.writeable = False
-    return pressure
 
 
 def _start(start: Contact | ArrayLike | None, problem: Problem) -> Start | None:

@@ -8,8 +8,11 @@ from scipy import fft
 
 from bem3d.border import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
 from bem3d.doubts import doubt_waves, warn
+from bem3d.memory import fits
 
 ComplexArray = NDArray[np.complex128]
+BYTES_A_CELL = 48
+"""At the height of a draw, measured: six times what it returns."""
 
 
 def rough_surface(
@@ -37,7 +40,8 @@ def rough_surface(
     expected (gaussian) [m].
     Returns height, shape (nx, ny), positive towards the other body [m].
     Warns (ResolutionWarning) of a shortest wave of fewer than four cells.
-    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the grid can carry.
+    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the grid can carry;
+    MemoryError for a shape that this machine has no room for.
     Source: Popov and Hess, (14.8) in two dimensions; sum B^2 must tend to int C_2D d^2q, which sets B.
     """
     shape, steps = grid_shape(shape), grid_spacing(spacing)
@@ -45,6 +49,7 @@ def rough_surface(
         raise TypeError(f"rng must be a numpy.random.Generator, got {type(rng).__name__}")
     if amplitudes not in ("fixed", "gaussian"):
         raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
+    fits("shape", f"{shape[0]} x {shape[1]}", BYTES_A_CELL * shape[0] * shape[1])
     i = np.rint(fft.fftfreq(shape[0]) * shape[0])[:, np.newaxis]
     j = np.arange(shape[1] // 2 + 1.0)[np.newaxis, :]
     lengths = shape[0] * steps[0], shape[1] * steps[1]

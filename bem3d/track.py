@@ -1,5 +1,6 @@
 """A sphere above a rough strip, and the frame that moves along with it."""
 
+import math
 import sys
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,7 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from bem3d.border import BoolArray, FloatArray, IndexArray, grid_spacing, positive, strip
+from bem3d.doubts import Doubt, doubts_of_sphere, doubts_of_units
 from bem3d.halfspace import HalfSpace
+from bem3d.read_only import ReadOnly, kept
 from bem3d.window import Box, fast_side
 
 Span = tuple[int, int]
@@ -16,7 +19,7 @@ Spans = tuple[Span, Span]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Track:
+class Track(ReadOnly):
     """A strip of roughness, periodic along axis 0, and a rigid sphere of which the lowest point runs along its middle.
 
     Where the contact reaches further along the track than a period, it meets the same roughness again.
@@ -35,9 +38,7 @@ class Track:
     modulus: float
 
     def __post_init__(self) -> None:
-        height = np.array(strip("height", self.height), order="C")
-        height.flags.writeable = False
-        object.__setattr__(self, "height", height)
+        object.__setattr__(self, "height", kept(strip("height", self.height)))
         object.__setattr__(self, "spacing", grid_spacing(self.spacing))
         object.__setattr__(self, "radius", positive("radius", self.radius))
         object.__setattr__(self, "modulus", positive("modulus", self.modulus))
@@ -87,6 +88,13 @@ class Track:
         a = np.sqrt(self.radius * max(approach, 0.0))
         ahead, across = int(a / dx), min(int(a / dy) + 1, ny // 2)
         return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
+
+    def doubts(self, approach: float) -> tuple[Doubt, ...]:
+        """What to doubt about the contact of the smooth sphere, p = 4 / (3 pi) E* a / R on average by Hertz."""
+        (nx, ny), (dx, dy) = self.height.shape, self.steps
+        pressure = 4 / (3 * math.pi) * math.sqrt(approach / self.radius) * self.modulus
+        units = doubts_of_units(pressure=pressure, modulus=self.modulus, approach=approach, side=max(nx * dx, ny * dy))
+        return (*doubts_of_sphere(math.pi * self.radius * approach / self.cell_area), *units)
 
     def reach(self, approach: float) -> int:
         """How many rows ahead and behind a cell can overlap at this approach [m]."""

@@ -3,7 +3,7 @@
 All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
 """
 
-from mdr.doubts import ContactWarning, LinearityWarning, ResolutionWarning
+from mdr.doubts import ContactWarning, LinearityWarning, ResolutionWarning, UnitsWarning
 from mdr.foundation import (
     LoadCurve,
     LoadPoint,
@@ -27,6 +27,7 @@ __all__ = [
     "Rolling",
     "SelfAffine",
     "SphereContact",
+    "UnitsWarning",
     "Wheels",
     "geike",
     "inverse_geike",

@@ -1,7 +1,8 @@
 """What is checked where values enter: one clear sentence, or a value that can be trusted."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -67,6 +68,45 @@ def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None) -> Fl
     if broken:
         raise ValueError(f"{name} must be finite, got {broken} NaN or infinite values out of {array.size}")
     return array
+
+
+@contextmanager
+def doubles(**given: object) -> Iterator[None]:
+    """Arithmetic whose results must be numbers, see `held`; ValueError with what was given where they are not."""
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            yield
+    except (OverflowError, ZeroDivisionError):
+        known = {name: value for name, value in given.items() if value is not None}
+        names, values = list(known), [_told(value) for value in known.values()]
+        raise ValueError(
+            f"{_listed(names)} must give numbers that a double can hold, got {_listed(values)}: are the units right?"
+        ) from None
+
+
+def held(*results: float | FloatArray, positive: bool = False) -> None:
+    """OverflowError where a result is no finite number, or where what must be positive has become zero."""
+    for result in results:
+        if not np.isfinite(result).all() or (positive and not np.all(np.asarray(result) > 0)):
+            raise OverflowError
+
+
+def _told(value: object) -> str:
+    if np.ndim(value) > 0:  # type: ignore[arg-type]
+        return f"{np.size(value)} values"  # type: ignore[arg-type]
+    return f"{value:g}" if isinstance(value, (int, float)) else str(value)
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def stiffness_of_springs(name: str, modulus: float, length: float, springs: int = 1) -> float:
+    """E* dx of so many springs on a length, a number above zero, or ValueError."""
+    stiffness = modulus * length / springs
+    if not (math.isfinite(stiffness) and stiffness > 0):
+        raise ValueError(f"modulus and {name} must give a finite stiffness, got {modulus} and {length}")
+    return stiffness
 
 
 def density(name: str, values: ArrayLike) -> FloatArray:

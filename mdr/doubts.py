@@ -25,6 +25,10 @@ class LinearityWarning(ContactWarning):
     """A contact that keeps its length, under roughness that would change it."""
 
 
+class UnitsWarning(ContactWarning):
+    """A load that a body of these units would hardly bear, as where a modulus in GPa is taken as one in Pa."""
+
+
 Doubt = tuple[type[ContactWarning], str]
 
 
@@ -61,6 +65,14 @@ def doubts_of_wheel(springs: float) -> tuple[Doubt, ...]:
             f"({FEWEST_SPRINGS} or more are not warned of)",
         ),
     )
+
+
+def doubts_of_units(*, approach: float, radius: float) -> tuple[Doubt, ...]:
+    """What to doubt about a smooth sphere: a contact, a = sqrt(R d), of a radius above its own."""
+    if approach <= radius:
+        return ()
+    part = math.sqrt(approach) / math.sqrt(radius)
+    return ((UnitsWarning, f"the radius of contact is {part:.3g} times that of the sphere: are the units right?"),)
 
 
 def doubts_of_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[Doubt, ...]:

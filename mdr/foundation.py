@@ -7,14 +7,15 @@ from typing import Generic, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, finite, finite_array, not_negative, positive
-from mdr.doubts import doubts_of_load, warn
+from mdr.border import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
+from mdr.doubts import doubts_of_load, doubts_of_units, warn
+from mdr.read_only import ReadOnly
 
 Value = TypeVar("Value", float, FloatArray)
 
 
 @dataclass(frozen=True)
-class LoadPoint(Generic[Value]):
+class LoadPoint(ReadOnly, Generic[Value]):
     """One state of a load curve (or an array of states): approach [m], force [N], stiffness dF/dd [N/m]."""
 
     approach: Value
@@ -23,7 +24,7 @@ class LoadPoint(Generic[Value]):
 
 
 @dataclass(frozen=True, eq=False)
-class LoadCurve:
+class LoadCurve(ReadOnly):
     """Force of a rigid rough profile on the spring foundation, exact at every approach.
 
     F(d) = E* dx sum_i max(d + h_i, 0): linear between the breakpoints d = -h_i, where one more spring is met.
@@ -44,11 +45,16 @@ class LoadCurve:
     def at_approach(self, approach: float | FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:
         """The state at a rigid approach [m], a number or an array; zero force before the first touch."""
         d = finite_array("approach", approach)
+        deepest = float(np.max(d, initial=-math.inf))
         pressed = np.searchsorted(self.approach, d, side="left")
         warn(doubts_of_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
-        return _point(d, self.force[last] + stiffness * (d - self.approach[last]), stiffness)
+        with doubles(approach=deepest):
+            force = self.force[last] + stiffness * (d - self.approach[last])
+            held(force)
+            held(np.where(pressed > 0, force, 1.0), positive=True)
+        return _point(d, force, stiffness)
 
     @overload
     def at_force(self, force: float) -> LoadPoint[float]: ...
@@ -63,8 +69,10 @@ class LoadCurve:
         warn(doubts_of_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
-        beyond = (given - self.force[last]) / np.maximum(stiffness, self.spring)
-        return _point(self.approach[last] + beyond, given, stiffness)
+        with doubles(force=float(np.max(given, initial=0.0))):
+            d = self.approach[last] + (given - self.force[last]) / np.maximum(stiffness, self.spring)
+            held(d)
+        return _point(d, given, stiffness)
 
 
 def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve:
@@ -78,13 +86,13 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     Source: Popov and Hess, chapter 10: rough profiles on the foundation.
     """
     heights = finite_array("height", height, ndim=1)
-    spring = positive("modulus", modulus) * positive("length", length) / heights.size
-    if not (math.isfinite(spring) and spring > 0):
-        raise ValueError(f"modulus and length must give a finite stiffness, got {modulus} and {length}")
+    spring = _spring(modulus, length, heights.size)
     approach = np.sort(-heights)
     stiffness = spring * np.searchsorted(approach, approach, side="left").astype(np.float64)
-    steps = spring * np.arange(1, heights.size) * np.diff(approach)
-    force = np.concatenate([[0.0], np.cumsum(steps)])
+    with doubles(height=float(np.abs(heights).max()), length=length, modulus=modulus):
+        steps = spring * np.arange(1, heights.size) * np.diff(approach)
+        force = np.concatenate([[0.0], np.cumsum(steps)])
+        held(force, stiffness)
     return LoadCurve(approach, force, stiffness, spring)
 
 
@@ -98,11 +106,15 @@ def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: 
     """
     heights = finite_array("height", height, ndim=2)
     points = heights.shape[1]
-    spring = positive("modulus", modulus) * positive("length", length) / points
+    spring = _spring(modulus, length, points)
     descending = -np.sort(-heights, axis=1)
-    steps = np.arange(1, points) * -np.diff(descending, axis=1)
-    reached = np.cumsum(steps, axis=1) < positive("force", force) / spring
-    return np.asarray(spring * (1 + np.count_nonzero(reached, axis=1)))
+    with doubles(force=force, length=length, modulus=modulus):
+        wanted = positive("force", force) / spring
+        held(wanted, positive=True)
+        steps = np.arange(1, points) * -np.diff(descending, axis=1)
+        stiffness = np.asarray(spring * (1 + np.count_nonzero(np.cumsum(steps, axis=1) < wanted, axis=1)))
+        held(stiffness)
+    return stiffness
 
 
 @dataclass(frozen=True)
@@ -124,18 +136,26 @@ def press_sphere(
 
     radius: R [m]; modulus: E* [Pa]; exactly one of approach (zero or less: no contact) [m] and force (>= 0) [N].
     Raises ValueError if both or neither are given, or one is out of range.
+    Asks whether the units are right (UnitsWarning) where the radius of contact is above that of the sphere.
     Source: Popov and Hess, (14.2), (14.4) and (14.5) without roughness; equal to Hertz.
     """
     radius, modulus = positive("radius", radius), positive("modulus", modulus)
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
-    if approach is None:
-        ratio = 0.75 * not_negative("force", force) / modulus
-        d = math.cbrt(ratio) ** 2 / math.cbrt(radius)
-    else:
-        d = finite("approach", approach)
-    a = math.sqrt(radius * max(d, 0.0))
-    return SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
+    load = not_negative("force", force) if approach is None else finite("approach", approach)
+    with doubles(radius=radius, modulus=modulus, **{"force" if approach is None else "approach": load}):
+        d = math.cbrt(0.75 * load / modulus) ** 2 / math.cbrt(radius) if approach is None else load
+        a = math.sqrt(radius * max(d, 0.0))
+        contact = SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
+        held(d)
+        held(contact.force, contact.stiffness, a, positive=load > 0)
+    warn(doubts_of_units(approach=d, radius=radius))
+    return contact
+
+
+def _spring(modulus: float, length: float, points: int) -> float:
+    """Stiffness of one of so many springs [N/m]."""
+    return stiffness_of_springs("length", positive("modulus", modulus), positive("length", length), points)
 
 
 def _point(approach: FloatArray, force: FloatArray, stiffness: FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:

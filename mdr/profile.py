@@ -5,9 +5,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, Spectrum, density, finite_array, positive
+from mdr.border import FloatArray, Spectrum, density, doubles, finite_array, held, positive
 from mdr.border import count as whole
 from mdr.doubts import Doubt, doubts_of_waves, warn
+from mdr.memory import fits
+
+BYTES_A_POINT = 40
+"""At the height of a draw, measured: five times what it returns."""
 
 
 def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
@@ -16,7 +20,10 @@ def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
     x: distance from the centre of the contact [m]; radius: of the sphere, positive [m]. Returns [m].
     Source: Popov and Hess, (14.2).
     """
-    profile: FloatArray = finite_array("x", x) ** 2 / positive("radius", radius)
+    given, radius = finite_array("x", x), positive("radius", radius)
+    with doubles(x=float(np.abs(given).max(initial=0.0)), radius=radius):
+        profile: FloatArray = given**2 / radius
+        held(profile)
     return profile
 
 
@@ -44,11 +51,13 @@ def rough_profile(
     expected (gaussian) [m].
     Returns height, shape (points,), positive towards the other body [m].
     Warns (ResolutionWarning) of a shortest wave of fewer than four springs.
-    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry.
+    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry;
+    MemoryError for more points than this machine has room for.
     Source: Popov and Hess, (14.8), and (14.9) with the root over all of it.
     """
     length, points = positive("length", length), whole("points", points, least=2)
     _check_draw(rng, amplitudes)
+    fits("points", points, BYTES_A_POINT * points)
     amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
     warn(doubts)
     return _drawn(amplitude * _random_waves((amplitude.size,), own_mirror, amplitudes, rng), own_mirror, points)
@@ -68,10 +77,12 @@ def rough_profiles(
     Amplitudes are fixed; everything else as there.
     """
     length, points = positive("length", length), whole("points", points, least=2)
+    count = whole("count", count, least=1)
     _check_draw(rng, "fixed")
+    fits("count", f"{count} of {points} points", BYTES_A_POINT * points * count)
     amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
     warn(doubts)
-    turns = _random_waves((whole("count", count, least=1), amplitude.size), own_mirror, "fixed", rng)
+    turns = _random_waves((count, amplitude.size), own_mirror, "fixed", rng)
     return _drawn(amplitude * turns, own_mirror, points)
 
 
@@ -87,15 +98,21 @@ def _amplitudes(
 ) -> tuple[FloatArray, np.ndarray, tuple[Doubt, ...]]:
     """B(q) of the waves that the points can carry, which of them is its own mirror image, and what to doubt."""
     mode = np.arange(1, points // 2 + 1)
-    q = np.asarray(2 * np.pi / length * mode, dtype=np.float64)
+    with doubles(length=length, points=points):
+        q = np.asarray(2 * np.pi / length * mode, dtype=np.float64)
+        held(q, positive=True)
     values = _resolved(c1d, q, np.pi * points / length)
-    variance = 2 * np.pi / length * values
-    own_mirror = 2 * mode == points
-    total = np.sum(np.where(own_mirror, 1, 2) * variance)
-    if total == 0:
+    if not values.any():
         raise ValueError("c1d has no power at any wave that length and points can carry")
-    scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
-    return scale * np.sqrt(variance), own_mirror, doubts_of_waves(values, q, length / points)
+    own_mirror = 2 * mode == points
+    with doubles(c1d=float(values.max()), length=length, rms=rms):
+        variance = 2 * np.pi / length * values
+        total = np.sum(np.where(own_mirror, 1, 2) * variance)
+        held(total, positive=True)
+        scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
+        amplitude = scale * np.sqrt(variance)
+        held(amplitude, np.sum(amplitude))
+    return amplitude, own_mirror, doubts_of_waves(values, q, length / points)
 
 
 def _drawn(wave: np.ndarray, own_mirror: np.ndarray, points: int) -> FloatArray:
@@ -125,7 +142,9 @@ def _resolved(c1d: Spectrum, q: FloatArray, nyquist: float) -> FloatArray:
     if values.shape != q.shape:
         raise ValueError(f"c1d must return one value a wavenumber, got shape {values.shape} for {q.shape}")
     beyond = nyquist * np.geomspace(1 + 1e-6, 1e3, 4096)
-    if np.max(beyond**4 * density("c1d", c1d(beyond))) > 1e-9 * np.max(q**4 * values):
+    # in units of the Nyquist wavenumber, whose fourth power may not be a number that there is
+    within = np.max((q / nyquist) ** 4 * values)
+    if np.max((beyond / nyquist) ** 4 * density("c1d", c1d(beyond))) > 1e-9 * within:
         raise ValueError(
             f"c1d must vanish beyond the Nyquist wavenumber of the points, {nyquist:.6g} rad/m, "
             "got power there: lower q_max or take more points"

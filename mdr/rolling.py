@@ -7,18 +7,24 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, finite_array, positive
-from mdr.doubts import Doubt, doubts_of_linearity, doubts_of_wheel, warn
+from mdr.border import FloatArray, doubles, finite_array, held, positive
+from mdr.borne import Borne, by_sorting
+from mdr.doubts import Doubt, doubts_of_linearity, warn
+from mdr.near import Near
+from mdr.read_only import ReadOnly
+from mdr.track import Track
 
 BLOCK = 1024
 """Positions at a time: few enough to stay in the cache, and to see little of the range of the heights."""
 MOST_STEPS = 200
+FARTHEST = 2**15
+"""Springs to each side of a wheel, pressed to the lowest, beyond which steps from there take longer than sorting."""
 
 Contact = Literal["one-sided", "full", "linear"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Rolling:
+class Rolling(ReadOnly):
     """A wheel at each point of its track: arrays of shape (points,).
 
     force [N]; approach: to the plane of height zero [m]; stiffness: dF/dd of the springs in contact [N/m];
@@ -51,17 +57,19 @@ def roll(
     "full": all springs within the Hertz radius a = sqrt(R d) of the smooth wheel, and no others, (14.5);
     "linear": the filter (14.11) with that radius, whose transfer function from height to force is 2 E* sin(q a) / q.
 
-    Under a prescribed force the approach of the one-sided contact is found by Newton's method, which ends exactly,
-    since the force is convex and piecewise linear in the approach.
-    Springs that must touch come from prefix sums, springs that cannot are left out; `examined` counts the rest.
-    Raises ValueError for a track that is not longer than the contact of the smooth wheel, and for values out of range.
-    Warns of a smooth contact of few springs (ResolutionWarning), and of roughness for which a linear or full contact
-    leaves out too much (LinearityWarning).
+    Under a prescribed force the approach of the one-sided contact is found by Newton's method, since the force is
+    convex and piecewise linear in the approach; and where rounding keeps that from an end, by sorting the springs.
+    Springs that must touch come from prefix sums, springs that cannot are left out, springs that stand out, like a
+    spike, concern the positions that they reach; `examined` counts all but the first kind.
+    Raises ValueError for a track that is not longer than the contact of the smooth wheel, for values out of range, and
+    for more than 2^28 springs to a side of the wheel.
+    Warns of a smooth contact of few springs (ResolutionWarning), of roughness for which a linear or full contact
+    leaves out too much (LinearityWarning), and of a smooth contact as `press_sphere` does (UnitsWarning).
     Where the roughness makes the contact longer than that, it meets the same roughness again.
     Source: Popov and Hess, (14.2), (14.5) and (14.11).
     """
-    track = _Track(height, spacing, radius, modulus)
-    rolled, doubts = _rolled(track, approach, force, contact)
+    track = Track(height, spacing, radius, modulus)
+    rolled, doubts = _within_doubles(track, approach, force, contact)
     warn(doubts)
     return rolled
 
@@ -70,13 +78,28 @@ def rolling_force(
     height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
 ) -> FloatArray:
     """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
-    rolled, doubts = _rolled(_Track(height, spacing, radius, modulus), approach, None, "one-sided")
+    track = Track(height, spacing, radius, modulus)
+    rolled, doubts = _within_doubles(track, approach, None, "one-sided")
     warn(doubts)
-    return rolled.force
+    return rolled.force.copy()
+
+
+def _within_doubles(
+    track: Track, approach: float | ArrayLike | None, force: float | None, contact: Contact
+) -> tuple[Rolling, tuple[Doubt, ...]]:
+    """`_rolled`, refused where its numbers are too large or too small."""
+    load = {"force": force} if approach is None else {"approach": approach}
+    given = {"height": float(np.abs(track.height).max()), "spacing": track.spacing, "radius": track.radius}
+    with doubles(**given, modulus=track.modulus, **load):
+        rolled, doubts = _rolled(track, approach, force, contact)
+        held(rolled.force, rolled.approach)
+        held(rolled.stiffness, positive=force is not None)
+        held(float(rolled.force.any() or not rolled.stiffness.any()), positive=True)
+    return rolled, doubts
 
 
 def _rolled(
-    track: "_Track", approach: float | ArrayLike | None, force: float | None, contact: Contact
+    track: Track, approach: float | ArrayLike | None, force: float | None, contact: Contact
 ) -> tuple[Rolling, tuple[Doubt, ...]]:
     """`roll`, and what to doubt about it."""
     if (approach is None) == (force is None):
@@ -85,6 +108,7 @@ def _rolled(
         raise ValueError(f'contact must be "one-sided", "full" or "linear", got {contact!r}')
     if force is not None:
         d, prescribed = smooth_approach(track.radius, positive("force", force) / track.modulus), force
+        held(d, force / track.spring, positive=True)
     elif np.ndim(approach) == 0:  # type: ignore[arg-type]
         d, prescribed = positive("approach", approach), None
     else:
@@ -102,48 +126,7 @@ def _rolled(
     return linear, (*track.doubts(d), *moved)
 
 
-class _Track:
-    """Heights of the springs along the track, and the wheel."""
-
-    def __init__(self, height: ArrayLike, spacing: float, radius: float, modulus: float):
-        self.height = finite_array("height", height, ndim=1)
-        self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
-        self.modulus = positive("modulus", modulus)
-        self.spring = self.modulus * self.spacing
-
-    @property
-    def points(self) -> int:
-        """Springs of the track."""
-        return self.height.size
-
-    def doubts(self, approach: float) -> tuple[Doubt, ...]:
-        """What to doubt about the contact of the smooth wheel."""
-        return doubts_of_wheel(2 * math.sqrt(self.radius * approach) / self.spacing) if approach > 0 else ()
-
-    def longer_than(self, contact: float) -> None:
-        """Refuse a track that the wheel covers as a whole."""
-        length = self.height.size * self.spacing
-        if length <= contact:
-            raise ValueError(f"height must be longer than the contact, {contact:.6g} m, got a track of {length:.6g} m")
-
-    def wheel(self, j: int | FloatArray) -> float | FloatArray:
-        """x^2 / R of the wheel, j springs from its middle."""
-        return (j * self.spacing) ** 2 / self.radius
-
-    def reach(self, level: float) -> int:
-        """Springs to each side at which the wheel's profile stays below a level; -1 where nowhere."""
-        if level <= 0:
-            return -1
-        j = int(math.sqrt(level * self.radius) / self.spacing)
-        # by the profile as it is rounded, not by its root
-        while self.wheel(j) >= level:
-            j -= 1
-        while self.wheel(j + 1) < level:
-            j += 1
-        return j
-
-
-def _linear(track: _Track, d: float, force: float | None) -> Rolling:
+def _linear(track: Track, d: float, force: float | None) -> Rolling:
     """Hertz and (14.11), sum over q of 2 E* sin(q a) / q h(q) exp(i q x): 2 E* a sinc(q a)."""
     a, points = math.sqrt(track.radius * d), track.height.size
     k = 2 * track.modulus * a
@@ -152,7 +135,7 @@ def _linear(track: _Track, d: float, force: float | None) -> Rolling:
     return _of_linear(2 / 3 * k * d + change, d, np.full(points, k), force)
 
 
-def _full(track: _Track, d: float, force: float | None) -> Rolling:
+def _full(track: Track, d: float, force: float | None) -> Rolling:
     """E* dx sum of d - x^2 / R + h over the springs with |x| < a, from prefix sums."""
     m, points = track.reach(d), track.height.size
     j = np.arange(-m, m + 1)
@@ -174,7 +157,7 @@ def _of_linear(at_d: FloatArray, d: float, stiffness: FloatArray, force: float |
     )
 
 
-def _one_sided_along(track: _Track, approach: FloatArray, contact: Contact) -> Rolling:
+def _one_sided_along(track: Track, approach: FloatArray, contact: Contact) -> Rolling:
     if contact != "one-sided":
         raise ValueError(f'approach must be one number where contact is "{contact}", got {approach.size} of them')
     if approach.size != track.height.size:
@@ -183,64 +166,87 @@ def _one_sided_along(track: _Track, approach: FloatArray, contact: Contact) -> R
     return _one_sided(track, approach)
 
 
-def _one_sided(track: _Track, approach: FloatArray) -> Rolling:
+def _one_sided(track: Track, approach: FloatArray) -> Rolling:
     """At given approaches, block by block."""
     force, count, examined = np.empty((3, approach.size))
     for first in range(0, approach.size, BLOCK):
         block = slice(first, min(first + BLOCK, approach.size))
-        near = _around(track, block, float(approach[block].max()))
-        force[block], count[block], examined[block] = _pressed(track, near, approach[block])
+        near = Near(track, block, float(approach[block].max()))
+        force[block], count[block], examined[block] = _pressed(near, approach[block])
     return Rolling(force=track.spring * force, approach=approach, stiffness=track.spring * count, examined=examined)
 
 
-def _one_sided_under(track: _Track, force: float, d: float) -> Rolling:
-    """At the approaches that bear a force: Newton from where every wheel is too deep, so that none loses contact."""
+def _one_sided_under(track: Track, force: float, d: float) -> Rolling:
+    """At the approaches that bear a force, block by block."""
     approach, stiffness, examined = np.empty((3, track.height.size))
+    wanted = force / track.spring
     for first in range(0, track.height.size, BLOCK):
         block = slice(first, min(first + BLOCK, track.height.size))
-        mine, count, looked = _borne(track, block, force / track.spring, d)
-        approach[block], stiffness[block], examined[block] = mine, track.spring * count, looked
+        borne = _by_newton(track, block, wanted, d) or by_sorting(track, block, wanted, d)
+        approach[block], stiffness[block], examined[block] = borne.approach, track.spring * borne.pressed, borne.looked
     return Rolling(force=np.full(approach.size, force), approach=approach, stiffness=stiffness, examined=examined)
 
 
-def _borne(track: _Track, block: slice, wanted: float, d: float) -> tuple[FloatArray, FloatArray, float]:
-    """Approaches at which sum_j max(d - x_j^2 / R + h_j, 0) is as wanted, springs in contact, springs looked at."""
-    approach, looked = np.full(block.stop - block.start, d - float(track.height.min())), 0.0
+def _by_newton(track: Track, block: slice, wanted: float, d: float) -> Borne | None:
+    """From where every wheel is too deep, so that none loses contact; None where rounding keeps it from an end."""
+    deep = d - float(track.height.min())
+    if track.distance(deep + float(track.height.max())) > FARTHEST:
+        return None
+    approach, looked = np.full(block.stop - block.start, deep), 0.0
     for _ in range(MOST_STEPS):
-        found, count, more = _pressed(track, _around(track, block, float(approach.max())), approach)
+        found, count, more = _pressed(Near(track, block, float(approach.max())), approach)
+        if not count.all():
+            return None
         looked += more
         change = (wanted - found) / count
         approach = approach + change
         if (np.abs(change) <= 1e-14 * d + 4 * np.spacing(np.abs(approach))).all():
-            return approach, count, looked
-    raise ArithmeticError(f"Newton's method did not end within {MOST_STEPS} steps")
+            return Borne(approach, count, looked)
+    return None
 
 
-def _around(track: _Track, block: slice, approach: float) -> FloatArray:
-    """The heights from the first position of a block less the reach of the wheel to the last one plus it."""
-    reach = max(track.reach(approach + float(track.height.max())), 0)
-    return track.height.take(np.arange(block.start - reach, block.stop + reach), mode="wrap")
-
-
-def _pressed(track: _Track, near: FloatArray, approach: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+def _pressed(near: Near, approach: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """sum_j max(d - x_j^2 / R + h_j, 0) of each position, springs in contact, and how many of them were looked at.
 
-    near: heights, as many beyond the positions on each side as the wheel can reach; approach: of each position.
+    near: springs that may touch; approach: of each position.
     """
-    middle = (near.size - approach.size) // 2
-    sure = min(track.reach(float(approach.min()) + float(near.min())), middle)
-    possible = min(track.reach(float(approach.max()) + float(near.max())), middle)
+    track, heights, middle = near.track, near.heights, near.reach
     total, count = np.zeros((2, approach.size))
+    if near.farthest < 0:
+        return total, count, 0.0
+    sure = min(track.reach(float(approach.min()) + near.lowest), middle)
     if sure >= 0:
         j = np.arange(-sure, sure + 1, dtype=np.float64)
-        heights = _moving_sum(near[middle - sure : near.size - middle + sure], j.size)
-        total += j.size * approach - float(np.sum(track.wheel(j))) + heights
+        sums = _moving_sum(heights[middle - sure : heights.size - middle + sure], j.size)
+        total += j.size * approach - float(np.sum(track.wheel(j))) + sums
         count += j.size
-    for i in (i for side in range(sure + 1, possible + 1) for i in {-side, side}):
-        compression = approach - track.wheel(i) + near[middle + i : middle + i + approach.size]
+    for i in (i for side in range(sure + 1, middle + 1) for i in {-side, side}):
+        compression = approach - track.wheel(i) + heights[middle + i : middle + i + approach.size]
         total += np.maximum(compression, 0.0)
         count += compression > 0
-    return total, count, float(2 * possible + 1 - max(2 * sure + 1, 0))
+    if near.springs.size:
+        total, count = _pressed_apart(near, approach, total, count)
+    return total, count, float(near.columns - max(2 * sure + 1, 0))
+
+
+def _pressed_apart(
+    near: Near, approach: FloatArray, total: FloatArray, count: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Total and count with those that stand out, added from near to far, as neighbours are."""
+    offsets = near.offsets()
+    distance = np.minimum(np.abs(offsets), near.farthest)
+    profile = near.track.profile(near.farthest)
+    compression = approach[:, np.newaxis] - profile[distance] + near.apart
+    borne = np.where(near.beyond(offsets), np.maximum(compression, 0.0), 0.0)
+    order = np.argsort(np.abs(offsets), axis=1, kind="stable")
+    borne, offsets = np.take_along_axis(borne, order, axis=1), np.take_along_axis(offsets, order, axis=1)
+    equally_far = (offsets[:, 1:] == -offsets[:, :-1]) & (borne[:, 1:] > 0) & (borne[:, :-1] > 0)
+    for row, column in np.argwhere(equally_far).tolist():
+        first = int(offsets[row, column])
+        if next(iter({-abs(first), abs(first)})) != first:
+            borne[row, column : column + 2] = borne[row, [column + 1, column]]
+    total = np.add.accumulate(np.column_stack([total, borne]), axis=1)[:, -1]
+    return total, count + np.count_nonzero(borne, axis=1)
 
 
 def _moving_sum(values: FloatArray, length: int) -> FloatArray:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, Spectrum, density, finite_array, positive
+from mdr.border import FloatArray, Spectrum, density, doubles, finite_array, held, positive
 
 NODES = 24
 WIDEST = 1.4
@@ -43,8 +43,11 @@ def rolling_spectrum(
         raise ValueError("q must not be zero where contact_radius is infinite, got a zero wavenumber")
     if not callable(c2d):
         raise TypeError(f"c2d must be a callable c2d(q), got {type(c2d).__name__}")
-    flat = 0.0 if contact_radius == math.inf else 1 / contact_radius**2
-    values = [_across(one, c2d, ends, flat) for one in wavenumber.ravel().tolist()]
+    with doubles(q=float(wavenumber.max(initial=0.0)), edges=str(ends), contact_radius=contact_radius):
+        flat = 0.0 if contact_radius == math.inf else 1 / contact_radius**2
+        held(flat, ends[-1] ** 2)
+        values = [_across(one, c2d, ends, flat) for one in wavenumber.ravel().tolist()]
+        held(*values)
     return np.array(values).reshape(wavenumber.shape)
 
 
@@ -65,6 +68,7 @@ def _panels(first: float, edges: list[float]) -> list[float]:
     for edge in edges[1:]:
         while ends[-1] < edge:
             ends.append(min(edge, WIDEST * ends[-1]))
+            held(ends[-1] - ends[-2], positive=True)
     return ends
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
-from mdr.border import FloatArray, Spectrum, count, density, finite, finite_array, positive
+from mdr.border import FloatArray, Spectrum, count, density, doubles, finite, finite_array, held, positive
 
 # The wave at q_min = 2 pi / L carries most of the height; rounding must not push it out of the band.
 EDGE = 1e-9
@@ -30,7 +30,11 @@ def geike(q: ArrayLike, c2d: ArrayLike | Spectrum) -> FloatArray:
     Source: rule of Geike; Popov and Hess, (10.12).
     """
     wavenumber = np.abs(finite_array("q", q))
-    return np.pi * wavenumber * _values("c2d", c2d, wavenumber)
+    values = _values("c2d", c2d, wavenumber)
+    with doubles(q=_largest(wavenumber), c2d=_largest(values)):
+        mapped = np.pi * wavenumber * values
+        held(mapped)
+    return mapped
 
 
 def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
@@ -46,7 +50,11 @@ def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
     wavenumber = np.abs(finite_array("q", q))
     if (wavenumber == 0).any():
         raise ValueError("q must not be zero for the inverse of Geike's rule, got a zero wavenumber")
-    return _values("c1d", c1d, wavenumber) / (np.pi * wavenumber)
+    values = _values("c1d", c1d, wavenumber)
+    with doubles(q=_largest(wavenumber), c1d=_largest(values)):
+        mapped: FloatArray = values / (np.pi * wavenumber)
+        held(mapped, np.pi * wavenumber)
+    return mapped
 
 
 def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -> FloatArray:
@@ -61,11 +69,13 @@ def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -
     Source: the spectrum of a section is that of the surface, integrated across it; s^2 = q^2 + k^2.
     """
     wavenumber = np.abs(finite_array("q", q))
-    reach = np.sqrt(np.maximum(positive("q_max", q_max) ** 2 - wavenumber**2, 0.0))
-    node, weight = _gauss_legendre(count("nodes", nodes, least=2))
-    across = reach[..., np.newaxis] * (node + 1) / 2
-    total = np.hypot(wavenumber[..., np.newaxis], across)
-    integral: FloatArray = np.sum(_values("c2d", c2d, total) * weight, axis=-1) * reach
+    q_max, (node, weight) = positive("q_max", q_max), _gauss_legendre(count("nodes", nodes, least=2))
+    with doubles(q=_largest(wavenumber), q_max=q_max):
+        reach = np.sqrt(np.maximum(q_max**2 - wavenumber**2, 0.0))
+        across = reach[..., np.newaxis] * (node + 1) / 2
+        total = np.hypot(wavenumber[..., np.newaxis], across)
+        integral: FloatArray = np.sum(_values("c2d", c2d, total) * weight, axis=-1) * reach
+        held(integral)
     return integral
 
 
@@ -91,7 +101,10 @@ class SelfAffine:
             raise ValueError(f"hurst must lie in (0, 1.2], got {hurst}")
         if not positive("q_min", self.q_min) < positive("q_max", self.q_max):
             raise ValueError(f"q_min must be below q_max, got q_min={self.q_min} and q_max={self.q_max}")
-        positive("rms", self.rms)
+        for name in ("hurst", "q_min", "q_max", "rms"):
+            object.__setattr__(self, name, positive(name, getattr(self, name)))
+        with doubles(q_min=self.q_min, q_max=self.q_max, rms=self.rms):
+            held(self._level, positive=True)
 
     def c2d(self, q: ArrayLike) -> FloatArray:
         """C_2D(|q|) [m^4]."""
@@ -118,7 +131,9 @@ class SelfAffine:
         # near t = 1 the complement keeps the digits that the difference of two values near one would lose
         upper = special.betainc(c, b, 1 - low)
         between = np.where(high < 1, special.betainc(b, c, high) - special.betainc(b, c, low), upper)
-        trace = self._level * self.q_min * (q / self.q_min) ** (-2 * self.hurst - 1) * special.beta(b, c) * between
+        with doubles(q_min=self.q_min, rms=self.rms):
+            trace = self._level * self.q_min * (q / self.q_min) ** (-2 * self.hurst - 1) * special.beta(b, c) * between
+            held(trace)
         return np.asarray(trace, dtype=np.float64)
 
     @property
@@ -136,6 +151,10 @@ class SelfAffine:
 def _gauss_legendre(nodes: int) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights on [-1, 1]."""
     return np.polynomial.legendre.leggauss(nodes)
+
+
+def _largest(values: FloatArray) -> float:
+    return float(values.max(initial=0.0))
 
 
 def _values(name: str, given: ArrayLike | Spectrum, q: FloatArray) -> FloatArray:

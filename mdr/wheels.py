@@ -5,9 +5,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, count, finite_array, positive
-from mdr.doubts import doubts_of_wheel, warn
+from mdr.border import FloatArray, count, doubles, finite_array, held, positive
+from mdr.doubts import doubts_of_units, doubts_of_wheel, warn
 from mdr.rolling import smooth_approach
+from mdr.track import MOST_SPRINGS
 
 BLOCK = 512
 """Places at a time: few enough to stay in the cache, and to see little of the range of the heights."""
@@ -38,29 +39,40 @@ class Wheels:
         height: shape (points, wheels), positive towards the wheel [m]; spacing: dx of the springs [m]; radius: R [m];
         modulus: E* [Pa]; force: under which the wheels roll, whose smooth approach the quantum goes by [N].
         Raises ValueError for tracks that are not longer than the contact of the smooth wheel, and values out of range.
-        Warns (ResolutionWarning) of a smooth contact of few springs.
+        Warns (ResolutionWarning) of a smooth contact of few springs, and (UnitsWarning) as `roll` does.
         """
         h = finite_array("height", height, ndim=2)
         self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
         self.modulus, force = positive("modulus", modulus), positive("force", force)
-        self.smooth_approach = smooth_approach(self.radius, force / self.modulus)
         self.points, self.wheels = h.shape
-        diameter = 2 * math.sqrt(self.radius * self.smooth_approach)
+        self._block, self._pad = range(0), 0
+        self._low, self._high = math.inf, -math.inf
+        with doubles(
+            height=float(np.abs(h).max()), spacing=self.spacing, radius=self.radius, modulus=self.modulus, force=force
+        ):
+            self.smooth_approach = smooth_approach(self.radius, force / self.modulus)
+            diameter = 2 * math.sqrt(self.radius * self.smooth_approach)
+            held(diameter, diameter / self.spacing, self.smooth_approach, positive=True)
+            self._quantise(h, diameter / self.spacing + BLOCK)
         if self.points * self.spacing <= diameter:
             length = self.points * self.spacing
             raise ValueError(f"height must be longer than the contact, {diameter:.6g} m, got a track of {length:.6g} m")
-        warn(doubts_of_wheel(diameter / self.spacing))
+        units = doubts_of_units(approach=self.smooth_approach, radius=self.radius)
+        warn((*doubts_of_wheel(diameter / self.spacing), *units))
+
+    def _quantise(self, h: FloatArray, springs: float) -> None:
+        """The quantum of each wheel, in which so many springs are added without rounding, and heights in these."""
         lowest, highest = h.min(axis=0), h.max(axis=0)
         self._middle = (lowest + highest) / 2
         depth = 1 + (highest - lowest) / self.smooth_approach
-        springs = diameter / self.spacing + BLOCK
         self.quantum = ROOM * springs / EXACT * self.smooth_approach * depth * np.sqrt(depth)
         self._height = np.rint((h - self._middle) / self.quantum)
         self._stiffness = self.modulus * self.spacing * self.quantum
         self._span = float((highest - lowest).max())
         self._margin = 4 * float(self.quantum.max())
-        self._block, self._pad = range(0), 0
-        self._low, self._high = math.inf, -math.inf
+        # no force that is added without rounding is larger than that
+        held(self.quantum, self._stiffness, EXACT * self._stiffness, positive=True)
+        held(self._height, self._margin * self.radius)
 
     def force(self, place: int, approach: ArrayLike) -> FloatArray:
         """The force of each wheel over a spring of its track, at its approach of any sign, shape (wheels,) [N].
@@ -104,7 +116,9 @@ class Wheels:
         Raises ValueError or TypeError for what is no place or no positive force.
         """
         place = count("place", place, least=0)
-        wanted = positive("force", force) / self._stiffness
+        with doubles(force=positive("force", force), modulus=self.modulus, spacing=self.spacing):
+            wanted = force / self._stiffness
+            held(wanted, positive=True)
         deep = max(self.smooth_approach, smooth_approach(self.radius, force / self.modulus))
         d = 2 * deep / self.quantum - self._height.min(axis=0)
         reach = self._reach(2 * deep + 2 * self._span + self._margin)
@@ -114,7 +128,9 @@ class Wheels:
             raise ArithmeticError(f"force must be less for sums without rounding, got {force:.3g} N")
         for _ in range(MOST_STEPS):
             pressed = level > -d
-            change = (wanted - np.where(pressed, level, 0.0).sum(axis=0)) / pressed.sum(axis=0)
+            # a force below the rounding of the heights may leave none: that is the end
+            with np.errstate(divide="ignore"):
+                change = (wanted - np.where(pressed, level, 0.0).sum(axis=0)) / pressed.sum(axis=0)
             before, d = d, np.minimum(d, change)
             if (d == before).all():
                 return np.asarray(d * self.quantum - self._middle)
@@ -139,7 +155,7 @@ class Wheels:
         pad = max(self._reach(high + self._span / 2 + self._margin), 0)
         if (2 * pad + 1) * (max(high, 0.0) + self._span) >= EXACT * float(self.quantum.min()):
             raise ArithmeticError(
-                f"approach must be less deep for sums of {2 * pad + 1} springs without rounding, got {high:.3g} m"
+                f"approach must be less deep for sums of {2 * pad + 1:g} springs without rounding, got {high:.3g} m"
             )
         if place not in self._block or pad > self._pad:
             self._lay(count("place", place, least=0), pad)
@@ -172,4 +188,10 @@ class Wheels:
         """Springs to each side at which the profile lies below a level, by a margin that covers rounding; -1: none."""
         if level <= 0:
             return -1
-        return int(math.sqrt(level * self.radius) / self.spacing)
+        springs = math.sqrt(level * self.radius) / self.spacing
+        if not springs < MOST_SPRINGS:
+            raise ArithmeticError(
+                f"approach must be less deep, or spacing larger: a wheel overlaps heights to {springs:.3g} springs on "
+                f"each side, more than {MOST_SPRINGS}"
+            )
+        return int(springs)

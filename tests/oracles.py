@@ -2,6 +2,7 @@
 
 import functools
 import math
+from fractions import Fraction
 
 import numpy as np
 from scipy import integrate, linalg, optimize, signal
@@ -170,6 +171,28 @@ def wheel_on_springs(height, *, spacing, radius, approach):
     rounding = 1e-13 * (np.abs(approach).max() + np.abs(height).max())
     total = np.array([math.fsum(row[row > 0]) for row in compression])
     return total, (compression > rounding).sum(axis=1), (compression > -rounding).sum(axis=1)
+
+
+def approach_by_fractions(height, place, *, spacing, radius, wanted):
+    """Approach d of sum_j max(d - x_j^2 / R + h_j, 0) = wanted at a place of a periodic track, without rounding.
+
+    Springs are walked outwards until none that follows may touch. Also returns how many touch, and the largest of
+    height, profile and compression that are in the sum.
+    """
+    heights, spacing, radius, wanted = [Fraction(float(h)) for h in height], *map(Fraction, (spacing, radius, wanted))
+    highest, springs, j = max(heights), [], 0
+    while not springs or wanted - max(springs)[0] + highest > (j * spacing) ** 2 / radius:
+        profile = (j * spacing) ** 2 / radius
+        springs += [(heights[(place + side) % len(heights)] - profile, profile) for side in {-j, j}]
+        j += 1
+    total, largest = Fraction(0), Fraction(0)
+    for n, (level, profile) in enumerate(sorted(springs, reverse=True)):
+        if n and n * -level >= wanted - total:
+            break
+        total += level
+        largest = max(largest, abs(level), profile)
+        approach, pressed = (wanted - total) / (n + 1), n + 1
+    return float(approach), pressed, float(max(largest, approach + max(springs)[0]))
 
 
 def springs_under_a_wheel(height, place, *, spacing, radius, approach):

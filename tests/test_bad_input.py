@@ -497,3 +497,73 @@ def test_the_springs_of_sums_that_round_are_counted():
     assert str(caught.value) == (
         f"approach must be less deep for sums of {2 * int(np.sqrt(4.4e10)) + 1} springs without rounding, got 1.1e+10 m"
     )
+
+
+@pytest.mark.parametrize(
+    ("draw", "sentence", "changes"),
+    [
+        (surface, "shape must be smaller: 40000000 x 40000000 needs about 7.68e\\+07 GB", {"shape": (4 * 10**7,) * 2}),
+        (profile, "points must be smaller: 1000000000000000 needs about 4e\\+07 GB", {"points": 10**15}),
+        (profiles, "count must be smaller: 1000000000000 of 1000 points needs", {"points": 1000, "count": 10**12}),
+    ],
+)
+def test_draws_that_no_memory_holds(draw, sentence, changes):
+    with pytest.raises(MemoryError, match=sentence):
+        draw(**changes)
+
+
+TINY, HUGE = 1e-300, 1e300
+NO_DOUBLE = r"must give (numbers that a double can hold|a finite stiffness), got|spacing must be larger"
+EXTREME = [
+    (curve, {"height": [0.0, HUGE], "length": HUGE}),
+    (curve, {"height": [-1.7e308, 1.7e308], "length": 10.0}),
+    (lambda **changes: curve(modulus=TINY).at_force(1e10), {}),
+    (stiffnesses, {"force": TINY, "modulus": HUGE}),
+    (stiffnesses, {"modulus": TINY, "force": HUGE}),
+    (sphere, {"radius": TINY, "modulus": TINY}),
+    (sphere, {"radius": HUGE, "modulus": HUGE}),
+    (sphere, {"approach": None, "force": 1.0, "modulus": 5e-324}),
+    (lambda **changes: mdr.sphere_profile(HUGE, radius=1.0), {}),
+    (spectrum, {"q_min": TINY}),
+    (spectrum, {"q_min": 1e300, "q_max": 1e301}),
+    (spectrum, {"rms": HUGE}),
+    (lambda **changes: mdr.geike(HUGE, HUGE), {}),
+    (lambda **changes: mdr.inverse_geike(TINY, HUGE), {}),
+    (lambda **changes: mdr.line_trace(1.0, lambda q: 0 * q + 1.0, q_max=HUGE), {}),
+    (lambda **changes: mdr.line_trace(1.0, lambda q: 0 * q + HUGE, q_max=1e20), {}),
+    (feed, {"contact_radius": TINY}),
+    (feed, {"q": 5e-324, "edges": (5e-324, 25e-324)}),
+    (feed, {"edges": (TINY, HUGE)}),
+    (feed, {"c2d": lambda q: 0 * q + 1.7e308}),
+    (profile, {"length": 1e-307}),
+    (profile, {"c1d": lambda q: np.where(q < 60, 1.7e308, 0.0)}),
+    (profile, {"rms": HUGE, "c1d": lambda q: np.where(q < 60, TINY, 0.0)}),
+    (springs, {"spacing": HUGE, "height": np.zeros(8)}),
+    (springs, {"modulus": HUGE, "approach": 1e10, "radius": 1e-10, "spacing": 1e5}),
+    (springs, {"approach": None, "force": TINY, "modulus": HUGE}),
+    (springs, {"approach": 1e-10, "modulus": 1e-320}),
+    (springs, {"approach": None, "force": HUGE, "modulus": TINY}),
+    (springs, {"contact": "full", "height": np.full(8, 1.7e308)}),
+    (springs, {"approach": np.full(8, 1e-10), "modulus": 1e-320}),
+    (springs, {"height": [0.0, 1e100] * 4}),
+    (springs, {"height": [0.0, 1e100] * 4, "approach": None, "force": 1.0}),
+    (springs, {"contact": "linear", "height": np.full(8, 1.7e308)}),
+    (springs, {"radius": HUGE, "spacing": 1e300, "height": np.full(8, 1e20)}),
+    (lambda **changes: mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=HUGE, force=TINY), {}),
+]
+
+
+@pytest.mark.parametrize(("function", "changes"), EXTREME, ids=range(len(EXTREME)))
+def test_numbers_that_no_double_holds_are_refused(function, changes):
+    """With what was given, and no zero, infinity or division by zero in the place of an answer."""
+    with pytest.raises(ValueError, match=NO_DOUBLE):
+        function(**changes)
+
+
+def test_wheels_in_step_are_not_laid_over_more_springs_than_memory_holds():
+    wheels = mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=1.0, force=1.0)
+    for deep in (1e17, 1e300):
+        with pytest.raises(ArithmeticError, match="approach must be less deep, or spacing larger"):
+            wheels.force(0, np.array([deep]))
+    with pytest.raises(ArithmeticError, match="approach must be less deep, or spacing larger"):
+        wheels.approach(0, 1e100)

@@ -114,6 +114,44 @@ def test_a_spike_across_the_edge_of_a_period_is_not_alone():
     assert said(bem3d.solve, body, gap, force=8.0)[1] == []
 
 
+FILE = {"shape": (24, 24), "spacing": 1e-3 / 24}
+
+
+def test_a_modulus_in_gigapascals_is_asked_about():
+    """2 GPa typed as 2: a grid of a millimetre, pressed by metres."""
+    x = (np.arange(24) - 11.5) * 1e-3 / 24
+    gap = np.add.outer(x**2, x**2) / 2e-2
+    _, nothing = said(bem3d.solve, bem3d.HalfSpace(**FILE, modulus=2e9), gap, force=0.5)
+    assert bem3d.UnitsWarning not in [category for category, _, _ in nothing]
+    wrong, found = said(bem3d.solve, bem3d.HalfSpace(**FILE, modulus=2.0), gap, force=0.5)
+    category, sentence, place = found[-1]
+    assert (category, place) == (bem3d.UnitsWarning, __file__)
+    assert issubclass(category, bem3d.ContactWarning)
+    mean = wrong.force / wrong.area / 2.0
+    assert sentence == (
+        f"the mean pressure is {mean:.2g} E* (up to 0.1 E* is not asked about), and the approach beyond the first "
+        f"touch, {wrong.approach - gap.min():.3g} m, is more than the side of the grid, 0.001 m: are the units right?"
+    )
+    _, path = said(lambda: list(bem3d.indent(bem3d.HalfSpace(**FILE, modulus=2.0), gap, forces=[0.5, 0.6])))
+    assert [category for category, _, _ in path].count(bem3d.UnitsWarning) == 1
+    flat = {"height": np.zeros((80, 80)), "spacing": 0.1, "radius": 1.0, "modulus": 2.0, "approach": 1.0}
+    _, rolled = said(bem3d.roll, positions=1, **flat)
+    assert [sentence for category, sentence, _ in rolled if category is bem3d.UnitsWarning] == [
+        "the mean pressure is 0.42 E* (up to 0.1 E* is not asked about): are the units right?"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("modulus", "pressure", "approach", "parts"),
+    [(2.0, 0.2, 1.0, 0), (2.0, 0.201, 1.0, 1), (1.0, 9.0, 1.0, 0), (1.0, 9.0, 1.01, 1), (2.0, 0.201, 1.01, 2)],
+)
+def test_units_are_asked_about_beyond_their_borders_alone(modulus, pressure, approach, parts):
+    """A modulus of one is the unit of pressure."""
+    found = doubts.doubts_of_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
+    assert len(found) == (parts > 0)
+    assert sum(word in str(found) for word in ("mean pressure", "side of the grid")) == parts
+
+
 GRID = "; refine the grid (32 cells or more are not warned of)"
 
 

@@ -93,6 +93,30 @@ def test_no_contact_is_no_contact_of_few_springs():
     assert said(mdr.roll, np.zeros(80), spacing=0.05, radius=1.0, modulus=1.0, approach=np.full(80, -1.0))[1] == []
 
 
+@pytest.mark.parametrize(
+    ("modulus", "approach", "asked"), [(2e9, 0.9, 0), (1.0, 1.0, 0), (1.0, 1.21, 1), (2e9, 1.21, 1)]
+)
+def test_units_of_a_sphere_are_asked_about(modulus, approach, asked):
+    """Where the radius of contact is above its own, by whatever function."""
+    contact, found = said(mdr.press_sphere, radius=1.0, modulus=modulus, approach=approach)
+    wheel = {"spacing": 1 / 40, "radius": 1.0, "modulus": modulus}
+    _, rolled = said(mdr.roll, np.zeros(200), **wheel, approach=approach)
+    _, borne = said(mdr.roll, np.zeros(200), **wheel, force=contact.force * (1 - 1e-12))
+    _, forced = said(mdr.rolling_force, np.zeros(200), **wheel, approach=approach)
+    _, in_step = said(mdr.Wheels, np.zeros((200, 1)), **wheel, force=contact.force * (1 - 1e-12))
+    sentence = "the radius of contact is 1.1 times that of the sphere: are the units right?"
+    for told in (found, rolled, borne, forced, in_step):
+        assert told == [(mdr.UnitsWarning, sentence, __file__)] * asked
+
+
+def test_a_modulus_in_gigapascals_is_asked_about():
+    """2 GPa typed as 2."""
+    assert said(mdr.press_sphere, radius=1e-2, modulus=2e9, force=50.0)[1] == []
+    ((category, sentence, _),) = said(mdr.press_sphere, radius=1e-2, modulus=2.0, force=50.0)[1]
+    assert category is mdr.UnitsWarning
+    assert sentence == "the radius of contact is 57.2 times that of the sphere: are the units right?"
+
+
 def rough(height, q_max=3.0):
     """A track of long waves, so long that the ends of the contact are ends."""
     band = mdr.SelfAffine(hurst=0.7, q_min=0.5, q_max=q_max, rms=height)

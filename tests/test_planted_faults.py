@@ -14,19 +14,22 @@ import pytest
 
 import bem3d
 import mdr
-from bem3d import contact, frozen, halfspace, kernel, press, projected_cg, surface, window
+from bem3d import contact, frozen, halfspace, kernel, press, problem, projected_cg, surface, window
 from bem3d import rolling as wheel_on_strip
 from bem3d.track import Frame, Track
 from mdr import foundation
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
 from mdr import wheels as wheels_in_step
+from mdr.borne import Borne, by_sorting
 from mdr.doubts import doubts_of_linearity
+from mdr.near import Near
 from tests import (
     test_claims,
     test_closed_forms,
     test_contact_properties,
     test_convergence_rates,
+    test_doubts,
     test_doubts_of_springs,
     test_drawn_roughness,
     test_evidence,
@@ -39,6 +42,7 @@ from tests import (
     test_measured_heights,
     test_operator_against_dense_twin,
     test_precision,
+    test_read_only_results,
     test_rolling_contact,
     test_rolling_springs,
     test_rolling_theory,
@@ -159,6 +163,12 @@ def other_waves_on_every_grid(ground, shortest, cells, side, rng):
 
 def the_last_change_alone(earlier, last):
     return abs(float(last.mean())) + ladder_of_models.mean_error(last[:, np.newaxis])
+
+
+def on_the_highest_spring_alone(track, block, wanted, d):
+    """Only the approach is wrong where more than one touches."""
+    borne = by_sorting(track, block, wanted, d)
+    return Borne(borne.approach + wanted * (1 - 1 / borne.pressed), borne.pressed, borne.looked)
 
 
 def scaled(function, factor):
@@ -462,7 +472,7 @@ spectra_of_records, peak = records.spectra, regions.peak
 places_of, heights_of = wheel_ensemble.Rides.places.fget, wheel_ensemble.Rides.heights
 amplification, linear_response = free_vibration.amplification, rough_springs.linear_response
 force_in_step, other_turning_point = mdr.Wheels.force, wheel_theory._other_turning_point
-moments, reach, two_sided = Frame._moments, wheel_on_springs._Track.reach, spectra.Waves.spectrum.fget
+moments, reach, two_sided = Frame._moments, wheel_on_springs.Track.reach, spectra.Waves.spectrum.fget
 # the function of this name hides the module in the package
 feed = importlib.import_module("mdr.rolling_spectrum")
 FAULTS = {
@@ -680,11 +690,11 @@ FAULTS = {
         functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
     ),
     "a for 2a under the wheel": (
-        (wheel_on_springs._Track, "reach", half_the_contact),
+        (wheel_on_springs.Track, "reach", half_the_contact),
         test_rolling_springs.test_full_contact_tends_to_the_filter_at_second_order,
     ),
     "x^2 / 2R under the wheel": (
-        (wheel_on_springs._Track, "wheel", scaled(wheel_on_springs._Track.wheel, 0.5)),
+        (wheel_on_springs.Track, "wheel", scaled(wheel_on_springs.Track.wheel, 0.5)),
         test_rolling_springs.test_force_is_the_sum_over_all_springs,
     ),
     "springs that pull under the smooth wheel": (
@@ -1035,6 +1045,26 @@ FAULTS = {
     "a filtered acceleration in continuous time": (
         (precision_wheel, "transfer", in_continuous_time),
         test_precision.test_the_filtered_acceleration_is_the_motion_that_repeats_itself,
+    ),
+    "a spike that nobody rolls over": (
+        (Near, "beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)),
+        test_rolling_springs.test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness,
+    ),
+    "a light wheel on its highest spring alone": (
+        (wheel_on_springs, "by_sorting", on_the_highest_spring_alone),
+        functools.partial(test_rolling_springs.test_a_light_wheel_over_a_spike, 0.1),
+    ),
+    "a modulus in gigapascals that nobody asks about": (
+        (contact, "doubts_of_units", lambda **_: ()),
+        test_doubts.test_a_modulus_in_gigapascals_is_asked_about,
+    ),
+    "a contact wider than its sphere that nobody asks about": (
+        (foundation, "doubts_of_units", lambda **_: ()),
+        functools.partial(test_doubts_of_springs.test_units_of_a_sphere_are_asked_about, 1.0, 1.21, 1),
+    ),
+    "a gap that the caller may still write to": (
+        (problem, "kept", lambda values: values),
+        test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,
     ),
 }
 

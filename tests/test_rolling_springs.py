@@ -8,8 +8,9 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 import mdr
-from mdr.rolling import _Track
-from tests.oracles import wheel_on_springs
+from mdr.borne import by_sorting
+from mdr.track import Track
+from tests.oracles import approach_by_fractions, wheel_on_springs
 from tests.strategies import OnSprings, on_springs
 from validation.rolling_theory import force_spectrum_1d
 from validation.spectra import waves
@@ -46,7 +47,7 @@ def test_force_is_the_sum_over_all_springs(track):
 @example(springs=121, spacing=0.701370178925973, radius=5.094218430888326, ulps=1)
 def test_the_reach_of_the_wheel_by_its_profile_as_it_is_rounded(springs, spacing, radius, ulps):
     """x^2 / R < level for so many springs and for no more, also where the level is that of a spring, or next to it."""
-    wheel = _Track(np.zeros(3), spacing, radius, 1.0)
+    wheel = Track(np.zeros(3), spacing, radius, 1.0)
     level = wheel.wheel(springs)
     level += ulps * np.spacing(level)
     found = wheel.reach(level)
@@ -107,11 +108,111 @@ def test_newtons_method_ends_on_wild_tracks(rms, offset):
     assert np.abs(track.spacing * total / found.force - 1).max() <= 1e-12 * (1 + rms + offset)
 
 
-def test_a_search_that_does_not_end_says_so(monkeypatch):
+def test_a_search_that_does_not_end_gives_way_to_sorting(monkeypatch):
     """One step from where all springs touch is not enough on a rough track."""
+    track = rough(100, 0.1, springs=12.3)
+    by_steps = track.roll(force=4 / 3)
     monkeypatch.setattr("mdr.rolling.MOST_STEPS", 1)
-    with pytest.raises(ArithmeticError, match="did not end within 1 steps"):
-        rough(100, 0.1, springs=12.3).roll(force=4 / 3)
+    sorted_out = track.roll(force=4 / 3)
+    assert sorted_out.approach == pytest.approx(by_steps.approach, rel=1e-14)
+    assert np.array_equal(sorted_out.stiffness, by_steps.stiffness)
+
+
+def spiky(points=400, spike=1.0, rms=1e-4, seed=0):
+    """Light and spiky: a rough track with one spring that stands out, or lies low."""
+    height = rms * np.random.default_rng(seed).normal(size=points)
+    height[points // 3] += spike
+    return height
+
+
+LIGHT = {"spacing": 0.005, "radius": 1.0, "modulus": 1.0, "force": 1e-6}
+
+
+def assert_is_borne(found, height, *, spacing, radius, modulus, force, positions):
+    """Approach and springs in contact of exact arithmetic, but for the rounding of heights, profile and force."""
+    wanted = force / (modulus * spacing)
+    for i in positions:
+        approach, pressed, deepest = approach_by_fractions(height, i, spacing=spacing, radius=radius, wanted=wanted)
+        assert abs(found.approach[i] - approach) <= 2e-14 * max(abs(approach), deepest)
+        assert round(found.stiffness[i] / (modulus * spacing)) == pressed
+
+
+@pytest.mark.parametrize("spike", [0.1, 10.0, -10.0, 1e8, -1e8])
+def test_a_light_wheel_over_a_spike(spike):
+    """Where the steps of Newton's method are lost in the rounding of the profile, for ever."""
+    height = spiky(spike=spike)
+    found = mdr.roll(height, **LIGHT)
+    assert_is_borne(found, height, **LIGHT, positions=[0, 71, 132, 133, 134, 140, 210, 399])
+
+
+def test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness():
+    """Four thousand positions, and no more springs looked at than a few times those of a track without it."""
+    plain, height = spiky(4000, spike=0.0), spiky(4000, spike=0.1)
+    found = mdr.roll(height, **LIGHT)
+    assert_is_borne(found, height, **LIGHT, positions=[0, 1270, 1300, 1333, 1340, 1396, 3000])
+    approach = np.full(4000, mdr.roll(plain, **LIGHT).approach.max())
+    wheel = {name: LIGHT[name] for name in ("spacing", "radius", "modulus")}
+    with_spike, without = (mdr.roll(h, **wheel, approach=approach).examined for h in (height, plain))
+    assert with_spike.max() <= without.max() + 1
+
+
+@pytest.mark.parametrize("force", [5e-324, 1e-300, 1e-12, 1.0])
+def test_forces_of_any_size_end(force):
+    track = {**LIGHT, "force": force, "radius": 1e-3}
+    height = spiky(1100, spike=0.3)
+    assert_is_borne(mdr.roll(height, **track), height, **track, positions=[0, 360, 366, 900])
+
+
+@given(track=on_springs(longest=40), share=st.floats(-9, 0), spikes=st.integers(0, 3), ties=st.booleans())
+def test_sorting_agrees_with_exact_arithmetic(track, share, spikes, ties):
+    """On any track, with spikes up to a million times the approach, and heights on a ladder, with many ties."""
+    rng = np.random.default_rng(spikes)
+    height = np.rint(track.height / track.approach * 4) / 4 * track.approach if ties else track.height.copy()
+    places = rng.integers(0, height.size, spikes)
+    height[places] += track.approach * 10.0 ** rng.uniform(0, 6, spikes)
+    laid = Track(height, **track.wheel)
+    wanted = 10**share * 4 / 3 * math.sqrt(track.radius * track.approach) * track.approach / track.spacing
+    smooth = track.approach * 10 ** (share * 2 / 3)
+    found = by_sorting(laid, slice(0, height.size), wanted, smooth)
+    for i in {0, height.size // 2, *places.tolist()}:
+        approach, pressed, deepest = approach_by_fractions(
+            height, i, spacing=track.spacing, radius=track.radius, wanted=wanted
+        )
+        assert abs(found.approach[i] - approach) <= 1e-13 * max(abs(approach), deepest)
+        assert ties or found.pressed[i] == pressed
+
+
+def test_a_spring_that_just_touches_is_not_in_contact():
+    """Under a force that brings the wheel down to its neighbours and no farther."""
+    found = by_sorting(Track(np.zeros(7), 1.0, 1.0, 1.0), slice(0, 7), 1.0, 0.5)
+    assert np.array_equal(found.approach, np.ones(7))
+    assert np.array_equal(found.pressed, np.ones(7))
+
+
+def test_blocks_that_are_too_large_are_sorted_in_parts(monkeypatch):
+    height = spiky(60, spike=0.1)
+    track, wheel = Track(height, 0.005, 1.0, 1.0), slice(0, 60)
+    whole = by_sorting(track, wheel, 2e-4, 8e-5)
+    monkeypatch.setattr("mdr.borne.MOST_NUMBERS", 100)
+    parts = by_sorting(track, wheel, 2e-4, 8e-5)
+    assert np.array_equal(parts.approach, whole.approach)
+    assert np.array_equal(parts.pressed, whole.pressed)
+
+
+@pytest.mark.parametrize("low", [25, 26, 36])
+def test_springs_that_stand_out_are_added_as_neighbours_are(monkeypatch, low):
+    """The same bits, also where two of them are equally far from the wheel."""
+    height = 0.02 * np.random.default_rng(low).normal(size=900)
+    height[[300, 300 + low, 300 + 2 * low, 700]] += [73.1, 21.7, 89.3, 50.9]
+    wheel = {"spacing": 1 / 20, "radius": 1.0, "modulus": 1.0}
+    apart = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
+    monkeypatch.setattr("mdr.near.WORTH", 0.0)
+    plain = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
+    for one, other in zip(apart, plain, strict=True):
+        assert np.array_equal(one.force, other.force)
+        assert np.array_equal(one.approach, other.approach)
+        assert np.array_equal(one.stiffness, other.stiffness)
+        assert one.examined.sum() < 0.6 * other.examined.sum()
 
 
 @pytest.mark.parametrize("kind", ["full", "linear"])
@@ -284,3 +385,19 @@ def test_a_full_contact_is_the_sum_over_springs_nearer_than_its_radius(d):
     assert under.stiffness == pytest.approx(found.stiffness)
     assert under.force == pytest.approx(np.full(40, force))
     assert not under.examined.any()
+
+
+def test_sorting_leaves_out_no_spring_of_a_long_contact():
+    """Four hundred springs to the radius of a smooth contact: the last of them belong to it."""
+    spacing, wanted = 1 / 400, 4 / 3 * 400
+    by_steps = mdr.roll(np.zeros(900), spacing=spacing, radius=1.0, modulus=1.0, force=4 / 3)
+    found = by_sorting(Track(np.zeros(900), spacing, 1.0, 1.0), slice(0, 9), wanted, 1.0)
+    assert found.approach == pytest.approx(by_steps.approach[:9], rel=1e-13)
+    assert np.array_equal(found.pressed, np.rint(by_steps.stiffness[:9] / spacing))
+
+
+def test_springs_examined_under_a_force_are_those_of_all_steps():
+    track = rough(300, 0.1, springs=12.3)
+    under = track.roll(force=4 / 3)
+    last = track.roll(approach=under.approach)
+    assert (under.examined > 2 * last.examined).all()

@@ -295,3 +295,59 @@ def test_nasty_gaps_at_an_approach(problem, part):
     if not body.periodic and gap.size <= 40:
         dense = contact_by_least_squares(body, gap, approach)
         assert contact.force == pytest.approx(dense.sum() * body.cell_area, rel=1e-5)
+
+
+def cut_short(history):
+    """The last iteration that beats all before it, and a tolerance which that just misses, by a factor of two."""
+    best = max(k for k in range(1, len(history)) if history[k] == min(history[: k + 1]))
+    return {"max_iterations": best, "tolerance": history[best] / 2, "raise_on_failure": False}
+
+
+ROUGH = np.random.default_rng(5).normal(size=(24, 20))
+UNDER = bem3d.HalfSpace(shape=(24, 20), spacing=1.0, modulus=1.0)
+
+
+@pytest.mark.parametrize("solve", [bem3d.solve, bem3d.solve_plain])
+@pytest.mark.parametrize("load", [{"approach": 0.3}, {"force": 40.0}])
+def test_a_solve_that_ends_at_twice_its_tolerance_is_none(solve, load):
+    whole = solve(UNDER, ROUGH, **load, tolerance=1e-9)
+    short = cut_short(whole.history[:-1])
+    ended = solve(UNDER, ROUGH, **load, **short)
+    assert 1.5 * short["tolerance"] < ended.residual < 3 * short["tolerance"]
+    assert not ended.converged
+    assert ended.status == bem3d.Status.ITERATION_LIMIT
+    with pytest.raises(bem3d.ConvergenceError, match="iteration limit"):
+        solve(UNDER, ROUGH, **load, **{**short, "raise_on_failure": True})
+
+
+def test_a_frozen_contact_that_ends_at_twice_its_tolerance_is_none():
+    whole = bem3d.press_frozen(UNDER, ROUGH < 0, tolerance=1e-9)
+    short = cut_short(whole.history[:-1])
+    ended = bem3d.press_frozen(UNDER, ROUGH < 0, **short)
+    assert ended.residual == pytest.approx(2 * short["tolerance"])
+    assert not ended.converged
+    with pytest.raises(bem3d.ConvergenceError, match="frozen-contact residual"):
+        bem3d.press_frozen(UNDER, ROUGH < 0, **{**short, "raise_on_failure": True})
+
+
+def test_a_wheel_that_ends_at_twice_its_tolerance_does_not_stand():
+    wheel = {"height": 0.05 * ROUGH, "spacing": 0.25, "radius": 1.0, "modulus": 1.0, "approach": 1.0}
+    strip = bem3d.Track(**{name: value for name, value in wheel.items() if name != "approach"})
+    whole = bem3d.RollingContact(strip, tolerance=1e-9).press(0, 1.0)
+    short = cut_short(whole.history[:-1])
+    ended = bem3d.roll(**wheel, positions=1, **short)
+    assert ended.residual[0] == pytest.approx(2 * short["tolerance"], rel=0.3)
+    assert not ended.converged[0]
+
+
+@pytest.mark.parametrize("solve", [bem3d.solve, bem3d.solve_plain])
+@pytest.mark.parametrize("load", [{"approach": 0.3}, {"force": 40.0}])
+@pytest.mark.parametrize("limit", [3, 500])
+def test_the_residual_is_that_of_the_pressure(solve, load, limit):
+    """The first and the last of the history, against the definition, with an operator of the test's own."""
+    found = solve(UNDER, ROUGH, **load, tolerance=1e-5, max_iterations=limit, raise_on_failure=False)
+    w = ROUGH + displacement(UNDER, found.pressure) - found.approach
+    deepest = found.approach - ROUGH.min()
+    pressed_open = (found.pressure * np.abs(w)).sum() / found.pressure.sum()
+    assert found.residual == pytest.approx(max(pressed_open, -w.min()) / deepest, rel=1e-6)
+    assert found.converged == (limit == 500)

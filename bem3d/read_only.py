@@ -1,0 +1,31 @@
+"""Results that stay what they are: arrays of their own, which nobody may write to."""
+
+from dataclasses import fields
+from typing import Any, TypeVar
+
+import numpy as np
+
+Kept = TypeVar("Kept")
+
+
+class ReadOnly:
+    """For frozen dataclasses: arrays are copied and closed when one is made, copied or unpickled.
+
+    A read-only array is not enough: who holds an older view of it may still write.
+    """
+
+    def __post_init__(self) -> None:
+        for name in (field.name for field in fields(self)):  # type: ignore[arg-type]
+            object.__setattr__(self, name, kept(getattr(self, name)))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update({name: kept(value) for name, value in state.items()})
+
+
+def kept(value: Kept) -> Kept:
+    """A read-only copy of an array; anything else as it is."""
+    if not isinstance(value, np.ndarray):
+        return value
+    own = np.array(value, order="C")
+    own.flags.writeable = False
+    return own  # type: ignore[return-value]
