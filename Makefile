@@ -7,8 +7,9 @@ READY := $(VENV)/ready
 PEERS := $(VENV)/peers
 STRENGTH := $(VENV)/strength
 RECORD := .coverage-times.xml
+RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference race test thorough coverage mutation lint types format clean
+.PHONY: report full-report reference race test thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -29,18 +30,32 @@ thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
 
 # reports and cases execute the methods without looking at them: they do not count here
-AT_WORK := architecture command_line endings ensemble evidence fractal_punch ladder limits measured_heights planted_faults \
-	precision race readme report_folder rolling_cases rough_punches scene_files wheel_cases wheel_spectra wheel_stability
+AT_WORK := architecture claims command_line endings ensemble error_bars evidence figure_lines flags fractal_punch \
+	input_files ladder limits materials measured_heights planted_faults precision printed race readme \
+	report_folder rolling_cases rough_punches rules_by_loops scene_files selection steadiness wheel_cases \
+	wheel_spectra wheel_stability
+# who looks at what makes verdicts and claims
+GUARDS := claims ensemble error_bars evidence flags fractal_punch ladder precision printed rolling_theory rules_by_loops \
+	selection wheel_spectra
 
 coverage: $(STRENGTH)  ## every branch of mdr and bem3d, by the tests of these alone; fails where one is missed
 	$(RUN) pytest -n auto --cov --cov-context=test --junitxml=$(RECORD) \
 		$(AT_WORK:%=--ignore=tests/test_%.py) $(ARGS)
 
-mutation: $(RECORD)  ## small changes in mdr, bem3d and the closed forms, and who notices; ARGS="--sample 300"
+verdicts: $(STRENGTH)  ## which test of verdicts and claims has executed which line of them
+	COVERAGE_FILE=.coverage-verdicts $(RUN) pytest -n auto -p tests.fixture_times --cov --cov-context=test \
+		--cov-config=tests/verdicts.coveragerc --cov-report= --junitxml=$(RECORD_OF_VERDICTS) \
+		$(GUARDS:%=tests/test_%.py) $(ARGS)
+
+# small changes and who notices: in mdr, bem3d, closed forms; ARGS="--sample 300"; in verdicts: ARGS="--of verdicts"
+mutation: $(RECORD) $(RECORD_OF_VERDICTS)
 	$(RUN) tests.mutation $(ARGS)
 
 $(RECORD): $(STRENGTH) $(wildcard mdr/*.py bem3d/*.py validation/closed_forms.py tests/*.py)
 	$(MAKE) coverage ARGS=
+
+$(RECORD_OF_VERDICTS): $(STRENGTH) $(wildcard validation/*.py tests/*.py)
+	$(MAKE) verdicts ARGS=
 
 lint: $(READY)
 	$(RUN) ruff check .
@@ -69,4 +84,4 @@ $(STRENGTH): $(READY)
 	touch $@
 
 clean:
-	rm -rf $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage $(RECORD) .mutation-killers.json
+	rm -rf $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS) .mutation-killers.json

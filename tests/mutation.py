@@ -1,8 +1,9 @@
 """Mutation testing: one small change at a time, and whether a test notices. `make mutation`.
 
-Needs what `make coverage` has left behind: which test has executed which line, and how long each takes. A mutant is met
-by the tests that have executed its lines, quickest first, until one fails or the time for it is over. Each is run in a
-process forked from this one, in which libraries are loaded and the project is not, on a copy of the project.
+Needs what `make coverage` and `make verdicts` have left behind: which test has executed which line, and how long each
+takes. A mutant is met by the tests that have executed its lines, quickest first, until one fails or the time for it is
+over. Each is run in a process forked from this one, in which libraries are loaded and the project is not, on a copy of
+the project.
 """
 
 import argparse
@@ -22,6 +23,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -32,13 +34,10 @@ from tests.mutants import Mutant, mutants_of, mutated
 from tests.mutation_report import Outcome, Survey, Trial, table
 
 ROOT = Path(__file__).parents[1]
-TARGETS = ("mdr/*.py", "bem3d/*.py", "validation/closed_forms.py")
 PROJECT = ("mdr", "bem3d", "validation", "tests")
-TIMES = ROOT / ".coverage-times.xml"
 KILLERS = ROOT / ".mutation-killers.json"
 """Who has killed which mutant before: it is asked first the next time."""
 REASONS = ROOT / "tests" / "survivors.toml"
-TABLE = ROOT / "tests" / "MUTATIONS.md"
 MEMORY = 8 * 2**30
 """Of a mutant, in bytes of address space."""
 SETTINGS = {"HYPOTHESIS_PROFILE": "mutation", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "OPENBLAS_NUM_THREADS": "1"}
@@ -46,19 +45,53 @@ QUIET = ("-qq", "-x", "--tb=no", "-p", "no:cacheprovider")
 
 
 @dataclass(frozen=True)
+class Field:
+    """What is surveyed: files, what `make` has recorded of the tests that look at them, and the table of it."""
+
+    targets: tuple[str, ...]
+    command: str
+    data: Path
+    times: Path
+    table: Path
+
+    def paths(self) -> list[str]:
+        """Of its files, from the root."""
+        return sorted(str(path.relative_to(ROOT)) for pattern in self.targets for path in ROOT.glob(pattern))
+
+
+VERDICTS = ("statistics", "evidence", "spectra", "regions", "precision_error", "precision_front", "ladder", "ensemble")
+FIELDS = {
+    "methods": Field(
+        ("mdr/*.py", "bem3d/*.py", "validation/closed_forms.py"),
+        "coverage",
+        ROOT / ".coverage",
+        ROOT / ".coverage-times.xml",
+        ROOT / "tests" / "MUTATIONS.md",
+    ),
+    "verdicts": Field(
+        tuple(f"validation/{name}.py" for name in VERDICTS),
+        "verdicts",
+        ROOT / ".coverage-verdicts",
+        ROOT / ".coverage-verdicts-times.xml",
+        ROOT / "tests" / "MUTATIONS_OF_VERDICTS.md",
+    ),
+}
+
+
+@dataclass(frozen=True)
 class Suite:
-    """The tests as `make coverage` has seen them: seconds of each, and which have executed a line of a file."""
+    """The tests as `make` has seen them: seconds of each by itself, and which have executed a line of a file."""
 
     seconds: dict[str, float]
     executed: dict[str, dict[int, set[str]]]
 
     @classmethod
-    def recorded(cls) -> "Suite":
+    def recorded(cls, of: Field) -> "Suite":
         """From the files in the root."""
-        data = coverage.CoverageData(str(ROOT / ".coverage"))
+        data = coverage.CoverageData(str(of.data))
         data.read()
-        if not TIMES.exists() or not data.measured_files():
-            raise SystemExit("there is no record of the tests: run make coverage")
+        if not of.times.exists() or not data.measured_files():
+            raise SystemExit(f"there is no record of the tests: run make {of.command}")
         executed = {
             str(Path(file).resolve().relative_to(ROOT)): {
                 line: {context.rpartition("|")[0] for context in contexts if context}
@@ -66,15 +99,16 @@ class Suite:
             }
             for file in data.measured_files()
         }
-        cases = ElementTree.parse(TIMES).iter("testcase")
-        return cls({_node(case): float(case.get("time", 0)) for case in cases}, executed)
+        cases = ElementTree.parse(of.times).iter("testcase")
+        return cls({_node(case): _seconds(case) for case in cases}, executed)
 
     def tests_of(self, mutant: Mutant, sources: dict[str, str]) -> set[str]:
         """Those that have executed its lines; else those that have executed any line which names the constant that it
-        changes, or any line of its file."""
+        changes, or stand in a file that does; else those that have executed any line of its file."""
         found = self._on(mutant.path, mutant.lines)
         if not found and mutant.name:
             found = set().union(*(self._on(path, _naming(mutant.name, text)) for path, text in sources.items()))
+            found |= {test for test in self.seconds if _naming(mutant.name, _source(test.partition("::")[0]))}
         return found or self._on(mutant.path, self.executed.get(mutant.path, ()))
 
     def _on(self, path: str, lines: Iterable[int]) -> set[str]:
@@ -94,6 +128,18 @@ class Suite:
 
 def _node(case: ElementTree.Element) -> str:
     return f"{case.get('classname').replace('.', '/')}.py::{case.get('name')}"
+
+
+@cache
+def _source(path: str) -> str:
+    """Of a file of tests, from the root."""
+    return (ROOT / path).read_text()
+
+
+def _seconds(case: ElementTree.Element) -> float:
+    """Of a test by itself: with all the fixtures that it shares with others, see `fixture_times`."""
+    shared = sum(float(p.get("value")) for p in case.iter("property") if p.get("name") == "fixtures")
+    return max(float(case.get("time", 0)), shared)
 
 
 def _naming(name: str, source: str) -> list[int]:
@@ -180,8 +226,9 @@ class Chosen:
 def main(arguments: list[str]) -> None:
     """Plant mutants, all or a sample of them, and write what has become of each."""
     asked = parsed(arguments)
-    suite, before = Suite.recorded(), json.loads(KILLERS.read_text()) if KILLERS.exists() else {}
-    paths = sorted(str(path.relative_to(ROOT)) for pattern in TARGETS for path in ROOT.glob(pattern))
+    of = FIELDS[asked.of]
+    suite, before = Suite.recorded(of), json.loads(KILLERS.read_text()) if KILLERS.exists() else {}
+    paths = of.paths()
     sources = {path: (ROOT / path).read_text() for path in paths}
     everything = [mutant for path in paths for mutant in mutants_of(path, sources[path])]
     chosen = [mutant for mutant in everything if not asked.only or mutant.path in asked.only]
@@ -207,7 +254,7 @@ def main(arguments: list[str]) -> None:
     survey = Survey(trials, counts, asked.seed if len(chosen) < len(everything) else None, asked.seconds)
     text = table(survey, tomllib.loads(REASONS.read_text()))
     if not asked.only:
-        TABLE.write_text(text)
+        of.table.write_text(text)
     print(text)
 
 
@@ -218,6 +265,7 @@ def _name(mutant: Mutant) -> str:
 def parsed(arguments: list[str]) -> argparse.Namespace:
     """The command line."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__)
+    parser.add_argument("--of", choices=list(FIELDS), default="methods", help="what is surveyed (default: methods)")
     parser.add_argument("--sample", type=int, help="so many mutants, drawn at random; all where it is not given")
     parser.add_argument("--seed", type=int, default=0, help="of the sample")
     parser.add_argument("--seconds", type=float, default=60.0, help="of tests that a mutant is met by, as recorded")

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from scipy import stats
 
 import bem3d
 import mdr
@@ -25,6 +26,7 @@ from mdr.borne import Borne, by_sorting
 from mdr.doubts import doubts_of_linearity
 from mdr.near import Near
 from tests import (
+    test_accepted_solves,
     test_claims,
     test_closed_forms,
     test_contact_properties,
@@ -32,7 +34,10 @@ from tests import (
     test_doubts,
     test_doubts_of_springs,
     test_drawn_roughness,
+    test_error_bars,
     test_evidence,
+    test_figure_lines,
+    test_flags,
     test_fractal_punch,
     test_geike_mapping,
     test_ladder,
@@ -42,11 +47,14 @@ from tests import (
     test_measured_heights,
     test_operator_against_dense_twin,
     test_precision,
+    test_printed,
     test_read_only_results,
     test_rolling_contact,
     test_rolling_springs,
     test_rolling_theory,
     test_rough_punches,
+    test_rules_by_loops,
+    test_selection,
     test_springs_against_brute_force,
     test_steadiness,
     test_wheel_cases,
@@ -90,8 +98,11 @@ from validation import (
 )
 from validation import ladder as ladder_of_models
 from validation import wheel as wheel_in_motion
-from validation.cases import fractal_punch_decades, mdr_limits
-from validation.evidence import Verdict
+from validation.cases import fractal_punch, fractal_punch_decades, mdr_limits, rolling_evidence
+from validation.cases import ladder as ladder_on_trial
+from validation.evidence import Number, Verdict, claim
+from validation.report import build
+from validation.report.figures import rolling as rolling_figure
 from validation.rough_punch import Roughness
 
 POISSON = 1 / 3
@@ -467,6 +478,66 @@ def in_continuous_time(wheel, omega, time_step):
     return -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)
 
 
+def of_one_tail(estimate):
+    """The quantile of 90 %."""
+    return float(stats.t.ppf(0.95, estimate.samples - 1)) * estimate.error
+
+
+def two_standard_errors(estimate):
+    return 2 * estimate.error
+
+
+def ends_apart(estimate):
+    """All of the interval for its half."""
+    return 2 * half_of_the_interval(estimate)
+
+
+def scatter_of_the_sample_itself(drawn, statistic):
+    """The bootstrap's own standard error, (n - 1) / n of the variance."""
+    found = estimated(drawn, statistic)
+    return dataclasses.replace(found, error=found.error * math.sqrt((found.samples - 1) / found.samples))
+
+
+def of_all_samples(estimates):
+    """n k - 1 degrees of freedom for (n - 1) k."""
+    found = statistics.mean_of(estimates)
+    return dataclasses.replace(found, samples=sum(estimate.samples for estimate in estimates))
+
+
+def half_of_the_way(coarse, finer):
+    """What halving the cells changes, for what all halvings do."""
+    value, left = statistics.extrapolated(coarse, finer)
+    return dataclasses.replace(value, value=coarse.value + finer.value), left
+
+
+def fine_before_coarse(coarse, fine, rng):
+    return statistics.pairs(fine, coarse, rng)
+
+
+def sample_for_grid(*, grid, sample, **settings):
+    return Number(grid=sample, sample=grid, **settings)
+
+
+def at_ten_times_the_tolerance(attempt, residual, tolerance, max_iterations):
+    judged(attempt, residual, 10 * tolerance, max_iterations)
+
+
+def whoever_has_ended(contact):
+    return contact.status in ("converged", "iteration limit")
+
+
+def both_edges(bands, q, values):
+    inside = (q[:, np.newaxis] >= bands.edges[:-1]) & (q[:, np.newaxis] <= bands.edges[1:])
+    return values @ inside.astype(complex)
+
+
+def unless_it_differs(sentence, numbers):
+    """An undecided number taken for one that agrees."""
+    return claim(sentence, [n for n in numbers if n.verdict is not Verdict.UNDECIDED])
+
+
+half_of_the_interval, estimated = statistics.Estimate.half_width.fget, statistics.Sample.estimate
+judged = press.Attempt.judge
 log_of_answer = precision_error.Answer.log
 spectra_of_records, peak = records.spectra, regions.peak
 places_of, heights_of = wheel_ensemble.Rides.places.fget, wheel_ensemble.Rides.heights
@@ -1065,6 +1136,88 @@ FAULTS = {
     "a gap that the caller may still write to": (
         (problem, "kept", lambda values: values),
         test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,
+    ),
+    "one tail of Student's t": (
+        (statistics.Estimate, "half_width", property(of_one_tail)),
+        functools.partial(test_error_bars.test_the_interval_of_a_mean_is_students, 2),
+    ),
+    "two standard errors of a sample of three": (
+        (statistics.Estimate, "half_width", property(two_standard_errors)),
+        functools.partial(test_error_bars.test_variance_and_mean_of_the_rolling_force_cover_their_truth, 3),
+    ),
+    "a whole interval for its half": (
+        (statistics.Estimate, "half_width", property(ends_apart)),
+        functools.partial(test_error_bars.test_the_interval_of_a_mean_is_students, 3),
+    ),
+    "a bootstrap that forgets n - 1": (
+        (statistics.Sample, "estimate", scatter_of_the_sample_itself),
+        functools.partial(test_error_bars.test_the_bootstrap_has_the_standard_error_of_a_mean, 3),
+    ),
+    "a degree of freedom for each mean too many": (
+        (test_error_bars, "mean_of", of_all_samples),
+        functools.partial(test_error_bars.test_the_interval_of_a_mean_of_estimates, (1.0, 0.05, 0.05)),
+    ),
+    "half of the way to cells of no size": (
+        (test_error_bars, "extrapolated", half_of_the_way),
+        test_error_bars.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
+    ),
+    "the finer grid taken for the coarser": (
+        (fractal_punch_decades, "pairs", fine_before_coarse),
+        test_error_bars.test_grids_are_paired_with_their_neighbours,
+    ),
+    "sample and grid exchanged": (
+        (fractal_punch_decades, "Number", sample_for_grid),
+        test_error_bars.test_the_grid_interval_of_fig_14_1,
+    ),
+    "decibels of an amplitude for those of a power, in rolling": (
+        (rolling_evidence, "POWER", statistics.DECIBEL),
+        test_error_bars.test_levels_of_rolling_are_powers_in_decibels,
+    ),
+    "an error that luck has made small, and its interval": (
+        (precision_error, "math", types.SimpleNamespace(**{**vars(math), "copysign": lambda *_: 1.0})),
+        functools.partial(
+            test_selection.test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much, test_selection.K, True
+        ),
+    ),
+    "a line at the upper edge of a band counted in it": (
+        (spectra.Bands, "sums", both_edges),
+        test_rules_by_loops.test_a_band_holds_its_lower_edge_and_not_its_upper,
+    ),
+    "accepted at ten times its tolerance": (
+        (press.Attempt, "judge", at_ten_times_the_tolerance),
+        functools.partial(test_accepted_solves.test_the_tolerance_is_the_one_that_was_asked_for, 9.9e-4, None),
+    ),
+    "accepted at ten times its tolerance, seen by a solve": (
+        (press.Attempt, "judge", at_ten_times_the_tolerance),
+        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+    ),
+    "the iteration limit taken for convergence": (
+        (contact.Contact, "converged", property(whoever_has_ended)),
+        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+    ),
+    "what is lost is not told": (
+        (fractal_punch, "lost", lambda *_: ()),
+        functools.partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
+    ),
+    "the referee's surfaces those of who is tested": (
+        (ladder_on_trial, "OTHER_SEED", 0),
+        test_flags.test_the_referee_of_the_ladder_has_surfaces_of_its_own,
+    ),
+    "another model's line under a label": (
+        (rolling_figure, "SPRINGS", "linear 1D"),
+        test_figure_lines.test_lines_of_rolling,
+    ),
+    "a printed decibel halved": (
+        (fractal_punch_decades, "DECIBEL", 2 * statistics.DECIBEL),
+        test_printed.test_verdicts_of_fig_14_1_are_told_in_per_cent,
+    ),
+    "two signs of verdicts exchanged": (
+        (build, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
+        test_printed.test_rows_of_the_page_are_their_numbers,
+    ),
+    "undecided read as agree": (
+        (test_printed, "claim", unless_it_differs),
+        test_printed.test_a_claim_holds_with_all_of_its_numbers,
     ),
 }
 

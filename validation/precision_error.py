@@ -82,15 +82,17 @@ def error(quantity: Quantity, mine: Answer, reference: Answer) -> Error:
         return mine.log(quantity, rows) - reference.log(quantity, theirs)
 
     def off(rows: IntArray, theirs: IntArray) -> float:
-        return quantity.distance(ratio(rows, theirs))
+        """With the sign of a single number: one that luck has put on the reference scatters as much as any other."""
+        log_ratio = ratio(rows, theirs)
+        return quantity.distance(log_ratio) * (math.copysign(1.0, log_ratio[0]) if log_ratio.size == 1 else 1.0)
 
     if mine.paired:
-        both = [off(np.delete(rows, i), np.delete(theirs, i)) for i in rows] if mine.size > 2 else []
+        both = [off(np.delete(rows, i), np.delete(theirs, i)) for i in rows] if mine.size > 1 else []
         half_width = _half_width(both)
     else:
         half_width = math.hypot(
-            _half_width([off(np.delete(rows, i), theirs) for i in rows] if mine.size > 2 else []),
-            _half_width([off(rows, np.delete(theirs, i)) for i in theirs] if reference.size > 2 else []),
+            _half_width([off(np.delete(rows, i), theirs) for i in rows] if mine.size > 1 else []),
+            _half_width([off(rows, np.delete(theirs, i)) for i in theirs] if reference.size > 1 else []),
         )
     log_ratio = ratio(rows, theirs)
     over = float(np.exp(log_ratio[0])) if log_ratio.size == 1 else math.nan
@@ -98,9 +100,12 @@ def error(quantity: Quantity, mine: Answer, reference: Answer) -> Error:
 
 
 def _half_width(without: list[float]) -> float:
-    """Student's quantile times the jackknife's error; zero of a single value, which has no sample."""
+    """Student's quantile times the jackknife's error; zero of a single value, which has no sample; infinite where two
+    are too few for what is asked, as one is for a deviation."""
     if not without:
         return 0.0
+    if not np.isfinite(without).all():
+        return math.inf
     return float(stats.t.ppf(0.975, len(without) - 1) * left_out_error(without))
 
 

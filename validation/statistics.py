@@ -45,12 +45,18 @@ class Estimate:
 
     def minus(self, other: "Estimate") -> "Estimate":
         """The difference to an independent estimate; degrees of freedom by Welch and Satterthwaite."""
-        square, their_square = self.error**2, other.error**2
-        error = math.sqrt(square + their_square)
-        spread = square**2 / (self.samples - 1) + their_square**2 / (other.samples - 1)
-        freedom = (square + their_square) ** 2 / spread if spread > 0 else math.inf
-        samples = 1 + int(min(freedom, 1e9)) if math.isfinite(error) else min(self.samples, other.samples)
-        return Estimate(self.value - other.value, error, samples)
+        return _added(self.value - other.value, (self, other))
+
+
+def _added(value: float, estimates: Sequence[Estimate]) -> Estimate:
+    """A sum or difference of independent estimates; degrees of freedom by Welch and Satterthwaite."""
+    squares = [e.error**2 for e in estimates]
+    error = math.sqrt(sum(squares))
+    if not math.isfinite(error):
+        return Estimate(value, error, min(e.samples for e in estimates))
+    spread = sum(square**2 / (e.samples - 1) for square, e in zip(squares, estimates, strict=True))
+    freedom = sum(squares) ** 2 / spread if spread > 0 else math.inf
+    return Estimate(value, error, 1 + int(min(freedom * (1 + ROUNDING), 1e9)))
 
 
 def left_out_error(without: NDArray[np.floating] | Sequence[float]) -> FloatArray:
@@ -63,8 +69,27 @@ def left_out_error(without: NDArray[np.floating] | Sequence[float]) -> FloatArra
 
 def mean_of(estimates: Sequence[Estimate]) -> Estimate:
     """Of independent estimates."""
-    error = math.sqrt(sum(e.error**2 for e in estimates)) / len(estimates)
-    return Estimate(sum(e.value for e in estimates) / len(estimates), error, sum(e.samples for e in estimates))
+    both = _added(sum(e.value for e in estimates), estimates)
+    return Estimate(both.value / len(estimates), both.error / len(estimates), both.samples)
+
+
+def mean_estimate(values: FloatArray) -> Estimate:
+    """The mean of a sample, two values at least, NaN for what is lost."""
+    known = values[np.isfinite(values)]
+    return Estimate(float(known.mean()), float(known.std(ddof=1)) / math.sqrt(known.size), known.size)
+
+
+def ratio_of_means(values: FloatArray, references: FloatArray) -> Estimate:
+    """Mean of x over mean of y, with the error by the spread of x - (ratio) y: what both share drops out.
+
+    values, references: x, y, realisation by realisation, two at least; NaN among the values for what is lost.
+    """
+    known = np.isfinite(values)
+    mine, other = values[known], references[known]
+    ratio = float(mine.mean() / other.mean())
+    left = mine - ratio * other
+    error = float(left.std(ddof=1)) / math.sqrt(left.size) / abs(float(other.mean()))
+    return Estimate(ratio, error, left.size)
 
 
 def extrapolated(coarse: Estimate, finer: Estimate) -> tuple[Estimate, float]:
@@ -91,12 +116,15 @@ class Sample:
     def estimate(self, statistic: Statistic) -> Estimate:
         """One number with its bootstrap standard error, which is NaN where most resamples have no finite value.
 
-        Student's quantile makes up for most of what the percentile interval misses in samples as small as 12.
+        A resample of n has the variance of the sample itself, (n - 1) / n of what that of the population is estimated
+        to be: sqrt(n / (n - 1)) makes up for it. Student's quantile makes up for most of what the percentile interval
+        misses in samples as small as 12.
         """
         with np.errstate(divide="ignore", invalid="ignore"):
             value, resampled = float(statistic(*self.moments)), statistic(*self.resampled)
         finite = resampled[np.isfinite(resampled)]
-        error = float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
+        whole = math.sqrt(self.size / (self.size - 1))
+        error = whole * float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
         return Estimate(value, error, self.size)
 
 

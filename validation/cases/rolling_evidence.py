@@ -20,7 +20,9 @@ from validation.statistics import (
     combined,
     extrapolated,
     log_mean,
+    mean_estimate,
     pairs,
+    ratio_of_means,
     sample,
 )
 
@@ -237,48 +239,33 @@ def _moments(mine: Height) -> list[Number]:
     """Variance at one position over that of linear theory, the same in 1D and in 3D; the mean force."""
     numbers = []
     for name, outcome in (("bem3d", mine.bem), ("springs", mine.mdr["geike"])):
-        ratio, half = _ratio(outcome["variance"], outcome["linear variance"])
+        ratio = ratio_of_means(outcome["variance"], outcome["linear variance"])
         numbers.append(
             Number(
                 label=f"variance of the force over that of linear theory, h/d = {mine.height:g}: {name}",
-                value=ratio,
+                value=ratio.value,
                 reference=1.0,
                 source="Geike's rule keeps the variance of the force at one position",
                 tolerance=0.1,
                 reason="10 %: half a decibel",
-                sample=half,
+                sample=ratio.half_width,
                 role=Role.FINDING,
             )
         )
-    bem, springs = mine.bem["mean"], mine.mdr["geike"]["mean"]
-    spread = math.hypot(_standard_error(bem), _standard_error(springs))
+    bem, springs = mean_estimate(mine.bem["mean"]), mean_estimate(mine.mdr["geike"]["mean"])
     numbers.append(
         Number(
             label=f"mean force over that of Hertz, h/d = {mine.height:g}: springs beside bem3d",
-            value=float(springs.mean()),
-            reference=float(np.nanmean(bem)),
+            value=springs.value,
+            reference=bem.value,
             source="bem3d",
             tolerance=0.02,
             reason="2 %: the force of a wheel is not known better",
-            sample=2 * spread,
+            sample=springs.minus(bem).half_width,
             role=Role.FINDING,
         )
     )
     return numbers
-
-
-def _ratio(values: FloatArray, references: FloatArray) -> tuple[float, float]:
-    """Of sums over realisations, with twice its standard error by the spread of what is left."""
-    known = np.isfinite(values)
-    values, references = values[known], references[known]
-    ratio = float(values.sum() / references.sum())
-    left = values - ratio * references
-    return ratio, 2 * float(left.std(ddof=1) / math.sqrt(left.size) / references.mean())
-
-
-def _standard_error(values: FloatArray) -> float:
-    known = values[np.isfinite(values)]
-    return float(known.std(ddof=1) / math.sqrt(known.size))
 
 
 def coherence(outcome: Outcome) -> FloatArray:
@@ -306,8 +293,10 @@ def _summary(result: RollingResult, mine: Height) -> Row:
         "slope": round(slope, 4),
         "springs: correlation with linear": round(of_springs, 4),
         "slope of springs": round(slope_1d, 4),
-        "bem3d: variance over linear": round(_ratio(bem["variance"], bem["linear variance"])[0], 4),
-        "springs: variance over linear": round(_ratio(springs["variance"], springs["linear variance"])[0], 4),
+        "bem3d: variance over linear": round(ratio_of_means(bem["variance"], bem["linear variance"]).value, 4),
+        "springs: variance over linear": round(
+            ratio_of_means(springs["variance"], springs["linear variance"]).value, 4
+        ),
         "bem3d: mean force over Hertz": round(float(np.nanmean(bem["mean"])), 5),
         "springs: mean force over Hertz": round(float(springs["mean"].mean()), 5),
         "applications a position": round(float(result.forces[mine.height]["applications"].mean()), 2),

@@ -10,7 +10,7 @@ from validation.ensemble import Outcome
 from validation.evidence import Evidence, Number, Role, Table, beside, claim, columns, plus_minus, table_of
 from validation.records import band_means
 from validation.statistics import POWER_DECIBEL as POWER
-from validation.statistics import Estimate
+from validation.statistics import Estimate, ratio_of_means
 from validation.wheel_ensemble import APART
 from validation.wheel_features import BREAK, FLOOR, PEAK, PREDICTED, Spectrum, expected, found, linear_spectrum
 from validation.wheel_scene import WheelScene
@@ -109,6 +109,7 @@ def _breaks(result: DistanceResult) -> Table:
                 "wheels": rides.count,
                 "break [rad/s]": values[BREAK].value,
                 "standard error [rad/s]": values[BREAK].error,
+                "± break [rad/s]": values[BREAK].half_width,
                 "break by its jumps [rad/s]": theory[BREAK],
                 "floor over predicted": values[FLOOR + PREDICTED].value,
                 "± sample": values[FLOOR + PREDICTED].half_width,
@@ -269,16 +270,15 @@ def _order(result: DistanceResult) -> Number:
 
 def _start(result: DistanceResult) -> Number:
     """Mean square of the acceleration from static equilibrium over that without free vibration."""
-    open_, steady = result.ends[OPEN]["square"], result.ends["springs, repeating"]["square"]
-    value, error = float(open_.mean() / steady.mean()), float(open_.std(ddof=1) / math.sqrt(open_.size) / steady.mean())
+    found_ = ratio_of_means(result.ends[OPEN]["square"], result.ends["springs, repeating"]["square"])
     return Number(
         label="mean square acceleration, open from static equilibrium, over that of the repeating motion",
-        value=value,
+        value=found_.value,
         reference=1.5,
         source="1 + 1/2: the free vibration begins with the amplitude dF / M that cancels the forced acceleration",
         tolerance=0.15,
         reason="10 %: waves far above the resonance, a few wheels",
-        sample=Estimate(value, error, open_.size).half_width,
+        sample=found_.half_width,
         role=Role.FINDING,
     )
 
@@ -420,9 +420,8 @@ def _shown_breaks(breaks: Table) -> Table:
         {
             "distance [m]": [f"{d:.3g}" for d in breaks["distance [m]"]],
             "wheels": breaks["wheels"].tolist(),
-            "break [rad/s], ± 2 standard errors": [
-                plus_minus(b, 2 * e)
-                for b, e in zip(breaks["break [rad/s]"], breaks["standard error [rad/s]"], strict=True)
+            "break [rad/s]": [
+                plus_minus(b, half) for b, half in zip(breaks["break [rad/s]"], breaks["± break [rad/s]"], strict=True)
             ],
             "by its own jumps [rad/s]": [f"{b:.4g}" for b in breaks["break by its jumps [rad/s]"]],
             "floor over J² / (ω² T)": [

@@ -1,0 +1,166 @@
+"""What is called converged is within its tolerance, by a residual taken elsewhere; what was cut short says so.
+
+An iteration does not depend on the tolerance that it is stopped by: cut after so many steps, it has the same residual
+whatever was asked for, so that a tolerance a little above it must be met and one a little below it must not.
+"""
+
+import numpy as np
+import pytest
+
+import bem3d
+from bem3d.press import Attempt
+from tests.oracles import displacement
+
+ASKED = np.geomspace(3e-2, 3e-9, 15)
+"""Close enough that a residual ten times too large falls between two of them."""
+BELOW = (0.99, 0.5, 0.11)
+"""Of the residual that is left: a tolerance that is nearly met, and one that a tenth of it would meet."""
+
+
+def rough(periodic):
+    rng = np.random.default_rng(5)
+    body = bem3d.HalfSpace(shape=(14, 12), spacing=(0.1, 0.12), modulus=2.0, periodic=periodic)
+    return body, -0.02 * rng.standard_normal(body.shape)
+
+
+def solved(solver, periodic, **settings):
+    body, gap = rough(periodic)
+    return solver(body, gap, force=0.02, **settings)
+
+
+def residual_by_hand(contact):
+    """Of the pressure by itself: its displacement by the slow sum, open gaps under pressure, overlaps anywhere."""
+    problem, p = contact.problem, contact.pressure
+    w = problem.gap + displacement(problem.half_space, p) - contact.approach
+    overlap = contact.approach - problem.gap.min()
+    return max((p * np.abs(w)).sum() / p.sum(), -w.min()) / overlap
+
+
+SOLVERS = {"solve": bem3d.solve, "solve_plain": bem3d.solve_plain}
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_converged_contact_is_within_its_tolerance(solver, periodic):
+    for tolerance in ASKED:
+        contact = solved(SOLVERS[solver], periodic, tolerance=tolerance)
+        assert contact.status == "converged"
+        assert contact.residual <= tolerance
+        assert residual_by_hand(contact) == pytest.approx(contact.residual, rel=1e-4, abs=1e-13)
+
+
+@pytest.mark.parametrize("limit", [1, 2, 3, 5, 8])
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_solve_that_is_cut_short_says_so(solver, limit):
+    cut = {"max_iterations": limit, "raise_on_failure": False}
+    left = solved(SOLVERS[solver], False, tolerance=1e-13, **cut)
+    assert left.status == "iteration limit" and not left.converged
+    assert residual_by_hand(left) == pytest.approx(left.residual, rel=1e-6)
+    for part in BELOW:
+        again = solved(SOLVERS[solver], False, tolerance=part * left.residual, **cut)
+        assert again.converged == (again.residual <= part * left.residual)
+        assert again.converged or again.status == "iteration limit"
+    with pytest.raises(bem3d.ConvergenceError, match="iteration limit"):
+        solved(SOLVERS[solver], False, tolerance=1e-13, max_iterations=limit)
+
+
+@pytest.mark.parametrize(
+    ("residual", "status"),
+    [(0.0, "converged"), (1e-4, "converged"), (1.001e-4, None), (9.9e-4, None), (np.nan, "breakdown")],
+)
+def test_the_tolerance_is_the_one_that_was_asked_for(residual, status):
+    attempt = Attempt(np.zeros((1, 1)), 1.0)
+    attempt.judge(residual, 1e-4, 5)
+    assert attempt.status == status
+    assert attempt.history == [residual]
+
+
+@pytest.mark.parametrize(("entries", "status"), [(5, None), (6, "iteration limit")])
+def test_the_limit_is_the_one_that_was_asked_for(entries, status):
+    """A history has an entry for the start, too."""
+    attempt = Attempt(np.zeros((1, 1)), 1.0)
+    for _ in range(entries):
+        attempt.judge(1.0, 1e-4, 5)
+    assert attempt.status == status
+
+
+def test_every_load_of_a_path_is_within_its_tolerance():
+    body, gap = rough(False)
+    for tolerance in ASKED[::3]:
+        for contact in bem3d.indent(body, gap, forces=[0.01, 0.02, 0.03], tolerance=tolerance, stiffness=True):
+            assert contact.converged and contact.residual <= tolerance
+            assert residual_by_hand(contact) <= tolerance * (1 + 1e-6)
+            assert contact.frozen.converged
+
+
+@pytest.mark.parametrize("limit", [1, 4])
+def test_a_path_that_is_cut_short_says_so_at_every_load(limit):
+    body, gap = rough(False)
+    cut = bem3d.indent(
+        body, gap, forces=[0.01, 0.02], tolerance=1e-12, stiffness=True, max_iterations=limit, raise_on_failure=False
+    )
+    for contact in cut:
+        assert not contact.converged
+        with pytest.raises(bem3d.ConvergenceError, match="iteration limit"):
+            contact.stiffness()
+
+
+def test_a_frozen_contact_is_within_its_tolerance():
+    body, gap = rough(False)
+    cells = gap < 0
+    for tolerance in ASKED:
+        found = bem3d.press_frozen(body, cells, tolerance=tolerance)
+        left = 1 - displacement(body, found.pressure)[cells]
+        assert found.converged
+        assert np.sqrt(np.mean(left**2)) <= tolerance * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("limit", [1, 3, 6])
+def test_a_frozen_contact_that_is_cut_short_says_so(limit):
+    body, gap = rough(False)
+    cut = {"max_iterations": limit, "raise_on_failure": False}
+    left = bem3d.press_frozen(body, gap < 0, tolerance=1e-12, **cut).residual
+    for part in BELOW:
+        assert not bem3d.press_frozen(body, gap < 0, tolerance=part * left, **cut).converged
+    assert bem3d.press_frozen(body, gap < 0, tolerance=1.01 * left, **cut).converged
+
+
+def bumps():
+    x = np.arange(48) / 6
+    return 0.1 * np.cos(2 * np.pi * x / 4)[:, np.newaxis] * np.ones(24)
+
+
+def test_every_position_of_a_wheel_is_within_its_tolerance():
+    track = bem3d.Track(height=bumps(), spacing=1 / 6, radius=1.0, modulus=1.0)
+    body = bem3d.HalfSpace(shape=(48, 24), spacing=1 / 6, modulus=1.0)
+    for tolerance in ASKED[:-4]:
+        wheel = bem3d.RollingContact(track, tolerance=tolerance)
+        for position in range(3):
+            contact = wheel.press(position, 1.0)
+            x, y, pressure = wheel.pressure()
+            rows, columns = np.rint(6 * x).astype(int) + 24, np.rint(6 * y + 11.5).astype(int)
+            whole = np.zeros(body.shape)
+            whole[np.ix_(rows, columns)] = pressure
+            gap = ((np.arange(48) - 24)[:, np.newaxis] ** 2 + (np.arange(24) - 11.5) ** 2) / 36 / 2
+            gap -= np.roll(bumps(), 24 - position, axis=0)
+            w = gap + displacement(body, whole) - 1.0
+            left = max((whole * np.abs(w)).sum() / whole.sum(), -w.min()) / (1.0 - gap.min())
+            assert contact.converged and contact.residual <= tolerance
+            assert left == pytest.approx(contact.residual, rel=1e-3, abs=1e-12)
+
+
+@pytest.mark.parametrize("limit", [1, 2, 4])
+def test_a_position_that_is_cut_short_says_so(limit):
+    track = bem3d.Track(height=bumps(), spacing=1 / 6, radius=1.0, modulus=1.0)
+
+    def cold(tolerance):
+        return bem3d.RollingContact(track, tolerance=tolerance, max_iterations=limit).press(0, 1.0)
+
+    left = cold(1e-13)
+    assert not left.converged and left.status == "iteration limit"
+    for part in BELOW:
+        again = cold(part * left.residual)
+        assert again.converged == (again.residual <= part * left.residual)
+    settings = {"spacing": 1 / 6, "radius": 1.0, "modulus": 1.0, "approach": 1.0, "positions": 4}
+    rolled = bem3d.roll(bumps(), **settings, tolerance=1e-13, max_iterations=limit, raise_on_failure=False)
+    assert not rolled.converged.any()

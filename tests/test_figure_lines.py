@@ -1,0 +1,529 @@
+"""Lines of figures belong to their data: labels, bars, boxes, signs.
+
+Figures are drawn from tables alone. Here each column of a table has values of its own, made up, so that a label on
+another column's line, a bar of another column, or half of a decibel, is seen.
+"""
+
+import zlib
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib.collections import PolyCollection
+from matplotlib.container import ErrorbarContainer
+from matplotlib.figure import Figure
+
+from validation.cases.rolling_input import NAMES
+from validation.evidence import (
+    Number,
+    Table,
+    table_of,
+)
+from validation.report.figures import (
+    fractal_punch,
+    geike,
+    hertz,
+    limits,
+    normalisation,
+    precision,
+    rolling_input,
+    square_punch,
+    wheel,
+    wheel_3d,
+    wheel_distance,
+    wheel_stability,
+)
+from validation.report.figures import (
+    mdr_limits as mdr_limits_figure,
+)
+from validation.report.figures import (
+    rolling as rolling_figure,
+)
+
+
+class Made:
+    """A table whose columns are made up, each of its own values from 0.5 to 2, but for those that are given."""
+
+    def __init__(self, given, **bounds):
+        self.given = {name: np.asarray(values) for name, values in given.items()}
+        self.size = len(next(iter(self.given.values())))
+        self.rows = np.arange(self.size)
+        self.columns = self.given
+
+    def __getitem__(self, name):
+        values = self.given.get(name)
+        if values is None:
+            values = np.random.default_rng(zlib.crc32(name.encode())).uniform(0.5, 2.0, self.size)
+        return values[self.rows]
+
+    def where(self, **equal):
+        some = Made(self.given)
+        keep = np.logical_and.reduce([self[name] == value for name, value in equal.items()])
+        some.rows = self.rows[keep]
+        return some
+
+
+def made(numbers=(), **tables):
+    named = {name.replace("_", "-"): table for name, table in tables.items()}
+    return SimpleNamespace(table=lambda name: named[name.replace("_", "-").replace(" ", "-")], numbers=numbers)
+
+
+def series(axis):
+    """Of each label: y, and the ends of its bars, None where it has none."""
+    found = {}
+    for line in axis.get_lines():
+        label = line.get_label()
+        if not label.startswith("_"):
+            assert label not in found, label
+            found[label] = (np.asarray(line.get_ydata(), dtype=float), None)
+    for container in axis.containers:
+        if isinstance(container, ErrorbarContainer) and not container.get_label().startswith("_"):
+            ends = np.array([[segment[0][1], segment[1][1]] for segment in container.lines[2][-1].get_segments()])
+            assert container.get_label() not in found
+            found[container.get_label()] = (np.asarray(container.lines[0].get_ydata(), dtype=float), ends)
+    return found
+
+
+def drawn(axis, **expected):
+    """The lines of these labels have these values, and no other line has a label."""
+    found = series(axis)
+    assert found.keys() == expected.keys()
+    for label, values in expected.items():
+        y, bars = values if isinstance(values, tuple) else (values, None)
+        np.testing.assert_allclose(found[label][0], y, err_msg=label)
+        if bars is not None:
+            np.testing.assert_allclose(np.sort(found[label][1], axis=1).T, [y - bars[0], y + bars[1]], err_msg=label)
+
+
+FORCE = np.array([0.01, 0.1, 1.0, 10.0])
+FEW_THEN_MANY = np.array([5.0, 50.0, 500.0, 5000.0])
+
+
+def curves(**more):
+    """Of one Hurst exponent; intervals lie about their values."""
+    given = {"H": np.full(4, 0.7), "Fbar": FORCE, "bem3d cells in contact": FEW_THEN_MANY, **more}
+    table = Made(given)
+    for name in (
+        f"{method} {what}"
+        for method in ("bem3d", "mdr", "mdr 1.1523 L", "mdr over bem3d")
+        for what in ("mean stiffness", "relative deviation", "exponent")
+    ):
+        table.given[f"{name} low"], table.given[f"{name} high"] = 0.9 * table[name], 1.3 * table[name]
+    return table
+
+
+def bars_of(table, name, rows=slice(None)):
+    value = table[name][rows]
+    return value, (value - table[f"{name} low"][rows], table[f"{name} high"][rows] - value)
+
+
+@pytest.mark.parametrize(
+    ("draw", "what", "guide"),
+    [
+        (fractal_punch.draw_overlay, "relative deviation", None),
+        (fractal_punch.draw_mean, "mean stiffness", "slope 1 / (1 + H)"),
+        (fractal_punch.draw_exponent, "exponent", "1 / (1 + H)"),
+    ],
+)
+def test_lines_of_fig_14_1_laid_over_each_other(draw, what, guide):
+    table = curves()
+    axis = draw(made(curves=table)).axes[0]
+    found = series(axis)
+    if guide:
+        found.pop(guide)
+    assert set(found) == {
+        "boundary elements",
+        "boundary elements, few cells",
+        "MDR, L_1D = L",
+        "MDR, L_1D = 1.1523 L",
+    }
+    for label, rows in (("boundary elements", slice(1, None)), ("boundary elements, few cells", slice(0, 1))):
+        value, (down, up) = bars_of(table, f"bem3d {what}", rows)
+        np.testing.assert_allclose(found[label][0], value)
+        np.testing.assert_allclose(found[label][1].T, [value - down, value + up])
+    np.testing.assert_allclose(found["MDR, L_1D = L"][0], table[f"mdr {what}"])
+    np.testing.assert_allclose(found["MDR, L_1D = 1.1523 L"][0], table[f"mdr 1.1523 L {what}"])
+
+
+def test_lines_of_fig_14_1():
+    table = curves()
+    of_bem, of_mdr = fractal_punch.draw(made(curves=table)).axes
+    assert (of_bem.get_title(), of_mdr.get_title()) == ("boundary elements", "MDR")
+    drawn(of_bem, **{"H = 0.7": table["bem3d relative deviation"]})
+    drawn(of_mdr, **{"H = 0.7": table["mdr relative deviation"]})
+
+
+@pytest.mark.parametrize(("verdict", "sign"), [("agree", "="), ("differ", "≠"), ("undecided", "?")])
+def test_boxes_of_fig_14_1_are_the_decibels_of_the_data_with_their_verdict(verdict, sign):
+    table = curves()
+    row = {"quantity": "relative deviation", "H": 0.7, "Fbar from": 0.1, "Fbar to": 1.0, "difference": 1.2}
+    decades = table_of("decades", [{**row, "± sample": 0.3, "± grid": 0.2, "verdict": verdict}])
+    axis = fractal_punch.draw_difference(made(curves=table, decades=decades)).axes[0]
+    found = series(axis)
+    np.testing.assert_allclose(found["over a decade"][0], 10 ** (1.2 / 20))
+    value, _ = bars_of(table, "mdr over bem3d relative deviation", slice(1, None))
+    np.testing.assert_allclose(found["at each force"][0], value)
+    (box,) = (c for c in axis.collections if isinstance(c, PolyCollection))
+    heights = box.get_paths()[0].vertices[:, 1]
+    assert (heights.min(), heights.max()) == pytest.approx((10 ** (0.7 / 20), 10 ** (1.7 / 20)))
+    assert [t.get_text() for t in axis.texts] == [sign]
+    assert found["3 dB"][0][0] == pytest.approx(10 ** (3 / 20))
+    near = axis.patches[0].get_extents().transformed(axis.transData.inverted())
+    assert near.y1 == pytest.approx(1.03) and near.y0 == pytest.approx(1 / 1.03)
+
+
+def test_lines_of_the_sphere():
+    tables = {name: Made({"x [m]": np.arange(4.0)}) for name in ("load", "pressure", "exact-pressure")}
+    refinement = Made({"cells per contact radius": np.array([4, 8, 16])})
+    load, pressure, errors = hertz.draw(
+        made(**{**tables, "exact_pressure": tables["exact-pressure"], "refinement": refinement})
+    ).axes
+    of = tables["load"]
+    drawn(
+        load,
+        **{
+            "Hertz": of["hertz force [N]"],
+            "boundary elements": of["bem3d force [N]"],
+            "MDR": of["mdr force [N]"],
+        },
+    )
+    np.testing.assert_allclose(load.get_lines()[0].get_xdata(), 1e6 * of["approach [m]"])
+    drawn(
+        pressure,
+        **{
+            "Hertz": 1e-6 * tables["exact-pressure"]["hertz pressure [Pa]"],
+            "boundary elements": 1e-6 * tables["pressure"]["bem3d pressure [Pa]"],
+        },
+    )
+    off = refinement["bem3d force error"]
+    drawn(
+        errors,
+        **{
+            "boundary elements": off,
+            "MDR": refinement["mdr force error"],
+            "second order": off[0] * np.array([1, 1 / 4, 1 / 16]),
+        },
+    )
+
+
+def test_lines_of_the_flat_punches():
+    level = {"extrapolated": 1.15, "capacitance": 1.16, "mdr L": 1.0, "mdr 1.1523 L": 1.17}
+    levels = Table("levels", {"level": list(level), "k / (E* L)": list(level.values())})
+    refinement = Made({"cells per side": np.array([8, 16, 32])})
+    pressure = Made({"x / L": np.arange(5.0)})
+    stiffness, along = square_punch.draw(made(levels=levels, refinement=refinement, pressure=pressure)).axes
+    square = refinement["square k / (E* L)"]
+    drawn(
+        stiffness,
+        **{
+            "boundary elements, square": square,
+            "boundary elements, circle": refinement["circle k / (2 E* a)"],
+            "first-order extrapolation": [1.15, square[-2]],
+            "square, numerical capacitance": [1.16] * 2,
+            "MDR, L_1D = L": [1.0] * 2,
+            "MDR, L_1D = 1.1523 L": [1.17] * 2,
+        },
+    )
+    drawn(along, **{"boundary elements": pressure["p / mean p"]})
+
+
+def test_lines_of_geikes_rule():
+    spectra, moments = Made({"q [rad/m]": np.arange(1.0, 6.0)}), Made({"n": np.arange(4)})
+    spectrum, moment = geike.draw(made(spectra=spectra, moments=moments)).axes
+    drawn(
+        spectrum,
+        **{
+            "Geike, π q C_2D": spectra["geike [m^3]"],
+            "line trace": spectra["line trace [m^3]"],
+            "drawn profiles": spectra["drawn profiles [m^3]"],
+            "lines cut from drawn surfaces": spectra["lines of drawn surfaces [m^3]"],
+        },
+    )
+    drawn(
+        moment,
+        **{
+            "Geike": moments["geike"],
+            "line trace": moments["line trace"],
+            "mean of |cos φ|ⁿ": moments["exact"],
+        },
+    )
+
+
+def test_lines_of_ways_to_draw():
+    keys = {"H": [0.7] * 6, "drawn with": ["fixed"] * 6, "method": ["bem3d"] * 3 + ["mdr"] * 3}
+    table = Made({**keys, "Fbar": [0.1, 1.0, 10.0] * 2})
+    value = table["relative deviation"]
+    table.given["low"], table.given["high"] = 0.8 * value, 1.1 * value
+    (axis,) = normalisation.draw(made(curves=table)).axes
+    drawn(
+        axis,
+        **{
+            "boundary elements": (value[:3], (0.2 * value[:3], 0.1 * value[:3])),
+            "MDR, L_1D = L": value[3:],
+        },
+    )
+
+
+def test_lines_of_where_mdr_must_fail():
+    table = Made(
+        {"q_r L / 2π": [1.0] * 4 + [8.0] * 4, "Fbar": [*FORCE, *FORCE], "bem3d cells in contact": np.full(8, 99.0)}
+    )
+    names = ("contact fraction", "mean gap", "interface", "relative deviation")
+    for name in (f"{method} {what}" for method in ("bem3d", "mdr") for what in names):
+        table.given[f"{name} low"], table.given[f"{name} high"] = 0.9 * table[name], 1.3 * table[name]
+    axes = mdr_limits_figure.draw(made(curves=table)).axes
+    for axis, name in zip(axes, names, strict=True):
+        unit = table["Fbar"] if name == "interface" else np.ones(8)
+        expected = {"Persson": table["Persson contact fraction"][:4]} if name == "contact fraction" else {}
+        for roll_off, rows in ((1, slice(4)), (8, slice(4, 8))):
+            value = (table[f"bem3d {name}"] / unit)[rows]
+            expected[f"boundary elements, q_r L / 2π = {roll_off}"] = value, (0.1 * value, 0.3 * value)
+            expected[f"MDR, q_r L / 2π = {roll_off}"] = (table[f"mdr {name}"] / unit)[rows]
+        drawn(axis, **expected)
+
+
+def test_lines_of_fig_14_3():
+    table = Made({"q a": np.arange(1.0, 6.0)})
+    (axis,) = rolling_figure.draw_line(made(spectrum=table)).axes
+    drawn(
+        axis,
+        **{
+            "linear theory, 3D": table["linear 3D"],
+            "springs": table["springs"],
+            "(14.12)": table["(14.12)"],
+            "(14.14)": table["(14.14)"],
+        },
+    )
+
+
+def rolled_levels():
+    """Of two heights and three bands."""
+    keys = {"h/d": np.repeat([0.01, 0.1], 3), "q a": [0.5, 1.0, 2.0] * 2, "from": [0.4, 0.8, 1.6] * 2}
+    return Made({**keys, "to": [0.8, 1.6, 3.2] * 2})
+
+
+def test_lines_of_rolling():
+    table = rolled_levels()
+    for axis, height in zip(rolling_figure.draw(made(levels=table)).axes, (0.01, 0.1), strict=True):
+        mine = table.where(**{"h/d": height})
+        bars = mine["± sample [dB]"] + mine["± grid [dB]"]
+        assert axis.get_title() == f"h/d = {height:g}"
+        drawn(
+            axis,
+            **{
+                "linear theory, 3D": mine["linear 3D [dB]"],
+                "linear theory, 1D (14.12)": mine["linear 1D [dB]"],
+                "springs": mine["springs [dB]"],
+                "boundary elements": (mine["bem3d [dB]"], (bars, bars)),
+            },
+        )
+
+
+def test_panels_of_the_map_have_their_model():
+    table = rolled_levels()
+    axes = rolling_figure.draw_map(made(levels=table)).axes[:4]
+    models = ("linear 1D", "springs", "linear 3D", "springs, fed for rolling")
+    assert tuple(axis.get_title() for axis in axes) == models
+    for axis, model in zip(axes, models, strict=True):
+        np.testing.assert_allclose(axis.collections[0].get_array().ravel(), table[f"{model} over bem3d [dB]"])
+
+
+def test_coherence_has_its_lines():
+    table = rolled_levels()
+    forces = Made({"h/d": np.repeat([0.01, 0.1], 4), "x / a": np.arange(8.0)})
+    coherence, departure, _ = rolling_figure.draw_coherence(made(levels=table, forces=forces)).axes
+    for i, height in enumerate((0.01, 0.1)):
+        mine = table.where(**{"h/d": height})
+        assert coherence.get_lines()[2 * i].get_label() == f"h/d = {height:g}"
+        np.testing.assert_allclose(coherence.get_lines()[2 * i].get_ydata(), mine["coherence of bem3d"])
+        np.testing.assert_allclose(coherence.get_lines()[2 * i + 1].get_ydata(), mine["coherence of springs"][2:])
+        np.testing.assert_allclose(departure.get_lines()[2 * i].get_ydata(), -mine["linear 3D over bem3d [dB]"])
+        np.testing.assert_allclose(
+            departure.get_lines()[2 * i + 1].get_ydata(), (mine["springs [dB]"] - mine["linear 1D [dB]"])[2:]
+        )
+
+
+def test_lines_of_what_springs_are_fed():
+    names = ["one", "two", "three", "four", "five", "six"]
+    bands = Made({"spectrum": np.repeat(names, 3), "q a": [1.0, 2.0, 3.0] * 6})
+    for axis, name in zip(rolling_input.draw(made(bands=bands)).axes, names, strict=True):
+        mine = bands.where(spectrum=name)
+        drawn(axis, **{label: mine[f"{label} [dB]"] for label in NAMES.values()})
+    rolled = Made({"spectrum": np.repeat(names[:2], 3), "h/d": np.full(6, 0.1), "q a": [1.0, 2.0, 3.0] * 2})
+    for axis, name in zip(rolling_input.draw_springs(made(rolled=rolled)).axes, names, strict=False):
+        mine = rolled.where(spectrum=name)
+        drawn(
+            axis,
+            **{label: (mine[f"{label} [dB]"], (mine[f"{label} ± [dB]"],) * 2) for label in NAMES.values()},
+        )
+    punches = Made({"input": np.repeat(list(NAMES.values()), 2), "Fbar": [0.1, 1.0] * len(NAMES)})
+    value = punches["mdr over bem3d"]
+    punches.given["low"], punches.given["high"] = 0.8 * value, 1.1 * value
+    (axis,) = rolling_input.draw_punch(made(punches=punches)).axes
+    expected = {}
+    for label in NAMES.values():
+        mine = punches.where(input=label)["mdr over bem3d"]
+        expected[label] = mine, (0.2 * mine, 0.1 * mine)
+    drawn(axis, **expected)
+
+
+def test_lines_of_fig_14_4():
+    spectrum, near = Made({"x": np.arange(6)}), Made({"x": np.arange(5)})
+    marks = Table("marks", {"mark": ["ω_eigen"], "omega [rad/s]": [1.0]})
+    whole, region = wheel.draw(made(spectrum=spectrum, oscillation=near, marks=marks)).axes
+    drawn(
+        whole,
+        **{
+            "linear theory": spectrum["linear"],
+            "no window, (14.17)": spectrum["A [(m/s2)2 s]"],
+            "Hann": spectrum["Hann"],
+            "floor predicted": spectrum["floor"],
+        },
+    )
+    band = whole.collections[0].get_paths()[0].vertices[:, 1]
+    assert set(np.round(spectrum["lowest tenth"], 9)) <= set(np.round(band, 9))
+    drawn(region, **{"linear theory": near["linear"], "no window": near["springs"], "Hann": near["springs, Hann"]})
+
+
+def test_lines_of_one_parameter_at_a_time():
+    names = ["the scene", "v₀ × 2", "F_N × 2", "q_min × 2", "q_max × 2", "H = 1", "h₀ × 4"]
+    table = Made({"scene": np.repeat(names, 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 7})
+    for axis, name in zip(wheel.draw_parameters(made(variations=table)).axes, names[1:], strict=True):
+        drawn(axis, **{name: table.where(scene=name)["A [(m/s2)2 s]"]})
+
+
+def test_lines_of_fig_14_5():
+    distances = Made({"distance [m]": np.repeat([0.1, 0.2], 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 2})
+    breaks = Made({"distance [m]": [0.1, 0.2], "duration [s]": np.array([1.0, 2.0]), "break [rad/s]": [1.5, 2.5]})
+    law = Number(label="break against duration", value=0.4, reference=0.4, source="s", tolerance=0.1, reason="r")
+    spectra, found = wheel_distance.draw(made((law,), distances=distances, breaks=breaks)).axes
+    for name in (0.1, 0.2):
+        mine = distances.where(**{"distance [m]": name})
+        np.testing.assert_allclose(series(spectra)[f"{name:.2g} m"][0], mine["A [(m/s2)2 s]"])
+    middle = np.exp(np.mean(np.log([1.5, 2.5]) - 0.4 * np.log([1, 2])))
+    drawn(
+        found,
+        **{
+            "found": (np.array([1.5, 2.5]), (breaks["± break [rad/s]"],) * 2),
+            "by the jumps of the records": breaks["break by its jumps [rad/s]"],
+            "T^0.400": middle * np.array([1, 2]) ** 0.4,
+        },
+    )
+
+
+def test_lines_of_the_causes():
+    ends, plateau = Made({"x": np.arange(5)}), Made({"h / d": np.array([0.1, 0.2, 0.4])})
+    vibrations = Made({"release / d": np.array([0.0, 0.4])})
+    ways, region, peak = wheel_distance.draw_cause(made(endings=ends, plateau=plateau, vibrations=vibrations)).axes
+    names = ("springs, repeating", "springs, open", "springs, whole turns", "springs, open, Hann", "linear, open")
+    drawn(ways, **{name: ends[name] for name in names})
+    found = series(region)
+    for label, kind in (
+        ("springs, open", "springs, open"),
+        ("linear, open: leakage", "linear, open"),
+        ("springs, repeating: nonlinearity", "springs, steady"),
+    ):
+        y, half = plateau[f"{kind} [dB]"], plateau[f"± {kind} [dB]"]
+        np.testing.assert_allclose(found[label][0], y)
+        np.testing.assert_allclose(found[label][1].T, [y - half, y + half])
+    for label, kind, order in (("h^2", "linear, open", 2), ("h^4", "springs, steady", 4)):
+        expected = plateau[f"{kind} [dB]"][0] + 10 * np.log10(np.array([1.0, 2.0, 4.0]) ** order)
+        np.testing.assert_allclose(found[label][0], expected)
+    bars = next(c for c in peak.containers if isinstance(c, ErrorbarContainer))
+    np.testing.assert_allclose(bars.lines[0].get_ydata(), vibrations["peak over omega_eigen"])
+
+
+def test_lines_of_the_wheel_in_three_dimensions():
+    table, near = Made({"omega [rad/s]": np.arange(1.0, 5.0)}), Made({"x": np.arange(6)})
+    levels, differences, oscillation = wheel_3d.draw(made(levels=table, oscillation=near)).axes
+    names = ("linear, 3D", "linear, 1D (14.12)", "springs, Geike", "springs, fed for rolling")
+    bem = table["bem3d [dB]"]
+    half = sum(table[f"± {of} [dB]"] for of in ("sample", "grid", "solver"))
+    over = {name: table[f"{name} over bem3d [dB]"] for name in names}
+    drawn(levels, **{name: bem + off for name, off in over.items()}, **{"boundary elements": (bem, (half, half))})
+    for line, name in zip(differences.get_lines(), names, strict=False):
+        np.testing.assert_allclose(line.get_ydata(), over[name])
+    drawn(
+        oscillation,
+        **{
+            "linear contact, 3D": near["linear, 3D"],
+            "springs, Geike": near["springs, Geike"],
+            "boundary elements": near["bem3d"],
+        },
+    )
+    band = differences.collections[0].get_paths()[0].vertices[:, 1]
+    assert (band.max(), band.min()) == pytest.approx((half.max(), -half.max()))
+
+
+def test_lines_of_rounds_and_of_lift_off():
+    rounds = Made({"scheme": np.repeat(["velocity Verlet", "explicit Euler"], 3), "rounds": [1.0, 2.0, 3.0] * 2})
+    axis = plain_axis()
+    wheel_stability._rounds(axis, rounds)
+    expected = {}
+    for name in ("velocity Verlet", "explicit Euler"):
+        mine = rounds.where(scheme=name)
+        for what in ("free vibration", "mean square acceleration"):
+            value = np.exp(mine[f"{what}, log over first tenth"])
+            expected[f"{name}, {what}"] = value, (value * mine[f"{what}, half-width"],) * 2
+    drawn(axis, **expected)
+    lift = Made({"sweep": np.repeat(["height", "load"], 3)})
+    airborne, highest = plain_axis(), plain_axis()
+    wheel_stability._lift(airborne, highest, lift)
+    of = {sweep: lift.where(sweep=sweep) for sweep in ("height", "load")}
+    drawn(
+        airborne,
+        **{f"{sweep} changed": mine["time airborne"] for sweep, mine in of.items()},
+        **{f"linear force pulls, {sweep}": mine["time airborne, linear"] for sweep, mine in of.items()},
+    )
+    drawn(
+        highest,
+        **{f"{sweep} changed": mine["highest force [F_N]"] for sweep, mine in of.items()},
+        **{f"1 + deepest linear pull, {sweep}": 1 + mine["deepest linear pull [F_N]"] for sweep, mine in of.items()},
+    )
+
+
+def plain_axis():
+    return Figure().subplots()
+
+
+def test_lines_of_iterations():
+    keys = {"solver": np.repeat(["solve", "solve_plain"], 4), "scene": np.tile(np.repeat(["a", "b"], 2), 2)}
+    table = Made({**keys, "cells": [32, 64] * 4})
+    residual = Made(keys)
+    axes = limits.draw_solver(made(iterations=table, residual=residual)).axes
+    pairs = [(solver, scene) for solver in ("solve", "solve_plain") for scene in ("a", "b")]
+    drawn(axes[0], **{f"{v}, {s}": table.where(solver=v, scene=s)["iterations"] for v, s in pairs})
+    for axis, measure in zip(axes[1:], ("load", "stiffness", "pressure"), strict=True):
+        assert axis.get_title() == f"true error: {measure}"
+        for line, (solver, scene) in zip(axis.get_lines(), pairs, strict=False):
+            mine = residual.where(solver=solver, scene=scene)
+            np.testing.assert_allclose(line.get_ydata(), mine[f"error of the {measure}"])
+            same = axes[0].get_lines()[pairs.index((solver, scene))]
+            assert (line.get_color(), line.get_marker(), line.get_linestyle()) == (
+                same.get_color(),
+                same.get_marker(),
+                same.get_linestyle(),
+            )
+
+
+def test_marks_of_methods_are_those_of_the_legend():
+    """Each line of a chart looks as its name does, and no two names look alike."""
+    methods = list(precision.STYLES)
+    keys = {"scene": ["s"] * 22, "quantity": ["force"] * 22, "unit": ["%"] * 22, "status": ["finished"] * 22}
+    yes = np.tile([True, False], 11)
+    table = Made({**keys, "method": np.repeat(methods, 2), "front": yes, "reference itself": ~yes & False})
+    table.given["error"] = table["median [s]"] * 0 + np.linspace(0.01, 0.2, 22)
+    table.given["lower quartile [s]"] = 0.9 * table["median [s]"]
+    table.given["upper quartile [s]"] = 1.2 * table["median [s]"]
+    table.given["band"], table.given["± sample"] = np.full(22, 1e-4), np.full(22, 1e-3)
+    axes = precision.draw(made(points=table)).axes
+    legend = {h.get_label(): look(h) for h in axes[-1].get_legend().legend_handles}
+    assert list(legend) == methods and len(set(legend.values())) == len(methods)
+    bars = [c for c in axes[0].containers if isinstance(c, ErrorbarContainer)]
+    for container, name in zip(bars, methods, strict=True):
+        assert look(container.lines[0]) == legend[name]
+        np.testing.assert_allclose(container.lines[0].get_ydata(), 100 * table.where(method=name)["error"])
+
+
+def look(line):
+    return line.get_color(), line.get_marker(), line.get_linestyle(), str(line.get_markerfacecolor())

@@ -1,0 +1,571 @@
+"""A flag that something did not converge: from each solve through its case to the page, the words and exit status 3."""
+
+import ast
+import functools
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import bem3d
+from validation import __main__ as command
+from validation import precision_evidence, rolling_strip, rough_punch, wheel_ensemble
+from validation.cases import (
+    CASES,
+    fractal_punch,
+    fractal_punch_decades,
+    ladder,
+    limits,
+    mdr_limits,
+    normalisation,
+    ridges,
+    rolling,
+    rolling_input,
+    wheel,
+    wheel_3d,
+    wheel_distance,
+)
+from validation.ensemble import Engine, generator
+from validation.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict
+from validation.ladder import Answer, Claim, Cost, climb
+from validation.limits_solver import Grid, press_grid
+from validation.precision import BEM, FAILED, FINISHED, LOOSE, MDR, PLAIN, REFUSED
+from validation.rolling_strip import self_affine
+from validation.wheel_scene import read_scene
+
+ROOT = Path(__file__).parents[1]
+
+
+# --- solves: what is cut short has no value, and is counted ---
+
+
+def cut(function, lost):
+    """A path of contacts, or a rolling wheel, in which some loads get a single iteration; `lost` counts its calls."""
+
+    @functools.wraps(function)
+    def short(*args, **settings):
+        return function(*args, **{**settings, **({"max_iterations": 1} if lost() else {})})
+
+    return short
+
+
+def test_a_load_that_does_not_converge_has_no_value_at_all(monkeypatch):
+    """Neither stiffness nor area, approach or gap; the others have all of them."""
+    problem = fractal_punch.FractalPunch(cells=16, surfaces=3, refined=3, decades=(-1, 0)).surface(0.7, 0, 16)
+    whole = rough_punch.press_surface(problem)
+    assert whole["failed"] == 0
+    indent = bem3d.indent
+
+    def stubborn(half_space, gap, *, forces, **settings):
+        for i, force in enumerate(forces):
+            yield from indent(half_space, gap, forces=[force], **settings, max_iterations=1 if i == 2 else 500)
+
+    monkeypatch.setattr(bem3d, "indent", stubborn)
+    found = rough_punch.press_surface(problem)
+    assert found["failed"] == 1
+    for name in ("stiffness", "area", "approach", "gap"):
+        assert np.flatnonzero(np.isnan(found[name])).tolist() == [2]
+    assert found["residual"][2] > problem.tolerance
+    line = rough_punch.lost([problem], [found])
+    assert len(line) == 1 and line[0].startswith("surface 0, H = 0.7, 16² cells, Fbar = 0.464: residual")
+
+
+def test_a_stiffness_that_does_not_converge_loses_its_load(monkeypatch):
+    problem = fractal_punch.FractalPunch(cells=16, surfaces=3, refined=3, decades=(-1, 0)).surface(0.7, 0, 16)
+    indent = bem3d.indent
+
+    def unfrozen(*args, **settings):
+        for i, contact in enumerate(indent(*args, **settings)):
+            yield replace(contact, frozen=replace(contact.frozen, converged=i != 1))
+
+    monkeypatch.setattr(bem3d, "indent", unfrozen)
+    found = rough_punch.press_surface(problem)
+    assert found["failed"] == 1 and np.isnan(found["stiffness"][1])
+
+
+def test_a_position_that_does_not_converge_has_no_force(monkeypatch):
+    strip = rolling_strip.Strip(
+        spectrum=self_affine(0.7, 1.0, 4.0),
+        height=0.1,
+        realisation=0,
+        length=8.0,
+        width=6.0,
+        cells=4,
+        tolerance=1e-6,
+        seed=1,
+    )
+    assert rolling_strip.roll_strip(strip)["failed"] == 0
+    monkeypatch.setattr(bem3d, "roll", cut(bem3d.roll, lambda: True))
+    found = rolling_strip.roll_strip(strip)
+    assert found["failed"] == np.isnan(found["force"]).sum() == 32
+    assert np.isfinite(found["linear"]).all()
+    levels = rolling_strip.strip_levels([found], 0.25, rolling.Rolling(lowest=1.0, last=3.0, length=32.0).bands)
+    assert np.isnan(levels["level"]).all()
+
+
+def test_both_ways_over_ridges_are_counted(monkeypatch):
+    case = ridges.Ridges(length=8, shortest=4.0, cells=(4,))
+    rolled = ridges.Rolled(case=case, method="bem3d", cells=4)
+    assert ridges.roll_over(rolled)["failed"] == 0
+    calls = iter([False, True])
+    monkeypatch.setattr(bem3d, "roll", cut(bem3d.roll, lambda: next(calls)))
+    assert ridges.roll_over(rolled)["failed"] == 32
+
+
+def test_wheels_that_do_not_repeat_themselves_are_counted(monkeypatch):
+    scene = replace(read_scene("table_14_1"), distance=0.05, springs=20)
+    rides = wheel_ensemble.Rides(scene=scene, count=4, groups=2, track="steady", seed=1)
+    monkeypatch.setattr(wheel_ensemble, "repeating", lambda *_, start, **__: (*start, np.array([0, 1, 2e-3, 0.0])))
+    assert wheel_ensemble.roll_wheels(rides)["failed"] == np.sum(np.array([0, 1, 2e-3, 0.0]) > wheel_ensemble.LEFT)
+    assert wheel_ensemble.LEFT < 1e-3
+
+
+@pytest.mark.parametrize("solver", ["solve", "solve_plain"])
+def test_a_grid_that_does_not_converge_is_flagged_at_each_residual(solver):
+    grid = Grid(scene="sphere", solver=solver, cells=12, tolerances=(1e-3, 1e-30), seed=1, true=False)
+    with np.errstate(all="ignore"):
+        assert press_grid(grid)["failed"].tolist() == [0.0, 1.0]
+
+
+# --- cases: a flag in an outcome is a line of the result, or its end ---
+
+
+class Given:
+    """An engine that solves nothing: each problem's outcome is made up, some of them lost."""
+
+    def __init__(self, outcome, lost):
+        self._outcome, self._lost, self.seen = outcome, lost, []
+
+    def map(self, _, problems):
+        self.seen += problems
+        return [self._outcome(problem, self._lost(problem)) for problem in problems]
+
+
+def pressed(problem, lost):
+    if isinstance(problem, rough_punch.Surface):
+        ones, last = np.ones(len(problem.forces)), np.where(np.arange(len(problem.forces)) == 1, np.nan, 1.0)
+        values = last if lost else ones
+        found = dict.fromkeys(("stiffness", "area", "approach", "gap"), values)
+        return {**found, "residual": 0.5 * ones, "failed": np.array(float(lost)), "gradient": np.array(1.0)}
+    if isinstance(problem, rolling_strip.Strip):
+        cells = round(problem.length * problem.cells)
+        force = np.random.default_rng(problem.realisation).standard_normal(cells)
+        return {"force": np.nan * force if lost else force, "linear": force, "failed": np.array(7.0 * lost)}
+    if isinstance(problem, ridges.Rolled):
+        return {"response": np.ones((2, 3)), "failed": np.array(3.0 * lost)}
+    if isinstance(problem, wheel_ensemble.Rides):
+        return {"failed": np.array(float(lost))}
+    if isinstance(problem, ladder.Trial):
+        return {"failed": np.array(float(lost))}
+    if hasattr(problem, "turns"):
+        return {"failed": np.array(float(lost))}
+    return {"height": np.array(1.0), "stiffness": np.ones((3, 3))}
+
+
+def one_surface(realisation, **settings):
+    def lost(problem):
+        mine = isinstance(problem, rough_punch.Surface) and problem.realisation == realisation
+        return mine and all(getattr(problem, name) == value for name, value in settings.items())
+
+    return lost
+
+
+def one_strip(realisation, height, cells):
+    return lambda p: (
+        isinstance(p, rolling_strip.Strip) and (p.realisation, p.height, p.cells) == (realisation, height, cells)
+    )
+
+
+PUNCH = fractal_punch.FractalPunch(hursts=(0.7,), cells=8, surfaces=4, profiles=3, refined=3, decades=(-1, 0), light=9)
+LOST = {
+    "fractal punch, middle grid": (fractal_punch.run, PUNCH, one_surface(2, cells=8), "surface 2, H = 0.7, 8² cells"),
+    "fractal punch, finer grid": (fractal_punch.run, PUNCH, one_surface(1, cells=16), "surface 1, H = 0.7, 16² cells"),
+    "fractal punch, coarser": (fractal_punch.run, PUNCH, one_surface(0, cells=4), "surface 0, H = 0.7, 4² cells"),
+    "mdr limits, refined": (
+        mdr_limits.run,
+        mdr_limits.MdrLimits(roll_offs=(1,), cells=16, surfaces=4, refined=3),
+        one_surface(1, cells=32),
+        "surface 1, H = 0.7, 32² cells",
+    ),
+    "normalisation": (
+        normalisation.run,
+        replace(normalisation.Normalisation(), hursts=(0.7,), surfaces=4),
+        lambda p: one_surface(3)(p) and p.roughness.amplitudes == "gaussian" and p.roughness.normalised == "each",
+        "surface 3, H = 0.7",
+    ),
+    "ridges": (
+        ridges.run,
+        ridges.Ridges(cells=(4, 6), springs=(8.5,)),
+        lambda p: p.method == "bem3d" and p.cells == 6,
+        "bem3d, 6 cells to a radius: 3 positions",
+    ),
+    "rolling, finer grid": (
+        rolling.run,
+        rolling.Rolling(heights=(0.1,), strips=4, refined=4, cells=4),
+        one_strip(3, 0.1, 8),
+        "strip 3, h/d = 0.1, 8 cells to a radius: 7 positions",
+    ),
+    "rolling, all strips": (
+        rolling.run,
+        rolling.Rolling(heights=(0.1, 0.3), strips=4, rough_strips=4, cells=4),
+        one_strip(0, 0.3, 4),
+        "strip 0, h/d = 0.3, 4 cells to a radius: 7 positions",
+    ),
+    "rolling input, strips": (
+        rolling_input.run,
+        rolling_input.RollingInput(heights=(0.03,), strips=4, cells=4, surfaces=3),
+        lambda p: one_strip(2, 0.03, 4)(p) and p.spectrum == rolling_input.RollingInput().spectra["H = 0.7"],
+        "strip 2, h/d = 0.03",
+    ),
+    "rolling input, punches": (
+        rolling_input.run,
+        rolling_input.RollingInput(heights=(0.03,), strips=3, cells=4, surfaces=4),
+        one_surface(3),
+        "surface 3, H = 0.7",
+    ),
+    "wheel distance": (
+        wheel_distance.run,
+        wheel_distance.WheelDistance(),
+        lambda p: p.track == "steady" and p.scene.rms == wheel_distance.SHORT.rms and p.linear,
+        "1 of 20 wheels do not repeat themselves, h₀ = 5e-07 m",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LOST)
+def test_what_is_lost_is_a_line_of_the_result(name):
+    run, case, lost, line = LOST[name]
+    assert run(case, Given(pressed, lambda _: False)).unconverged == ()
+    found = run(case, Given(pressed, lost)).unconverged
+    assert len(found) == 1 and found[0].startswith(line), found
+
+
+@pytest.mark.parametrize(
+    ("run", "case", "lost"),
+    [
+        (rolling.run, rolling.Rolling(heights=(0.1,), strips=3, refined=3, cells=4), one_strip(1, 0.1, 4)),
+        (rolling.run, rolling.Rolling(heights=(0.1,), strips=4, refined=3, cells=4), one_strip(2, 0.1, 8)),
+        (
+            rolling_input.run,
+            rolling_input.RollingInput(heights=(0.03,), strips=3, cells=4, surfaces=3),
+            one_strip(1, 0.03, 4),
+        ),
+        (
+            rolling_input.run,
+            rolling_input.RollingInput(heights=(0.03,), strips=3, cells=4, surfaces=3),
+            one_surface(0),
+        ),
+        (wheel.run, wheel.Wheel(parameters=False), lambda p: isinstance(p, wheel_ensemble.Rides)),
+        (wheel_distance.run, wheel_distance.WheelDistance(), lambda p: p.release > 0),
+    ],
+)
+def test_too_little_left_is_no_evidence(run, case, lost):
+    given = Given(
+        lambda p, gone: {**pressed(p, gone), **({"failed": np.array(99.0)} if gone and hasattr(p, "release") else {})},
+        lost,
+    )
+    with pytest.raises(NotConvergedError) as caught:
+        run(case, given)
+    assert caught.value.lost
+
+
+@pytest.mark.parametrize("which", [wheel_3d.COARSER, wheel_3d.LOOSE, wheel_3d.TIGHT])
+def test_no_strip_may_be_lost_that_tells_an_error_bar(which):
+    case = wheel_3d.Wheel3D(strips=4)
+    mine = case.strips_of()[which][-1]
+    with pytest.raises(NotConvergedError) as caught:
+        wheel_3d.run(case, Given(pressed, lambda p: p is mine or p == mine))
+    assert len(caught.value.lost) == 1
+
+
+def swept_through(problem, lost):
+    if isinstance(problem, Grid):
+        failed = np.zeros(len(problem.tolerances))
+        failed[-1] = lost
+        return {"failed": failed, "iterations": np.ones(2), "applications": np.ones(2)}
+    parts = {"knob": np.ones(3), "error": np.ones(3), "border": np.array(1.0), "said": np.array(["", "", ""])}
+    found = {f"{limit.name} {part}": value for limit in limits.LIMITS for part, value in parts.items()}
+    return {**found, "failed": np.array(2.0 * lost)}
+
+
+def test_a_solve_that_is_lost_in_a_sweep_is_a_line_of_the_result():
+    case = limits.Limits(grids=(32, 64), tolerances=(1e-2, 1e-4))
+    assert limits.run(case, Given(swept_through, lambda _: False)).unconverged == ()
+    first = case.problems()[0]
+    assert limits.run(case, Given(swept_through, lambda p: p == first)).unconverged == (f"{type(first).__name__}: 2",)
+    grid = next(g for g in case.judged_grids() if g.solver == "solve_plain")
+    lost = limits.run(case, Given(swept_through, lambda p: p == grid)).unconverged
+    assert lost == (f"{grid.scene}, {grid.cells}² cells, solve_plain to {grid.tolerances[-1]:g}",)
+
+
+def test_a_referee_that_is_lost_is_a_line_of_the_result():
+    case = ladder.Ladder(punches=2, spheres=1, rolling=0, wheels=0)
+    gone = case.trials[1]
+    assert ladder.run(case, Given(pressed, lambda p: p == gone)).unconverged == (f"{gone.kind} {gone.number}",)
+    with pytest.raises(NotConvergedError):
+        ladder.run(case, Given(pressed, lambda _: True))
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "validation" / "cases").glob("*.py")), ids=lambda path: path.stem)
+def test_every_case_hands_on_what_is_lost(path):
+    """Where a result knows what has not converged, the evidence that is read from it says so."""
+    tree = ast.parse(path.read_text())
+    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and getattr(n.func, "id", "") == "Evidence"]
+    module = path.stem.removesuffix("_evidence")
+    source = (path.parent / f"{module}.py").read_text()
+    knows = "unconverged: tuple[str, ...]" in source
+    for call in calls:
+        handed = [ast.unparse(keyword.value) for keyword in call.keywords if keyword.arg == "unconverged"]
+        assert (handed == ["result.unconverged"]) if knows else (handed != ["()"])
+
+
+def points(**statuses):
+    rows = [
+        SimpleNamespace(scene="sphere", line=line, setting="8 cells", status=status)
+        for line, status in statuses.items()
+        for _ in range(2)
+    ]
+    return SimpleNamespace(points=rows)
+
+
+def test_a_method_that_fails_on_the_clock_is_not_converged_and_a_refusal_is_an_answer():
+    """Once for all of its quantities; the textbook's iteration is there to be seen failing."""
+    failed = f"{FAILED}: ConvergenceError: residual 1"
+    lost = precision_evidence._unconverged(
+        points(**{BEM: failed, MDR: FINISHED, LOOSE: f"{REFUSED}: no", PLAIN: failed})
+    )
+    assert lost == (f"sphere: {BEM}, 8 cells: {failed}",)
+
+
+# --- the page, the words, the exit status ---
+
+
+def number(verdict, role=Role.CRITERION):
+    value, sample = {"agree": (1.0, 0.0), "differ": (3.0, 0.0), "undecided": (1.0, 1.0)}[verdict]
+    return Number(
+        label=f"a {verdict} {role}",
+        value=value,
+        reference=1.0,
+        source="s",
+        tolerance=0.1,
+        reason="r",
+        sample=sample,
+        role=role,
+    )
+
+
+def reported(monkeypatch, tmp_path, *, numbers=(), unconverged=(), raises=None):
+    """Exit status and page of a report of one case, made up."""
+    shown = Evidence(
+        title="Made up",
+        compared="nothing",
+        numbers=tuple(numbers),
+        tables=(Table("t", {"x": [1.0]}),),
+        conclusions=(),
+        captions={},
+        unconverged=unconverged,
+    )
+
+    def run(case, engine):
+        if raises:
+            raise raises
+        return shown
+
+    entry = replace(CASES["geike"], run=run, evidence=lambda result: result)
+    monkeypatch.setitem(CASES, "geike", entry)
+    status = command.main(["report", "--only", "geike", "--out", str(tmp_path / "report"), "--workers", "1"])
+    return status, (tmp_path / "report" / "index.html").read_text(), (tmp_path / "report" / "results.json").read_text()
+
+
+@pytest.mark.parametrize(
+    ("numbers", "unconverged", "status"),
+    [
+        ([number("agree")], (), 0),
+        ([number("differ", Role.FINDING), number("undecided", Role.FINDING)], (), 0),
+        ([number("agree"), number("differ")], (), 1),
+        ([number("undecided")], (), 1),
+        ([number("agree")], ("surface 3: residual 0.1",), 3),
+        ([number("differ")], ("surface 3: residual 0.1",), 3),
+    ],
+)
+def test_what_a_report_ends_with(numbers, unconverged, status, monkeypatch, tmp_path, capsys):
+    ended, page, results = reported(monkeypatch, tmp_path, numbers=numbers, unconverged=unconverged)
+    assert ended == status
+    printed = capsys.readouterr().out
+    for line in unconverged:
+        assert line in page and line in results and f"not converged: {line}" in printed
+    assert ("Not converged" in page) == ("1 not converged" in page) == bool(unconverged)
+    missed = [n for n in numbers if n.role is Role.CRITERION and n.verdict is not Verdict.AGREE]
+    for n in missed:
+        assert f"missed: {n.sentence}" in printed
+    assert page.count("Missed criterion") == len(missed)
+    criteria = sum(n.role is Role.CRITERION for n in numbers)
+    assert f"criteria met {criteria - len(missed)} of {criteria}" in printed
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        NotConvergedError("too little is left", ("strip 1: 3 positions",)),
+        bem3d.ConvergenceError("residual 0.1 after 1 iterations", (1.0, 0.1), None),
+    ],
+)
+def test_a_case_without_evidence_is_not_converged(error, monkeypatch, tmp_path, capsys):
+    ended, page, results = reported(monkeypatch, tmp_path, raises=error)
+    assert ended == command.Exit.NOT_CONVERGED == 3
+    printed = capsys.readouterr().out
+    for line in (str(error), *getattr(error, "lost", ())):
+        assert line in page and line in results and f"not converged: {line}" in printed
+    assert "no result" in page and "no result" in printed
+
+
+def test_what_is_lost_is_counted_while_it_runs(monkeypatch):
+    counted = []
+
+    class Counting:
+        def __init__(self, *_, **settings):
+            counted.append(settings["failed"])
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            pass
+
+        def step(self, failed):
+            counted.append(failed)
+
+    monkeypatch.setattr("validation.ensemble.Progress", Counting)
+    Engine().map(lost_if_odd, [Numbered(i) for i in range(4)])
+    assert counted[0] == 0 and sorted(counted[1:]) == [False, False, True, True]
+
+
+class Numbered(int):
+    """A problem."""
+
+
+def lost_if_odd(problem):
+    return {"failed": np.array(float(problem % 2))} if problem else {}
+
+
+# --- rungs: what has failed is no answer ---
+
+
+class Rung:
+    def __init__(self, name, claim, error=None, failed=""):
+        self.name, self._claim, self._error, self._failed = name, claim, error, failed
+
+    def cost(self):
+        return Cost(work=1.0, unit="solves", seconds=1.0)
+
+    def claim(self):
+        return Claim(error=self._claim, because="as claimed")
+
+    def solve(self):
+        parts = {"model": self._error or 0.0, "grid": 0.0, "sample": 0.0}
+        return Answer(value=np.ones(1), **parts, cost=self.cost(), because="as found", failed=self._failed)
+
+
+def test_a_rung_that_fails_is_no_answer_however_small_its_error():
+    found = climb([Rung("fails", 0.01, 0.0, "it was cut short"), Rung("holds", 0.05, 0.04)], 0.05)
+    assert [step.fate for step in found.steps] == ["failed", "enough"]
+    assert found.best.rung.name == "holds" and found.met
+    assert found.steps[0].because == "it was cut short"
+    alone = climb([Rung("fails", 0.01, 0.0, "it was cut short")], 0.05)
+    assert alone.best is None and not alone.met
+
+
+def test_half_widths_add_and_a_failure_has_no_error_bar():
+    parts = {"value": np.ones(1), "cost": Cost(work=1.0, unit="solves", seconds=1.0), "because": "found"}
+    assert Answer(model=0.1, grid=0.02, sample=0.003, **parts).error == pytest.approx(0.123)
+    assert Answer(model=0.1, grid=0.02, sample=0.003, failed="cut short", **parts).error == np.inf
+
+
+@pytest.mark.parametrize(
+    ("claims", "errors", "fates"),
+    [
+        ((0.2, 0.1), (0.1, 0.05), ["skipped", "enough"]),
+        ((0.1, 0.1), (0.11, 0.1), ["not enough", "enough"]),
+        ((0.1, 0.1, 0.1), (0.1, 0.0, 0.0), ["enough", "not needed", "not needed"]),
+        ((0.3, 0.2), (0.1, 0.15), ["skipped", "not enough"]),
+        ((0.1, 0.5), (0.2, 0.01), ["not enough", "skipped"]),
+    ],
+)
+def test_what_becomes_of_rungs(claims, errors, fates):
+    """A tolerance of 0.1 is met by an error of just as much."""
+    names = "abc"
+    found = climb([Rung(n, c, e) for n, c, e in zip(names, claims, errors, strict=False)], 0.1)
+    assert [step.fate for step in found.steps] == fates
+    assert found.met == ("enough" in fates)
+
+
+# --- whose surfaces are whose ---
+
+
+def test_the_referee_of_the_ladder_has_surfaces_of_its_own():
+    """Everybody who is held to account draws with the seed of the trial, the referee with none of theirs."""
+    seeds = []
+    rungs_of = ladder.rungs_of
+
+    def seen(scene, want, tolerance, seed):
+        seeds.append(seed)
+        return rungs_of(scene, want, tolerance, seed)
+
+    trial = ladder.Ladder(punches=1, spheres=0, rolling=0, wheels=0, tolerances=(0.3,)).trials[0]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ladder, "rungs_of", seen)
+        ladder.hold_to_account(trial)
+    referee, *tested = seeds
+    assert set(tested) == {trial.seed} and referee != trial.seed
+
+
+def drawn_by(monkeypatch, module):
+    """Addresses of all that a module draws."""
+    seen = []
+
+    def recorded(entropy, *key):
+        seen.append((entropy, *key))
+        return generator(entropy, *key)
+
+    monkeypatch.setattr(module, "generator", recorded)
+    return seen
+
+
+def test_surfaces_are_the_same_on_all_grids_and_at_all_heights(monkeypatch):
+    """Pairs of grids, and what is taken over linear theory, lean on it."""
+    seen = drawn_by(monkeypatch, rolling_strip)
+    case = rolling.Rolling(length=8.0, width=6.0)
+    for height in (0.01, 1.0):
+        for cells in (4, 8):
+            case.strip(height, 2, cells).surface()
+    assert len(set(seen)) == 1
+    seen = drawn_by(monkeypatch, rough_punch)
+    for cells in (8, 16):
+        rough_punch._drawn(PUNCH.surface(0.7, 2, cells))
+    assert len(set(seen)) == 1
+
+
+def test_springs_and_surfaces_and_resampling_draw_apart(monkeypatch):
+    """No address of random numbers is used for two things."""
+    seen = drawn_by(monkeypatch, rough_punch)
+    roughness = PUNCH.roughness(0.7)
+    for i in range(3):
+        roughness.surface(8, i)
+        roughness.profile(64, i)
+    resampled = drawn_by(monkeypatch, fractal_punch_decades)
+    k = {"stiffness": 1 + 0.1 * np.random.default_rng(0).random((4, len(PUNCH.forces)))}
+    few = {"stiffness": k["stiffness"][:, np.isin(PUNCH.forces, PUNCH.refined_forces)]}
+    for h in range(2):
+        fractal_punch_decades.resampled(PUNCH, h, fractal_punch.Ensemble(0.7, k, few, few, k, k, k))
+    everything = [*seen, *resampled]
+    assert len(everything) == 6 + 12 == len(set(everything))
+
+
+def test_every_problem_of_a_case_is_its_own():
+    """No realisation is solved, or counted, twice."""
+    for run, case, _, _ in LOST.values():
+        given = Given(pressed, lambda _: False)
+        run(case, given)
+        assert len({repr(problem) for problem in given.seen}) == len(given.seen)

@@ -1,0 +1,525 @@
+"""What is printed belongs to its data: cells of pages and files, words and signs of verdicts, numbers in sentences."""
+
+import csv
+import io
+import math
+from dataclasses import replace
+from html.parser import HTMLParser
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from validation.cases import (
+    CASES,
+    fractal_punch_decades,
+    limits_evidence,
+    mdr_limits,
+    rolling,
+    rolling_evidence,
+    wheel_3d,
+    wheel_3d_evidence,
+    wheel_distance,
+    wheel_distance_evidence,
+    wheel_evidence,
+)
+from validation.cases.fractal_punch import FractalPunch
+from validation.evidence import Evidence, Number, Role, Table, Verdict, beside, claim, columns, plus_minus, table_of
+from validation.precision_front import in_unit, said
+from validation.report import build
+from validation.report.figures import fractal_punch
+from validation.report.folder import as_csv
+from validation.statistics import Estimate
+
+# --- the page, files ---
+
+reals = st.floats(-1e6, 1e6).filter(lambda x: x == 0 or abs(x) > 1e-6)
+widths = st.floats(1e-6, 1e4)
+
+
+def number(value=1.0, **changes):
+    settings = {"reference": 1.0, "source": "s", "tolerance": 0.1, "reason": "r", "unit": "dB", **changes}
+    return Number(**{"label": "x", "value": value, **settings})
+
+
+class Rows(HTMLParser):
+    """Cells of all tables of a page, row by row; pieces of a cell apart."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.rows, self._in = [], False
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append([])
+            self._in = True
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th"):
+            self._in = False
+
+    def handle_data(self, data):
+        if self._in and data.strip():
+            self.rows[-1][-1].append(data.strip())
+
+
+def page_of(numbers, shown=(), **settings):
+    """Rows of the page of one case."""
+    shown = Evidence(
+        title="t",
+        compared="c",
+        numbers=tuple(numbers),
+        tables=(Table("t", {"x": [1.0]}),),
+        conclusions=(),
+        captions={},
+        shown=tuple(shown),
+        **settings,
+    )
+    section = build.Section("geike", CASES["geike"], "none", {}, shown)
+    about = {name: {} for name in ("libraries", "seeds")} | {"seconds": {"geike": 1.0}, "timed": ()}
+    about |= dict.fromkeys(("version", "commit", "python", "system", "workers"), "")
+    return Rows(build._page([section], "full", {}, about).decode()).rows
+
+
+NUMBERS = [
+    number(1.234567, reference=1.2, tolerance=0.5, grid=0.0123, sample=0.0456, label="agrees"),
+    number(-3.5, reference=2.5, tolerance=0.25, grid=0.031, label="differs", unit="rad/s"),
+    number(7.25, reference=7.0, tolerance=0.5, sample=0.9, label="open", unit="-", role=Role.FINDING),
+]
+
+
+def test_rows_of_the_page_are_their_numbers():
+    """Value and reference to two digits more than the tolerance, the rest to two; verdict and sign its own."""
+    rows = {row[0][0]: row for row in page_of(NUMBERS) if row and row[0] and row[0][0] in ("agrees", "differs", "open")}
+    header = next(row for row in page_of(NUMBERS) if row and row[0] == ["Number"])
+    assert [cell[0] for cell in header] == [
+        "Number",
+        "Verdict",
+        "Value",
+        "Reference",
+        "Difference",
+        "± grid",
+        "± sample",
+        "Tolerance, and why",
+    ]
+    assert rows["agrees"][1:] == [
+        ["✓ agree"],
+        ["1.235 dB"],
+        ["1.200 dB", "s"],
+        ["0.035 dB"],
+        ["0.012"],
+        ["0.046"],
+        ["0.5 dB: r"],
+    ]
+    assert rows["differs"][1:] == [
+        ["≠ differ"],
+        ["-3.500 rad/s"],
+        ["2.500 rad/s", "s"],
+        ["-6 rad/s"],
+        ["0.031"],
+        ["–"],
+        ["0.25 rad/s: r"],
+    ]
+    assert rows["open"][1:] == [["? undecided"], ["7.250"], ["7.000", "s"], ["0.25"], ["–"], ["0.9"], ["0.5: r"]]
+    assert [rows[name][0][1] for name in rows] == ["(criterion)", "(criterion)", "(finding)"]
+
+
+def test_every_verdict_has_its_word_and_sign():
+    assert build.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(build.SYMBOL) == set(Verdict)
+    assert fractal_punch.SIGN == {"agree": "=", "differ": "≠", "undecided": "?"}
+    for verdict, symbol in build.SYMBOL.items():
+        assert build._badged(f"+3 %: {verdict}; more") == (
+            f'+3 %<br><span class="verdict {verdict}">{symbol} {verdict}</span>; more'
+        )
+    assert build._badged("<a> & b") == "&lt;a&gt; &amp; b" and build._badged(0.123456) == "0.1235"
+
+
+def test_counts_of_the_page_are_those_of_the_numbers():
+    findings = [number(v, tolerance=0.5, role=Role.FINDING) for v in (1.0, 1.1, 9.0)]
+    text = " ".join(" ".join(cell) for row in page_of([*NUMBERS, *findings]) for cell in row)
+    assert "criteria met 1 of 2" in text
+    for words in ("✓ 2 agree", "≠ 1 differ", "? 1 undecided"):
+        assert words in text
+
+
+def test_tables_of_the_page_keep_their_columns():
+    table = Table("shown", {"force [N]": ["1.5", "2.5"], "verdict": ["+1 %: agree", "no"], "k": [0.25, 3]})
+    rows = page_of((), [table])
+    at = next(i for i, row in enumerate(rows) if row and row[0] == ["force [N]"])
+    assert rows[at : at + 3] == [
+        [["force [N]"], ["verdict"], ["k"]],
+        [["1.5"], ["+1 %", "✓ agree"], ["0.25"]],
+        [["2.5"], ["no"], ["3"]],
+    ]
+
+
+def test_a_table_is_found_by_its_name():
+    tables = tuple(Table(name, {"x": [i]}) for i, name in enumerate(("first", "second", "third")))
+    shown = Evidence(title="t", compared="c", numbers=(), tables=tables, conclusions=(), captions={})
+    assert [shown.table(name)["x"][0] for name in ("third", "first", "second")] == [2, 0, 1]
+
+
+def test_columns_are_plain_values():
+    found = columns(**{"x [m]": np.arange(2.0), "n": [1, 2]})
+    assert found == {"x [m]": [0.0, 1.0], "n": [1, 2]}
+    assert all(type(value) is float for value in found["x [m]"])
+
+
+@given(st.lists(st.floats(-1e12, 1e12), min_size=1, max_size=5), st.integers(1, 4))
+def test_files_hold_their_columns(values, width):
+    """To ten digits; columns in their order, under their names."""
+    columns = {f"c{j} [m]": [(j + 1) * value for value in values] for j in range(width)}
+    rows = list(csv.reader(io.StringIO(as_csv(Table("t", columns)).decode())))
+    assert rows[0] == list(columns)
+    for j, name in enumerate(columns):
+        np.testing.assert_allclose([float(row[j]) for row in rows[1:]], columns[name], rtol=1e-9)
+
+
+def test_what_is_not_finite_is_left_empty_in_a_file():
+    text = as_csv(Table("t", {"x": [math.nan, math.inf, 1.5], "y": ["a", 2, True]})).decode()
+    assert text == "x,y\n,a\n,2\n1.5,True\n"
+
+
+def test_results_hold_verdict_difference_and_whether_a_criterion_is_met():
+    section = build.Section(
+        "geike", CASES["geike"], "none", {}, SimpleNamespace(numbers=NUMBERS, conclusions=("c",), unconverged=())
+    )
+    rows = build._case_results(section)["numbers"]
+    assert [row["verdict"] for row in rows] == ["agree", "differ", "undecided"]
+    assert [row["met"] for row in rows] == [True, False, None]
+    assert [row["difference"] for row in rows] == pytest.approx([0.034567, -6.0, 0.25])
+
+
+@given(value=reals, tolerance=st.floats(1e-5, 1e3))
+def test_a_value_is_printed_to_a_small_part_of_its_tolerance(value, tolerance):
+    assert abs(float(build._resolved(value, tolerance)) - value) <= 0.011 * tolerance
+
+
+# --- words ---
+
+
+@given(value=reals, half=widths)
+def test_a_value_with_its_interval(value, half):
+    """Both to the second digit of the interval."""
+    text, width = plus_minus(value, half).split(" ± ")
+    assert abs(float(width) - half) <= 0.051 * half
+    assert abs(float(text) - value) <= 0.051 * half + 1e-9
+    assert plus_minus(value, 0.0) == f"{value:.5g}"
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "text"),
+    [
+        (12640.4, 110.0, "12640 ± 110"),
+        (1.23456, 0.0789, "1.235 ± 0.079"),
+        (99.6, 10.0, "100 ± 10"),
+        (1.5, 1.04, "1.5 ± 1.0"),
+        (1.0, 2e-9, "1 ± 2e-09"),
+        (1.0, 2.4e-6, "1.0000000 ± 0.0000024"),
+        (1.0, 2.4e-7, "1 ± 2.4e-07"),
+    ],
+)
+def test_values_with_intervals_of_all_sizes(value, half, text):
+    assert plus_minus(value, half) == text
+
+
+def test_a_number_in_a_sentence():
+    n = number(1.25, reference=1.0, tolerance=0.5, grid=0.02, sample=0.03)
+    assert n.sentence == "x = 1.25 dB ± 0.05 dB, agree with 1 dB within 0.5 dB"
+    assert replace(n, unit="-").sentence == "x = 1.25 ± 0.05, agree with 1 within 0.5"
+    assert replace(n, value=3.0).sentence == "x = 3 dB ± 0.05 dB, differ with 1 dB within 0.5 dB"
+    assert replace(n, value=1.5).sentence == "x = 1.5 dB ± 0.05 dB, undecided with 1 dB within 0.5 dB"
+
+
+def test_a_number_beside_its_reference():
+    n = number(1.25, reference=1.0, tolerance=0.5, grid=0.02, sample=0.03)
+    assert beside(n) == "1.250 ± 0.050 beside 1 dB (agree within 0.5, off by +0.25 dB)"
+    assert beside(replace(n, unit="-", value=0.9)) == "0.900 ± 0.050 beside 1 (agree within 0.5, off by -0.1)"
+    # an interval that holds the difference, or none at all, leaves nothing to tell
+    assert beside(replace(n, value=1.04)) == "1.040 ± 0.050 beside 1 dB (agree within 0.5)"
+    assert beside(replace(n, grid=0.0, sample=0.0)) == "1.25 beside 1 dB (agree within 0.5)"
+    assert beside(replace(n, value=9.0)) == "9.000 ± 0.050 beside 1 dB (differ within 0.5)"
+    even = number(1.25, reference=1.0, tolerance=0.5, sample=0.25)
+    assert beside(even) == "1.25 ± 0.25 beside 1 dB (agree within 0.5)"
+
+
+def test_a_claim_holds_with_all_of_its_numbers():
+    good, bad = number(1.0), number(5.0)
+    assert claim("So it is.", [good, good]) == "So it is."
+    for numbers in ([bad], [good, bad], [bad, good], [number(1.0, sample=1.0)]):
+        assert claim("So it is.", numbers) == "Not confirmed by this run: So it is."
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [
+        (2.34, "2.3 s"),
+        (0.05, "50 ms"),
+        (0.0005, "500 µs"),
+        (123.4, "123 s"),
+        (99.9, "1e+02 s"),
+        (1.0, "1 s"),
+        (1e-3, "1 ms"),
+        (3e-8, "0.03 µs"),
+        (0.9999, "1000 ms"),
+    ],
+)
+def test_seconds_in_words(seconds, text):
+    assert said(seconds) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [(0.123, "%", "12 %"), (2.34, "dB", "2.3 dB"), (1.5, "%", "150 %"), (1.0, "%", "100 %"), (0.00012, "%", "0.012 %")],
+)
+def test_errors_in_words(value, unit, text):
+    assert in_unit(value, unit) == text
+
+
+# --- sentences built from numbers ---
+
+
+def decade(value, half, *, verdict=None, unit="dB", h=0.7, first=0.1, name="relative deviation"):
+    """A comparison of Fig. 14.1 that came out so."""
+    tolerance = fractal_punch_decades.QUANTITIES[name].tolerance
+    n = number(value, reference=0.0, tolerance=tolerance, sample=half, unit=unit, role=Role.FINDING)
+    return SimpleNamespace(name=name, hurst=h, first=first, number=n)
+
+
+def test_verdicts_of_fig_14_1_are_told_in_per_cent():
+    """20 lg 1.10 dB is +10 %; its interval from 4 to 16 %, both ends, by half-widths of 20 lg."""
+    half = 20 * math.log10(1.16 / 1.04) / 2
+    middle = 20 * math.log10(1.16 * 1.04) / 2
+    text = fractal_punch_decades._verdict(FractalPunch(), decade(middle, half).number)
+    assert text == "+10 % (+4 to +16): differ"
+    assert fractal_punch_decades._verdict(FractalPunch(), None) == "no value"
+    exponent = decade(0.0123, 0.001, unit="-", name="exponent").number
+    assert fractal_punch_decades._verdict(FractalPunch(), exponent) == "+0.012 (+0.011 to +0.013): agree"
+
+
+def test_what_would_decide_is_told():
+    """Surfaces and profiles, each times the factor; out of reach, and where no sample can."""
+    case = FractalPunch()
+    told = fractal_punch_decades.decided_by
+    n = number(0.75, reference=0.0, tolerance=0.25, sample=1.0)
+    assert n.sample_needed == 4
+    assert told(case, n) == f"{4 * case.surfaces} surfaces, {4 * case.profiles} profiles would tell"
+    assert told(case, replace(n, sample=5.1)) == "over 100 times the sample would tell"
+    assert told(case, replace(n, grid=0.5)) == "the grid must tell first"
+    assert fractal_punch_decades._verdict(case, n).endswith(f"undecided; {told(case, n)}")
+
+
+def test_a_summary_counts_and_ranges_its_numbers():
+    half = 0.01
+    mine = [decade(20 * math.log10(1 + x), half, h=h) for x, h in ((0.01, 0.4), (0.20, 0.5), (-0.15, 0.6))]
+    whole = decade(20 * math.log10(1.02), 1e-4, h=None)
+    other = decade(20 * math.log10(1.9), half, name="mean stiffness")
+    text = fractal_punch_decades.summary("relative deviation", [*mine, whole, other])
+    assert "within 3 %" in text and "1 agree, 2 differ" in text
+    assert "lie from -15 % to +20 %" in text
+    assert "+2 % (+2 to +2) from Fbar = 0.1 to 1: agree" in text
+
+
+def test_rolling_prints_the_numbers_it_is_given():
+    n = number(-1.26, tolerance=1.0, reference=0.0, sample=0.3, grid=0.22)
+    assert rolling_evidence._signed(n) == "-1.3 ± 0.5 dB (undecided)"
+    labels = [f"variance of the force over that of linear theory, h/d = 0.1: {m}" for m in ("bem3d", "springs")]
+    mine = [number(v, label=label, sample=0.0123) for v, label in zip((0.7777, 1.05), labels, strict=True)]
+    assert rolling_evidence._variances(mine) == (
+        "Variance of the force over that of linear theory, by h/d: 0.1: bem3d 0.778 ± 0.012 (differ); "
+        "0.1: springs 1.050 ± 0.012 (agree)."
+    )
+    means = [
+        number(
+            0.5432,
+            label="mean force over that of Hertz, h/d = 0.3: springs beside bem3d",
+            reference=0.9,
+            tolerance=0.02,
+        ),
+        number(1.001, label="mean force over that of Hertz, h/d = 0.1: springs beside bem3d", tolerance=0.02),
+    ]
+    text = rolling_evidence._means(means)
+    assert "0.3: 0.543 and 0.900 (differ); 0.1: 1.001 and 1.000 (agree)" in text
+    assert text.endswith("within 2 % at 1 of 2 heights.")
+
+
+def test_rolling_holds_up_to_the_last_height_that_agrees():
+    def labelled(value, height):
+        return number(value, reference=0.0, tolerance=1.0, label=f"springs over bem3d, h/d = {height:g}, low")
+
+    heights = [SimpleNamespace(height=h) for h in (0.1, 0.3, 1.0)]
+    found = {n.label: n for n in (labelled(0.5, 0.1), labelled(2.5, 0.3), labelled(0.1, 1.0))}
+    assert rolling_evidence._holding("springs", heights, found, ["low"]).endswith("low: up to h/d = 0.1.")
+    assert rolling_evidence._holding("springs", heights[1:], found, ["low"]).endswith("low: at no height.")
+
+
+def test_bands_within_1_and_3_db_are_counted(monkeypatch):
+    case = rolling.Rolling(first=1.0)
+    mine = SimpleNamespace(height=0.1, bands=SimpleNamespace(edges=(0.5, 0.9, 1.2, 1.6, 2.0)))
+    off = (0.5, -2.0, 3.5, -0.9)
+    monkeypatch.setattr(rolling_evidence, "_over", lambda mine, model, band: off[band])
+    table = rolling_evidence._within(case, [mine])
+    assert table.columns["springs, band"] == ["1 and 2 of 3"]
+    assert table.columns["springs, below it"] == ["1 and 1 of 1"]
+
+
+def test_the_interface_prints_the_numbers_it_is_given():
+    """With ends that are those of value and half-width, as ratios."""
+    text = mdr_limits._with_interval(Estimate(math.log(2.0), 0.1, 10**6), 0.05, 1e-1)
+    half = 0.05 + Estimate(0.0, 0.1, 10**6).half_width
+    assert text == f"20 ({20 * math.exp(-half):.2g} to {20 * math.exp(half):.2g})"
+
+
+def test_limits_print_the_numbers_they_are_given():
+    n = number(0.123, label="solve, sphere: iterations ~ cells on a side to the power of", sample=0.0456)
+    assert limits_evidence._of_iterations([n]).endswith("to the power of: solve, sphere 0.12 ± 0.05.")
+    residuals = table_of(
+        "residual",
+        [
+            {"solver": solver, "residual": 1e-3, **{f"error of the {m}": f * 1e-3 for m in limits_evidence.MEASURES}}
+            for solver, f in (("solve", 2.0), ("solve_plain", 7.0))
+        ],
+    )
+    honest = [limits_evidence._honest(residuals, measure) for measure in limits_evidence.MEASURES]
+    assert [n.value for n in honest] == pytest.approx([7.0] * 3)
+    text = limits_evidence._of_residuals(residuals, honest)
+    assert "c = load 7, stiffness 7, pressure 7" in text and "alone load 2, stiffness 2, pressure 2." in text
+
+
+def test_the_plateau_is_told_in_shares_of_its_power():
+    """10 lg: -10 dB is a tenth."""
+    names = (f"{kind} [dB]" for kind in ("springs, open", "linear, open", "springs, steady"))
+    plateau = Table(
+        "plateau", {"h / h0": [1.0], "h / d": [0.063], **dict(zip(names, ([-20.0], [-30.0], [-21.0]), strict=True))}
+    )
+    shown = wheel_distance_evidence._shown_plateau(plateau)
+    assert shown.columns["leakage: linear, open"] == ["10 %"]
+    assert shown.columns["nonlinearity: springs, repeating"] == ["79 %"]
+    assert shown.columns["springs, open [dB]"] == ["-20.0"]
+
+
+def test_the_table_of_breaks_prints_its_intervals():
+    columns = {
+        "distance [m]": [0.1],
+        "wheels": [20],
+        "break [rad/s]": [12640.4],
+        "± break [rad/s]": [110.0],
+        "standard error [rad/s]": [1.0],
+        "break by its jumps [rad/s]": [12345.6],
+        "floor over predicted": [0.9876],
+        "± sample": [0.0321],
+    }
+    shown = wheel_distance_evidence._shown_breaks(Table("breaks", columns))
+    assert [column[0] for column in shown.columns.values()] == [
+        "0.1",
+        20,
+        "12640 ± 110",
+        "1.235e+04",
+        "0.988 ± 0.032",
+    ]
+
+
+def feature(value, scene="the scene", name="peak"):
+    label = f"{scene}: {wheel_evidence.NAMES[name]}"
+    return number(value, label=label, reference=1.0, tolerance=0.2, sample=0.05, unit="rad/s", role=Role.FINDING)
+
+
+def test_fig_14_4_prints_the_numbers_it_is_given():
+    """Each in the sentence of its own feature; what theory has not is said so; what is not there is not told."""
+    names = ("peak", "jump", "slope", "period", "floor over predicted", "break over predicted")
+    mine = {name: feature(1.0 + 0.01 * i, name=name) for i, name in enumerate(names)}
+    level = number(0.1234, label="level", reference=0.0, tolerance=0.5, sample=0.02)
+    sentences = wheel_evidence._conclusions({"the scene": mine}, "the scene", level)
+    starts = ("Region 1", "Region 3 begins", "Its slope", "Its oscillation", "Its level", "Region 4", "The break")
+    of = ("peak", "jump", "slope", "period", None, "floor over predicted", "break over predicted")
+    assert len(sentences) == len(starts)
+    for sentence, start, name in zip(sentences, starts, of, strict=True):
+        assert sentence.startswith(start) and beside(mine[name] if name else level) in sentence
+    off = {**mine, "slope": feature(7.77, name="slope")}
+    text = wheel_evidence._conclusions({"the scene": off}, "the scene", level)[2]
+    assert text == f"Not confirmed by this run: Its slope is that of linear theory: {beside(off['slope'])}."
+    assert "7.770 ± 0.050" in text
+    without = wheel_evidence._conclusions({"the scene": {"peak": mine["peak"]}}, "the scene", None)
+    assert [s.split(":")[0] for s in without[1:]] == ["None stands out in this run"] * 3
+
+
+def test_tables_of_fig_14_4_print_the_numbers_they_are_given():
+    mine = {"peak": feature(1.1), "jump": feature(3.3, name="jump")}
+    shown = wheel_evidence._regions(mine)
+    assert shown.columns["found"][:3] == ["1.100 ± 0.050", "3.300 ± 0.050", "none stands out"]
+    assert shown.columns["verdict"][:3] == ["within 0.2: agree", "within 0.2: differ", ""]
+    varied = wheel_evidence._parameters({"the scene": mine, "v₀ × 2": {"peak": feature(2.2)}})
+    assert varied.columns[wheel_evidence.NAMES["peak"]] == ["1.100 ± 0.050 (1): agree", "2.200 ± 0.050 (1): differ"]
+    assert varied.columns[wheel_evidence.NAMES["jump"]] == ["3.300 ± 0.050 (1): differ", "none stands out"]
+
+
+def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given(monkeypatch):
+    monkeypatch.setattr(wheel_3d_evidence, "ranges", lambda _: ["region 2", "region 3"])
+    strips = [{"applications": np.array(a), "failed": np.array(f)} for a, f in ((10.0, 0.0), (13.0, 0.0), (99.0, 1.0))]
+    found = SimpleNamespace(result=SimpleNamespace(strips={wheel_3d.FINEST: strips}))
+    numbers = [
+        number(0.31, label="linear, 3D over bem3d, region 2", reference=0.0, tolerance=1.0, grid=0.1, sample=0.1),
+        number(-23.4, label="springs, Geike over bem3d, region 2", reference=0.0, tolerance=1.0, sample=0.3),
+        number(5.55, label="linear, 3D over bem3d, region 3", reference=0.0, tolerance=1.0, sample=0.1),
+        number(-4.44, label="region 3 by boundary elements: slope", reference=-4.4, sample=0.01, unit="-"),
+    ]
+    second, third, slope, plateau, cost, *_ = wheel_3d_evidence._conclusions(found, numbers)
+    assert "region 2: linear, 3D +0.3 ± 0.2 dB (agree); springs, Geike -23.4 ± 0.3 dB (differ)." in second
+    assert "region 3: linear, 3D +5.5 ± 0.1 dB (differ)." in third
+    assert beside(numbers[3]) in slope and not slope.startswith("Not")
+    assert beside(numbers[0]) in plateau and "23 dB too low" in plateau
+    assert "11.5 applications" in cost
+
+
+def spectrum_of(level):
+    omega = np.arange(1.0, 2e5, 500.0)
+    return {"omega": omega, "plain": np.full((2, omega.size), level), "duration": 0.1}
+
+
+def test_fig_14_5_prints_the_numbers_it_is_given():
+    case = wheel_distance.WheelDistance()
+    phases = dict(zip(case.phases, (1e-6, 1e-3), strict=True))
+    result = SimpleNamespace(
+        case=case,
+        ends={wheel_distance_evidence.OPEN: spectrum_of(1.0)},
+        ended={(wheel_distance.LINEAR, phase): spectrum_of(level) for phase, level in phases.items()},
+    )
+    law = number(0.417, reference=0.4167, label="break against duration", unit="-")
+
+    def ratio(label, value):
+        return number(value, label=label, reference=0.0, tolerance=1.0, sample=0.1)
+
+    numbers = [
+        ratio("region 4: springs, open, Hann's window, over", -31.3),
+        ratio("region 4: springs, repeating, over", -42.6),
+        ratio("region 4: linear, open, over", 0.2),
+        ratio("region 2: linear, open, over", -10.0),
+        ratio("region 2: springs, repeating, over", -20.0),
+        number(0.95, label="floor over J², 0.1 m", reference=1.0),
+        number(1.034, label="floor over J², 0.2 m", reference=1.0),
+        number(1.05, label="rms jump", reference=1.0, sample=0.02),
+        number(0.97, label="peak over ω_eigen, released 0.4 d below equilibrium", reference=0.971, unit="-"),
+        number(1.52, label="mean square acceleration", reference=1.5, sample=0.03),
+        number(3.87, label="region 2, springs, steady: d ln A / d ln h₀", reference=4.0, tolerance=0.3, sample=0.05),
+    ]
+    text = wheel_distance_evidence._conclusions(result, law, numbers)
+    told = [
+        f"exponent {beside(law)}",
+        "at all 2 distances, to 5.0 %",
+        "rms over all distances 1.050 ± 0.020 of it",
+        "Hann's window lowers it by 31.3 dB, a motion that repeats itself by 42.6 dB",
+        "has 10 % of its power; springs that leak nothing have 1 %",
+        "is 1.52 ± 0.03 times",
+        "0.4 d below equilibrium: 0.9700 beside 0.9710",
+    ]
+    for sentence, part in zip(text, told, strict=True):
+        assert part in sentence
+    assert "between -60 and -30 dB" in text[4] and "as h₀^3.87 (agree with h₀⁴ within 0.3)" in text[4]
+    turns = 0.1 * case.scene.eigenfrequency / (2 * math.pi)
+    assert f"{turns:.2f} turns" in text[4]
+    assert not any(sentence.startswith("Not confirmed") for sentence in text)

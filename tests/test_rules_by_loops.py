@@ -1,0 +1,327 @@
+"""Regions of spectra, bands and weights, once more by loops over their lines; and their borders, one by one."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from validation import regions, spectra, statistics
+from validation.spectra import Bands
+
+
+def noise(seed, lines):
+    return np.arange(1.0, lines + 1) * 0.5, np.random.default_rng(seed).exponential(1.0, lines)
+
+
+# --- peak ---
+
+
+def peak_by_loop(omega, hann, below):
+    """The largest line below, if it is five times the median of those three to five away; by its neighbour."""
+    lines = [i for i in range(len(omega)) if omega[i] < below]
+    if not lines:
+        return math.nan
+    top = max(lines, key=lambda i: hann[i])
+    beside = [hann[i] for i in range(len(omega)) if top - 6 <= i < top - 3 or top + 3 <= i < top + 6]
+    if hann[top] < 5 * np.median(beside):
+        return math.nan
+    side = 1 if top == 0 or hann[top + 1] > hann[top - 1] else -1
+    r = math.sqrt(hann[top + side] / hann[top])
+    return (top + 1 + side * (2 * r - 1) / (r + 1)) * omega[0]
+
+
+@pytest.mark.parametrize("top", [0, 1, 2, 3, 4, 5, 6, 7, 20])
+@pytest.mark.parametrize("larger", ["before", "behind"])
+def test_peak_by_a_loop(top, larger):
+    """A line four to seven times the others, wherever it stands; lines at its sides, one larger; a large one above."""
+    for seed in range(12):
+        omega, hann = noise(seed, 60)
+        hann[top] = hann[:40].max() + (0.5 + 0.5 * seed) * np.median(hann)
+        for side, part in ((1, 0.6), (-1, 0.3)) if larger == "behind" else ((1, 0.3), (-1, 0.6)):
+            if top + side >= 0:
+                hann[top + side] = part * hann[top]
+        hann[50] = 100.0
+        found, expected = regions.peak(omega, hann, 20.0), peak_by_loop(omega, hann, 20.0)
+        assert found == pytest.approx(expected, rel=1e-12, nan_ok=True)
+
+
+def test_no_line_lies_below_the_first():
+    omega, hann = noise(0, 20)
+    assert math.isnan(regions.peak(omega, hann, omega[0]))
+    assert math.isnan(regions.peak(omega, hann, 0.1))
+
+
+def test_the_only_line_below_may_be_the_peak():
+    omega, hann = np.arange(1.0, 31), np.ones(30)
+    hann[:2] = 16.0, 4.0
+    assert regions.peak(omega, hann, 1.5) == pytest.approx(1.0)
+
+
+def test_a_peak_five_times_what_lies_beside_it_stands_out():
+    hann = np.ones(30)
+    hann[12], hann[11] = 5.0, 1.25
+    omega = np.arange(1.0, 31)
+    assert regions.peak(omega, hann, 30.0) == pytest.approx(13.0)
+    hann[12] = 4.999
+    assert math.isnan(regions.peak(omega, hann, 30.0))
+
+
+# --- jump ---
+
+
+def jump_by_loop(omega, density, above, upto):
+    """Twelfths of an octave, each of a line or more; the steepest over two of them; half of the level behind."""
+    borders = []
+    for i in range(math.ceil(12 * math.log2(upto / above) - 1e-12)):
+        border = next(j for j in range(len(omega)) if omega[j] >= above * 2 ** (i / 12))
+        if not borders or border > borders[-1]:
+            borders.append(border)
+    means = [density[a:b].mean() for a, b in itertools.pairwise(borders)]
+    i = max(range(len(means) - 2), key=lambda i: means[i + 2] / means[i])
+    level = means[i + 2] / 2
+    j = next(j for j in range(borders[i], borders[i + 3]) if density[j] > level)
+    part = math.log(level / density[j - 1]) / math.log(density[j] / density[j - 1])
+    return (j + part) * omega[0]
+
+
+@pytest.mark.parametrize("edge", [20.0, 31.0, 55.0, 90.0])
+def test_jump_by_a_loop(edge):
+    """Noise of little scatter that rises by a factor 50 over a tenth of its frequency."""
+    for seed in range(8):
+        omega = np.arange(1.0, 401) * 0.5
+        rise = 1 / (1 + np.exp(-(omega - edge) / (0.02 * edge)))
+        density = (0.02 + rise) * np.random.default_rng(seed).uniform(0.9, 1.1, 400)
+        found = regions.jump(omega, density, edge / 3.1, 1.9 * edge)
+        assert found == pytest.approx(jump_by_loop(omega, density, edge / 3.1, 1.9 * edge), rel=1e-12)
+        assert found == pytest.approx(edge, rel=0.1)
+
+
+# --- levels ---
+
+
+def levelled_by_loop(omega, density, first, last, period, exponent):
+    centres, means = [], []
+    for i in range(math.floor((last - first) / period + 1e-9)):
+        low, high = first + i * period, first + (i + 1) * period
+        inside = [j for j in range(len(omega)) if low <= omega[j] < high]
+        centres.append((omega[inside[0]] + omega[inside[-1]]) / 2)
+        means.append(np.mean([density[j] * omega[j] ** -exponent for j in inside]))
+    return np.array(centres), np.array(means)
+
+
+@pytest.mark.parametrize(("first", "last", "period"), [(10.0, 20.0, 2.5), (10.2, 20.0, 2.5), (5.0, 30.0, 4.0)])
+def test_levels_by_a_loop(first, last, period):
+    """The last band may end just where the range does; and at the last line."""
+    omega, density = noise(1, 60)
+    for exponent in (0.0, -2.4):
+        found = regions.levelled(omega, density, first, last, period, exponent)
+        expected = levelled_by_loop(omega, density, first, last, period, exponent)
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+    power = regions.power_level(omega, density, first, last, period, -2.4)
+    assert power == pytest.approx(math.exp(np.mean(np.log(expected[1]))))
+
+
+def test_the_floor_is_taken_over_all_lines_of_its_range():
+    """Both ends belong to it."""
+    omega, density = noise(2, 60)
+    inside = [j for j in range(60) if 8.0 <= omega[j] <= 21.0]
+    assert omega[inside[0]] == 8.0 and omega[inside[-1]] == 21.0
+    expected = np.mean([density[j] * (2 / 0.03 * math.sin(omega[j] * 0.015)) ** 2 for j in inside])
+    assert regions.floor_level(omega, density, 8.0, 21.0, 0.03) == pytest.approx(expected)
+
+
+# --- oscillation ---
+
+
+def oscillating(lines, turns, first=1):
+    """A sine of so many turns over the lines, about a power law, and a little noise."""
+    omega = np.arange(1.0, first + lines)
+    place = np.arange(lines) / lines
+    law = omega[first - 1 :] ** -2.0 * np.exp(0.5 * np.cos(2 * np.pi * turns * place))
+    density = np.concatenate([np.full(first - 1, 1e6), law])
+    return omega, density * np.exp(1e-3 * np.random.default_rng(0).standard_normal(omega.size))
+
+
+def period_by_loop(omega, density, first, last, least):
+    """A slow transform of what ln A has about its straight line, with Hann's window."""
+    inside = [j for j in range(len(omega)) if first <= omega[j] <= last]
+    n = len(inside)
+    x, y = np.log(omega[inside]), np.log(density[inside])
+    rest = y - np.polyval(np.polyfit(x, y, 1), x)
+    window = [math.sin(math.pi * k / n) ** 2 for k in range(n)]
+
+    def line(m):
+        return abs(sum(rest[k] * window[k] * np.exp(-2j * np.pi * m * k / n) for k in range(n))) ** 2
+
+    lines = [line(m) for m in range(n // 2)]
+    top = max(range(least, n // 4), key=lambda m: lines[m])
+    if lines[top] < 40 * np.median(lines[least : n // 4]):
+        return math.nan
+    side = 1 if lines[top + 1] > lines[top - 1] else -1
+    r = math.sqrt(lines[top + side] / lines[top])
+    return n * omega[0] / (top + side * (2 * r - 1) / (r + 1))
+
+
+@pytest.mark.parametrize("turns", [6.0, 6.3, 9.8, 14.5])
+def test_the_period_by_a_loop(turns):
+    """A hundred lines from the fortieth on, both ends in; what lies below them is much larger."""
+    omega, density = oscillating(100, turns, first=40)
+    found = regions.oscillation_period(omega, density, 40.0, 139.0, 3)
+    assert found == pytest.approx(period_by_loop(omega, density, 40.0, 139.0, 3), rel=1e-9)
+    assert found == pytest.approx(100 / turns, rel=0.02)
+
+
+@pytest.mark.parametrize(("lines", "finite"), [(12, False), (15, False), (96, True)])
+def test_a_range_of_too_few_lines_has_no_period(lines, finite):
+    """Four lines to a turn, and more turns than the fewest: 15 lines have three."""
+    omega, density = oscillating(lines, 8.0 if finite else 3.0)
+    assert math.isfinite(regions.oscillation_period(omega, density, 1.0, float(lines), 3)) == finite
+
+
+def test_fewer_turns_than_the_fewest_are_what_is_left_of_the_slope():
+    omega, density = oscillating(200, 4.0)
+    assert regions.oscillation_period(omega, density, 1.0, 200.0, 3) == pytest.approx(50, rel=0.02)
+    assert regions.oscillation_period(omega, density, 1.0, 200.0, 8) != pytest.approx(50, rel=0.1)
+
+
+@pytest.mark.parametrize(("above", "finite"), [(36.0, False), (44.0, True)])
+def test_a_line_forty_times_the_median_is_no_noise(above, finite, monkeypatch):
+    """The transform itself is made up: one line so many times as large as all others."""
+    lines = np.ones(101)
+    lines[10], lines[11] = math.sqrt(above), 1.1
+    monkeypatch.setattr(regions.np.fft, "rfft", lambda _: lines)
+    found = regions.oscillation_period(np.arange(1.0, 201), np.ones(200), 1.0, 200.0, 3)
+    assert math.isfinite(found) == finite
+
+
+# --- bands ---
+
+
+def test_a_band_holds_its_lower_edge_and_not_its_upper():
+    bands = Bands((1.0, 2.0, 4.0))
+    q, values = np.array([0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2, 4, 8, 16, 32, 64])
+    assert bands.sums(q, values).tolist() == [6, 24]
+    assert bands.counts(q).tolist() == [2, 2]
+    np.testing.assert_allclose(bands.centres, [math.sqrt(2), math.sqrt(8)])
+
+
+@pytest.mark.parametrize(("length", "fits"), [(1.0, True), (0.5, False), (0.25, False), (1.7, True)])
+def test_a_track_has_a_wave_in_each_band_or_is_refused(length, fits):
+    """Waves 2 pi m / L: of length 1 the first is just the lower edge of the first band."""
+    bands = Bands(tuple(2 * math.pi * np.array([1.0, 1.9, 2.7])))
+    if fits:
+        assert bands.on(length) is bands
+    else:
+        with pytest.raises(ValueError, match=f"length must be so large that each band has a wave, got {length:g}"):
+            bands.on(length)
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "low", "high"), [(1.0, 8.0, 1, 8), (0.999, 8.001, 1, 8), (1.001, 7.99, 2, 7)]
+)
+def test_bands_around_a_centre_lie_between_their_ends(first, last, low, high):
+    """A centre so that edges lie at 2^(i/3): those that touch the ends belong to it."""
+    found = Bands.around(2 ** (1 / 6), first, last)
+    edges = 2 ** (np.arange(10) / 3)
+    expected = edges[(edges >= first * (1 - 1e-9)) & (edges <= last * (1 + 1e-9))]
+    np.testing.assert_allclose(found.edges, expected)
+    assert len(expected) == (10 if high == 8 else 8)
+
+
+@pytest.mark.parametrize("points", [8, 9])
+def test_waves_by_a_loop(points):
+    """Those above zero and below the last of an even number; over the first of them, the density."""
+    x = np.random.default_rng(points).standard_normal((2, points))
+    found = spectra.waves(x, spacing=0.25)
+    assert found.q.size == (points - 1) // 2
+    for m, q in enumerate(found.q, 1):
+        assert q == pytest.approx(2 * math.pi * m / (points * 0.25))
+        c = (x * np.exp(-2j * math.pi * m * np.arange(points) / points)).sum(axis=1) / points
+        np.testing.assert_allclose(found.amplitude[:, m - 1], c, atol=1e-14)
+        np.testing.assert_allclose(found.spectrum[:, m - 1], np.abs(c) ** 2 / found.q[0])
+    bands = Bands((found.q[0], found.q[2], 99.0))
+    power = np.abs(found.amplitude) ** 2
+    np.testing.assert_allclose(spectra.levels(found, bands).T, [power[:, :2].sum(axis=1), power[:, 2:].sum(axis=1)])
+
+
+# --- statistics ---
+
+
+def test_decibels_and_per_cents():
+    assert statistics.DECIBEL * math.log(10) == pytest.approx(20)
+    assert statistics.POWER_DECIBEL * math.log(10) == pytest.approx(10)
+    assert pytest.approx(20 * math.log10(1.03)) == statistics.THREE_PER_CENT
+    assert pytest.approx(20 * math.log10(1.05)) == statistics.FIVE_PER_CENT
+
+
+def test_as_many_resamples_as_the_levels_have():
+    drawn = statistics.sample(1 + np.random.default_rng(0).random((6, 3)), np.random.default_rng(1))
+    assert drawn.moments.shape == (2, 3) and drawn.resampled.shape == (2, 3, 999) and drawn.size == 6
+
+
+@pytest.mark.parametrize(("lost", "known"), [(499, True), (500, False)])
+def test_a_statistic_that_most_resamples_do_not_have_has_no_error(lost, known):
+    """Of 999."""
+    values = np.random.default_rng(0).standard_normal(999)
+    values[:lost] = np.nan
+    drawn = statistics.Sample(np.ones((2, 1)), np.stack([values, values])[:, np.newaxis], 8)
+    found = drawn.estimate(lambda mean, _: mean[0])
+    assert found.samples == 8 and found.value == 1.0
+    assert math.isfinite(found.error) == known
+    if known:
+        assert found.error == pytest.approx(math.sqrt(8 / 7) * np.nanstd(values, ddof=1))
+
+
+def test_pairs_count_where_both_are():
+    """What one grid lacks counts in neither; halves are coarse and fine."""
+    coarse, fine = np.arange(1.0, 11).reshape(5, 2), 2 * np.arange(1.0, 11).reshape(5, 2)
+    coarse[0, 0], fine[1, 1] = np.nan, np.nan
+    both = statistics.pairs(coarse, fine, np.random.default_rng(0))
+    assert both.size == 4
+    expected = [np.mean([3, 5, 7, 9]), np.mean([2, 6, 8, 10]), np.mean([6, 10, 14, 18]), np.mean([4, 12, 16, 20])]
+    np.testing.assert_allclose(both.moments[0], expected)
+
+
+@pytest.mark.parametrize(("level", "slope"), [(0, (0, 1)), (1, (0, 2)), (2, (1, 3)), (3, (2, 3))])
+def test_a_local_slope_is_that_between_the_neighbours(level, slope):
+    forces = (1.0, 2.0, 5.0, 30.0)
+    weights = statistics.local_slope(forces, level)
+    before, after = slope
+    expected = np.zeros(4)
+    expected[after], expected[before] = 1, -1
+    np.testing.assert_allclose(weights, expected / math.log(forces[after] / forces[before]))
+
+
+def test_weights_of_a_decade_one_by_one():
+    """Ends of the decade count half, and what lies just outside not at all."""
+    forces = 10.0 ** np.array([-1.5, -1, -0.5, -0.2, 0, 0.5])
+    np.testing.assert_allclose(statistics.decade_weights(forces, 0.1), np.array([0, 0.5, 1, 1, 0.5, 0]) / 3)
+    moved = forces * (1 + 1e-10)
+    np.testing.assert_allclose(statistics.decade_weights(moved, 0.1), np.array([0, 0.5, 1, 1, 0.5, 0]) / 3)
+
+
+def test_the_nearest_force_is_that_of_the_least_ratio():
+    assert statistics.nearest((1.0, 10.0, 100.0), 3.0) == 0
+    assert statistics.nearest((1.0, 10.0, 100.0), 3.3) == 1
+    assert statistics.nearest((1.0, 10.0, 100.0), 40.0) == 2
+
+
+def test_levels_without_weight_need_not_have_the_statistic():
+    weights = np.array([0.5, 0.0, 0.5])
+    found = statistics.combined(weights, lambda mean, _: np.log(mean))(np.array([1.0, -1.0, 4.0]), np.ones(3))
+    assert found == pytest.approx(math.log(4) / 2)
+
+
+def test_what_differs_by_rounding_has_no_deviation():
+    """A part of 1e-12 and less."""
+    with np.errstate(divide="ignore"):
+        found = statistics.log_relative_deviation(np.ones(3), np.array([1e-12, 1.1e-12, 0.5]))
+    np.testing.assert_allclose(found, [-np.inf, math.log(1.1e-12), math.log(0.5)])
+
+
+def test_a_change_is_of_the_second_half_less_the_first():
+    found = statistics.change(statistics.log_mean)(np.array([1.0, 2.0, 3.0, 8.0]), np.ones(4))
+    np.testing.assert_allclose(found, [math.log(3), math.log(4)])
+    at = statistics.at(1, lambda mean, deviation: mean + 10 * deviation)
+    assert at(np.array([1.0, 2.0]), np.array([3.0, 4.0])) == 42.0

@@ -1,0 +1,299 @@
+"""What is selected on charts of speed against accuracy, and what it rests on: errors, costs, bands, words; no clock."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from validation.evidence import NotConvergedError
+from validation.precision import EXTRAPOLATED, FINISHED, REFUSED, Attempt, Quantity
+from validation.precision_error import Answer, _half_width, error, points, reference_of
+from validation.precision_front import (
+    TOLERANCES,
+    Point,
+    asked,
+    break_even,
+    cheapest,
+    front,
+    in_unit,
+    said,
+    visits,
+    why_nobody,
+    without_luck,
+)
+from validation.precision_pressed import logarithm
+
+K = Quantity(name="mean", log=logarithm("k"), needs=("k",))
+LEVEL = Quantity(name="level", log=logarithm("k"), needs=("k",), decibel=True, order=2.0)
+OTHER = Quantity(name="other", log=logarithm("m"), needs=("m",))
+
+
+def attempt(line, value, **settings):
+    return Attempt(line=line, knob="# cells", value=value, **settings)
+
+
+COARSE, FINE, SPRINGS = attempt("BEM", 8.0), attempt("BEM", 12.0), attempt("MDR", 64.0, paired=False)
+LOST = attempt("MDR", 99.0)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Made up."""
+
+    quantities: tuple[Quantity, ...] = (K,)
+    exact: bool = False
+    name = "made up"
+
+    def attempts(self):
+        return COARSE, FINE, SPRINGS, LOST
+
+    def reference(self):
+        return {"k": np.full(3, 2.0), "m": np.ones(3)} if self.exact else (COARSE, FINE)
+
+    def pairs(self):
+        return ((COARSE, FINE),)
+
+
+X = np.array([1.0, 1.1, 0.9])
+OUTCOME = {
+    "status": np.array([FINISHED, FINISHED, FINISHED, "failed: lost"]),
+    "setup": np.array([0.1, 0.2, 0.4, 0.8]),
+    "visits": np.array([10.0, 20.0, 40.0, math.nan]),
+    "seconds 0": np.array([1.0, 2.0, 3.0]),
+    "seconds 1": np.array([10.0, 20.0, 30.0, 40.0, 50.0]),
+    "seconds 2": np.array([0.5]),
+    "seconds 3": np.array([7.0]),
+    "k 0": 1.21 * X,
+    "k 1": 1.1 * X,
+    "k 2": np.array([2.0, 2.2]),
+}
+
+
+def point_of(found, line, value):
+    (mine,) = (p for p in found if (p.line, p.value) == (line, value))
+    return mine
+
+
+def test_a_reference_of_two_grids_is_extrapolated_and_leaves_its_last_step_open():
+    """From 8 to 12 cells, to first order: ln 1.1 - 2 (ln 1.21 - ln 1.1) is -ln 1.1, two steps below the finer."""
+    reference, band = reference_of(Scene(), {COARSE: {"k": 1.21 * X}, FINE: {"k": 1.1 * X}})
+    rows = np.arange(3)
+    assert reference.log(K, rows) == pytest.approx(-math.log(1.1), abs=1e-12)
+    assert reference.ratio == 1.5
+    assert band(K) == pytest.approx(1.1**2 - 1)
+    # to second order it is 1 / (1.5^2 - 1) of the step that is left, in decibels of a power
+    assert band(LEVEL) == pytest.approx(10 * math.log10(1.1) / (1.5**2 - 1))
+
+
+def test_a_grid_of_the_reference_must_have_finished():
+    with pytest.raises(NotConvergedError, match="made up: the grids of the reference have not finished"):
+        reference_of(Scene(), {FINE: {"k": X}})
+
+
+def test_an_exact_reference_leaves_what_the_quantity_says():
+    reference, band = reference_of(Scene(exact=True), {})
+    assert band(replace(K, band=0.125)) == 0.125
+    assert reference.log(K, np.arange(3)) == pytest.approx(math.log(2))
+
+
+def test_points_have_their_errors_and_costs():
+    found = points(Scene(exact=True), OUTCOME)
+    assert [(p.line, p.value) for p in found] == [
+        ("BEM", 8.0),
+        ("BEM", 12.0),
+        ("MDR", 64.0),
+        ("MDR", 99.0),
+        (EXTRAPOLATED, 12.0),
+    ]
+    fine = point_of(found, "BEM", 12.0)
+    assert (fine.scene, fine.quantity, fine.unit, fine.knob) == ("made up", "mean", "%", "# cells")
+    assert (fine.error, fine.over) == pytest.approx((0.45, 0.55))
+    one = error(K, Answer({"k": 1.1 * X}), Answer({"k": np.full(3, 2.0)}))
+    assert fine.half_width == one.half_width > 0
+    assert (fine.seconds, fine.runs, fine.setup, fine.visits) == ((20.0, 30.0, 40.0), 5, 0.2, 20.0)
+    assert fine.finished and not fine.referee and fine.setting == "12 cells"
+
+
+def test_extrapolated_points_cost_both_grids():
+    both = point_of(points(Scene(exact=True), OUTCOME), EXTRAPOLATED, 12.0)
+    assert both.seconds == pytest.approx((21.5, 32.0, 42.5))
+    assert (both.runs, both.setup, both.visits) == pytest.approx((3, 0.3, 30.0))
+    # 1.1 (1.1 / 1.21)^2 = 1 / 1.1, of 2
+    assert both.over == pytest.approx(1 / 2.2)
+    assert both.error == pytest.approx(1 - 1 / 2.2)
+    assert both.status == FINISHED and both.knob == "# cells"
+    assert both.half_width == pytest.approx(
+        error(K, Answer({"k": 1.1 * X}, {"k": 1.21 * X}, 1.5), Answer({"k": np.full(3, 2.0)})).half_width
+    )
+
+
+def test_who_is_lost_or_cannot_say_is_a_point_without_an_error():
+    found = points(Scene(quantities=(K, OTHER), exact=True), {**OUTCOME, "m 0": X, "m 1": X, "m 3": X})
+    lost = point_of(found[:5], "MDR", 99.0)
+    assert lost.status == "failed: lost" and math.isnan(lost.error) and not lost.finished
+    assert lost.seconds == (7.0, 7.0, 7.0)
+    silent = point_of([p for p in found if p.quantity == "other"], "MDR", 64.0)
+    assert silent.status == f"{REFUSED}: it does not give this quantity" and not silent.finished
+
+
+def test_levels_are_in_decibels_and_the_others_in_per_cent():
+    units = {p.quantity: p.unit for p in points(Scene(quantities=(K, LEVEL), exact=True), OUTCOME)}
+    assert units == {"mean": "%", "level": "dB"}
+
+
+def test_a_pair_of_which_one_is_lost_is_not_extrapolated():
+    outcome = {**OUTCOME, "status": np.array([FINISHED, "failed: lost", FINISHED, FINISHED]), "k 3": X}
+    assert EXTRAPOLATED not in {p.line for p in points(Scene(exact=True), outcome)}
+
+
+def test_an_answer_alone_has_the_interval_of_either_sample():
+    x, exact = {"k": np.array([1.0, 1.2])}, {"k": np.ones(1)}
+    alone = error(K, Answer(x, paired=False), Answer(exact))
+    assert alone.half_width == pytest.approx(error(K, Answer(x), Answer({"k": np.ones(2)})).half_width)
+    other = error(K, Answer(exact, paired=False), Answer(x))
+    assert other.half_width > 0
+    both = error(K, Answer(x, paired=False), Answer(x))
+    assert both.half_width == pytest.approx(math.hypot(alone.half_width / 1.1, other.half_width * 1.1), rel=0.02)
+
+
+@pytest.mark.parametrize("quantity", [K, LEVEL])
+@pytest.mark.parametrize("paired", [True, False])
+def test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much(quantity, paired):
+    """Its distance has no sign, and without one its changes would be folded into each other."""
+    x = np.array([0.9, 0.95, 1.0, 1.05, 1.1])
+
+    def half(factor):
+        return error(quantity, Answer({"k": factor * x}, paired=paired), Answer({"k": np.ones(5)})).half_width
+
+    unit = 10 / math.log(10) if quantity.decibel else 1.0
+    assert half(1.0) == pytest.approx(2.776 * unit * x.std(ddof=1) / math.sqrt(5), rel=0.01)
+    assert half(1.0) == pytest.approx(half(1.5) / (1.0 if quantity.decibel else 1.5), rel=1e-6)
+
+
+def test_several_numbers_have_no_ratio():
+    def log(answers):
+        return np.log(answers["k"].mean(axis=0))
+
+    two = Quantity(name="bands", log=log, needs=("k",))
+    found = error(two, Answer({"k": np.array([[1.1, 0.7]])}), Answer({"k": np.ones((1, 2))}))
+    assert math.isnan(found.over)
+    # the farthest of them; of levels in decibels, their root mean square
+    assert found.value == pytest.approx(0.3)
+    levels = error(replace(two, decibel=True), Answer({"k": np.array([[10.0, 1.0]])}), Answer({"k": np.ones((1, 2))}))
+    assert levels.value == pytest.approx(10 / math.sqrt(2))
+
+
+def point(line, off, cost, **settings):
+    settings = {"status": FINISHED, "band": 0.001, "unit": "%", "knob": "# cells", "value": 8.0, **settings}
+    return Point(
+        scene="scene", quantity="force", line=line, error=off, seconds=(0.9 * cost, cost, 1.2 * cost), **settings
+    )
+
+
+def test_an_error_counts_with_its_interval_its_reference_and_its_luck():
+    one = point("a", 0.1, 1.0, half_width=0.02)
+    assert one.rank == pytest.approx(0.12)
+    assert replace(one, band=0.2).rank == 0.2
+    assert replace(one, finer=0.3).rank == 0.3
+
+
+def test_luck_is_what_more_of_the_same_does_not_keep():
+    """The largest upper end at more visits of the same method; no others, and nobody who is lost."""
+    chart = [
+        point("a", 0.01, 1.0, visits=10.0),
+        point("a", 0.2, 2.0, visits=20.0),
+        point("a", 0.05, 3.0, visits=30.0, half_width=0.01),
+        point("a", 0.9, 9.0, visits=30.0, status="failed: lost"),
+        point("b", 0.8, 1.0, visits=99.0),
+    ]
+    found = without_luck(chart)
+    assert [p.finer for p in found] == pytest.approx([0.2, 0.06, 0.0, 0.0, 0.0])
+    assert [p.rank for p in found[:3]] == pytest.approx([0.2, 0.2, 0.06])
+
+
+def test_a_step_that_gains_too_little_is_not_on_the_front():
+    chart = [point("a", 0.2, 1.0), point("b", 0.19, 2.0), point("c", 0.1, 3.0)]
+    assert [p.line for p in front(chart)] == ["a", "b", "c"]
+    assert [p.line for p in front(chart, gain=1.1)] == ["a", "c"]
+    # as close by just that factor is not closer
+    assert [p.line for p in front([point("a", 0.22, 1.0), point("b", 0.11, 2.0)], gain=2.0)] == ["a"]
+
+
+def test_a_tolerance_that_is_just_met_is_met():
+    assert cheapest([point("a", 0.1, 1.0)], 0.1).line == "a"
+    assert cheapest([point("a", 0.1000001, 1.0)], 0.1) is None
+    assert cheapest([point("a", 0.05, 1.0), point("b", 0.01, 0.5)], 0.1).line == "b"
+
+
+@pytest.mark.parametrize(("band", "why"), [(0.01, "nobody"), (0.0100001, "the reference cannot tell")])
+def test_why_there_is_no_cheapest(band, why):
+    assert why_nobody([point("a", 0.5, 1.0, band=band)], 0.01) == why
+
+
+def test_break_even_tells_a_range_and_who_ends_it():
+    chart = [
+        point("a", 0.2, 1e-3, value=4.0),
+        point("a", 0.05, 2e-3, value=8.0),
+        point("b", 0.01, 1.0, half_width=0.03, knob="residual #", value=1e-3),
+    ]
+    assert break_even(chart) == (
+        "scene, force: down to 5 % a (4 to 8 cells, 1 ms to 2 ms) is the cheapest; beyond, down to 4 %, most of it the "
+        "sample's, b (residual 0.001, 1 s); nobody gets below 4 %."
+    )
+    assert "reference cannot tell" in break_even([point("a", 0.0005, 1.0)])
+    assert "nobody gets below 0.11 %" in break_even([point("a", 0.0011, 1.0)])
+
+
+def test_most_of_an_error_is_the_samples_only_where_it_is():
+    def told(**settings):
+        return "most of it the sample's" in break_even([point("a", 0.1, 1.0, **settings)])
+
+    assert not told(half_width=0.1)
+    assert told(half_width=0.101)
+    assert not told(half_width=0.101, finer=0.21)
+    assert told(half_width=0.101, finer=0.2)
+
+
+def test_the_referee_is_told_apart_and_only_if_it_has_finished():
+    referee = point("closed form", 0.0, 1e-6, referee=True)
+    assert break_even([referee, point("a", 0.1, 1.0)]).endswith("The closed form itself takes 1 µs.")
+    assert "itself" not in break_even([replace(referee, status="failed: lost"), point("a", 0.1, 1.0)])
+    assert "closed form (" not in break_even([referee, point("a", 0.1, 1.0)])
+
+
+def test_cost_is_the_median_or_the_count():
+    one = point("a", 0.1, 2.0, visits=7.0)
+    assert cheapest([one, point("b", 0.1, 1.9, visits=8.0)], 0.2).line == "b"
+    assert cheapest([one, point("b", 0.1, 1.9, visits=8.0)], 0.2, visits).line == "a"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(99.6, "1e+02 s"), (100.0, "100 s"), (0.0996, "1e+02 ms"), (2e-7, "0.2 µs"), (9.9e-4, "990 µs")]
+)
+def test_seconds_are_told_to_two_digits(value, text):
+    assert said(value) == text
+
+
+@pytest.mark.parametrize(("value", "text"), [(0.996, "1e+02 %"), (1.0, "100 %"), (1.234, "123 %"), (0.0456, "4.6 %")])
+def test_errors_are_told_to_two_digits(value, text):
+    assert in_unit(value, "%") == text
+
+
+def test_tolerances_are_asked_for_relative_or_in_decibels():
+    assert TOLERANCES == (0.3, 0.1, 0.03, 0.01, 0.001)
+    assert asked(0.3, "%") == 0.3
+    assert asked(0.3, "dB") == pytest.approx(20 * math.log10(1.3))
+
+
+def test_where_nobody_has_finished_there_is_nothing_to_tell():
+    assert break_even([point("a", math.nan, 1.0, status="failed: lost")]) == "scene, force: nobody has finished."
+
+
+def test_a_single_paired_realisation_is_beside_the_first_of_the_reference():
+    assert error(K, Answer({"k": np.array([1.5])}), Answer({"k": np.array([1.0, 3.0])})).value == pytest.approx(0.5)
+
+
+def test_an_interval_that_one_of_its_parts_lacks_is_infinite():
+    assert _half_width([1.0, math.nan, 1.1]) == _half_width([1.0, math.inf, 1.1]) == math.inf
+    assert math.isfinite(_half_width([1.0, 1.2, 1.1])) and _half_width([]) == 0.0
