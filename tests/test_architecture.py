@@ -1,6 +1,7 @@
 """Who may lean on whom, read from the imports; and what numerics must not do."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
@@ -56,6 +57,29 @@ def test_numerics_neither_print_nor_write():
         assert not calls & {"print", "open"}, source
         assert not rooms(source) & {"os", "pathlib", "logging"}, source
         assert "warnings" not in rooms(source) or source.name == "doubts.py", source
+
+
+def named_paths():
+    """What pyproject.toml, the Makefile and the mutation tests name."""
+    project, made, mutation, verdicts = (
+        (ROOT / name).read_text()
+        for name in ("pyproject.toml", "Makefile", "tests/mutation.py", "tests/verdicts.coveragerc")
+    )
+    text = made + project + mutation + verdicts
+    paths = re.findall(r"(?<![\w/])(?:mdr|bem3d|validation|tests)/[\w*/]*(?:\*|\.py)", text)
+    tests = " ".join(re.findall(r"^(?:AT_WORK|GUARDS) := ((?:.*\\\n)*.*)", made, flags=re.MULTILINE))
+    moved = re.search(r"VERDICTS = \((.*?)\)", mutation, flags=re.DOTALL)
+    return {
+        *paths,
+        *(f"tests/test_{name}.py" for name in re.findall(r"\w+", tests)),
+        *(f"validation/{name}.py" for name in re.findall(r"\w+", moved[1] if moved else "")),
+    }
+
+
+@pytest.mark.parametrize("path", sorted(named_paths()))
+def test_checks_name_files_that_are_there(path):
+    """A check of a file that has moved finds nothing, and is green."""
+    assert list(ROOT.glob(path)), path
 
 
 def test_oracles_share_no_code_with_what_they_check():

@@ -41,6 +41,10 @@ def toy(problem):
     return {"value": generator(5, problem.number).standard_normal(4)}
 
 
+def other_toy(problem):
+    return toy(problem)
+
+
 def computed(log):
     return sorted(int(line) for line in Path(log).read_text().split()) if Path(log).exists() else []
 
@@ -209,20 +213,44 @@ def test_a_place_that_something_else_has_taken_is_refused(kind, problems, tmp_pa
     assert computed(problems[0].log) == [0]
 
 
-def test_what_is_forgotten_was_stored_here(problems, tmp_path):
-    """Of the modules that are named alone; a file of somebody else stays, whatever its name."""
+def test_what_is_timed_is_timed_anew(problems, tmp_path):
+    """Of the solves that were asked for, under whatever name they are stored; others, and files of others, stay."""
     engine = Engine(store=tmp_path)
-    engine.map(toy, problems)
-    ours = sorted(path.name for path in tmp_path.glob("*.npz"))
-    others = [ours[0].replace("test_ensemble", "test"), "test_ensemble.npz", "test_ensemble-toy-abc.npz", "a.txt"]
-    for name in others:
-        (tmp_path / name).write_bytes((tmp_path / ours[0]).read_bytes())
-    (tmp_path / ours[1]).write_bytes(b"mine")
-    (tmp_path / ours[2]).unlink()
-    (tmp_path / ours[2]).symlink_to(ours[3])
-    Engine().forget("test_ensemble")
-    engine.forget("test_ensemble")
-    assert {path.name for path in tmp_path.iterdir()} == {*others, ours[1], ours[2], "log"}
+    engine.map(other_toy, problems[:1])
+    (kept,) = (path.name for path in tmp_path.glob("*.npz"))
+    with engine.timed() as alone:
+        assert alone.workers == 1
+        alone.map(toy, problems)
+        ours = sorted(path.name for path in tmp_path.glob("*.npz") if path.name != kept)
+        others = [ours[0].replace("test_ensemble", "test"), "test_ensemble.npz", "test_ensemble-toy-abc.npz", "a.txt"]
+        for name in others:
+            (tmp_path / name).write_bytes((tmp_path / ours[0]).read_bytes())
+        (tmp_path / ours[1]).write_bytes(b"mine")
+        (tmp_path / ours[2]).unlink()
+        (tmp_path / ours[2]).symlink_to(ours[3])
+    assert {path.name for path in tmp_path.iterdir()} == {*others, kept, ours[1], ours[2], "log"}
+    with Engine().timed() as alone:
+        alone.map(toy, problems[:1])
+
+
+def test_a_timed_run_that_is_interrupted_goes_on(problems, tmp_path):
+    engine = Engine(store=tmp_path)
+    with pytest.raises(KeyboardInterrupt), engine.timed() as alone:
+        alone.map(toy, problems)
+        raise KeyboardInterrupt
+    assert len(list(tmp_path.glob("*.npz"))) == len(problems)
+
+
+def test_results_are_keyed_by_source_that_is_there(monkeypatch):
+    """Wherever the engine stands in the house: without a file, every version of the code would have one key."""
+    for package in ensemble.NUMERICS:
+        sources = ensemble.sources_of(package)
+        assert {source.parts[sources[0].parts.index(package)] for source in sources} == {package}
+        assert len(sources) > 10
+        assert not [source for source in sources if "report" in source.parts]
+    assert Path(ensemble.__file__) in ensemble.sources_of("validation")
+    with pytest.raises(RuntimeError, match="the source of no_such_package is not to be found"):
+        ensemble.sources_of("no_such_package")
 
 
 def explode(problem):

@@ -2,13 +2,14 @@
 
 import hashlib
 import importlib.metadata
+import importlib.util
 import json
 import logging
 import re
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
@@ -22,9 +23,9 @@ from validation.progress import Progress
 Outcome = stored.Outcome
 P = TypeVar("P")
 
-ROOT = Path(__file__).parents[1]
 NUMERICS = ("mdr", "bem3d", "validation")
-ON_PAPER = ROOT / "validation" / "report"
+ON_PAPER = "report"
+"""The folder of a package that only draws and writes."""
 LIBRARIES = ("numpy", "scipy", "pyfftw")
 LOCAL = "local"
 PATIENCE = 10
@@ -63,6 +64,8 @@ class Engine:
     store: Path | None = None
     progress: bool = False
     executor: str = LOCAL
+    asked: list[Callable[..., Outcome]] | None = field(default=None, repr=False, compare=False)
+    """The solves of a timed run, each as often as it was asked for."""
 
     def __post_init__(self) -> None:
         if self.executor != LOCAL and not re.fullmatch(r"dask://[^/\s]+:\d+", self.executor):
@@ -76,6 +79,8 @@ class Engine:
         solve: a module's own function; where part of it has not converged, its outcome says so by a number "failed";
         problems: frozen dataclasses of plain values, which their repr identifies.
         """
+        if self.asked is not None:
+            self.asked.append(solve)
         keys = [f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_numerics()}" for problem in problems]
         places = [self._place(solve, key) for key in keys]
         known = {i: outcome for i, outcome in enumerate(map(_load, places, keys)) if outcome is not None}
@@ -91,10 +96,15 @@ class Engine:
                     progress.step(_failed(outcome))
         return [known[i] for i in range(len(problems))]
 
-    def forget(self, *modules: str) -> None:
-        """Remove what the solves of these modules have stored, so that they are computed anew the next time."""
+    @contextmanager
+    def timed(self) -> Iterator["Engine"]:
+        """One solve at a time, so that none is disturbed. What is over is computed anew the next time, by whatever name
+        it was stored; what was interrupted goes on.
+        """
+        alone = replace(self, workers=1, executor=LOCAL, asked=[])
+        yield alone
         if self.store is not None:
-            stored.forget(self.store, modules)
+            stored.forget(self.store, [_named(solve) for solve in alone.asked or ()])
 
     def _solved(self, tasks: Sequence["_Task[P]"]) -> Generator[tuple[int, Outcome], None, None]:
         """Each as soon as it is finished."""
@@ -123,7 +133,7 @@ class Engine:
     def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
         if self.store is None:
             return None
-        return stored.place_of(self.store, solve.__module__.rpartition(".")[2], solve.__name__, key)
+        return stored.place_of(self.store, *_named(solve), key)
 
 
 SERIAL = Engine()
@@ -155,6 +165,11 @@ def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> 
     except Exception as error:
         error.add_note(f"in {solve.__name__}({problem!r})")
         raise
+
+
+def _named(solve: Callable[..., Outcome]) -> tuple[str, str]:
+    """Module and name of a solve, as its results are named."""
+    return solve.__module__.rpartition(".")[2], solve.__name__
 
 
 def _failed(outcome: Outcome) -> bool:
@@ -209,11 +224,25 @@ def _numerics() -> str:
     """Digest of all source but what only draws and writes, and of the libraries under it."""
     digest = hashlib.sha256()
     for package in NUMERICS:
-        for source in sorted((ROOT / package).rglob("*.py")):
-            if ON_PAPER not in source.parents:
-                digest.update(source.read_bytes())
+        for source in sources_of(package):
+            digest.update(source.read_bytes())
     digest.update(json.dumps({name: importlib.metadata.version(name) for name in LIBRARIES}).encode())
     return digest.hexdigest()
+
+
+def sources_of(package: str) -> list[Path]:
+    """All files of a package whose code may change a result. Raises RuntimeError where there is none to be found."""
+    found = importlib.util.find_spec(package)
+    folders = [Path(folder) for folder in (found and found.submodule_search_locations) or ()]
+    sources = [
+        source
+        for folder in folders
+        for source in sorted(folder.rglob("*.py"))
+        if ON_PAPER not in source.relative_to(folder).parts
+    ]
+    if not sources:
+        raise RuntimeError(f"the source of {package} is not to be found: stored results could be of any version of it")
+    return sources
 
 
 # taken when the code is: whoever edits it while it runs does not make old results new

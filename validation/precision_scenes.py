@@ -45,10 +45,8 @@ class PrecisionResult:
 
 def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
     """Time all scenes, one at a time whatever the engine's workers, so that nobody is disturbed."""
-    alone = Engine(workers=1, store=engine.store, progress=engine.progress)
     entrants = tuple(f"{contestant.name} {contestant.version}" for contestant in CONTESTANTS)
     trials = [Trial(scene, case.slow, case.enough, entrants) for scene in case.scenes()]
-    outcomes = alone.map(measure, trials)
-    # what was interrupted goes on; what is over is timed anew the next time
-    engine.forget("precision")
+    with engine.timed() as alone:
+        outcomes = alone.map(measure, trials)
     return PrecisionResult(case, outcomes)

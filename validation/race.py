@@ -184,7 +184,6 @@ def entrants() -> tuple[str, ...]:
 
 def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
     """Run all heats, one at a time whatever the engine's workers, so that nobody is disturbed."""
-    alone = Engine(workers=1, store=engine.store, progress=engine.progress)
     began = time.time()
     heats = [Heat(course, race.residual, race.slow, entrants()) for course in race.courses()]
     measured = [
@@ -197,22 +196,21 @@ def run(race: Race, engine: Engine = SERIAL) -> RaceResult:
         for n in race.scaling
     ]
     errands = race.errand.heats(race.seed, race.slow)
-    result = RaceResult(
-        race,
-        heats,
-        alone.map(run_heat, heats),
-        measured,
-        alone.map(measure, measured),
-        errands,
-        alone.map(run_heat, errands),
-        alone.map(measure_path, race.errand.surfaces(race.seed)),
-        measure_rolls(race.rolling, alone),
-        measure_wheels(race.wheel, alone),
-        began,
-    )
     # a race that was interrupted goes on; one that is over is run anew the next time
-    engine.forget("race", "race_rolling", "race_wheel")
-    return result
+    with engine.timed() as alone:
+        return RaceResult(
+            race,
+            heats,
+            alone.map(run_heat, heats),
+            measured,
+            alone.map(measure, measured),
+            errands,
+            alone.map(run_heat, errands),
+            alone.map(measure_path, race.errand.surfaces(race.seed)),
+            measure_rolls(race.rolling, alone),
+            measure_wheels(race.wheel, alone),
+            began,
+        )
 
 
 def run_heat(heat: Heat) -> Outcome:

@@ -5,6 +5,7 @@ import io
 import json
 import re
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -52,11 +53,11 @@ def save(path: Path, key: str, outcome: Outcome) -> None:
     write_whole(path, contents + hashlib.sha256(contents).digest())
 
 
-def forget(folder: Path, modules: tuple[str, ...]) -> None:
-    """Remove the stored results of these modules, and nothing that has no seal."""
+def forget(folder: Path, solves: Sequence[tuple[str, str]]) -> None:
+    """Remove the stored results of these solves, each a module and a name, and nothing that has no seal."""
     for path in sorted(folder.glob("*.npz")):
         named = NAME.fullmatch(path.name)
-        if named and named["module"] in modules and is_plain(path) and _is_sealed(path):
+        if named and (named["module"], named["solve"]) in solves and is_plain(path) and _is_sealed(path):
             path.unlink()
 
 
