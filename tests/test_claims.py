@@ -13,9 +13,10 @@ from validation import pressed_heights, rungs_pressed, rungs_pressed_grids
 from validation.calibrated import outside
 from validation.cases import ladder
 from validation.compare import compare, rungs_of, told, wants_of
-from validation.ladder import Answer, Cost, climb, grid_error, too_few
+from validation.ladder import Answer, Cost, climb, grid_error
 from validation.pressed_scene import PressedScene
 from validation.random_scenes import KINDS, WANTED, random_scene
+from validation.resolution import too_few
 from validation.rolling_scene import RollingScene
 from validation.roughness import Roughness
 

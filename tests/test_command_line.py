@@ -17,7 +17,6 @@ import bem3d
 import mdr
 from validation import __main__ as command
 from validation.cases import (
-    CASES,
     geike,
     hertz,
     ladder,
@@ -34,6 +33,7 @@ from validation.cases import (
 )
 from validation.cases.fractal_punch import FractalPunch
 from validation.ensemble import SERIAL, Engine
+from validation.report.contents import CASES
 from validation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[1]

@@ -17,8 +17,8 @@ import pytest
 from tests.test_ensemble import ENVIRONMENT, ROOT
 from validation import __main__ as command
 from validation.alone import own_process
-from validation.cases import CASES
 from validation.ensemble import Engine, WorkerLostError
+from validation.report.contents import CASES
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ import sys
 from pathlib import Path
 from tests import test_endings
 from validation import __main__ as command
-from validation.cases import CASES
+from validation.report.contents import CASES
 solve, folder, workers = sys.argv[1:]
 CASES["hertz"] = test_endings.run_of(getattr(test_endings, solve), Path(folder))
 words = ["report", "--only", "hertz", "--out", folder + "/out", "--workers", workers]

@@ -13,7 +13,6 @@ import bem3d
 from validation import __main__ as command
 from validation import precision_evidence, rolling_strip, rough_punch, wheel_ensemble
 from validation.cases import (
-    CASES,
     fractal_punch,
     fractal_punch_decades,
     ladder,
@@ -32,6 +31,7 @@ from validation.evidence import Evidence, NotConvergedError, Number, Role, Table
 from validation.ladder import Answer, Claim, Cost, climb
 from validation.limits_solver import Grid, press_grid
 from validation.precision import BEM, FAILED, FINISHED, LOOSE, MDR, PLAIN, REFUSED
+from validation.report.contents import CASES
 from validation.rolling_strip import self_affine
 from validation.wheel_scene import read_scene
 

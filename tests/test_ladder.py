@@ -15,12 +15,13 @@ import bem3d
 import mdr
 from validation import ladder as ladder_of_models
 from validation import pressed_heights, rolled, rungs_pressed
-from validation.cases import CASES, ladder
+from validation.cases import ladder
 from validation.compare import WANTS, compare, rungs_of, told, wants_of
 from validation.ladder import Answer, Claim, Climb, Cost, Step, climb, distance, mean_error, needed, realisations
 from validation.measured import MeasuredHeights
 from validation.pressed_scene import PressedScene
 from validation.random_scenes import KINDS, WANTED, random_scene
+from validation.report.contents import CASES
 from validation.rolling_question import Question
 from validation.rolling_scene import RollingScene
 from validation.roughness import Roughness

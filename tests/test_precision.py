@@ -12,7 +12,6 @@ import pytest
 
 import validation.__main__ as command
 from validation import precision, precision_front, precision_pressed
-from validation.cases import TIMED
 from validation.closed_forms import westergaard_approach, westergaard_full_pressure, westergaard_half_width
 from validation.ensemble import Engine
 from validation.evidence import Verdict
@@ -43,6 +42,7 @@ from validation.precision_rough import Fractal, log_deviation
 from validation.precision_scenes import Precision, run
 from validation.precision_smooth import Punch, Sphere, Wave
 from validation.precision_wheel import Wheels, beside, mean_levels, steady_acceleration
+from validation.report.contents import TIMED
 from validation.rolling_strip import HERTZ
 from validation.wheel import simulate
 from validation.wheel_strip import linear_contact

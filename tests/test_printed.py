@@ -13,7 +13,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from validation.cases import (
-    CASES,
     fractal_punch_decades,
     limits_evidence,
     mdr_limits,
@@ -29,6 +28,7 @@ from validation.cases.fractal_punch import FractalPunch
 from validation.evidence import Evidence, Number, Role, Table, Verdict, beside, claim, columns, plus_minus, table_of
 from validation.precision_front import in_unit, said
 from validation.report import build
+from validation.report.contents import CASES
 from validation.report.figures import fractal_punch
 from validation.report.folder import as_csv
 from validation.statistics import Estimate

@@ -10,11 +10,11 @@ import pytest
 
 import validation.__main__ as command
 from validation import alone, peers, race, race_evidence
-from validation.cases import TIMED
 from validation.evidence import Verdict
 from validation.peers import CONTESTANTS, Contestant, Run
 from validation.race_rolling import Rolls, interpolated
 from validation.race_wheel import Steps
+from validation.report.contents import TIMED
 
 HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, entrants=())
 

@@ -17,8 +17,9 @@ import pytest
 from tests.test_ensemble import ENVIRONMENT, ROOT
 from validation import __main__ as command
 from validation import files
-from validation.cases import CASES, geike, hertz
+from validation.cases import geike, hertz
 from validation.report import build
+from validation.report.contents import CASES
 from validation.report.folder import Folder
 from validation.report.lock import LOCK, locked
 from validation.report.manifest import MANIFEST, as_manifest, digest_of, listed_in

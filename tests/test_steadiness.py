@@ -9,7 +9,7 @@ import pytest
 
 from tests.test_command_line import SMALL
 from validation.__main__ import main
-from validation.cases import CASES
+from validation.report.contents import CASES
 from validation.rolling_scene import RollingScene
 from validation.scene_files import SCENES
 from validation.scene_kinds import read_any

@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
-from validation.cases import CASES, TIMED
 from validation.compare import WANTS, time_of, told
 from validation.compare import compare as compared
 from validation.ensemble import KEPT, LOCAL, WorkerLostError
@@ -22,6 +21,7 @@ from validation.files import UNUSABLE
 from validation.ladder import Rung
 from validation.peers import peers_installed
 from validation.report.build import Section, build
+from validation.report.contents import CASES, TIMED
 from validation.scene_files import SceneError
 from validation.scene_kinds import comparable, read_any
 from validation.shown import printable

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation import wheel_theory
-from validation.contact_laws import ContactLaw, Hertz, Linear, Wheel
+from validation.contact_laws import ContactLaw, Hertz, Linear
 from validation.ensemble import Outcome
 from validation.integrators import (
     EXPLICIT_EULER,
@@ -18,6 +18,7 @@ from validation.integrators import (
     VELOCITY_VERLET,
     Integrator,
 )
+from validation.wheel_body import Wheel
 
 FloatArray = NDArray[np.float64]
 

@@ -17,8 +17,6 @@ SLOWEST = 0.8
 """Ratio of two changes that a sample may hide behind: four times the last change is then left."""
 BOUNDARY_ELEMENTS = "boundary elements"
 """The model that judges all others, on whichever grid."""
-FEWEST_IN_CONTACT = 6
-"""Cells or springs: an answer that stands on fewer is that of the grid, and none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,13 +179,6 @@ def mean_error(ratios: FloatArray) -> float:
     """
     of_means = ratios.std(axis=0, ddof=1) / math.sqrt(len(ratios))
     return float(_student(len(ratios)) * np.sqrt(np.mean(of_means**2)))
-
-
-def too_few(count: float, what: str) -> str:
-    """Why there is no answer where half of the contacts have fewer than six cells or springs; empty where they have."""
-    if count >= FEWEST_IN_CONTACT:
-        return ""
-    return f"half of the contacts have {count:.2g} {what} or fewer: the answer would be that of the grid"
 
 
 def grid_error(earlier: FloatArray, last: FloatArray) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation import rolling_theory, wheel_theory
-from validation.contact_laws import BoundaryElements, Linear, Springs, Wheel
+from validation.contact_laws import BoundaryElements, Linear, Springs
 from validation.precision import (
     CLOSED,
     FED,
@@ -27,6 +27,7 @@ from validation.precision_grids import Refined
 from validation.precision_rolling import log_levels
 from validation.records import band_levels, one_third_octaves, spectra
 from validation.wheel import Motion, repeating, simulate
+from validation.wheel_body import Wheel
 from validation.wheel_ensemble import LEFT, Feed, Rides, filtered
 from validation.wheel_scene import WheelScene, read_scene
 from validation.wheel_strip import Strip, by_boundary_elements, linear_contact, narrowed

@@ -13,8 +13,8 @@ import bem3d
 import mdr
 from validation.contact_laws import BoundaryElements, ContactLaw, Linear, Springs
 from validation.ensemble import generator
-from validation.ladder import too_few
 from validation.measured import MeasuredHeights
+from validation.resolution import too_few
 from validation.rolling_question import Question
 from validation.rolling_theory import linear_force
 from validation.spectra import levels, waves

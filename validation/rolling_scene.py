@@ -4,12 +4,12 @@ import math
 from dataclasses import dataclass
 
 from mdr.border import positive
-from validation.contact_laws import Wheel
 from validation.material import Material, check_modulus
 from validation.measured import MeasuredHeights, check_points
 from validation.roughness import Roughness, check_band
 from validation.scene_files import named
 from validation.steadiness import doubts_of_short_waves, no_steady_answer
+from validation.wheel_body import Wheel
 from validation.wheel_scene import WheelScene
 
 Ground = Roughness | MeasuredHeights

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from scipy import stats
 
 import mdr
-from validation.contact_laws import Springs, Wheel
+from validation.contact_laws import Springs
 from validation.ensemble import Outcome, generator
 from validation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
 from validation.wheel import simulate
+from validation.wheel_body import Wheel
 
 FloatArray = NDArray[np.float64]
 

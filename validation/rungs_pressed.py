@@ -12,10 +12,11 @@ import mdr
 from validation.calibrated import Ranges, outside
 from validation.closed_forms import rough_punch_stiffness
 from validation.ensemble import generator
-from validation.ladder import Answer, Claim, Cost, Rung, counted, mean_error, realisations, too_few
+from validation.ladder import Answer, Claim, Cost, Rung, counted, mean_error, realisations
 from validation.measured import MeasuredHeights
 from validation.pressed_heights import FEW, finest_cells, ground_of, side_of
 from validation.pressed_scene import PressedScene
+from validation.resolution import too_few
 from validation.roughness import Roughness
 from validation.rungs_pressed_grids import SCATTER, BoundaryElements
 

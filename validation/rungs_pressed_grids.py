@@ -19,11 +19,11 @@ from validation.ladder import (
     grid_error,
     mean_error,
     realisations,
-    too_few,
 )
 from validation.measured import MeasuredHeights
 from validation.pressed_heights import cells_wanted, height_of, holds_waves, side_of
 from validation.pressed_scene import PressedScene
+from validation.resolution import too_few
 
 FloatArray = NDArray[np.float64]
 

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.contact_laws import Wheel
 from validation.measured import MeasuredHeights
 from validation.rolling_theory import force_spectrum_1d
 from validation.roughness import Roughness
+from validation.wheel_body import Wheel
 
 FloatArray = NDArray[np.float64]
 Ground = Roughness | MeasuredHeights

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.contact_laws import ContactLaw, Wheel
+from validation.contact_laws import ContactLaw
 from validation.integrators import VELOCITY_VERLET, Integrator
+from validation.wheel_body import Wheel
 
 FloatArray = NDArray[np.float64]
 

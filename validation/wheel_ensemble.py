@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
 import mdr
-from validation.contact_laws import ContactLaw, Linear, Springs, Wheel
+from validation.contact_laws import ContactLaw, Linear, Springs
 from validation.ensemble import Outcome, generator
 from validation.measured import MeasuredHeights
 from validation.records import band_means, spectra
 from validation.rolling_theory import response
 from validation.roughness import Roughness
 from validation.wheel import Motion, repeating, simulate
+from validation.wheel_body import Wheel
 from validation.wheel_scene import WheelScene
 
 FloatArray = NDArray[np.float64]

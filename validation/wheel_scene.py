@@ -10,7 +10,6 @@ from typing import Any
 from scipy.fft import next_fast_len
 
 from mdr.border import count, positive
-from validation.contact_laws import Wheel
 from validation.material import Material, material_of
 from validation.roughness import Roughness, check_band, roughness_of
 from validation.scene_files import (
@@ -28,6 +27,7 @@ from validation.scene_files import (
     tables_of,
 )
 from validation.steadiness import doubts_of_short_waves, no_steady_answer
+from validation.wheel_body import Wheel
 
 KEYS = {
     "radius": "wheel.radius",

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.contact_laws import BoundaryElements, Linear, Wheel
+from validation.contact_laws import BoundaryElements, Linear
 from validation.ensemble import Outcome, generator
 from validation.rolling_theory import linear_force
 from validation.roughness import Roughness
 from validation.wheel import Motion, simulate
+from validation.wheel_body import Wheel
 from validation.wheel_scene import WheelScene
 
 FloatArray = NDArray[np.float64]

@@ -12,9 +12,9 @@ import jinja2
 from markupsafe import Markup, escape
 
 from bem3d import ConvergenceError
-from validation.cases import CASES, CHAPTERS, TIMED, Entry, Profile
 from validation.ensemble import LOCAL, Engine
 from validation.evidence import Evidence, NotConvergedError, Number, Role, Verdict
+from validation.report.contents import CASES, CHAPTERS, TIMED, Entry, Profile
 from validation.report.figures import DRAW
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
