@@ -347,7 +347,7 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
     assert left[64](np.array([0.2, 0.15, 0.1])) == math.inf
 
 
-def test_grids_are_compared_on_the_same_surfaces(monkeypatch):
+def test_grids_are_compared_on_the_same_surfaces():
     seen = []
 
     def recorded(scene, cells, realisation, seed):
@@ -355,8 +355,9 @@ def test_grids_are_compared_on_the_same_surfaces(monkeypatch):
         return height_of(scene, cells, realisation, seed)
 
     height_of = pressed_heights.height_of
-    monkeypatch.setattr(rungs_pressed_grids, "height_of", recorded)
-    rungs_pressed_grids.BoundaryElements(punch(), 0.8, 3, 32).solve()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rungs_pressed_grids, "height_of", recorded)
+        rungs_pressed_grids.BoundaryElements(punch(), 0.8, 3, 32).solve()
     fine = [(32, i, 3) for i in range(len(seen) - 16)]
     assert sorted(seen) == sorted([*fine, *((cells, i, 3) for cells in (8, 16) for i in range(8))])
 
@@ -463,17 +464,18 @@ def test_claims_of_cheap_models_of_rolling(want, rules):
 
 
 @pytest.mark.parametrize("finest", [False, True])
-def test_two_grids_of_second_order_leave_what_they_miss(monkeypatch, finest):
+def test_two_grids_of_second_order_leave_what_they_miss(finest):
     """ln of a level is c / cells^2 beside its limit, and strips scatter by far more: they are compared one by one."""
 
     def levels(question, cells, realisation, seed):
         return np.array([realisation % 2 - 0.5 - 20 / cells**2])
 
-    monkeypatch.setattr(rungs_rolling, "on_boundary_elements", levels)
     coarse, fine = rungs_of(rolling(), "force-rms", 0.1, 0)[-2:]
     assert fine.cells == 1.5 * coarse.cells
     rung = fine if finest else coarse
-    found = rung.solve()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rungs_rolling, "on_boundary_elements", levels)
+        found = rung.solve()
     assert found.grid == pytest.approx(20 / rung.cells**2, rel=0.01)
     assert found.sample == pytest.approx(stats.t(9).ppf(0.975) * 0.5 / 3, rel=1e-9)
     level = rung.question.expected(one_dimensional=False)
@@ -512,7 +514,10 @@ def test_bands_of_measured_heights_are_those_that_they_resolve():
 # Units
 
 
-@pytest.mark.parametrize("scene", [punch(load=0.01, last=16), rolling(height=0.1, shape="sphere")])
+ROUGH_BODIES = [punch(load=0.01, last=16), rolling(height=0.1, shape="sphere")]
+
+
+@pytest.mark.parametrize("scene", ROUGH_BODIES)
 def test_no_stiffness_depends_on_units(scene):
     """In gigapascals and micrometres every model counts as many springs and cells, and answers E* times length more."""
     modulus, length = 2e11, 1e-6
