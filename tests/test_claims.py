@@ -9,15 +9,18 @@ from scipy import stats
 
 import bem3d
 from validation import ladder as ladder_of_models
-from validation import pressed_heights, rungs_pressed, rungs_pressed_grids
+from validation import pressed_heights, rolled, rungs_pressed, rungs_pressed_grids, rungs_rolling
 from validation.calibrated import outside
 from validation.cases import ladder
 from validation.compare import compare, rungs_of, told, wants_of
-from validation.ladder import Answer, Cost, climb, grid_error
+from validation.ladder import Answer, Cost, climb, grid_error, mean_error
+from validation.measured import MeasuredHeights
 from validation.pressed_scene import PressedScene
 from validation.random_scenes import KINDS, WANTED, random_scene
 from validation.resolution import too_few
+from validation.rolling_question import Question
 from validation.rolling_scene import RollingScene
+from validation.rolling_theory import contact_lost
 from validation.roughness import Roughness
 
 
@@ -312,3 +315,245 @@ def test_a_model_out_of_range_is_not_counted_as_covered():
 
 def test_what_has_failed_leaves_everything_open():
     assert Answer(value=np.ones(1), cost=Cost(work=1, unit="", seconds=0), grid=math.inf).error == math.inf
+
+
+# Error bars of grids and samples, by hand
+
+
+@pytest.mark.parametrize(("ratio", "factor"), [(0.25, 1.0), (0.5, 1.0), (0.75, 3.0), (0.8, 4.0), (1.01, 4.0)])
+def test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample(ratio, factor):
+    """The noise of the last change is extended with it; a ratio that the noise hides is taken for 0.8."""
+    scatter = 0.01 * np.array([1.0, -1.0] * 4)
+    noise = stats.t(7).ppf(0.975) * 0.01 * math.sqrt(8 / 7) / math.sqrt(8)
+    last = ratio * 0.3
+    assert grid_error(0.3 + scatter, last + scatter) == pytest.approx(factor * (last + noise), rel=1e-12)
+    assert grid_error(-0.3 + scatter, -last + scatter) == pytest.approx(factor * (last + noise), rel=1e-12)
+
+
+def test_the_error_over_bands_is_their_root_mean_square():
+    """The loudest band decides, as it does in the distance between two answers."""
+    one, other = 0.1 * np.array([1.0, -1.0] * 3), 0.4 * np.array([1.0, -1.0] * 3)
+    together = mean_error(np.stack([one, other], axis=1))
+    alone = [mean_error(column[:, np.newaxis]) for column in (one, other)]
+    assert together == pytest.approx(math.hypot(*alone) / math.sqrt(2), rel=1e-12)
+
+
+def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come():
+    """Half as much again of the last change or of half of that before, whichever is more."""
+    height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
+    scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
+    left = {cells: rungs_pressed_grids.BoundaryElements(scene, 0.1, 0, cells)._grid_of_one for cells in (16, 32, 64)}
+    assert [left[cells](np.array([0.1, 0.15, 0.2])) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
+    assert left[64](np.array([-0.01, 0.1, 0.2])) == pytest.approx(0.075)
+    assert left[64](np.array([0.2, 0.15, 0.1])) == math.inf
+
+
+def test_grids_are_compared_on_the_same_surfaces():
+    seen = []
+
+    def recorded(scene, cells, realisation, seed):
+        seen.append((cells, realisation, seed))
+        return height_of(scene, cells, realisation, seed)
+
+    height_of = pressed_heights.height_of
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rungs_pressed_grids, "height_of", recorded)
+        rungs_pressed_grids.BoundaryElements(punch(), 0.8, 3, 32).solve()
+    fine = [(32, i, 3) for i in range(len(seen) - 16)]
+    assert sorted(seen) == sorted([*fine, *((cells, i, 3) for cells in (8, 16) for i in range(8))])
+
+
+def test_realisations_are_others():
+    def heights(realisation, seed):
+        return pressed_heights.height_of(punch(), 32, realisation, seed).ravel()
+
+    def strips(realisation, seed):
+        return rolled.strip_of(Question(rolling(), "force-rms"), 4, realisation, seed).ravel()
+
+    for draw in (heights, strips):
+        assert (draw(1, 3) == draw(1, 3)).all()
+        for realisation, seed in ((0, 3), (1, 4)):
+            # of some hundred waves
+            assert abs(np.corrcoef(draw(1, 3), draw(realisation, seed))[0, 1]) < 0.5
+    tracks, _ = rolled._tracks(Question(rolling(), "force-rms"), 3, 3)
+    assert (abs(np.corrcoef(tracks.T) - np.eye(3)) < 0.5).all()
+
+
+def test_a_contact_costs_the_same_on_every_grid():
+    rung = rungs_pressed_grids.BoundaryElements(punch(), 0.4, 0, 32)
+    cost = rung._cost(9, 8)
+    contacts = (cost.seconds - rungs_pressed_grids.CELL * cost.work) / rungs_pressed_grids.PRESS
+    assert contacts == pytest.approx(9 + 2 * 8)
+
+
+# What models claim, by hand
+
+
+def claims(scene, want="stiffness", tolerance=0.1):
+    return {rung.model: rung.claim().error for rung in rungs_of(scene, want, tolerance, 0)}
+
+
+@pytest.mark.parametrize(
+    ("scene", "closed", "springs"),
+    [
+        (punch(load=1.0), 0.07, 0.12 + 0.02),
+        # each more of the longest waves on a side
+        (punch(load=1.0, first=3, last=24), 0.07 + 2 * 0.015, 0.12 + 2 * 0.06 + 0.02),
+        (punch(load=10.0), 0.06, 0.16 + 0.02),
+        (rolling(height=0.1, shape="sphere"), 0.32 * 0.1 + 0.01, 0.15 * 0.1 + 0.01 + 0.02),
+    ],
+)
+def test_claims_of_cheap_models_of_pressed_bodies(scene, closed, springs):
+    found = claims(scene)
+    assert found["closed form"] == pytest.approx(closed)
+    assert found["springs"] == pytest.approx(springs)
+
+
+def test_one_measured_face_is_not_the_mean_of_all():
+    """A surface scatters by 0.22 about the mean of those that have its spectrum: two such deviations are claimed."""
+    band = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
+    height = bem3d.rough_surface(band.c2d, shape=(64, 64), spacing=1 / 64, rng=np.random.default_rng(2), rms=1e-3)
+    scene = replace(punch(load=1.0), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
+    assert scene.ground.beyond_a_spectrum() == ()
+    # the closed form is in series with the interface, which yields as one over the load
+    assert claims(scene)["closed form"] == pytest.approx(0.07 + 2 * 0.22 / scene.reduced_load**2, abs=0.01)
+    assert claims(scene)["springs"] == pytest.approx(0.12 + 0.02 + 2 * 0.22, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("scene", "tolerance", "count", "claimed"),
+    [
+        # (2 s / (e / 2))^2 surfaces, s = 0.22 of a punch and 0.3 h/d of a sphere
+        (punch(), 0.1, 78, 0.05),
+        (rolling(height=0.1, shape="sphere"), 0.021, 33, 0.0105),
+        # no more than a thousand
+        (punch(), 0.01, 1000, 2 * 0.22 / math.sqrt(1000)),
+    ],
+)
+def test_boundary_elements_claim_what_their_sample_leaves(scene, tolerance, count, claimed):
+    rung = rungs_of(scene, "stiffness", tolerance, 0)[-1]
+    assert rung.count == count
+    assert rung.claim().error == pytest.approx(claimed)
+
+
+RULES = [
+    ("force-rms", {"linear filter, 1D": (1.2, 0.05, 0.002), "springs": (1.0, 0.1, 0.012)}),
+    (
+        "force-spectrum",
+        {
+            "linear filter, 1D": (2.0, 0.5, 0.55),
+            "linear filter, 3D": (2.0, 0.5, 0.015),
+            "springs": (0.0, 0.6, 0.46),
+        },
+    ),
+]
+
+
+@pytest.mark.parametrize(("want", "rules"), RULES)
+def test_claims_of_cheap_models_of_rolling(want, rules):
+    """Of the contact that linear theory loses, of h/d, and of neither; springs beside a tenth of the tolerance."""
+    scene = rolling(height=0.3)
+    ground = scene.ground
+    lost = contact_lost(ground.c2d, edges=ground.edges, contact_radius=scene.contact_radius, radius=scene.radius)
+    assert not 0.5 < lost / 0.3 < 2
+    found = claims(scene, want)
+    for model, rule in rules.items():
+        assert found[model] == pytest.approx(np.dot(rule, (lost, 0.3, 1.0)))
+
+
+# Rolling, grid beside grid
+
+
+@pytest.mark.parametrize("finest", [False, True])
+def test_two_grids_of_second_order_leave_what_they_miss(finest):
+    """ln of a level is c / cells^2 beside its limit, and strips scatter by far more: they are compared one by one."""
+
+    def levels(question, cells, realisation, seed):
+        return np.array([realisation % 2 - 0.5 - 20 / cells**2])
+
+    coarse, fine = rungs_of(rolling(), "force-rms", 0.1, 0)[-2:]
+    assert fine.cells == 1.5 * coarse.cells
+    rung = fine if finest else coarse
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rungs_rolling, "on_boundary_elements", levels)
+        found = rung.solve()
+    assert found.grid == pytest.approx(20 / rung.cells**2, rel=0.01)
+    assert found.sample == pytest.approx(stats.t(9).ppf(0.975) * 0.5 / 3, rel=1e-9)
+    level = rung.question.expected(one_dimensional=False)
+    assert found.value == pytest.approx(level * math.exp(-20 / rung.cells**2), rel=1e-9)
+
+
+def test_springs_leave_what_their_tracks_scatter(monkeypatch):
+    springs = rungs_of(rolling(), "force-spectrum", 0.1, 0)[2]
+    assert springs.model == "springs"
+    change = np.random.default_rng(1).standard_normal((60, springs.question.bands.centres.size))
+    monkeypatch.setattr(rungs_rolling, "on_springs", lambda *_: change)
+    found = springs.solve()
+    assert found.sample == mean_error(change)
+    assert found.model == springs.claim().error
+
+
+@pytest.mark.parametrize("want", ["force-rms", "force-spectrum", "acceleration", "acceleration-rms"])
+def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(want):
+    moving = {"mass": 1.0, "speed": 40.0} if want.startswith("acceleration") else {}
+    scene = replace(rolling(height=1e-4), **moving)
+    change = rolled.on_springs(Question(scene, want), 24, 5)
+    # tracks that are fed have the level of half-spaces in the mean alone
+    assert abs(change.mean()) <= mean_error(change) + (0.0 if want == "force-rms" else 0.1)
+
+
+def test_bands_of_measured_heights_are_those_that_they_resolve():
+    """Four of the longest band on the length that was measured, four points to the shortest wave."""
+    height = 1e-4 * np.random.default_rng(6).standard_normal((512, 128))
+    ground = MeasuredHeights(height=height, spacing=(1 / 16, 1 / 16))
+    bands = Question(replace(rolling(), ground=ground), "force-spectrum").bands
+    step = 10**0.1
+    assert bands.edges[0] >= 4 * 2 * math.pi / 32 > bands.edges[0] / step
+    assert bands.edges[-1] <= math.pi * 16 / 2 * (1 + 1e-9) < bands.edges[-1] * step * (1 + 1e-9)
+
+
+# Units
+
+
+ROUGH_BODIES = [punch(load=0.01, last=16), rolling(height=0.1, shape="sphere")]
+
+
+@pytest.mark.parametrize("scene", ROUGH_BODIES)
+def test_no_stiffness_depends_on_units(scene):
+    """In gigapascals and micrometres every model counts as many springs and cells, and answers E* times length more."""
+    modulus, length = 2e11, 1e-6
+    ground = replace(
+        scene.ground,
+        rms=length * scene.ground.rms,
+        longest=length * scene.ground.longest,
+        shortest=length * scene.ground.shortest,
+    )
+    other = replace(
+        scene, size=length * scene.size, load=modulus * length**2 * scene.load, modulus=modulus, ground=ground
+    )
+    pairs = list(zip(rungs_of(scene, "stiffness", 0.9, 0), rungs_of(other, "stiffness", 0.9, 0), strict=True))
+    assert [one.name for one, _ in pairs] == [two.name for _, two in pairs]
+    for one, two in pairs[:3]:
+        here, there = one.solve(), two.solve()
+        assert there.value == pytest.approx(modulus * length * here.value, rel=1e-3)
+        assert there.error == pytest.approx(here.error, rel=1e-2)
+        assert (there.failed, there.cost) == (here.failed, here.cost)
+
+
+def test_a_handful_of_springs_is_none_in_any_unit():
+    ground = Roughness(rms=1e-9, hurst=0.7, longest=1e-6, shortest=1e-6 / 32)
+    few = PressedScene(name="few", shape="punch", size=1e-6, load=1e-3 * 2e11 * 1e-15, modulus=2e11, ground=ground)
+    assert "springs or fewer" in rungs_of(few, "stiffness", 0.5, 0)[1].solve().failed
+
+
+def test_a_sphere_of_low_roughness_is_that_of_hertz():
+    scene = rolling(height=0.01, first=1.9, last=4, shape="sphere")
+    found = rungs_pressed_grids.BoundaryElements(scene, 0.1, 0, 32).solve()
+    assert found.error < 0.1
+    assert abs(math.log(found.value[0] / scene.stiffness)) <= found.error + 0.32 * 0.01 + 0.01
+
+
+def test_the_side_of_a_sphere_holds_what_it_may_touch():
+    """Four heights above the smooth approach: r^2 = 2 R (d + 4 h)."""
+    scene = rolling(height=0.1, first=4.5, last=9, shape="sphere")
+    assert pressed_heights.side_of(scene) == pytest.approx(2 * math.sqrt(2 * 10 * (0.1 + 4 * 0.01)))

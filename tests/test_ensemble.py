@@ -1,6 +1,7 @@
 """Independent solves: equal bits for any number of workers, and stored results that can be trusted."""
 
 import hashlib
+import importlib.metadata
 import io
 import json
 import os
@@ -549,3 +550,18 @@ def test_a_solve_that_fails_is_counted_and_shown():
     assert np.isnan(outcome["stiffness"]).all()
     assert outcome["failed"] == len(SMALL.forces)
     assert (outcome["residual"] > 1e-30).all()
+
+
+@pytest.mark.parametrize("library", ["numpy", "scipy", "pyfftw"])
+def test_another_version_of_a_library_is_another_version_of_the_numerics(library):
+    digest, version = ensemble._numerics.__wrapped__, importlib.metadata.version
+    here = digest()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(importlib.metadata, "version", lambda name: "9" if name == library else version(name))
+        assert digest() != here
+
+
+def test_one_part_that_fails_is_a_failed_solve():
+    assert ensemble._failed({"failed": np.array([0.0, 1.0])})
+    assert not ensemble._failed({"failed": np.zeros(2)})
+    assert not ensemble._failed({})

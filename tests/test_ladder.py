@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy import integrate
+from scipy import integrate, stats
 
 import bem3d
 import mdr
 from validation import ladder as ladder_of_models
 from validation import pressed_heights, rolled, rungs_pressed
 from validation.cases import ladder
-from validation.compare import WANTS, compare, rungs_of, told, wants_of
+from validation.compare import WANTS, Comparison, compare, rungs_of, told, wants_of
 from validation.ladder import Answer, Claim, Climb, Cost, Step, climb, distance, mean_error, needed, realisations
 from validation.measured import MeasuredHeights
 from validation.pressed_scene import PressedScene
@@ -468,3 +468,121 @@ def test_a_measured_track_is_rolled_itself():
     assert distance(found.value, linear.value) <= found.error + 0.01
     with pytest.raises(ValueError, match=r"rail.heights must be .* long"):
         wheel(ground=MeasuredHeights(height=height[:, :20], spacing=(1 / 8, 1 / 8)))
+
+
+@dataclass(frozen=True)
+class Finding(Fake):
+    """A rung of a model, whose answer and its cost are told."""
+
+    model: str = "springs"
+    value: tuple[float, ...] = (1.0,)
+    parts: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    spent: float = 1.0
+
+    def solve(self):
+        model, grid, sample = self.parts
+        cost = Cost(work=1, unit="steps", seconds=self.spent)
+        return Answer(value=np.array(self.value), cost=cost, model=model, grid=grid, sample=sample)
+
+
+def test_of_equal_claims_that_miss_the_tolerance_the_finest_grid_is_asked():
+    climbed = climb([Fake(claimed=0.5, left=0.4), Fake(claimed=0.5, left=0.2)], 0.1)
+    assert fates(climbed) == ["skipped", "not enough"]
+
+
+def test_the_least_that_is_left_is_the_best_whoever_comes_last():
+    climbed = climb([Fake(left=0.2), Fake(left=0.3)], 0.1)
+    assert climbed.best.rung is climbed.steps[0].rung
+
+
+PARTS = (0.1, 0.02, 0.003)
+
+
+def test_a_number_is_told_with_the_parts_of_its_error():
+    """12.3 % of 2e7 N/m; what was skipped and what was not needed has cost nothing, what has failed has."""
+    rungs = [
+        Fake(claimed=9.0, seconds=2.0),
+        Fake(failed="lost", seconds=4.0),
+        Finding(value=(2e7,), parts=PARTS),
+        Fake(seconds=8.0),
+    ]
+    lines = told(Comparison(punch(load=1.0), "stiffness", climb(rungs, 0.2)))
+    assert "stiffness = (2.00 ± 0.25)e7 N/m (12 %: model 10 %, grid 2 %, sample 0.3 %), by fake" in lines
+    assert lines[-1].startswith("solves that were done: about 5 s by their count")
+    assert lines[-1].endswith("the rungs that were not asked would have cost 10 s")
+
+
+@pytest.mark.parametrize(("want", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])
+def test_bands_are_told_with_wavenumber_frequency_and_level(want, unit):
+    scene = wheel(first=1 / 20, mass=2.0, speed=400.0, radius=4.0, load=4 / 3 * 16)
+    a, bands = scene.contact_radius, Question(scene, want).bands
+    assert a != pytest.approx(1.0)
+    levels = tuple(float(i + 1) for i in range(bands.centres.size))
+    lines = told(Comparison(scene, want, climb([Finding(value=levels, parts=PARTS)], 0.2)))
+    at = next(i for i, line in enumerate(lines) if "one-third octaves" in line)
+    # 20 lg 1.123 = 1.0 dB
+    assert lines[at].endswith("± 12 %, 1 dB, over all bands (model 10 %, grid 2 %, sample 0.3 %)")
+    assert lines[at + 1].split("  ")[-1].strip() == f"level [{unit}]"
+    rows = [[float(word) for word in line.split()] for line in lines[at + 2 : at + 2 + len(levels)]]
+    for (q, turns, frequency, level), centre, expected in zip(rows, bands.centres, levels, strict=True):
+        assert (q, level) == pytest.approx((centre, expected), rel=1e-3)
+        assert turns == pytest.approx(centre * a, abs=0.006)
+        assert frequency == pytest.approx(400.0 * centre / (2 * math.pi), rel=1e-3)
+
+
+def outcome(claimed, true, spent, fine, *, met=1.0, every=()):
+    """Of a trial at one tolerance; every: claimed and true errors of springs."""
+    all_of_them = np.full((2, len(ladder.RUNGS)), np.nan)
+    if every:
+        all_of_them[:, ladder.RUNGS.index("springs")] = every
+    one = {"rung": 0.0, "claimed": claimed, "true": true, "spent": spent, "fine": fine, "settled": met}
+    return {
+        **{name: np.array([value]) for name, value in one.items()},
+        **dict(zip(("every claimed", "every true"), all_of_them, strict=True)),
+        **{name: np.array(math.nan) for name in ("truth", "height", "load")},
+        "failed": np.array(0.0),
+    }
+
+
+def test_the_account_prints_the_numbers_it_is_given():
+    """Three of four claims hold; 2, 5, 5 and 40 times is saved; two are out of reach, one has no answer."""
+    outcomes = [
+        outcome(0.1, 0.05, 5.0, 10.0, every=(0.1, 0.2)),
+        outcome(0.1, 0.09, 2.0, 10.0, every=(0.1, 0.3)),
+        outcome(0.1, 0.20, 22.0, 110.0, every=(0.1, 0.05)),
+        outcome(0.3, 0.20, 0.25, 10.0, met=0.0),
+        outcome(math.nan, math.nan, 1.0, 10.0, met=0.0),
+    ]
+    case = ladder.Ladder(punches=5, spheres=0, rolling=0, wheels=0, tolerances=(0.1,))
+    found = ladder.evidence(ladder.LadderResult(case, outcomes, ()))
+    covered, saved = found.numbers
+    assert covered.value == pytest.approx(0.95 - 0.75)
+    # Clopper and Pearson, three of four
+    assert covered.sample == pytest.approx(0.75 - stats.beta.ppf(0.025, 3, 2))
+    assert saved.value == pytest.approx(1.0)
+    (sentence,) = found.conclusions
+    assert "within the claimed one in 75.0% of 4 scenes (95 % interval 19% to 99%)" in sentence
+    assert "within the tolerance in 50.0%" in sentence
+    assert "a factor 5 is saved in the median, 4.79 in all scenes together" in sentence
+    assert "Scenes that were said to be out of reach: 2; " in sentence
+    assert "without them 5. Scenes without any answer: 1." in sentence
+    row = {name: values[0] for name, values in found.shown[1].columns.items()}
+    assert row["true error within the claim"].startswith("33% (")
+    assert row["claim over true error, median"] == "0.5"
+    assert row["at most exceeded by"] == "3 times"
+
+
+def test_what_is_saved_is_beside_what_the_referee_did(monkeypatch):
+    """It was expected to take 10 s and took 25: so would fine boundary elements at the tolerance of the climb."""
+    fine = Finding(model="boundary elements", claimed=9.0, seconds=10.0, spent=25.0)
+    monkeypatch.setattr(ladder, "rungs_of", lambda *_: [Finding(parts=(0.1, 0, 0), value=(1.2,), spent=0.5), fine])
+    trial = ladder.Ladder(punches=1, tolerances=(0.2,)).trials[-1]
+    found = ladder.hold_to_account(trial)
+    assert {name: found[name].tolist() for name in ("fine", "spent", "claimed", "settled")} == {
+        "fine": [25.0],
+        "spent": [0.5],
+        "claimed": [0.1],
+        "settled": [1.0],
+    }
+    assert found["true"] == pytest.approx(math.log(1.2))
+    assert ladder.RUNGS[int(found["rung"][0])] == "springs"

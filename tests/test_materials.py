@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -263,3 +264,33 @@ def test_every_comparison_begins_with_what_was_understood(name, capsys):
 def test_two_equal_bodies_are_told(tmp_path, capsys):
     assert main(["compare", str(written(tmp_path, SPHERE, 'counterface = "same"\n'))]) == 0
     assert "  contact modulus E*  118.125 GPa: two equal bodies, E = 210 GPa, nu = 0.33333" in capsys.readouterr().out
+
+
+def test_measured_faces_are_understood_by_their_points():
+    height = 1e-3 * np.random.default_rng(1).standard_normal((64, 32))
+    ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 32))
+    scene = PressedScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9, ground=ground)
+    pairs = dict(understood(scene))
+    assert pairs["waves"].startswith("measured, 64 x 32 points on 1 m x 1 m; longest waves on a side: ")
+    along = math.sqrt(np.mean((np.diff(height, axis=0) * 64) ** 2))
+    assert float(pairs["rms slope h'"].partition(",")[0]) == pytest.approx(along, rel=0.01)
+
+
+def test_the_slope_of_a_punch_is_that_in_one_direction():
+    scene = read_any("rough_punch")
+    q = np.geomspace(scene.ground.q_min, scene.ground.q_max, 20001)
+    slope = math.sqrt(np.pi * np.trapezoid(q**3 * scene.ground.c2d(q), q))
+    assert dict(understood(scene))["rms slope h'"] == f"{slope:.3g}, in one direction"
+
+
+def test_rail_and_wheel_are_understood_together():
+    """Heights and slopes of both add by squares; each has its own waves."""
+    wheel = Roughness(rms=2e-6, hurst=0.5, longest=5e-3, shortest=1e-3)
+    scene = replace(read_scene("table_14_1"), wheel=wheel)
+    pairs = dict(understood(scene))
+    both = math.hypot(2e-6, 0.5e-6)
+    assert pairs["rms height h"] == f"{in_unit(both, 'length')}, h/d = {both / scene.approach:.3g}"
+    slope = math.hypot(scene.rail.slope_along, wheel.slope_along)
+    assert pairs["rms slope h'"].startswith(f"{slope:.3g}, in one direction")
+    assert pairs["waves of the wheel"].startswith("5 mm to 1 mm, Hurst exponent 0.5, ")
+    assert pairs["waves of the rail"].startswith("10 mm to 200 µm, Hurst exponent 0.7, ")

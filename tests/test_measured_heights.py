@@ -10,6 +10,7 @@ import pytest
 
 import bem3d
 import mdr
+from validation import __main__ as command
 from validation.__main__ import main
 from validation.compare import rungs_of
 from validation.measured import MeasuredHeights, measured
@@ -448,3 +449,28 @@ def test_what_cannot_be_reached_is_no_success(capsys, tmp_path):
     path = with_heights(tmp_path, "face.npy", side="0.064 mm")
     assert main(["compare", str(path), "--tolerance", "0.001%"]) == 3
     assert "not reached: the tolerance of 0.001 %" in capsys.readouterr().out
+
+
+def test_the_seed_of_a_comparison_is_the_one_that_was_asked_for(capsys, monkeypatch):
+    seeds, compared = [], command.compared
+
+    def seen(scene, **settings):
+        seeds.append(settings["seed"])
+        return compared(scene, **settings)
+
+    monkeypatch.setattr(command, "compared", seen)
+    for words in ([], ["--seed", "0"], ["--seed", "7"]):
+        assert main(["compare", "sphere", *words]) == 0
+    assert seeds == [0, 0, 7]
+
+
+def test_lengths_along_both_axes_have_their_own_points():
+    """On N x N/2 points as many as half of the side are as far apart along one side as along the other."""
+    found = measured(surface(drawn()[:, : N // 2], (N * DX, N // 2 * DX)))
+    assert found.spacing == pytest.approx((DX, DX), rel=1e-12)
+
+
+def test_slopes_along_the_track_are_those_of_the_first_axis():
+    ridges = 1e-7 * np.sin(2 * np.pi * 8 * np.arange(N) / N)[:, np.newaxis] + 1e-3 * drawn()
+    assert heights(ridges).slope_along == pytest.approx(heights(ridges).slope, rel=1e-3)
+    assert heights(ridges.T).slope_along < 0.1 * heights(ridges.T).slope

@@ -34,6 +34,7 @@ from tests import (
     test_doubts,
     test_doubts_of_springs,
     test_drawn_roughness,
+    test_ensemble,
     test_error_bars,
     test_evidence,
     test_figure_lines,
@@ -66,6 +67,7 @@ from tests import (
 )
 from validation import (
     closed_forms,
+    compare,
     contact_laws,
     ensemble,
     free_vibration,
@@ -174,6 +176,45 @@ def other_waves_on_every_grid(ground, shortest, cells, side, rng):
 
 def the_last_change_alone(earlier, last):
     return abs(float(last.mean())) + ladder_of_models.mean_error(last[:, np.newaxis])
+
+
+def without_the_noise_of_its_series(earlier, last):
+    before, after = (abs(float(change.mean())) for change in (earlier, last))
+    ratio = min(after / before, ladder_of_models.SLOWEST)
+    return after * max(1.0, ratio / (1 - ratio)) + ladder_of_models.mean_error(last[:, np.newaxis])
+
+
+def mean_over_bands(ratios):
+    return float(np.mean([ladder_of_models.mean_error(band[:, np.newaxis]) for band in ratios.T]))
+
+
+def the_same_every_time(entropy, *key):
+    return ensemble.generator(entropy, *key[:-1], 0)
+
+
+def of_unit_modulus(**settings):
+    return bem3d.HalfSpace(**{**settings, "modulus": 1.0})
+
+
+pressed_on_a_grid = rungs_pressed_grids.BoundaryElements._pressed
+
+
+def another_surface_on_coarser_grids(rung, realisation, cells):
+    return pressed_on_a_grid(rung, realisation + (cells != rung.cells), cells)
+
+
+def another_strip_beside(rung, realisation, cells):
+    other = realisation + (cells == rung.beside)
+    return rungs_rolling.on_boundary_elements(rung.question, cells, other, rung.seed)
+
+
+def geike_for_what_rolls(ground, contact_radius):
+    return functools.partial(mdr.geike, c2d=ground.c2d)
+
+
+def with_math(**wrong):
+    """math with some names changed."""
+    return types.SimpleNamespace(**{**vars(math), **wrong})
 
 
 def on_the_highest_spring_alone(track, block, wanted, d):
@@ -1218,6 +1259,72 @@ FAULTS = {
     "undecided read as agree": (
         (test_printed, "claim", unless_it_differs),
         test_printed.test_a_claim_holds_with_all_of_its_numbers,
+    ),
+    "a series of grids without the noise of its last change": (
+        (test_claims, "grid_error", without_the_noise_of_its_series),
+        functools.partial(test_claims.test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample, 0.75, 3.0),
+    ),
+    "quiet bands in the error of loud ones": (
+        (test_claims, "mean_error", mean_over_bands),
+        test_claims.test_the_error_over_bands_is_their_root_mean_square,
+    ),
+    "coarser grids on other surfaces": (
+        (rungs_pressed_grids.BoundaryElements, "_pressed", another_surface_on_coarser_grids),
+        test_claims.test_grids_are_compared_on_the_same_surfaces,
+    ),
+    "one surface for all": (
+        (pressed_heights, "generator", the_same_every_time),
+        test_claims.test_realisations_are_others,
+    ),
+    "one strip and one track for all": (
+        (rolled, "generator", the_same_every_time),
+        test_claims.test_realisations_are_others,
+    ),
+    "a half-space of unit modulus": (
+        (rungs_pressed_grids, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})),
+        functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
+    ),
+    "one measured face for the mean of all": (
+        (rungs_pressed, "SCATTER", 0.0),
+        test_claims.test_one_measured_face_is_not_the_mean_of_all,
+    ),
+    "a sphere cut off at its smooth approach": (
+        (pressed_heights, "DEEPEST", 0.0),
+        test_claims.test_the_side_of_a_sphere_holds_what_it_may_touch,
+    ),
+    "the rule of the rms for levels in bands": (
+        (rungs_rolling, "LINEAR_BANDS", rungs_rolling.LINEAR_RMS),
+        functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
+    ),
+    "what the finer of two grids leaves, for the coarser": (
+        (rungs_rolling, "OF_COARSE", rungs_rolling.OF_FINE),
+        functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
+    ),
+    "a grid beside another on another strip": (
+        (rungs_rolling.BoundaryElements, "_rolled", another_strip_beside),
+        functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
+    ),
+    "Geike's spectrum for springs that roll": (
+        (rolled, "rolling_feed", geike_for_what_rolls),
+        functools.partial(
+            test_claims.test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands, "force-spectrum"
+        ),
+    ),
+    "decibels of a power for those of a level": (
+        (compare, "math", with_math(log10=lambda value: math.log10(value) / 2)),
+        functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
+    ),
+    "radians in a second told as hertz": (
+        (compare, "math", with_math(pi=0.5)),
+        functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
+    ),
+    "the rougher of wheel and rail for both": (
+        (steadiness, "math", with_math(hypot=lambda *heights: max(heights))),
+        test_steadiness.test_rail_and_wheel_are_rough_together,
+    ),
+    "results of other libraries": (
+        (ensemble, "LIBRARIES", ("numpy",)),
+        functools.partial(test_ensemble.test_another_version_of_a_library_is_another_version_of_the_numerics, "scipy"),
     ),
 }
 

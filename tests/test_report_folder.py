@@ -418,3 +418,47 @@ def test_the_reference_report_is_a_report():
         if path.is_file() and path.relative_to(folder).parts[0] not in (MANIFEST, "realisations")
     }
     assert listed == held
+
+
+def test_a_run_that_is_cut_short_before_the_old_files_are_gone_forgets_none(tmp_path, monkeypatch):
+    """They stay on the list until they are gone, so that the next report removes them."""
+    with Folder(tmp_path) as folder:
+        folder.replace({"index.html": b"old", "results.json": b"old"})
+    unlink = Path.unlink
+
+    def cut(self, missing_ok=False):
+        if self.name == "results.json":
+            raise KeyboardInterrupt
+        unlink(self, missing_ok=missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", cut)
+    with pytest.raises(KeyboardInterrupt), Folder(tmp_path) as folder:
+        folder.replace({"index.html": b"new"})
+    monkeypatch.undo()
+    assert "results.json" in listed_in(tmp_path)
+    with Folder(tmp_path) as folder:
+        folder.replace({"index.html": b"new"})
+    assert sorted(tree(tmp_path)) == ["index.html", MANIFEST]
+
+
+def test_a_lock_is_gone_before_it_is_given_back(tmp_path, monkeypatch):
+    """Who removes it afterwards removes the lock of the next one."""
+    close, there = os.close, []
+
+    def late(handle):
+        there.append((tmp_path / LOCK).exists())
+        close(handle)
+
+    monkeypatch.setattr(os, "close", late)
+    with locked(tmp_path):
+        pass
+    monkeypatch.undo()
+    assert there == [False]
+
+
+def test_a_link_that_is_named_like_something_begun_stays(tmp_path):
+    with Folder(tmp_path) as folder:
+        folder.replace({"index.html": b"old"})
+        (tmp_path / ".mdr-validation-abcdefgh.part").symlink_to("thesis.svg")
+        folder.replace({"index.html": b"new"})
+    assert (tmp_path / ".mdr-validation-abcdefgh.part").is_symlink()

@@ -146,3 +146,15 @@ def test_doubts_stand_first(tmp_path, capsys, small):
 def test_a_name_of_a_variation_is_no_name_of_a_scene():
     with pytest.raises(ValueError, match=r"^name must be another than those of variations, .* got that$"):
         replace(CASES["wheel"].quick, scene=replace(TABLE, name="H = 0.4")).variations()
+
+
+def test_rail_and_wheel_are_rough_together():
+    """Each alone leaves the wheel on its track; the heights of both, by squares, are more than a third of d."""
+    one = scene(0.25)
+    both = replace(one, wheel=one.rail)
+    assert one.no_steady_answer() == ""
+    assert both.no_steady_answer().startswith("the roughness is 0.354 of the approach")
+    # a rough wheel may have the waves that excite the resonance, whatever the rail has
+    resonance = 2 * math.pi * TABLE.speed / TABLE.eigenfrequency
+    long = replace(one.rail, rms=one.rail.rms / 10, longest=1.5 * resonance, shortest=0.5 * resonance)
+    assert replace(one, wheel=long).no_steady_answer().startswith("nothing damps the wheel")
