@@ -51,7 +51,7 @@ verdicts: $(STRENGTH)  ## which test of verdicts and claims has executed which l
 mutation: $(RECORD) $(RECORD_OF_VERDICTS)
 	$(RUN) tests.mutation $(ARGS)
 
-$(RECORD): $(STRENGTH) $(wildcard mdr/*.py bem3d/*.py validation/closed_forms.py tests/*.py)
+$(RECORD): $(STRENGTH) $(wildcard mdr/*.py bem3d/*.py validation/theory/closed_forms.py tests/*.py)
 	$(MAKE) coverage ARGS=
 
 $(RECORD_OF_VERDICTS): $(STRENGTH) $(wildcard validation/*.py tests/*.py)

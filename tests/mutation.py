@@ -62,7 +62,7 @@ class Field:
 VERDICTS = ("statistics", "evidence", "spectra", "regions", "precision_error", "precision_front", "ladder", "ensemble")
 FIELDS = {
     "methods": Field(
-        ("mdr/*.py", "bem3d/*.py", "validation/closed_forms.py"),
+        ("mdr/*.py", "bem3d/*.py", "validation/theory/closed_forms.py"),
         "coverage",
         ROOT / ".coverage",
         ROOT / ".coverage-times.xml",

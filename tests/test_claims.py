@@ -8,20 +8,24 @@ import pytest
 from scipy import stats
 
 import bem3d
-from validation import ladder as ladder_of_models
-from validation import pressed_heights, rolled, rungs_pressed, rungs_pressed_grids, rungs_rolling
-from validation.calibrated import outside
-from validation.cases import ladder
-from validation.compare import compare, rungs_of, told, wants_of
-from validation.ladder import Answer, Cost, climb, grid_error, mean_error
-from validation.measured import MeasuredHeights
-from validation.pressed_scene import PressedScene
-from validation.random_scenes import KINDS, WANTED, random_scene
-from validation.resolution import too_few
-from validation.rolling_question import Question
-from validation.rolling_scene import RollingScene
-from validation.rolling_theory import contact_lost
-from validation.roughness import Roughness
+from validation.cases.selection import model_selection as ladder
+from validation.cases.selection.random_scenes import KINDS, WANTED, random_scene
+from validation.scenes.indentation import PressedScene
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.selection import hierarchy as ladder_of_models
+from validation.selection import indentation_models as rungs_pressed
+from validation.selection import indentation_on_grids as rungs_pressed_grids
+from validation.selection import rolling_models as rungs_rolling
+from validation.selection.calibrated import outside
+from validation.selection.compare import compare, rungs_of, told, wants_of
+from validation.selection.hierarchy import Answer, Cost, climb, grid_error, mean_error
+from validation.simulation import indentation as pressed_heights
+from validation.simulation import rolling_levels as rolled
+from validation.simulation.resolution import too_few
+from validation.simulation.rolling_quantity import Question
+from validation.theory.rolling import contact_lost
 
 
 def punch(load=0.1, first=1, last=8, hurst=0.7, height=1e-3):

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy import integrate
 
 from tests.strategies import hursts, scales
-from validation import closed_forms
+from validation.theory import closed_forms
 
 
 @given(radius=scales, modulus=scales, approach=scales)

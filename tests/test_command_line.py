@@ -16,25 +16,22 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
-from validation.cases import (
-    geike,
-    hertz,
-    ladder,
-    limits,
-    mdr_limits,
-    normalisation,
-    ridges,
-    rolling,
-    rolling_input,
-    wheel,
-    wheel_3d,
-    wheel_distance,
-    wheel_stability,
-)
-from validation.cases.fractal_punch import FractalPunch
-from validation.ensemble import SERIAL, Engine
+from validation.cases.exact import geike, hertz
+from validation.cases.limits import limits
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch import normalisation
+from validation.cases.punch.fractal_punch import FractalPunch
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.rolling import ridges
+from validation.cases.selection import model_selection as ladder
+from validation.cases.stability import stability as wheel_stability
+from validation.cases.wheel import distance as wheel_distance
+from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import spectrum as wheel
+from validation.engine.engine import SERIAL, Engine
 from validation.report.contents import CASES
-from validation.rough_punch import press_surface
+from validation.simulation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[1]
 SMALL = {

@@ -5,8 +5,8 @@ import pytest
 
 import bem3d
 from tests.oracles import flat_square_by_graded_cells
-from validation import closed_forms
-from validation.cases import hertz, square_punch, westergaard
+from validation.cases.exact import hertz, square_punch, westergaard
+from validation.theory import closed_forms
 
 
 def slope(sizes, errors):

@@ -16,8 +16,8 @@ import pytest
 
 from tests.test_ensemble import ENVIRONMENT, ROOT
 from validation import __main__ as command
-from validation.alone import own_process
-from validation.ensemble import Engine, WorkerLostError
+from validation.benchmarks.isolation import own_process
+from validation.engine.engine import Engine, WorkerLostError
 from validation.report.contents import CASES
 
 

@@ -19,10 +19,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from validation import ensemble, progress, stored
-from validation.cases import fractal_punch
-from validation.ensemble import Engine, generator
-from validation.rough_punch import press_surface
+from validation.cases.punch import fractal_punch
+from validation.engine import engine as ensemble
+from validation.engine import progress, stored
+from validation.engine.engine import Engine, generator
+from validation.simulation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[1]
 # workers of their own find this file as the tests do
@@ -310,7 +311,7 @@ RUN = """
 import sys
 from pathlib import Path
 from tests.test_ensemble import Slow, gated
-from validation.ensemble import Engine
+from validation.engine.engine import Engine
 problems = [Slow(i, sys.argv[2]) for i in range(12)]
 Engine(workers=2, store=Path(sys.argv[1])).map(gated, problems)
 """

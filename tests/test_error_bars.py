@@ -11,30 +11,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from validation.cases import (
-    fractal_punch,
-    fractal_punch_decades,
-    ladder,
-    limits_evidence,
-    mdr_limits,
-    rolling,
-    rolling_evidence,
-    rolling_input,
-    wheel_3d,
-    wheel_3d_evidence,
-    wheel_distance,
-    wheel_distance_evidence,
-    wheel_evidence,
-    wheel_stability_roughness,
-    wheel_stability_vibration,
-)
-from validation.evidence import table_of
-from validation.limits import Limit, Sweep, swept
-from validation.precision import Quantity
-from validation.precision_error import Answer, error
-from validation.precision_pressed import logarithm
-from validation.rough_punch import BEM, MDR
-from validation.statistics import (
+from validation.analysis.evidence import table_of
+from validation.analysis.statistics import (
     DECIBEL,
     POWER_DECIBEL,
     Estimate,
@@ -51,7 +29,26 @@ from validation.statistics import (
     ratio_of_means,
     sample,
 )
-from validation.wheel_features import FLOOR, Spectrum, found
+from validation.benchmarks.work_precision.errors import Answer, error
+from validation.benchmarks.work_precision.exact_problem import logarithm
+from validation.benchmarks.work_precision.measurement import Quantity
+from validation.cases.limits import evidence as limits_evidence
+from validation.cases.limits.sweep import Limit, Sweep, swept
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch import fractal_punch, fractal_punch_decades
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.selection import model_selection as ladder
+from validation.cases.stability import roughness as wheel_stability_roughness
+from validation.cases.stability import vibration as wheel_stability_vibration
+from validation.cases.wheel import distance as wheel_distance
+from validation.cases.wheel import distance_evidence as wheel_distance_evidence
+from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
+from validation.cases.wheel import spectrum_evidence as wheel_evidence
+from validation.cases.wheel.features import FLOOR, Spectrum, found
+from validation.simulation.rough_punch import BEM, MDR
 
 TRIALS = 600
 """Of which 95 % are known to 0.9 %."""

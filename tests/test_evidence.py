@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.evidence import Number, Role, Table, Verdict
-from validation.statistics import (
+from validation.analysis.evidence import Number, Role, Table, Verdict
+from validation.analysis.statistics import (
     Estimate,
     at,
     change,

@@ -13,12 +13,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 
-from validation.cases.rolling_input import NAMES
-from validation.evidence import (
-    Number,
-    Table,
-    table_of,
-)
+from validation.analysis.evidence import Number, Table, table_of
+from validation.cases.rolling.input_spectrum import NAMES
 from validation.report.figures import (
     fractal_punch,
     geike,

@@ -11,29 +11,27 @@ import pytest
 
 import bem3d
 from validation import __main__ as command
-from validation import precision_evidence, rolling_strip, rough_punch, wheel_ensemble
-from validation.cases import (
-    fractal_punch,
-    fractal_punch_decades,
-    ladder,
-    limits,
-    mdr_limits,
-    normalisation,
-    ridges,
-    rolling,
-    rolling_input,
-    wheel,
-    wheel_3d,
-    wheel_distance,
-)
-from validation.ensemble import Engine, generator
-from validation.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict
-from validation.ladder import Answer, Claim, Cost, climb
-from validation.limits_solver import Grid, press_grid
-from validation.precision import BEM, FAILED, FINISHED, LOOSE, MDR, PLAIN, REFUSED
+from validation.analysis.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict
+from validation.benchmarks.work_precision import evidence as precision_evidence
+from validation.benchmarks.work_precision.measurement import BEM, FAILED, FINISHED, LOOSE, MDR, PLAIN, REFUSED
+from validation.cases.limits import limits
+from validation.cases.limits.solver import Grid, press_grid
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch import fractal_punch, fractal_punch_decades, normalisation
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.rolling import ridges
+from validation.cases.selection import model_selection as ladder
+from validation.cases.wheel import distance as wheel_distance
+from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import spectrum as wheel
+from validation.engine.engine import Engine, generator
 from validation.report.contents import CASES
-from validation.rolling_strip import self_affine
-from validation.wheel_scene import read_scene
+from validation.scenes.dynamic_wheel import read_scene
+from validation.selection.hierarchy import Answer, Claim, Cost, climb
+from validation.simulation import rolling_strip, rough_punch
+from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.rolling_strip import self_affine
 
 ROOT = Path(__file__).parents[1]
 
@@ -437,7 +435,7 @@ def test_what_is_lost_is_counted_while_it_runs(monkeypatch):
         def step(self, failed):
             counted.append(failed)
 
-    monkeypatch.setattr("validation.ensemble.Progress", Counting)
+    monkeypatch.setattr("validation.engine.engine.Progress", Counting)
     Engine().map(lost_if_odd, [Numbered(i) for i in range(4)])
     assert counted[0] == 0 and sorted(counted[1:]) == [False, False, True, True]
 

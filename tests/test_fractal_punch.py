@@ -9,11 +9,11 @@ import pytest
 import bem3d
 import mdr
 from tests.oracles import approach_by_least_squares, dense_operator, spring_sum
-from validation.cases import fractal_punch, fractal_punch_evidence
-from validation.cases.fractal_punch import Ensemble, FractalPunch, FractalPunchResult
-from validation.ensemble import generator
-from validation.evidence import Verdict
-from validation.rough_punch import press_profiles, press_surface
+from validation.analysis.evidence import Verdict
+from validation.cases.punch import fractal_punch, fractal_punch_evidence
+from validation.cases.punch.fractal_punch import Ensemble, FractalPunch, FractalPunchResult
+from validation.engine.engine import generator
+from validation.simulation.rough_punch import press_profiles, press_surface
 
 CASE = FractalPunch(
     hursts=(0.7,), cells=8, surfaces=8, profiles=40, points=64, refined=4, decades=(-1, 0), per_decade=1, tolerance=1e-5

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import mdr
 from tests.oracles import gauss_legendre, moment_1d, moment_2d
 from tests.strategies import bumps, hursts, scales, self_affine
-from validation import closed_forms
+from validation.theory import closed_forms
 
 KEPT = {"height": 0, "gradient": 2, "curvature": 4}
 # Gauss-Legendre in ln q is exact to rounding for power laws and for bumps this smooth

@@ -6,12 +6,12 @@ import struct
 import numpy as np
 import pytest
 
-from validation import height_files
 from validation.__main__ import main
-from validation.height_files import read_heights
-from validation.input_files import check_regular, contents_of
-from validation.scene_files import LONGEST_LINE, MOST_BYTES, SCENES
-from validation.shown import in_quotes, is_printable, printable, shown
+from validation.scenes import height_files
+from validation.scenes.height_files import read_heights
+from validation.scenes.input_files import check_regular, contents_of
+from validation.scenes.reader import LONGEST_LINE, MOST_BYTES, SCENES
+from validation.scenes.shown import in_quotes, is_printable, printable, shown
 
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 HEIGHT = 1e-6 * np.random.default_rng(1).standard_normal((64, 64))

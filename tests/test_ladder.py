@@ -13,19 +13,32 @@ from scipy import integrate, stats
 
 import bem3d
 import mdr
-from validation import ladder as ladder_of_models
-from validation import pressed_heights, rolled, rungs_pressed
-from validation.cases import ladder
-from validation.compare import WANTS, Comparison, compare, rungs_of, told, wants_of
-from validation.ladder import Answer, Claim, Climb, Cost, Step, climb, distance, mean_error, needed, realisations
-from validation.measured import MeasuredHeights
-from validation.pressed_scene import PressedScene
-from validation.random_scenes import KINDS, WANTED, random_scene
+from validation.cases.selection import model_selection as ladder
+from validation.cases.selection.random_scenes import KINDS, WANTED, random_scene
 from validation.report.contents import CASES
-from validation.rolling_question import Question
-from validation.rolling_scene import RollingScene
-from validation.roughness import Roughness
-from validation.scene_kinds import read_any
+from validation.scenes.indentation import PressedScene
+from validation.scenes.load import read_any
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.selection import hierarchy as ladder_of_models
+from validation.selection import indentation_models as rungs_pressed
+from validation.selection.compare import WANTS, Comparison, compare, rungs_of, told, wants_of
+from validation.selection.hierarchy import (
+    Answer,
+    Claim,
+    Climb,
+    Cost,
+    Step,
+    climb,
+    distance,
+    mean_error,
+    needed,
+    realisations,
+)
+from validation.simulation import indentation as pressed_heights
+from validation.simulation import rolling_levels as rolled
+from validation.simulation.rolling_quantity import Question
 
 ROUGH = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
 

@@ -9,17 +9,19 @@ from scipy import special
 import bem3d
 import mdr
 from tests.oracles import dense_operator
-from validation import limits_bem, limits_mdr, limits_time
-from validation.cases import limits as case
-from validation.cases import limits_evidence
-from validation.contact_laws import Hertz
-from validation.evidence import Verdict
-from validation.free_vibration import WHEEL
-from validation.limits import Limit, Sweep, heard, swept
+from validation.analysis.evidence import Verdict
+from validation.cases.limits import boundary_elements as limits_bem
+from validation.cases.limits import evidence as limits_evidence
+from validation.cases.limits import limits as case
+from validation.cases.limits import springs as limits_mdr
+from validation.cases.limits import time_stepping as limits_time
+from validation.cases.limits.sweep import Limit, Sweep, heard, swept
 from validation.report.figures import limits as figures
-from validation.rolling_strip import self_affine
-from validation.rolling_theory import force_variance
-from validation.wheel import simulate
+from validation.simulation.contact_laws import Hertz
+from validation.simulation.free_vibration import WHEEL
+from validation.simulation.motion import simulate
+from validation.simulation.rolling_strip import self_affine
+from validation.theory.rolling import force_variance
 
 SMALL = case.Limits(
     cells=32,

@@ -9,16 +9,16 @@ import pytest
 
 import bem3d
 from validation.__main__ import main
-from validation.material import Elastic, Material
-from validation.measured import MeasuredHeights
-from validation.pressed_scene import PressedScene
-from validation.quantities import in_unit
-from validation.rolling_scene import RollingScene
-from validation.roughness import Roughness
-from validation.scene_files import SCENES, shipped
-from validation.scene_kinds import read_any
-from validation.understood import said_first, understood
-from validation.wheel_scene import read_scene
+from validation.scenes.dynamic_wheel import read_scene
+from validation.scenes.indentation import PressedScene
+from validation.scenes.load import read_any
+from validation.scenes.material import Elastic, Material
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.reader import SCENES, shipped
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.scenes.understood import said_first, understood
+from validation.scenes.units import in_unit
 
 SPHERE, WHEEL, PUNCH = (
     (SCENES / f"{name}.toml").read_text(encoding="utf-8") for name in ("sphere", "table_14_1", "rough_punch")

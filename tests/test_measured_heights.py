@@ -12,13 +12,13 @@ import bem3d
 import mdr
 from validation import __main__ as command
 from validation.__main__ import main
-from validation.compare import rungs_of
-from validation.measured import MeasuredHeights, measured
-from validation.pressed_scene import PressedScene
-from validation.rolling_scene import RollingScene
-from validation.scene_files import SCENES
-from validation.scene_kinds import read_any
-from validation.wheel_scene import read_scene
+from validation.scenes.dynamic_wheel import read_scene
+from validation.scenes.indentation import PressedScene
+from validation.scenes.load import read_any
+from validation.scenes.measured import MeasuredHeights, measured
+from validation.scenes.reader import SCENES
+from validation.scenes.rolling import RollingScene
+from validation.selection.compare import rungs_of
 
 N, DX = 256, 1e-6
 BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)

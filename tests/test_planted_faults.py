@@ -65,47 +65,39 @@ from tests import (
     test_wheels_on_springs,
     test_windows_and_starts,
 )
-from validation import (
-    closed_forms,
-    compare,
-    contact_laws,
-    ensemble,
-    free_vibration,
-    integrators,
-    limits,
-    limits_mdr,
-    material,
-    measured,
-    precision,
-    precision_error,
-    precision_wheel,
-    pressed_heights,
-    records,
-    regions,
-    rolled,
-    rolling_question,
-    rolling_theory,
-    rough_punch,
-    rough_springs,
-    roughness,
-    rungs_pressed,
-    rungs_pressed_grids,
-    rungs_rolling,
-    spectra,
-    statistics,
-    steadiness,
-    wheel_ensemble,
-    wheel_scene,
-    wheel_theory,
-)
-from validation import ladder as ladder_of_models
-from validation import wheel as wheel_in_motion
-from validation.cases import fractal_punch, fractal_punch_decades, mdr_limits, rolling_evidence
-from validation.cases import ladder as ladder_on_trial
-from validation.evidence import Number, Verdict, claim
+from validation.analysis import records, spectra, statistics
+from validation.analysis import spectral_features as regions
+from validation.analysis.evidence import Number, Verdict, claim
+from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
+from validation.benchmarks.work_precision import errors as precision_error
+from validation.benchmarks.work_precision import measurement as precision
+from validation.cases.limits import springs as limits_mdr
+from validation.cases.limits import sweep as limits
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch import fractal_punch, fractal_punch_decades
+from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.selection import model_selection as ladder_on_trial
+from validation.engine import engine as ensemble
 from validation.report import build
 from validation.report.figures import rolling as rolling_figure
-from validation.rough_punch import Roughness
+from validation.scenes import dynamic_wheel as wheel_scene
+from validation.scenes import material, measured, roughness, steadiness
+from validation.selection import compare
+from validation.selection import hierarchy as ladder_of_models
+from validation.selection import indentation_models as rungs_pressed
+from validation.selection import indentation_on_grids as rungs_pressed_grids
+from validation.selection import rolling_models as rungs_rolling
+from validation.simulation import contact_laws, free_vibration, integrators, rough_punch
+from validation.simulation import indentation as pressed_heights
+from validation.simulation import motion as wheel_in_motion
+from validation.simulation import rolling_levels as rolled
+from validation.simulation import rolling_quantity as rolling_question
+from validation.simulation import spring_tracks as rough_springs
+from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.rough_punch import Roughness
+from validation.theory import closed_forms
+from validation.theory import rolling as rolling_theory
+from validation.theory import wheel as wheel_theory
 
 POISSON = 1 / 3
 

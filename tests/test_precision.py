@@ -11,12 +11,18 @@ import numpy as np
 import pytest
 
 import validation.__main__ as command
-from validation import precision, precision_front, precision_pressed
-from validation.closed_forms import westergaard_approach, westergaard_full_pressure, westergaard_half_width
-from validation.ensemble import Engine
-from validation.evidence import Verdict
-from validation.peers import CONTESTANTS
-from validation.precision import (
+from validation.analysis.evidence import Verdict
+from validation.benchmarks.peers import CONTESTANTS
+from validation.benchmarks.work_precision import exact_problem as precision_pressed
+from validation.benchmarks.work_precision import measurement as precision
+from validation.benchmarks.work_precision import pareto as precision_front
+from validation.benchmarks.work_precision.case import Precision, run
+from validation.benchmarks.work_precision.dynamic_wheel import Wheels, beside, mean_levels, steady_acceleration
+from validation.benchmarks.work_precision.errors import Answer, error, points
+from validation.benchmarks.work_precision.evidence import evidence
+from validation.benchmarks.work_precision.exact_problem import logarithm
+from validation.benchmarks.work_precision.exact_problems import Punch, Sphere, Wave
+from validation.benchmarks.work_precision.measurement import (
     BEM,
     CLOSED,
     EXTRAPOLATED,
@@ -33,19 +39,15 @@ from validation.precision import (
     Turn,
     Work,
 )
-from validation.precision_error import Answer, error, points
-from validation.precision_evidence import evidence
-from validation.precision_front import Point, asked, break_even, cheapest, front, visits, why_nobody
-from validation.precision_pressed import logarithm
-from validation.precision_rolling import Rolling
-from validation.precision_rough import Fractal, log_deviation
-from validation.precision_scenes import Precision, run
-from validation.precision_smooth import Punch, Sphere, Wave
-from validation.precision_wheel import Wheels, beside, mean_levels, steady_acceleration
+from validation.benchmarks.work_precision.pareto import Point, asked, break_even, cheapest, front, visits, why_nobody
+from validation.benchmarks.work_precision.rolling import Rolling
+from validation.benchmarks.work_precision.rough_punch import Fractal, log_deviation
+from validation.engine.engine import Engine
 from validation.report.contents import TIMED
-from validation.rolling_strip import HERTZ
-from validation.wheel import simulate
-from validation.wheel_strip import linear_contact
+from validation.simulation.motion import simulate
+from validation.simulation.rolling_strip import HERTZ
+from validation.simulation.wheel_on_half_space import linear_contact
+from validation.theory.closed_forms import westergaard_approach, westergaard_full_pressure, westergaard_half_width
 
 # --- who is the cheapest, of hand-made data ---
 

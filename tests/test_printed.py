@@ -12,26 +12,35 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.cases import (
-    fractal_punch_decades,
-    limits_evidence,
-    mdr_limits,
-    rolling,
-    rolling_evidence,
-    wheel_3d,
-    wheel_3d_evidence,
-    wheel_distance,
-    wheel_distance_evidence,
-    wheel_evidence,
+from validation.analysis.evidence import (
+    Evidence,
+    Number,
+    Role,
+    Table,
+    Verdict,
+    beside,
+    claim,
+    columns,
+    plus_minus,
+    table_of,
 )
-from validation.cases.fractal_punch import FractalPunch
-from validation.evidence import Evidence, Number, Role, Table, Verdict, beside, claim, columns, plus_minus, table_of
-from validation.precision_front import in_unit, said
+from validation.analysis.statistics import Estimate
+from validation.benchmarks.work_precision.pareto import in_unit, said
+from validation.cases.limits import evidence as limits_evidence
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch import fractal_punch_decades
+from validation.cases.punch.fractal_punch import FractalPunch
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.wheel import distance as wheel_distance
+from validation.cases.wheel import distance_evidence as wheel_distance_evidence
+from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
+from validation.cases.wheel import spectrum_evidence as wheel_evidence
 from validation.report import build
 from validation.report.contents import CASES
 from validation.report.figures import fractal_punch
 from validation.report.folder import as_csv
-from validation.statistics import Estimate
 
 # --- the page, files ---
 

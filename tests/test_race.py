@@ -9,11 +9,14 @@ import numpy as np
 import pytest
 
 import validation.__main__ as command
-from validation import alone, peers, race, race_evidence
-from validation.evidence import Verdict
-from validation.peers import CONTESTANTS, Contestant, Run
-from validation.race_rolling import Rolls, interpolated
-from validation.race_wheel import Steps
+from validation.analysis.evidence import Verdict
+from validation.benchmarks import isolation as alone
+from validation.benchmarks import peers
+from validation.benchmarks.peers import CONTESTANTS, Contestant, Run
+from validation.benchmarks.solvers import case as race
+from validation.benchmarks.solvers import evidence as race_evidence
+from validation.benchmarks.solvers.dynamic_wheel import Steps
+from validation.benchmarks.solvers.rolling import Rolls, interpolated
 from validation.report.contents import TIMED
 
 HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, entrants=())

@@ -16,8 +16,8 @@ import pytest
 
 from tests.test_ensemble import ENVIRONMENT, ROOT
 from validation import __main__ as command
-from validation import files
-from validation.cases import geike, hertz
+from validation.cases.exact import geike, hertz
+from validation.engine import files
 from validation.report import build
 from validation.report.contents import CASES
 from validation.report.folder import Folder
@@ -390,7 +390,7 @@ def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, 
                 patch.setattr(os, "fdopen", lambda handle, mode: Full(handle))
             return begin(path, contents)
 
-    for module in ("validation.files", "validation.report.folder"):
+    for module in ("validation.engine.files", "validation.report.folder"):
         monkeypatch.setattr(f"{module}.begin", begun)
     assert report(tmp_path, "geike") == command.Exit.UNFINISHED == 4
     sentence = capsys.readouterr().err.splitlines()[-1]

@@ -7,12 +7,15 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from validation import rolling_strip
-from validation.cases import ridges, rolling, rolling_evidence, rolling_input
-from validation.evidence import Verdict
-from validation.rolling_strip import PowerLaws, Strip, Tracks, fed, narrowed, roll_strip, roll_tracks
-from validation.rolling_theory import force_variance, linear_force
-from validation.spectra import Bands
+from validation.analysis.evidence import Verdict
+from validation.analysis.spectra import Bands
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.rolling import ridges
+from validation.simulation import rolling_strip
+from validation.simulation.rolling_strip import PowerLaws, Strip, Tracks, fed, narrowed, roll_strip, roll_tracks
+from validation.theory.rolling import force_variance, linear_force
 
 SMALL = rolling.Rolling(
     heights=(0.01,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=6, strips=4, refined=3, tracks=40, springs=12

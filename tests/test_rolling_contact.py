@@ -15,7 +15,7 @@ from bem3d.rolling import _pressing
 from bem3d.track import Frame
 from bem3d.window import Candidates
 from tests.strategies import half_spaces
-from validation.rolling_theory import linear_force, response
+from validation.theory.rolling import linear_force, response
 
 TOLERANCE = 1e-6
 HERTZ = 4 / 3

@@ -12,8 +12,8 @@ from mdr.borne import by_sorting
 from mdr.track import Track
 from tests.oracles import approach_by_fractions, wheel_on_springs
 from tests.strategies import OnSprings, on_springs
-from validation.rolling_theory import force_spectrum_1d
-from validation.spectra import waves
+from validation.analysis.spectra import waves
+from validation.theory.rolling import force_spectrum_1d
 
 KINDS = ("one-sided", "full", "linear")
 

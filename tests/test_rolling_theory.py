@@ -12,7 +12,8 @@ from scipy import integrate
 import mdr
 from tests.oracles import moment_1d
 from tests.strategies import Bumps, bumps, scales
-from validation.rolling_theory import (
+from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
+from validation.theory.rolling import (
     contact_lost,
     force_spectrum_1d,
     force_spectrum_3d,
@@ -24,7 +25,6 @@ from validation.rolling_theory import (
     response,
     section,
 )
-from validation.spectra import Bands, Waves, cross_levels, levels, waves
 
 UNIT = {"contact_radius": 1.0, "modulus": 1.0}
 HURSTS = (0.4, 0.7, 1.0)

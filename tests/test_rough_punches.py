@@ -8,12 +8,13 @@ import pytest
 
 import bem3d
 from tests.oracles import dense_operator, rms_scatter_of_gaussian_draws
-from validation import closed_forms
-from validation.cases import mdr_limits, normalisation
-from validation.cases.mdr_limits import MdrLimits, MdrLimitsResult
-from validation.cases.normalisation import EACH, ENSEMBLE, FIXED, Normalisation
-from validation.evidence import Verdict
-from validation.rough_punch import METHODS, Profiles, Roughness, Surface, press_profiles, press_surface
+from validation.analysis.evidence import Verdict
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch import normalisation
+from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
+from validation.cases.punch.normalisation import EACH, ENSEMBLE, FIXED, Normalisation
+from validation.simulation.rough_punch import METHODS, Profiles, Roughness, Surface, press_profiles, press_surface
+from validation.theory import closed_forms
 
 CASE = Normalisation(hursts=(0.4, 1.0), cells=16, points=64)
 LIMITS = MdrLimits(roll_offs=(1, 4), cells=32, surfaces=6, refined=3, profiles=60, points=256)

@@ -6,8 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from validation import regions, spectra, statistics
-from validation.spectra import Bands
+from validation.analysis import spectra, statistics
+from validation.analysis import spectral_features as regions
+from validation.analysis.spectra import Bands
 
 
 def noise(seed, lines):

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from scipy.fft import next_fast_len
 
 import mdr
-from validation.material import Material
-from validation.quantities import UNITS, quantity
-from validation.roughness import Roughness
-from validation.scene_files import SCENES, shipped
-from validation.wheel_scene import WheelScene, read_scene, shipped_wheels
+from validation.scenes.dynamic_wheel import WheelScene, read_scene, shipped_wheels
+from validation.scenes.material import Material
+from validation.scenes.reader import SCENES, shipped
+from validation.scenes.roughness import Roughness
+from validation.scenes.units import UNITS, quantity
 
 IN_FILE = r"scene \S+scene\.toml: "
 TABLE = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")

@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from validation.evidence import NotConvergedError
-from validation.precision import EXTRAPOLATED, FINISHED, REFUSED, Attempt, Quantity
-from validation.precision_error import Answer, _half_width, error, points, reference_of
-from validation.precision_front import (
+from validation.analysis.evidence import NotConvergedError
+from validation.benchmarks.work_precision.errors import Answer, _half_width, error, points, reference_of
+from validation.benchmarks.work_precision.exact_problem import logarithm
+from validation.benchmarks.work_precision.measurement import EXTRAPOLATED, FINISHED, REFUSED, Attempt, Quantity
+from validation.benchmarks.work_precision.pareto import (
     TOLERANCES,
     Point,
     asked,
@@ -22,7 +23,6 @@ from validation.precision_front import (
     why_nobody,
     without_luck,
 )
-from validation.precision_pressed import logarithm
 
 K = Quantity(name="mean", log=logarithm("k"), needs=("k",))
 LEVEL = Quantity(name="level", log=logarithm("k"), needs=("k",), decibel=True, order=2.0)

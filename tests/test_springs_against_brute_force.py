@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import mdr
 from tests.oracles import spring_sum
 from tests.strategies import profiles, scales
-from validation import closed_forms
+from validation.theory import closed_forms
 
 
 @given(height=profiles, approach=st.floats(-2, 3))

@@ -10,12 +10,12 @@ import pytest
 from tests.test_command_line import SMALL
 from validation.__main__ import main
 from validation.report.contents import CASES
-from validation.rolling_scene import RollingScene
-from validation.scene_files import SCENES
-from validation.scene_kinds import read_any
-from validation.steadiness import force_on_the_way
-from validation.wheel_ensemble import Rides, _motion
-from validation.wheel_scene import read_scene
+from validation.scenes.dynamic_wheel import read_scene
+from validation.scenes.load import read_any
+from validation.scenes.reader import SCENES
+from validation.scenes.rolling import RollingScene
+from validation.scenes.steadiness import force_on_the_way
+from validation.simulation.wheel_on_springs import Rides, _motion
 
 TABLE = read_scene("table_14_1")
 TOML = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")

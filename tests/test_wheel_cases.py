@@ -8,15 +8,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation import records, wheel_ensemble, wheel_features, wheel_theory
-from validation.cases import wheel, wheel_3d, wheel_3d_evidence, wheel_distance, wheel_distance_evidence, wheel_evidence
-from validation.ensemble import Engine
-from validation.evidence import NotConvergedError, Verdict
-from validation.wheel import simulate, turns
-from validation.wheel_ensemble import Rides, roll_wheels
-from validation.wheel_features import FLOOR, PREDICTED, Spectrum
-from validation.wheel_scene import read_scene
-from validation.wheel_strip import Strip, roll_strip
+from validation.analysis import records
+from validation.analysis.evidence import NotConvergedError, Verdict
+from validation.cases.wheel import distance as wheel_distance
+from validation.cases.wheel import distance_evidence as wheel_distance_evidence
+from validation.cases.wheel import features as wheel_features
+from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
+from validation.cases.wheel import spectrum as wheel
+from validation.cases.wheel import spectrum_evidence as wheel_evidence
+from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
+from validation.engine.engine import Engine
+from validation.scenes.dynamic_wheel import read_scene
+from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.motion import simulate, turns
+from validation.simulation.wheel_on_half_space import Strip, roll_strip
+from validation.simulation.wheel_on_springs import Rides, roll_wheels
+from validation.theory import wheel as wheel_theory
 
 TABLE = read_scene("table_14_1")
 ROUNDING = 1e-12

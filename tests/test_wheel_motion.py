@@ -10,13 +10,14 @@ from hypothesis import strategies as st
 
 import bem3d
 from tests.oracles import free_vibration_by_small_steps
-from validation import integrators, wheel_theory
-from validation.contact_laws import BoundaryElements, Hertz, Linear, Springs
-from validation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
-from validation.rolling_theory import linear_force
-from validation.spectra import waves
-from validation.wheel import repeating, simulate, turns
-from validation.wheel_body import Wheel
+from validation.analysis.spectra import waves
+from validation.scenes.wheel_body import Wheel
+from validation.simulation import integrators
+from validation.simulation.contact_laws import BoundaryElements, Hertz, Linear, Springs
+from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
+from validation.simulation.motion import repeating, simulate, turns
+from validation.theory import wheel as wheel_theory
+from validation.theory.rolling import linear_force
 
 WHEEL = Wheel(radius=1.0, mass=2.0, modulus=1.0, load=4 / 3)
 """d_N = a = 1, k = 2 and omega_eigen = 1, gravity 2/3."""

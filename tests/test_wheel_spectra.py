@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from validation import records, regions
+from validation.analysis import records
+from validation.analysis import spectral_features as regions
 
 WINDOWS = ("none", "hann")
 ROUNDING = 1e-12

@@ -5,16 +5,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation import free_vibration as free
-from validation import rough_springs as rough
-from validation import wheel_theory
-from validation.cases import wheel_stability as case
-from validation.cases import wheel_stability_evidence, wheel_stability_vibration
-from validation.contact_laws import Hertz
-from validation.evidence import Role, Verdict
-from validation.integrators import EXPLICIT_EULER, INTEGRATORS, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
+from validation.analysis.evidence import Role, Verdict
+from validation.cases.stability import evidence as wheel_stability_evidence
+from validation.cases.stability import stability as case
+from validation.cases.stability import vibration as wheel_stability_vibration
 from validation.report.figures import wheel_stability as figures
-from validation.wheel import simulate
+from validation.simulation import free_vibration as free
+from validation.simulation import spring_tracks as rough
+from validation.simulation.contact_laws import Hertz
+from validation.simulation.integrators import (
+    EXPLICIT_EULER,
+    INTEGRATORS,
+    RUNGE_KUTTA,
+    SYMPLECTIC_EULER,
+    VELOCITY_VERLET,
+)
+from validation.simulation.motion import simulate
+from validation.theory import wheel as wheel_theory
 
 SMALL = case.WheelStability(
     steps=(0.02, 0.04, 0.5, 1.9, 2.1, 2.8, 2.9),

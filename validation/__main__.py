@@ -13,21 +13,21 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
-from validation.compare import WANTS, time_of, told
-from validation.compare import compare as compared
-from validation.ensemble import KEPT, LOCAL, WorkerLostError
-from validation.evidence import Evidence, Verdict
-from validation.files import UNUSABLE
-from validation.ladder import Rung
-from validation.peers import peers_installed
+from validation.analysis.evidence import Evidence, Verdict
+from validation.benchmarks.peers import peers_installed
+from validation.engine.engine import KEPT, LOCAL, WorkerLostError
+from validation.engine.files import UNUSABLE
+from validation.engine.termination import TerminatedError, terminable
 from validation.report.build import Section, build
 from validation.report.contents import CASES, TIMED
-from validation.scene_files import SceneError
-from validation.scene_kinds import comparable, read_any
-from validation.shown import printable
-from validation.termination import TerminatedError, terminable
-from validation.understood import said_first
-from validation.wheel_scene import WheelScene, read_scene, shipped_wheels
+from validation.scenes.dynamic_wheel import WheelScene, read_scene, shipped_wheels
+from validation.scenes.load import comparable, read_any
+from validation.scenes.reader import SceneError
+from validation.scenes.shown import printable
+from validation.scenes.understood import said_first
+from validation.selection.compare import WANTS, time_of, told
+from validation.selection.compare import compare as compared
+from validation.selection.hierarchy import Rung
 
 CLOCKED = {
     "precision": "error against cost of every method, a scene at a time; full takes two and a half minutes",

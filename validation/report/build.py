@@ -12,15 +12,15 @@ import jinja2
 from markupsafe import Markup, escape
 
 from bem3d import ConvergenceError
-from validation.ensemble import LOCAL, Engine
-from validation.evidence import Evidence, NotConvergedError, Number, Role, Verdict
+from validation.analysis.evidence import Evidence, NotConvergedError, Number, Role, Verdict
+from validation.engine.engine import LOCAL, Engine
 from validation.report.contents import CASES, CHAPTERS, TIMED, Entry, Profile
 from validation.report.figures import DRAW
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
 from validation.report.style import drawn, pdf, svg
-from validation.understood import understood
-from validation.wheel_scene import WheelScene
+from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.understood import understood
 
 SAFE = " !$'()*+,-./;=?@[]_~{}<>|^`"
 """What an address in quotation marks may hold as it is."""

@@ -4,40 +4,38 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from validation import precision_evidence, precision_scenes, race, race_evidence, race_rolling, race_wheel
-from validation.cases import (
-    fractal_punch,
-    fractal_punch_evidence,
-    geike,
-    hertz,
-    ladder,
-    limits,
-    limits_evidence,
-    mdr_limits,
-    needs,
-    normalisation,
-    ridges,
-    rolling,
-    rolling_evidence,
-    rolling_input,
-    square_punch,
-    westergaard,
-    wheel,
-    wheel_3d,
-    wheel_3d_evidence,
-    wheel_distance,
-    wheel_distance_evidence,
-    wheel_evidence,
-    wheel_stability,
-    wheel_stability_evidence,
-)
-from validation.ensemble import Engine
-from validation.evidence import Evidence
-from validation.precision_rolling import Rolling
-from validation.precision_rough import Fractal
-from validation.precision_smooth import Punch, Sphere, Wave
-from validation.precision_wheel import Wheels
-from validation.wheel_scene import WheelScene
+from validation.analysis.evidence import Evidence
+from validation.benchmarks.solvers import case as race
+from validation.benchmarks.solvers import dynamic_wheel as race_wheel
+from validation.benchmarks.solvers import evidence as race_evidence
+from validation.benchmarks.solvers import rolling as race_rolling
+from validation.benchmarks.work_precision import case as precision_scenes
+from validation.benchmarks.work_precision import evidence as precision_evidence
+from validation.benchmarks.work_precision.dynamic_wheel import Wheels
+from validation.benchmarks.work_precision.exact_problems import Punch, Sphere, Wave
+from validation.benchmarks.work_precision.rolling import Rolling
+from validation.benchmarks.work_precision.rough_punch import Fractal
+from validation.cases.exact import geike, hertz, square_punch, westergaard
+from validation.cases.limits import evidence as limits_evidence
+from validation.cases.limits import limits
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch import fractal_punch, fractal_punch_evidence, normalisation
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.rolling import ridges
+from validation.cases.selection import model_needed as needs
+from validation.cases.selection import model_selection as ladder
+from validation.cases.stability import evidence as wheel_stability_evidence
+from validation.cases.stability import stability as wheel_stability
+from validation.cases.wheel import distance as wheel_distance
+from validation.cases.wheel import distance_evidence as wheel_distance_evidence
+from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
+from validation.cases.wheel import spectrum as wheel
+from validation.cases.wheel import spectrum_evidence as wheel_evidence
+from validation.engine.engine import Engine
+from validation.scenes.dynamic_wheel import WheelScene
 
 Profile = Literal["quick", "full"]
 

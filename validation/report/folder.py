@@ -11,8 +11,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 
-from validation.evidence import Table
-from validation.files import BEGUN, UNUSABLE, begin, is_plain, is_there, naming, write_whole
+from validation.analysis.evidence import Table
+from validation.engine.files import BEGUN, UNUSABLE, begin, is_plain, is_there, naming, write_whole
 from validation.report.lock import LOCK, locked
 from validation.report.manifest import MANIFEST, Listed, as_manifest, both, digest_of, listed_in
 

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
-from validation.files import naming
+from validation.engine.files import naming
 
 LOCK = ".mdr-validation.lock"
 """The file, there while a run writes, and after one that was killed."""

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from validation.files import read_plain
+from validation.engine.files import read_plain
 
 MANIFEST = "manifest.json"
 KIND, FORMAT = "mdr-validation report", 1

@@ -6,7 +6,7 @@ import platform
 import subprocess
 from pathlib import Path
 
-from validation.ensemble import LOCAL, Engine
+from validation.engine.engine import LOCAL, Engine
 
 ROOT = Path(__file__).parents[2]
 LIBRARIES = ("numpy", "scipy", "pyfftw", "matplotlib", "joblib")

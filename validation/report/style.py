@@ -11,7 +11,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
 from validation.report.compact import compact
 
 Style = dict[str, Any]

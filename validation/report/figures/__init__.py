@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from matplotlib.figure import Figure
 
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
 from validation.report.figures import (
     fractal_punch,
     geike,

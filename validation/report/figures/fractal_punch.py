@@ -7,11 +7,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.cases.fractal_punch_decades import QUANTITIES
-from validation.cases.fractal_punch_evidence import CLAIMED, PUBLISHED
-from validation.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table
+from validation.cases.punch.fractal_punch_decades import QUANTITIES
+from validation.cases.punch.fractal_punch_evidence import CLAIMED, PUBLISHED
 from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels
-from validation.rough_punch import FEW_CELLS
+from validation.simulation.rough_punch import FEW_CELLS
 
 FORCE = "force Fbar = F / (E* h L)"
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
 from validation.report.style import BEM, EXACT, GUIDE, MDR, panels
 
 

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.cases.ladder import RUNGS
-from validation.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table
+from validation.cases.selection.model_selection import RUNGS
 from validation.report.style import GUIDE, MARKERS, Style, graded, panels
 
 SMALLEST = 1e-4

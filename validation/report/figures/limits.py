@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
-from validation.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table
 from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, graded, panels
 
 MANY = {"left": 0.06, "right": 0.985, "bottom": 0.055, "top": 0.91, "wspace": 0.34, "hspace": 0.55}

@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table
 from validation.report.style import GUIDE, graded, panels
-from validation.rough_punch import FEW_CELLS
+from validation.simulation.rough_punch import FEW_CELLS
 
 
 def draw(evidence: Evidence) -> Figure:

@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
 from validation.report.style import BEM, MDR_LINE, panels
 
 

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
-from validation.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table
 from validation.report.style import Style, panels
 
 STYLES: dict[str, Style] = {

@@ -2,9 +2,9 @@
 
 from matplotlib.figure import Figure
 
-from validation.cases.ridges import BEM as BEM3D
-from validation.cases.ridges import SPRINGS
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
+from validation.cases.rolling.ridges import BEM as BEM3D
+from validation.cases.rolling.ridges import SPRINGS
 from validation.report.style import BEM, EXACT, GUIDE, MDR, graded, panels
 
 

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.cases.rolling_evidence import FED_SPRINGS, LINEAR_1D, LINEAR_3D, SPRINGS
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
+from validation.cases.rolling.force_spectrum_evidence import FED_SPRINGS, LINEAR_1D, LINEAR_3D, SPRINGS
 from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels
 
 FINE = 12

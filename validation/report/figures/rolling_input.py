@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.cases.rolling_input import NAMES
-from validation.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table
+from validation.cases.rolling.input_spectrum import NAMES
 from validation.report.style import graded, panels
 
 STYLES = {

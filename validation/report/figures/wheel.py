@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
 from validation.report.style import GUIDE, Style, graded, panels
 
 GREY: Style = {"color": "#aaaaaa", "linewidth": 3.0}

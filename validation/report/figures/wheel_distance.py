@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from validation.evidence import Evidence
+from validation.analysis.evidence import Evidence
 from validation.report.style import EXACT, GUIDE, Style, graded, panels
-from validation.wheel_theory import hertz_period
+from validation.theory.wheel import hertz_period
 
 
 def draw(evidence: Evidence) -> Figure:

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from validation.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table
 from validation.report.style import BEM, EXACT, GUIDE, MDR, graded, panels
 
 COLORS = {

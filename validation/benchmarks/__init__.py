@@ -1,0 +1,1 @@
+"""Cost against accuracy, and solvers of others."""

@@ -1,0 +1,1 @@
+"""Our solver beside those of others."""

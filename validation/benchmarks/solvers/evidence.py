@@ -1,0 +1,286 @@
+"""What the race shows: times to equal residual, agreement of the answers, and how time and memory grow."""
+
+import numpy as np
+
+from validation.analysis.evidence import Evidence, Number, Table
+from validation.benchmarks.peers import CONTESTANTS
+from validation.benchmarks.solvers.case import FINISHED, Heat, RaceResult
+from validation.engine.engine import Outcome
+
+# the residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells
+AGREEMENT = (
+    ("pressure field, relative L2", 1e-4, "1e4 times the residual, for the condition of the contact on fine grids"),
+    ("force, relative", 1e-6, "100 times the residual: exact for who prescribes it, by stiffness for who does not"),
+    ("contact area, relative", 1e-3, "single cells of vanishing pressure may stand on either side"),
+)
+OTHERS = [i for i, contestant in enumerate(CONTESTANTS) if contestant.package != CONTESTANTS[0].package]
+AGAINST = (("the fastest peer", OTHERS), ("our own textbook iteration", [1]))
+RATIO = "solve / (applications x one on the whole grid)"
+
+
+def evidence(result: RaceResult) -> Evidence:
+    """Numbers for what must agree; the times as tables and conclusions, since no time is right or wrong."""
+    cells = " and ".join(f"{n}²" for n in result.race.cells)
+    return Evidence(
+        title="The race: time to the same residual, one thread each",
+        compared=(
+            f"Everyone solves the same discrete problems, cold, to a residual of {result.race.residual:g} as this "
+            "project defines it, from a fresh operator application on the returned pressure; with the loosest of their "
+            "own tolerances that reaches it. By force, or by the approach that belongs to this force, as each prefers. "
+            "A process each, in turns, one thread; the median of 5 to 15 runs, or of one that takes long. Set-up "
+            "(operators, plans; ours with a whole first solve) is timed apart. Our applications are those on the "
+            "finest grid or a window of it; the coarser grids are in our time. tamaas does not count its own. "
+            "Everyone's transforms are those of the package as it is installed. "
+            + "; ".join(f"{c.name}: {c.mode} ({c.version or 'not installed'})" for c in CONTESTANTS)
+            + "."
+        ),
+        numbers=tuple(_agreement(result)),
+        tables=(
+            _heats(result.heats, result.outcomes, "heats"),
+            _scaling(result),
+            _errand(result),
+            result.rolling[0],
+            result.wheel[0],
+        ),
+        shown=(
+            _times(result.heats, result.outcomes, "Seconds"),
+            _times(result.errands, result.errand_outcomes, "The same for some of the loads of Fig. 14.1"),
+            result.rolling[1],
+            result.wheel[1],
+        ),
+        conclusions=tuple(_conclusions(result)),
+        captions={
+            "race": (
+                f"On {cells} cells. (a) Median time to the residual, bars from the fastest to the slowest run. (b) Our "
+                "solver alone against the cells along a side: time of a solve, and n² log n through the largest rough "
+                "one in free space. (c) As (a), over the median of bem3d.solve. (d) Peak memory of its process, less "
+                "that of an idle one."
+            ),
+            "race-rolling": (
+                "A wheel that rolls, one core: error of its force against positions a second, by residual (1e-3 to "
+                "1e-6 from right to left) and cells to a contact radius. Filled: error of solver and grid, against "
+                f"{result.race.rolling.finest} cells to a radius; open: of the solver alone. Dotted: the fluctuation "
+                "of the force, which is to be resolved."
+            ),
+            "race-wheel": (
+                f"A dynamic wheel on springs, {result.race.wheel.wheels} in step on one core: steps of one wheel a "
+                "second against the springs to a contact radius, by roughness h₀/d. Filled: as simulated; open: plain "
+                f"sums over all springs. Dotted: the goal for Table 14.1 with 100, {result.race.wheel.goal:.2g}."
+            ),
+        },
+        unconverged=tuple(
+            f"{heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}"
+            for heat, outcome in zip(result.heats, result.outcomes, strict=True)
+            for i in range(2)
+            if outcome["status"][i] != FINISHED
+        ),
+    )
+
+
+def _errand(result: RaceResult) -> Table:
+    return _heats(result.errands, result.errand_outcomes, "errand")
+
+
+def _heats(heats: list[Heat], outcomes: list[Outcome], title: str) -> Table:
+    names = (
+        ("seconds", 0, "median [s]"),
+        ("seconds", 1, "fastest [s]"),
+        ("seconds", 2, "slowest [s]"),
+        ("seconds", 3, "runs"),
+        ("setup", None, "set-up [s]"),
+        ("residual", None, "residual"),
+        ("applications", None, "operator applications"),
+        ("difference", 0, "pressure difference to ours, L2"),
+        ("difference", 1, "force difference to ours"),
+        ("difference", 2, "area difference to ours"),
+    )
+    rows: dict[str, list[object]] = {}
+    for heat, outcome in zip(heats, outcomes, strict=True):
+        course = heat.course
+        for i, contestant in enumerate(CONTESTANTS):
+            facts: dict[str, object] = {
+                "problem": course.label,
+                "surface": course.surface,
+                "half-space": "periodic" if course.periodic else "free",
+                "cells": course.cells,
+                "area": float(outcome["area"]),
+                "contestant": contestant.name,
+                "status": str(outcome["status"][i]),
+            }
+            for key, column, name in names:
+                facts[name] = float(outcome[key][i] if column is None else outcome[key][i, column])
+            for name, value in facts.items():
+                rows.setdefault(name, []).append(value)
+    return Table(title, rows)
+
+
+def _times(heats: list[Heat], outcomes: list[Outcome], title: str) -> Table:
+    """Seconds as they stand on the page: median, from the fastest to the slowest, and set-up."""
+    rows: dict[str, list[object]] = {"problem": [], "area": []}
+    for heat, outcome in zip(heats, outcomes, strict=True):
+        rows["problem"].append(heat.course.label)
+        rows["area"].append(f"{float(outcome['area']):.1%}")
+        for i, contestant in enumerate(CONTESTANTS):
+            median, fastest, slowest, _ = outcome["seconds"][i]
+            cell = f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {outcome['setup'][i]:.2g} s"
+            done = outcome["status"][i] == FINISHED
+            rows.setdefault(contestant.name, []).append(cell if done else str(outcome["status"][i]))
+    return Table(f"{title}: median (from the fastest to the slowest run)", rows)
+
+
+def _scaling(result: RaceResult) -> Table:
+    rows: dict[str, list[object]] = {}
+    for measured, outcome in zip(result.measured, result.costs, strict=True):
+        course = measured.course
+        values = {
+            "problem": f"{course.surface}, {'periodic' if course.periodic else 'free'}",
+            "cells": course.cells,
+            "solve [s]": float(outcome["seconds"]),
+            "first solve, with plans [s]": float(outcome["first"]),
+            "one application on the whole grid [s]": float(outcome["application"]),
+            "operator applications": int(outcome["applications"]),
+            "on coarser grids": int(outcome["coarse"]),
+            RATIO: float(outcome["seconds"] / (outcome["applications"] * outcome["application"])),
+            "peak memory less start [MiB]": float((outcome["peak"] - outcome["idle"]) / 2**20),
+            "peak memory [MiB]": float(outcome["peak"] / 2**20),
+        }
+        for name, value in values.items():
+            rows.setdefault(name, []).append(value)
+    return Table("scaling", rows)
+
+
+def _agreement(result: RaceResult) -> list[Number]:
+    """The largest difference to our answer over all heats that a contestant has finished."""
+    numbers = []
+    for i, contestant in enumerate(CONTESTANTS[1:], start=1):
+        done = [o["difference"][i] for o in result.outcomes if o["status"][i] == o["status"][0] == FINISHED]
+        if not done:
+            continue
+        for column, (what, tolerance, reason) in enumerate(AGREEMENT):
+            numbers.append(
+                Number(
+                    label=f"{what}: {contestant.name} beside bem3d.solve, largest of {len(done)} problems",
+                    value=float(np.max([row[column] for row in done])),
+                    reference=0.0,
+                    source="the same discrete problem has one solution",
+                    tolerance=tolerance,
+                    reason=reason,
+                )
+            )
+    return numbers
+
+
+def _conclusions(result: RaceResult) -> list[str]:
+    sentences = [_standing(result, periodic, *against) for periodic in (True, False) for against in AGAINST]
+    sentences += [
+        f"Not finished: {heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}."
+        for heat, outcome in zip(
+            [*result.heats, *result.errands], [*result.outcomes, *result.errand_outcomes], strict=True
+        )
+        for i in OTHERS
+        if outcome["status"][i].startswith("failed")
+    ]
+    if result.resumed:
+        sentences.append(f"{result.resumed} of {len(result.heats)} heats were run before this race was interrupted.")
+    sentences += [_work(result), _rolled(result)]
+    table = _scaling(result)
+    problems = list(dict.fromkeys(table["problem"].tolist()))
+    return sentences + [_growth(problem, table.where(problem=problem)) for problem in problems]
+
+
+def _work(result: RaceResult) -> str:
+    """What a contact of Fig. 14.1 costs us, and what it would cost the fastest peer."""
+    errand = result.race.errand
+    seconds = sum(float(path["seconds"]) for path in result.paths) / (len(result.paths) * len(errand.forces))
+    applications = float(np.mean([path["applications"] for path in result.paths]))
+    ours = (
+        f"The work of Fig. 14.1 on {errand.cells}² cells to a residual of {errand.tolerance:g}: a contact with its "
+        f"stiffness takes us {1e3 * seconds:.1f} ms and {applications:.1f} operator applications, on load paths of "
+        f"{len(errand.forces)} forces ({len(result.paths)} surfaces, H = 0.7, everything included)"
+    )
+    times = {}
+    for i in OTHERS:
+        finished = all(outcome["status"][i] == FINISHED for outcome in result.errand_outcomes)
+        if finished:
+            times[CONTESTANTS[i].name] = float(np.mean([o["seconds"][i, 0] for o in result.errand_outcomes]))
+    if not times:
+        return f"{ours}; no peer has finished all of the sampled loads."
+    fastest = min(times, key=lambda name: times[name])
+    cold = float(np.mean([outcome["seconds"][0, 0] for outcome in result.errand_outcomes]))
+    return (
+        f"{ours}. A cold solve without stiffness takes us {1e3 * cold:.1f} ms in the mean over {len(errand.sampled)} "
+        f"of these loads, and the fastest peer that solves them all, {fastest}, {1e3 * times[fastest]:.0f} ms "
+        f"({times[fastest] / cold:.0f} times as long). It has no stiffness: a path of such solves, whose differences "
+        f"are secants, takes {times[fastest] / seconds:.0f} times as long as ours, with a second load beside each for "
+        f"a tangent {2 * times[fastest] / seconds:.0f} times; set-up not counted."
+    )
+
+
+def _rolled(result: RaceResult) -> str:
+    """Positions a second of the scene that has a goal."""
+    scenes = result.rolling[1]
+    found = "; ".join(
+        f"h/d = {h:g}: {rate:.0f} positions a second (goal {goal:.0f}), {n:.1f} applications each, "
+        f"{rate / warm:.1f} times as fast as warm solves on one window"
+        for h, rate, goal, n, warm in zip(
+            *(
+                scenes[name]
+                for name in (
+                    "h/d",
+                    "positions a second",
+                    "goal",
+                    "applications a position",
+                    "by warm solves on 3a x 3a",
+                )
+            ),
+            strict=True,
+        )
+    )
+    return f"A rolling wheel, a = 32 cells, residual 1e-4, one core: {found}."
+
+
+def _growth(problem: str, rows: Table) -> str:
+    """What the largest grid costs, and the exponents where there are grids enough to fit them."""
+    n, seconds, memory = rows["cells"], rows["solve [s]"], rows["peak memory less start [MiB]"]
+    applications = rows["operator applications"]
+    sentence = (
+        f"{problem}: {applications.min()} to {applications.max()} applications on the finest grid from {n.min()}² to "
+        f"{n.max()}² cells; at {n.max()}² {seconds[-1]:.3g} s, {rows[RATIO][-1]:.2f} times as long as so many "
+        "applications on the whole grid (windows make it shorter; coarser grids, preconditioner and vectors longer), "
+        f"and {rows['peak memory [MiB]'][-1]:.0f} MiB"
+    )
+    large = n >= 512
+    if np.count_nonzero(large) < 3:
+        return sentence + "; too small for an exponent."
+    time, reference, growth = (_exponent(n[large], y[large]) for y in (seconds, n**2 * np.log(n), memory))
+    return sentence + (
+        f"; from {n[large].min()}² on the time grows like n^{time:.2f} (n² log n: n^{reference:.2f} there), the memory "
+        f"less that of an idle process like n^{growth:.2f}."
+    )
+
+
+def _standing(result: RaceResult, periodic: bool, name: str, others: list[int]) -> str:
+    """Our time beside the fastest of others in each heat."""
+    where = f"{'Periodic' if periodic else 'Free space'}, beside {name}"
+    pairs = []
+    for heat, outcome in zip(result.heats, result.outcomes, strict=True):
+        finished = [i for i in others if outcome["status"][i] == FINISHED]
+        if heat.course.periodic == periodic and outcome["status"][0] == FINISHED and finished:
+            pairs.append(outcome["seconds"][finished, :2].min(axis=0) / outcome["seconds"][0, :2])
+    if not pairs:
+        return f"{where}: nobody has finished."
+    by_median, by_fastest = np.array(pairs).T
+    return (
+        f"{where}: first on {np.count_nonzero(by_median > 1)} of {len(pairs)} problems; "
+        f"{_mean(by_median):.1f} times as fast in the geometric mean of medians ({_mean(by_fastest):.1f} by fastest "
+        f"runs), {by_median.min():.1f} to {by_median.max():.1f} times on single problems."
+    )
+
+
+def _mean(ratios: np.ndarray) -> float:
+    """Geometric."""
+    return float(np.exp(np.mean(np.log(ratios))))
+
+
+def _exponent(n: np.ndarray, y: np.ndarray) -> float:
+    return float(np.polyfit(np.log(n), np.log(y), 1)[0])

@@ -1,0 +1,342 @@
+"""Speed against accuracy of a dynamic wheel: the spectrum of its acceleration in one-third octaves."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.records import band_levels, one_third_octaves, spectra
+from validation.benchmarks.work_precision.grids import Refined
+from validation.benchmarks.work_precision.measurement import (
+    CLOSED,
+    FED,
+    FILTER_1D,
+    FILTER_3D,
+    MDR,
+    Attempt,
+    Draw,
+    FloatArray,
+    Quantity,
+    Turn,
+    Work,
+)
+from validation.benchmarks.work_precision.rolling import log_levels
+from validation.scenes.dynamic_wheel import WheelScene, read_scene
+from validation.scenes.wheel_body import Wheel
+from validation.simulation.contact_laws import BoundaryElements, Linear, Springs
+from validation.simulation.motion import Motion, repeating, simulate
+from validation.simulation.wheel_on_half_space import Strip, by_boundary_elements, linear_contact, narrowed
+from validation.simulation.wheel_on_springs import LEFT, Feed, Rides, filtered
+from validation.theory import rolling as rolling_theory
+from validation.theory import wheel as wheel_theory
+
+TABLE = read_scene("table_14_1")
+SCENE = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
+WARM = 40
+"""Places before the clock runs: frames that find their size, plans."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wheels(Refined):
+    """Wheels of a scene over isotropic surfaces, in one round of a track.
+
+    scene: whose rail alone is rough; turns: whole, of the resonance, to which a half is added; width: of surfaces over
+    the longest wave; strips: realisations; wheels: on springs, in step; filtered: cells for the linear filter; shared:
+    of which all cells are multiples; springs: to a contact radius; seed: zero or positive.
+    """
+
+    scene: WheelScene = field(default=SCENE)
+    turns: int = 0
+    width: int = 2
+    strips: int = 3
+    wheels: int = 20
+    cells: tuple[int, ...] = (6, 12)
+    filtered: tuple[int, ...] = (6, 12)
+    shared: int = 3
+    springs: tuple[int, ...] = (12, 25)
+    fixed: int = 6
+    per: ClassVar[str] = "to a radius"
+    tolerances: tuple[float, ...] = (1e-2, 1e-3)
+    seed: int = 152
+
+    @property
+    def name(self) -> str:
+        """For tables and figures."""
+        return "dynamic wheel"
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """Between twice the resonance and the shortest wave."""
+        names = ("level", "linear level", "mean level")
+        return (Quantity(name="acceleration spectrum", log=log_levels, needs=names, decibel=True),)
+
+    def strip(self, realisation: int, cells: int, tolerance: float) -> Strip:
+        """The same surface on every grid."""
+        return Strip(
+            scene=self.scene,
+            realisation=realisation,
+            turns=self.turns,
+            width=self.width,
+            cells=cells,
+            shared=self.shared,
+            tolerance=tolerance,
+            seed=self.seed,
+        )
+
+    @property
+    def duration(self) -> float:
+        """Of a record on boundary elements [s]."""
+        strip = self.strip(0, self.shared, self.tight)
+        return strip.shape[0] * strip.spacing / self.scene.speed
+
+    @property
+    def edges(self) -> FloatArray:
+        """One-third octaves that hold two lines of a record and end where the roughness does [rad/s]."""
+        lines = 2 * 2 * math.pi / self.duration / (2 ** (1 / 3) - 1)
+        return one_third_octaves(max(2 * self.scene.eigenfrequency, lines), self.scene.cutoff)
+
+    def levels(self, acceleration: FloatArray, time_step: float) -> FloatArray:
+        """int A df in each band, with Hann's window, one row a wheel."""
+        record = spectra(acceleration, time_step=time_step, window="hann")
+        return band_levels(record.omega, record.density, self.edges).T
+
+    def attempts(self) -> tuple[Attempt, ...]:
+        """Linear theory three times, springs fed twice, boundary elements in the time loop."""
+        along: dict[str, Any] = {"knob": "# springs to a radius", "paired": False, "scene": self}
+        return (
+            LinearSpectrum(line=CLOSED, knob="linear theory", value=1.0, paired=False, scene=self),
+            *(OnSprings(line=line, value=n, **along) for line in (FILTER_1D, MDR, FED) for n in self.springs),
+            *(
+                Filtered(line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self)
+                for n in self.filtered
+            ),
+            *self.grids(),
+        )
+
+    def on_grid(self, **settings: Any) -> "InTheLoop":
+        """Boundary elements."""
+        return InTheLoop(realisations=self.strips, scene=self, **settings)
+
+    def read(self, acceleration: FloatArray, beside: "Beside", visits: float) -> Work:
+        """Levels of a wheel, and of the linear one on the same surface."""
+        level = self.levels(acceleration[:, np.newaxis], beside.time_step)[0]
+        return Work({"level": level, "linear level": beside.level, "mean level": beside.mean}, visits)
+
+    def alone(self, level: FloatArray, visits: float, count: int = 1) -> Work:
+        """What has no surface of its own."""
+        return Work(
+            {"level": level, "linear level": np.ones(level.shape), "mean level": np.ones(level.shape)}, visits, count
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """A surface, and what linear theory has on it: its contact, levels, and their mean over all phases of its waves."""
+
+    surface: FloatArray
+    linear: Linear
+    time_step: float
+    level: FloatArray
+    mean: FloatArray
+
+
+def beside(scene: Wheels, realisation: int, cells: int, tolerance: float) -> Beside:
+    """One strip, drawn."""
+    strip = scene.strip(realisation, cells, tolerance)
+    surface, time_step = strip.surface(), strip.spacing / scene.scene.speed
+    linear = linear_contact(strip, surface)
+    found = scene.levels(steady_acceleration(linear, time_step), time_step)[0]
+    return Beside(surface, linear, time_step, found, mean_levels(scene, surface, strip.spacing, time_step))
+
+
+def transfer(wheel: Wheel, omega: NDArray[np.floating], time_step: float) -> FloatArray:
+    """z'' over dF in leapfrog steps, -s^2 / (k - M s^2), s = 2 sin(omega dt / 2) / dt; see `Linear.steady`."""
+    square = (2 * np.sin(omega * time_step / 2) / time_step) ** 2
+    return np.asarray(-square / (wheel.stiffness - wheel.mass * square))
+
+
+def steady_acceleration(linear: Linear, time_step: float) -> FloatArray:
+    """z'' of the motion on a linear contact that repeats itself, by one filter, shape (places, wheels)."""
+    count = len(linear.change)
+    omega = 2 * np.pi * np.fft.rfftfreq(count, time_step)[:, np.newaxis]
+    return np.fft.irfft(transfer(linear.wheel, omega, time_step) * np.fft.rfft(linear.change, axis=0), count, axis=0)
+
+
+def mean_levels(scene: Wheels, surface: FloatArray, spacing: float, time_step: float) -> FloatArray:
+    """Levels of the linear wheel in the mean over all phases of the waves of this surface.
+
+    Hann's window mixes a line with its neighbours: 2/3 of itself, 1/6 of each.
+    """
+    wheel, (nx, ny) = scene.scene.body, surface.shape
+    qx, qy = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in (nx, ny))
+    response = rolling_theory.response(
+        np.hypot(qx[:, np.newaxis], qy), contact_radius=wheel.contact_radius, modulus=wheel.modulus
+    )
+    force = (np.abs(response * np.fft.fft2(surface, norm="forward")) ** 2).sum(axis=1)
+    omega = np.asarray(qx * scene.scene.speed, dtype=np.float64)
+    density = transfer(wheel, omega, time_step) ** 2 * force * nx * time_step
+    mixed = 2 / 3 * density + (np.roll(density, 1) + np.roll(density, -1)) / 6
+    along = slice(1, nx // 2)
+    return band_levels(omega[along], mixed[along], scene.edges)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinearSpectrum(Attempt):
+    """Linear theory in closed form at the lines of a record."""
+
+    scene: Wheels
+
+    def prepare(self) -> Draw:
+        """Nothing to do."""
+        scene, wheel = self.scene, self.scene.scene.body
+        rough = scene.strip(0, scene.shared, scene.tight).roughness
+        line = 2 * math.pi / scene.duration
+        omega = line * np.arange(1, math.ceil(scene.edges[-1] / line) + 1)
+        seen = [0]
+
+        def c2d(q: FloatArray) -> FloatArray:
+            seen[0] += q.size
+            return rough.spectrum.c2d(q)
+
+        def solve() -> FloatArray:
+            seen[0] = 0
+            force = rolling_theory.force_spectrum_3d(
+                omega / scene.scene.speed,
+                c2d,
+                edges=(rough.q_min, rough.q_max),
+                contact_radius=wheel.contact_radius,
+                modulus=wheel.modulus,
+            )
+            dynamic = wheel_theory.acceleration_over_force(omega, eigenfrequency=wheel.eigenfrequency, mass=wheel.mass)
+            return np.asarray(dynamic * wheel_theory.over_frequency(force, speed=scene.scene.speed))
+
+        def read(density: FloatArray) -> Work:
+            return scene.alone(band_levels(omega, density, scene.edges), seen[0])
+
+        return lambda _: Turn(solve, read)
+
+
+class Counted(Springs):
+    """Springs that count how many of them have been looked at."""
+
+    looked = 0
+
+    def force(self, place: int, approach: FloatArray) -> FloatArray:
+        """As they have it."""
+        found = super().force(place, approach)
+        # a prefix sum costs as much as two looks
+        self.looked += (self.foundation.examined + 2) * approach.size
+        return found
+
+
+@dataclass(frozen=True, kw_only=True)
+class OnSprings(Attempt):
+    """Wheels on springs, all in step, in the motion that repeats itself; or the filter (14.11) under them."""
+
+    scene: Wheels
+
+    def prepare(self) -> Draw:
+        """Tracks of all wheels."""
+        scene, count = self.scene, self.scene.wheels
+        feed: Feed = "rolling" if self.line == FED else "geike"
+        distance = scene.duration * scene.scene.speed
+        on = replace(scene.scene, distance=distance, springs=round(self.value))
+        rides = Rides(scene=on, count=count, track="steady", feed=feed, seed=scene.seed)
+        heights = rides.heights()
+        roll = _filter(rides, heights) if self.line == FILTER_1D else _springs(rides, heights)
+
+        def read(found: tuple[FloatArray, float]) -> Work:
+            return scene.alone(scene.levels(found[0], on.time_step), found[1], count)
+
+        return lambda _: Turn(roll, read)
+
+
+def _filter(rides: Rides, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
+    def roll() -> tuple[FloatArray, float]:
+        linear = filtered(rides.scene.body, heights, rides.scene.spacing)
+        return steady_acceleration(linear, rides.scene.time_step), float(heights.size)
+
+    return roll
+
+
+def _springs(rides: Rides, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
+    scene, wheel = rides.scene, rides.scene.body
+    settings = {"time_step": scene.time_step, "steps": rides.steps}
+
+    def roll() -> tuple[FloatArray, float]:
+        laws = []
+
+        def law(copies: int) -> Counted:
+            laws.append(Counted(wheel, np.tile(heights, (1, copies)), scene.spacing))
+            return laws[-1]
+
+        first = law(1)
+        start = first.at_rest(0), np.zeros(rides.count)
+        approach, velocity, left = repeating(wheel, law, **settings, start=start)  # type: ignore[arg-type]
+        if (left > LEFT).any():
+            raise RuntimeError(f"{np.count_nonzero(left > LEFT)} wheels do not repeat their motion")
+        motion: Motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)  # type: ignore[arg-type]
+        return motion.acceleration, float(sum(each.looked for each in laws))
+
+    return roll
+
+
+@dataclass(frozen=True, kw_only=True)
+class Filtered(Attempt):
+    """Linear theory on the same surface: force and wheel by their responses."""
+
+    scene: Wheels
+
+    def prepare(self) -> Draw:
+        """Nothing to do."""
+        scene, cells = self.scene, round(self.value)
+
+        def draw(realisation: int) -> Turn:
+            known = beside(scene, realisation, cells, scene.tight)
+            strip = scene.strip(realisation, cells, scene.tight)
+
+            def solve() -> FloatArray:
+                return steady_acceleration(linear_contact(strip, known.surface), known.time_step)[:, 0]
+
+            return Turn(solve, lambda found: scene.read(found, known, known.surface.size))
+
+        return draw
+
+
+@dataclass(frozen=True, kw_only=True)
+class InTheLoop(Attempt):
+    """Boundary elements at each time step, each contact from the two before."""
+
+    scene: Wheels
+    cells: int
+    tolerance: float
+
+    def prepare(self) -> Draw:
+        """Refuses waves that cells do not resolve."""
+        scene, wheel = self.scene, self.scene.scene.body
+        spacing = scene.strip(0, self.cells, self.tolerance).spacing
+
+        def draw(realisation: int) -> Turn:
+            known = beside(scene, realisation, self.cells, self.tolerance)
+            contact = BoundaryElements(
+                wheel, [narrowed(known.surface, spacing, wheel)], spacing, tolerance=self.tolerance
+            )
+            # frames and their plans belong to a strip: they are made over its beginning
+            for place in range(min(WARM, len(known.surface))):
+                contact.force(place, np.array([wheel.approach]))
+
+            def solve() -> FloatArray:
+                contact.operator_applications = 0
+                motion = by_boundary_elements(contact, known.linear, known.time_step, len(known.surface))
+                return motion.acceleration[:, 0]
+
+            def read(acceleration: FloatArray) -> Work:
+                return scene.read(acceleration, known, contact.operator_applications * (2.0 * self.cells) ** 2)
+
+            return Turn(solve, read)
+
+        draw(0)
+        return draw

@@ -1,0 +1,155 @@
+"""Which method is the cheapest for an error: the Pareto front, the cheapest within a tolerance, break-even in words."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby
+
+from validation.benchmarks.work_precision.measurement import CLOSED, FINISHED
+
+TOLERANCES = (0.3, 0.1, 0.03, 0.01, 0.001)
+"""That are asked for, relative; as levels 20 lg (1 + tolerance) dB."""
+TELLING = 1.1
+NAN = math.nan
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """One attempt at one quantity.
+
+    unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; line, knob,
+    value: the method and its setting; referee: whether it is the reference itself; status: "finished", or why not;
+    error, half_width: with the interval of the sample; finer: the largest upper end of an error that more of the same
+    leaves, see `without_luck`; over: the answer over the reference; seconds: quartiles and
+    median, low, middle, high; runs: behind them; setup: seconds; visits: the cost that no machine changes.
+    """
+
+    scene: str
+    quantity: str
+    unit: str
+    band: float
+    line: str = ""
+    knob: str = ""
+    value: float = NAN
+    referee: bool = False
+    status: str = ""
+    error: float = NAN
+    half_width: float = 0.0
+    finer: float = 0.0
+    over: float = NAN
+    seconds: tuple[float, float, float] = (NAN, NAN, NAN)
+    runs: int = 0
+    setup: float = NAN
+    visits: float = NAN
+
+    @property
+    def finished(self) -> bool:
+        """Whether it has an error."""
+        return self.status == FINISHED and math.isfinite(self.error)
+
+    @property
+    def rank(self) -> float:
+        """The upper end of its error; never below the uncertainty of the reference, nor what finer settings leave."""
+        return max(self.error + self.half_width, self.band, self.finer)
+
+    @property
+    def setting(self) -> str:
+        """The knob, in words."""
+        return self.knob.replace("#", f"{self.value:g}")
+
+
+def without_luck(points: Sequence[Point]) -> list[Point]:
+    """Each point with the largest upper end of an error that its method leaves at more visits: luck is not accuracy."""
+    return [replace(point, finer=max((p.rank for p in points if _finer(p, point)), default=0.0)) for point in points]
+
+
+def _finer(other: Point, point: Point) -> bool:
+    return other.line == point.line and other.finished and other.visits > point.visits
+
+
+Cost = Callable[[Point], float]
+
+
+def seconds(point: Point) -> float:
+    """Median of the turns."""
+    return point.seconds[1]
+
+
+def visits(point: Point) -> float:
+    """Cells times applications, or springs."""
+    return point.visits
+
+
+def front(points: Sequence[Point], cost: Cost = seconds, *, gain: float = 1.0) -> list[Point]:
+    """Those that nothing beats in both error and cost, from cheap to dear; of equals the first.
+
+    Ranked by the upper ends of errors; what lies below the band of the reference is as good as its edge. Who has not
+    finished, or has no such cost, takes no part. gain: by this factor, above one, the next must be closer.
+    """
+    known = [point for point in points if point.finished and math.isfinite(cost(point))]
+    found: list[Point] = []
+    for point in sorted(known, key=lambda p: (cost(p), p.rank)):
+        if not found or gain * point.rank < found[-1].rank:
+            found.append(point)
+    return found
+
+
+def asked(tolerance: float, unit: str) -> float:
+    """A relative tolerance in the unit of the error."""
+    return 20 * math.log10(1 + tolerance) if unit == "dB" else tolerance
+
+
+def cheapest(points: Sequence[Point], tolerance: float, cost: Cost = seconds) -> Point | None:
+    """Who reaches a relative tolerance at the least cost; None where nobody does, or the reference cannot tell."""
+    within = [point for point in front(points, cost) if point.rank <= asked(tolerance, point.unit)]
+    return within[0] if within else None
+
+
+def why_nobody(points: Sequence[Point], tolerance: float) -> str:
+    """What to say where there is no cheapest."""
+    wanted = asked(tolerance, points[0].unit)
+    return "the reference cannot tell" if points[0].band > wanted else "nobody"
+
+
+def break_even(points: Sequence[Point]) -> str:
+    """Down to which error which method is the cheapest, in one sentence; the referee itself left out.
+
+    A step along the front that gains less than a tenth is not told.
+    """
+    first = points[0]
+    others = [point for point in points if not point.referee]
+    steps = front(others, gain=TELLING)
+    head = f"{first.scene}, {first.quantity}: "
+    if not steps:
+        return head + "nobody has finished."
+    parts: list[str] = []
+    for line, group in groupby(steps, key=lambda p: p.line):
+        mine = list(group)
+        begin, end = mine[0], mine[-1]
+        settings = begin.setting if begin is end else end.knob.replace("#", f"{begin.value:g} to {end.value:g}")
+        times = said(seconds(begin)) if begin is end else f"{said(seconds(begin))} to {said(seconds(end))}"
+        sample = ", most of it the sample's," if end.half_width > max(end.error, end.finer / 2) else ""
+        parts.append(f"down to {in_unit(end.rank, end.unit)}{sample} {line} ({settings}, {times})")
+    last = front(others)[-1]
+    below = (
+        f"; below {in_unit(first.band, first.unit)} the reference cannot tell"
+        if last.rank <= first.band
+        else f"; nobody gets below {in_unit(last.rank, last.unit)}"
+    )
+    referee = next((point for point in points if point.referee and point.finished), None)
+    exact = f" The {CLOSED} itself takes {said(seconds(referee))}." if referee else ""
+    return f"{head}{parts[0]} is the cheapest{''.join(f'; beyond, {part}' for part in parts[1:])}{below}.{exact}"
+
+
+def said(value: float) -> str:
+    """Seconds in words."""
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if value >= size or unit == "µs":
+            return f"{value / size:.2g} {unit}" if value < 100 * size else f"{value / size:.0f} {unit}"
+    raise AssertionError
+
+
+def in_unit(value: float, unit: str) -> str:
+    """An error in words."""
+    size = value if unit == "dB" else 100 * value
+    return f"{size:.0f} {unit}" if size >= 100 else f"{size:.2g} {unit}"

@@ -1,0 +1,292 @@
+"""A smooth sphere on the half-space: both methods against Hertz."""
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+import bem3d
+import mdr
+from validation.analysis.evidence import Evidence, Number, Table, claim, columns
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.theory import closed_forms
+
+SCATTER = {
+    "bem3d": "the staircase edge scatters the error from grid to grid",
+    "mdr": "where the ends of the contact fall between two springs scatters the error, but not for whole numbers",
+}
+# error of the force in units of (dx/a)^2, and why
+QUADRATIC = {
+    "bem3d": (
+        0.25,
+        "second order: the discrete pressure minimises the energy, so the force error is quadratic in that of "
+        "the pressure; (dx/a)^2 / 4 leaves room for the staircase edge",
+    ),
+    "mdr": (0.5, "second order: midpoint rule, (dx/a)^2 / 8 inside and at most 3/8 from the two ends of the contact"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hertz:
+    """The wheel of Table 14.1, smooth, under its own weight; solved on finer and finer grids.
+
+    radius [m], modulus E* [Pa], approach [m]; cells_per_radius: of the Hertz contact, on a grid four times as wide;
+    load_steps: of a load curve on the second grid; tolerance: residual of the solver.
+    """
+
+    radius: float = 0.5
+    modulus: float = 236.25e9
+    approach: float = 7.856e-6
+    cells_per_radius: tuple[int, ...] = (8, 16, 32, 64)
+    load_steps: int = 8
+    tolerance: float = 1e-8
+
+    @property
+    def contact_radius(self) -> float:
+        """Of Hertz [m]."""
+        return closed_forms.hertz_contact_radius(radius=self.radius, approach=self.approach)
+
+    @property
+    def force(self) -> float:
+        """Of Hertz [N]."""
+        return closed_forms.hertz_force(radius=self.radius, modulus=self.modulus, approach=self.approach)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sphere:
+    """One sphere on one grid: cells of side a / resolution, where a is the contact radius of the case."""
+
+    case: Hertz
+    resolution: int
+    approach: float
+
+    @property
+    def spacing(self) -> float:
+        """Side of a cell [m]."""
+        return self.case.contact_radius / self.resolution
+
+
+@dataclass(frozen=True)
+class HertzResult:
+    """Refinement at the approach of the case, and a load curve; one outcome a grid or step for each method."""
+
+    case: Hertz
+    bem: list[Outcome]
+    mdr: list[Outcome]
+    approaches: list[float]
+    bem_loads: list[Outcome]
+    mdr_loads: list[Outcome]
+
+
+def run(case: Hertz, engine: Engine = SERIAL) -> HertzResult:
+    """Press the sphere with both methods."""
+    grids = [Sphere(case=case, resolution=n, approach=case.approach) for n in case.cells_per_radius]
+    steps = np.linspace(0, 1, case.load_steps + 1)[1:]
+    loads = [Sphere(case=case, resolution=case.cells_per_radius[1], approach=float(s * case.approach)) for s in steps]
+    bem = engine.map(press_by_bem, grids + loads)
+    springs = engine.map(press_by_springs, grids + loads)
+    n = len(grids)
+    return HertzResult(case, bem[:n], springs[:n], [load.approach for load in loads], bem[n:], springs[n:])
+
+
+def press_by_bem(sphere: Sphere) -> Outcome:
+    """Boundary elements: by approach, and by the force of Hertz."""
+    case, cells = sphere.case, 4 * sphere.resolution
+    x = (np.arange(cells) - (cells - 1) / 2) * sphere.spacing
+    r = np.hypot(x[:, np.newaxis], x)
+    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=sphere.spacing, modulus=case.modulus)
+    gap = r**2 / (2 * case.radius)
+    contact = bem3d.solve(half_space, gap, approach=sphere.approach, tolerance=case.tolerance)
+    hertz = {"radius": case.radius, "modulus": case.modulus}
+    force = closed_forms.hertz_force(approach=sphere.approach, **hertz)
+    by_force = bem3d.solve(half_space, gap, force=force, start=contact, tolerance=case.tolerance)
+    exact = closed_forms.hertz_pressure(r, approach=sphere.approach, **hertz)
+    middle = cells // 2
+    return {
+        "force": np.array(contact.force),
+        "radius": np.sqrt(contact.area / np.pi),
+        "stiffness": np.array(contact.stiffness()),
+        "approach_at_force": np.array(by_force.approach),
+        "pressure_error": np.sqrt(np.sum((contact.pressure - exact) ** 2) / np.sum(exact**2)),
+        "x": x[middle:],
+        "pressure": contact.pressure[middle, middle:],
+    }
+
+
+def press_by_springs(sphere: Sphere) -> Outcome:
+    """MDR: the parabola on springs as wide as the cells."""
+    case, cells = sphere.case, 4 * sphere.resolution
+    x = (np.arange(cells) - (cells - 1) / 2) * sphere.spacing
+    height = -mdr.sphere_profile(x, radius=case.radius)
+    curve = mdr.load_curve(height, length=cells * sphere.spacing, modulus=case.modulus)
+    force = closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=sphere.approach)
+    with warnings.catch_warnings():
+        # grids are compared, and what few springs cost is measured
+        warnings.simplefilter("ignore", mdr.ResolutionWarning)
+        point, by_force = curve.at_approach(sphere.approach), curve.at_force(force)
+    return {
+        "force": np.array(point.force),
+        "radius": np.array(point.stiffness / (2 * case.modulus)),
+        "stiffness": np.array(point.stiffness),
+        "approach_at_force": np.array(by_force.approach),
+    }
+
+
+def evidence(result: HertzResult) -> Evidence:
+    """Force, approach, contact radius, stiffness and pressure against Hertz, on the finest grid and in their rates."""
+    case = result.case
+    n = np.array(case.cells_per_radius)
+    finest = 1 / n[-1]
+    numbers = [*_against_hertz(case, "bem3d", result.bem), *_against_hertz(case, "mdr", result.mdr)]
+    numbers += [
+        Number(
+            label="bem3d: pressure, relative L2 error",
+            value=float(result.bem[-1]["pressure_error"]),
+            reference=0.0,
+            source="Hertz",
+            tolerance=finest,
+            reason="first order in the cell size: the root at the edge of the contact, cell by cell",
+        ),
+        Number(
+            label="mdr over bem3d: force at the given approach",
+            value=float(result.mdr[-1]["force"] / result.bem[-1]["force"]),
+            reference=1.0,
+            source="the other method",
+            tolerance=0.75 * finest**2,
+            reason="both discretisation errors together",
+        ),
+    ]
+    return Evidence(
+        title="Smooth sphere",
+        compared=(
+            f"A rigid sphere, R = {case.radius:g} m, on a half-space of E* = {case.modulus / 1e9:g} GPa, pressed by "
+            f"{case.approach * 1e6:g} µm (Hertz: {case.force:.1f} N, a = {case.contact_radius * 1e3:.4f} mm). "
+            f"MDR: the parabola x²/R on springs. Boundary elements: (x² + y²)/2R on cells of the same width, "
+            f"{n[0]} to {n[-1]} of them in the contact radius (whole numbers, which suits the springs), "
+            f"residual {case.tolerance:g}."
+        ),
+        numbers=tuple(numbers),
+        tables=(
+            _load_table(result),
+            _pressure_table(result),
+            _exact_pressure_table(case),
+            _refinement_table(result),
+        ),
+        conclusions=(
+            claim(
+                "For a smooth sphere both methods give the same force, approach, contact radius and stiffness: "
+                f"forces differ by {abs(float(result.mdr[-1]['force'] / result.bem[-1]['force']) - 1):.1e} "
+                f"with {n[-1]} cells in the contact radius.",
+                numbers,
+            ),
+        ),
+        captions={
+            "hertz": (
+                f"(a) Load curve, {n[1]} cells in the largest contact radius. "
+                "(b) Pressure along a row of cells next to the centre, "
+                f"{n[1]} of them in the contact radius. (c) Relative error of the force at a given "
+                "approach against cells in the contact radius; the dotted line falls with the second power."
+            )
+        },
+    )
+
+
+def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Number]:
+    """Force, approach, radius and stiffness on the finest grid, and the rate of the force."""
+    n = np.array(case.cells_per_radius)
+    finest, last = 1 / n[-1], outcomes[-1]
+    quadratic, why = QUADRATIC[method]
+    stiffness = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
+    return [
+        Number(
+            label=f"{method}: force at the given approach, over Hertz",
+            value=float(last["force"]) / case.force,
+            reference=1.0,
+            source="Hertz",
+            tolerance=quadratic * finest**2,
+            reason=why,
+        ),
+        Number(
+            label=f"{method}: approach at the given force, over Hertz",
+            value=float(last["approach_at_force"]) / case.approach,
+            reference=1.0,
+            source="Hertz",
+            tolerance=2 / 3 * quadratic * finest**2,
+            reason="two thirds of the tolerance of the force, since d ~ F^(2/3)",
+        ),
+        Number(
+            label=f"{method}: contact radius over Hertz",
+            value=float(last["radius"]) / case.contact_radius,
+            reference=1.0,
+            source="Hertz",
+            tolerance=finest,
+            reason="one cell in the radius",
+        ),
+        Number(
+            label=f"{method}: stiffness over 2 E* a",
+            value=float(last["stiffness"]) / stiffness,
+            reference=1.0,
+            source="Boussinesq",
+            tolerance=finest,
+            reason="k follows the radius of the discrete contact: one cell in the radius",
+        ),
+        Number(
+            label=f"{method}: order of the force error in the cell size",
+            value=_order(n, np.array([float(o["force"]) for o in outcomes]) / case.force - 1),
+            reference=2.0,
+            source="error model",
+            tolerance=0.5,
+            reason=f"second order; {SCATTER[method]}",
+        ),
+    ]
+
+
+def _order(n: np.ndarray, error: np.ndarray) -> float:
+    """Slope of ln |error| against ln of the cell size."""
+    return float(-np.polynomial.polynomial.polyfit(np.log(n), np.log(np.abs(error)), 1)[1])
+
+
+def _load_table(result: HertzResult) -> Table:
+    case = result.case
+    hertz = [closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=d) for d in result.approaches]
+    return Table(
+        "load",
+        {
+            "approach [m]": result.approaches,
+            "hertz force [N]": hertz,
+            "bem3d force [N]": [float(o["force"]) for o in result.bem_loads],
+            "mdr force [N]": [float(o["force"]) for o in result.mdr_loads],
+        },
+    )
+
+
+def _pressure_table(result: HertzResult) -> Table:
+    second = result.bem[1]
+    return Table(
+        "pressure",
+        columns(
+            **{
+                "x [m]": second["x"],
+                "bem3d pressure [Pa]": second["pressure"],
+            }
+        ),
+    )
+
+
+def _exact_pressure_table(case: Hertz) -> Table:
+    x = np.linspace(0, 2 * case.contact_radius, 401)
+    exact = closed_forms.hertz_pressure(x, radius=case.radius, modulus=case.modulus, approach=case.approach)
+    return Table("exact-pressure", columns(**{"x [m]": x, "hertz pressure [Pa]": exact}))
+
+
+def _refinement_table(result: HertzResult) -> Table:
+    force = result.case.force
+    return Table(
+        "refinement",
+        {
+            "cells per contact radius": list(result.case.cells_per_radius),
+            "bem3d force error": [float(o["force"]) / force - 1 for o in result.bem],
+            "mdr force error": [float(o["force"]) / force - 1 for o in result.mdr],
+            "bem3d pressure error": [float(o["pressure_error"]) for o in result.bem],
+        },
+    )

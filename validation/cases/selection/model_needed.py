@@ -1,0 +1,101 @@
+"""Which rung of the ladder each case needed: asked of the ladder itself, for the scenes of the case."""
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import groupby
+from typing import Any
+
+from validation.scenes.indentation import PressedScene
+from validation.scenes.load import Scene
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.selection.compare import rungs_of
+from validation.selection.hierarchy import needed
+from validation.simulation.rough_punch import Roughness as Band
+
+TOLERANCE = 0.1
+TURN = 2 * math.pi
+BEM = "boundary elements"
+
+
+def rung_of(scene: Scene, want: str) -> str:
+    """The first rung that expects to be enough, grids of boundary elements not told apart."""
+    rung = needed(rungs_of(scene, want, TOLERANCE, 0), TOLERANCE)
+    return "none" if rung is None else BEM if rung.name.startswith(BEM) else rung.name
+
+
+def along(name: str, scenes: Sequence[tuple[float, Scene]], want: str) -> str:
+    """Rungs along a knob, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
+    found = [(value, rung_of(scene, want)) for value, scene in scenes]
+    pieces = []
+    for rung, group in groupby(found, key=lambda pair: pair[1]):
+        values = [value for value, _ in group]
+        span = f"{values[0]:.2g}" if len(values) == 1 else f"{values[0]:.2g} to {values[-1]:.2g}"
+        pieces.append(f"{rung} for {name} {span}" if len(scenes) > len(values) else rung)
+    return "; ".join(pieces)
+
+
+def sphere(case: Any) -> str:
+    """A smooth one."""
+    scene = PressedScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
+    return rung_of(scene, "stiffness")
+
+
+def square_punch(case: Any) -> str:
+    """A smooth one."""
+    scene = PressedScene(name="punch", shape="punch", size=case.side, load=1.0, modulus=case.modulus)
+    return rung_of(scene, "stiffness")
+
+
+def punches(case: Any) -> str:
+    """Those of Fig. 14.1, for H = 0.7."""
+    return _punches(Band(hurst=0.7, waves=(1, case.cells // 4), seed=0), case.forces)
+
+
+def rolled_off(case: Any) -> str:
+    """With the longest of all roll-offs."""
+    return _punches(Band(hurst=case.hurst, waves=(max(case.roll_offs), case.cells // 4), seed=0), case.forces)
+
+
+def _punches(band: Band, forces: Sequence[float]) -> str:
+    ground = Roughness(rms=band.height, hurst=band.hurst, longest=1 / band.waves[0], shortest=1 / band.waves[1])
+    scenes = [
+        (
+            force,
+            PressedScene(name="punch", shape="punch", size=1.0, load=force * band.height, modulus=1.0, ground=ground),
+        )
+        for force in forces
+    ]
+    return along("Fbar", scenes, "stiffness")
+
+
+def rolling(case: Any) -> str:
+    """The spectrum of the force, height by height: a = d = E* = 1."""
+    edges = case.spectrum.edges
+    scenes = [
+        (
+            height,
+            RollingScene(
+                name="wheel",
+                radius=1.0,
+                load=4 / 3,
+                modulus=1.0,
+                ground=Roughness(rms=height, hurst=case.hurst, longest=TURN / edges[0], shortest=TURN / edges[-1]),
+            ),
+        )
+        for height in case.heights
+    ]
+    return along("h/d", scenes, "force-spectrum")
+
+
+def wheel(case: Any) -> str:
+    """Of the scene of the case."""
+    scene = case.scene
+    if scene.rail is None or scene.wheel is not None:
+        return "boundary elements"
+    return rung_of(RollingScene.of_wheel(scene), "acceleration")
+
+
+def always(rung: str) -> Callable[[Any], str]:
+    """Of a case that has no scene of its own."""
+    return lambda case: rung

@@ -1,0 +1,160 @@
+"""What the limits of time stepping and springs show."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from validation.analysis.evidence import Evidence, Number, Role, Table, claim, table_of
+from validation.cases.stability.roughness import (
+    first_lift,
+    lift_numbers,
+    lift_table,
+    pulls_from,
+    quarter_wave,
+    round_numbers,
+    rounds_table,
+    spacing_numbers,
+    spacing_table,
+)
+from validation.cases.stability.stability import WheelStabilityResult
+from validation.cases.stability.vibration import (
+    hertz_numbers,
+    hertz_table,
+    linear_numbers,
+    linear_table,
+    long_numbers,
+    long_table,
+    orders_table,
+)
+from validation.simulation.free_vibration import LIFT_OFF
+from validation.simulation.integrators import RUNGE_KUTTA, VELOCITY_VERLET
+
+
+def evidence(result: WheelStabilityResult) -> Evidence:
+    """Schemes against what is known of them, energy of long runs, springs too far apart, forces at lift-off."""
+    linear, hertz, long = linear_table(result), hertz_table(result), long_table(result)
+    rounds, spacing, lift = rounds_table(result), spacing_table(result), lift_table(result)
+    of_schemes = [*linear_numbers(linear), *hertz_numbers(result, hertz)]
+    of_long, of_springs = long_numbers(result, long), spacing_numbers(spacing)
+    of_rounds, of_lift = round_numbers(result), lift_numbers(result, lift)
+    return Evidence(
+        title="Where time stepping and springs fail",
+        compared=_compared(result),
+        numbers=(*of_schemes, *of_long, *of_rounds, *of_springs, *of_lift, _refused(result)),
+        tables=(linear, hertz, long, rounds, spacing, lift),
+        conclusions=(
+            _of_schemes(of_schemes, hertz),
+            _of_long_runs(result, of_long, of_rounds),
+            _of_spacing(spacing, of_springs),
+            _of_lift(lift, of_lift),
+        ),
+        captions=_captions(result),
+        unconverged=tuple(f"{p.sweep}, load {p.load:g} N" for p, o in result.lift if o["failed"]),
+        shown=(orders_table(hertz), table_of("refusals", result.refusals)),
+    )
+
+
+def _compared(result: WheelStabilityResult) -> str:
+    case = result.case
+    return (
+        "The wheel of Table 14.1. Free vibration by four schemes with omega_eigen dt from "
+        f"{case.steps[0]:g} to {case.steps[-1]:g}, linear and on a Hertz contact, released at "
+        f"{', '.join(f'{u:g}' for u in case.highest)} d_N, contact being lost above {LIFT_OFF:.3g}; {case.long_steps} "
+        f"steps of a / 100 on a Hertz contact; {case.rounds} rounds of {case.wheels} wheels over rough periodic "
+        "tracks; springs of many spacings on one track; wheels over tracks so rough, or so lightly loaded, that they "
+        "lift off. Loads are changed with the mass kept."
+    )
+
+
+def _refused(result: WheelStabilityResult) -> Number:
+    return Number(
+        label="steps past the limit and waves that the points cannot carry: refused, of all asked for",
+        value=float(np.mean([float(str(row["refused"])) for row in result.refusals])),
+        reference=1.0,
+        source="no motion is better than one that grows without bound, no track better than another one",
+        tolerance=0.0,
+        reason="each of them",
+    )
+
+
+def _criteria(numbers: Sequence[Number]) -> list[Number]:
+    return [number for number in numbers if number.role is Role.CRITERION]
+
+
+def _of_schemes(numbers: Sequence[Number], table: Table) -> str:
+    verlet = table.where(scheme=VELOCITY_VERLET.name)
+    last = verlet["omega dt"].max()
+    worst = verlet.where(**{"omega dt": last})["error of the period"].max()
+    return claim(
+        "Each scheme errs as the eigenvalue of its step says, on both sides of its limit: symplectic Euler and "
+        "velocity Verlet keep the energy of a linear vibration up to omega dt = 2, Runge-Kutta loses "
+        f"(omega dt)^6 / 72 of it a step and holds up to {RUNGE_KUTTA.limit:.3g}, explicit Euler gains at any step. "
+        "On a Hertz contact Verlet finds the period from the energy, lift-off included; with "
+        f"omega dt = {last:g} it errs by at most {worst:.2g}.",
+        _criteria(numbers),
+    )
+
+
+def _of_long_runs(result: WheelStabilityResult, numbers: Sequence[Number], rounds: Sequence[Number]) -> str:
+    drift, growth, euler = numbers[0], rounds[0], rounds[-1]
+    return claim(
+        f"Over {result.case.long_steps} steps at the amplitude and the step of Table 14.1 the energy drifts by "
+        f"{drift.value:.1g} ± {drift.sample:.1g} of itself, no more than rounding explains; over {result.case.rounds} "
+        f"rounds on springs the mean square acceleration changes by a factor {math.exp(growth.value):.4g}, within its "
+        f"scatter. Explicit Euler gains as predicted: the energy of the free vibration on springs "
+        f"grows by a factor {math.exp(euler.value):.3g}.",
+        _criteria([*numbers, *rounds]),
+    )
+
+
+def _of_spacing(table: Table, numbers: Sequence[Number]) -> str:
+    at = quarter_wave(table)
+    quarter = ", ".join(f"{level:.2g}" for level in at["error of the last one-third octave [dB]"])
+    errors = ", ".join(f"{error:.2g}" for error in at["error of force over its fluctuation"])
+    heights = ", ".join(f"{height:g}" for height in at["height [d_N]"])
+    return (
+        f"With springs a quarter of the shortest wave apart the last one-third octave is off by {quarter} dB and the "
+        f"force by {errors} of its fluctuation, for h / d = {heights}. "
+        + claim("Where roughness is low the error of that level is the sum over springs for an integral.", numbers[:1])
+    )
+
+
+def _of_lift(table: Table, numbers: Sequence[Number]) -> str:
+    rows = table.where(sweep="height")
+    seen = first_lift(rows)
+    last = int(np.argmax(rows["height [d_N]"]))
+    lifted = (
+        "no wheel was seen to lift off" if seen is None else f"a wheel was first seen to lift off at h / d = {seen:.2g}"
+    )
+    return claim(
+        f"Wheels that lift off come back, and their mean force is the load but for the momentum they end with: linear "
+        f"theory would pull from h / d = {pulls_from(rows):.2g} on, {lifted}; at "
+        f"h / d = {rows['height [d_N]'][last]:g} "
+        f"it is in the air for {rows['time airborne'][last]:.2g} of the time and its force reaches "
+        f"{rows['highest force [F_N]'][last]:.3g} loads.",
+        _criteria(numbers),
+    )
+
+
+def _captions(result: WheelStabilityResult) -> dict[str, str]:
+    low = result.case.long_highest[0]
+    return {
+        "wheel_stability": (
+            "Free vibration. (a) Error of the period of a linear vibration, each scheme up to its limit; lines: "
+            "theory. (b) Energy: filled, its drift in a turn, none but rounding by the symplectic schemes (at the "
+            "lower edge); open, how far it swings within the first turn; lines: theory. (c) Growth of a step about "
+            "the limits, dotted. (d) Error of the period on a Hertz contact, full lines: velocity Verlet, dashed: "
+            f"Runge-Kutta; numbers: the approach of release over d_N, contact being lost above {LIFT_OFF:.3g}."
+        ),
+        "wheel_stability-rough": (
+            f"(a) Change of the energy over {result.case.long_steps} steps, released at {low:.4g} d_N and above; line: "
+            "linear theory of explicit Euler. (b) Springs coarser and coarser: error of the level in the last "
+            "one-third octave; lines: the sum over springs in linear theory; dotted: a quarter of the shortest wave "
+            "and the last spacing that carries it. (c) Error of the force on the same tracks, without its mean. (d) "
+            "Time airborne and (e) highest force, with roughness changed at one load and load changed at "
+            "one roughness; lines: (14.11). (f) Rounds over rough tracks: energy of the free vibration and mean "
+            f"square acceleration, in tenths, bars: 95 % of {result.case.wheels} wheels; line: linear theory of "
+            "explicit Euler."
+        ),
+    }

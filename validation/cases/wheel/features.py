@@ -1,0 +1,165 @@
+"""What an ensemble of wheels shows: each feature of its mean spectrum with its error, and what theory expects of it."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis import spectral_features as regions
+from validation.analysis.statistics import Estimate, left_out_error
+from validation.engine.engine import Outcome
+from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.roughness import Roughness
+from validation.theory import rolling as rolling_theory
+from validation.theory import wheel as wheel_theory
+
+FloatArray = NDArray[np.float64]
+
+PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
+FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK)
+PREDICTED = " over predicted"
+"""Of floor and break, which the same records predict by their jumps: as ratios they err less."""
+AFTER, BEFORE, HALF = 1.1, 0.9, 0.5
+"""Region 3 from so many times the jump to so many times the end of the roughness; half of it for the oscillation,
+which the roughness at the edge of the contact washes out from the end."""
+BEYOND = (1.3, 2.6)
+"""Where the floor is measured, over the end of the roughness."""
+FEWEST_PERIODS = 3
+APART, CLEAR = 1.5, 3.0
+"""So many times the eigenfrequency the jump must be, or it is part of the peak; and where power laws of the force are
+those of the acceleration."""
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """Mean spectra of an ensemble: omega; plain, hann: (groups, frequencies); jumps: of each wheel; times [s]."""
+
+    scene: WheelScene
+    omega: FloatArray
+    plain: FloatArray
+    hann: FloatArray
+    jumps: FloatArray
+    time_step: float
+    duration: float
+
+    @classmethod
+    def of(cls, scene: WheelScene, outcomes: Sequence[Outcome]) -> "Spectrum":
+        """All batches of one ensemble, of equal size."""
+        one = outcomes[0]
+        plain, hann = (np.concatenate([o[name] for o in outcomes]) for name in ("plain", "hann"))
+        jumps = np.concatenate([o["jump"] for o in outcomes])
+        return cls(scene, one["omega"], plain, hann, jumps, float(one["time step"]), float(one["duration"]))
+
+    @property
+    def linear(self) -> FloatArray:
+        """(14.12) with (14.18), through the resonator, as (14.17) has it; infinite at the resonance."""
+        return linear_spectrum(self.scene, self.omega)
+
+
+def linear_spectrum(scene: WheelScene, omega: FloatArray) -> FloatArray:
+    """A of linear theory in one dimension: C_F of (14.12) over the fixed contact, and the wheel on its spring."""
+    force = rolling_theory.force_spectrum_1d(
+        omega / scene.speed, roughness(scene), contact_radius=scene.contact_radius, modulus=scene.modulus
+    )
+    resonator = wheel_theory.acceleration_over_force(omega, eigenfrequency=scene.eigenfrequency, mass=scene.mass)
+    return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator)
+
+
+def roughness(scene: WheelScene) -> Callable[[FloatArray], FloatArray]:
+    """C_1D of rail and wheel together: independent heights add as spectra."""
+    both = [r.spectrum for r in (scene.rail, scene.wheel) if r]
+    return lambda q: np.asarray(sum((s.c1d(q) for s in both), np.zeros_like(q)))
+
+
+def found(spectrum: Spectrum) -> dict[str, Estimate]:
+    """All features that there are, each with its standard error by leaving out one group of wheels after the other."""
+    groups = len(spectrum.plain)
+    shares = spectrum.jumps.reshape(groups, -1)
+    all_of_them = _features(spectrum, spectrum.plain.mean(axis=0), spectrum.hann.mean(axis=0), spectrum.jumps)
+    without: list[dict[str, float]] = []
+    for i in range(groups):
+        rest = np.arange(groups) != i
+        plain, hann = (s[rest].mean(axis=0) for s in (spectrum.plain, spectrum.hann))
+        without.append(_features(spectrum, plain, hann, shares[rest].ravel()))
+    errors = {name: float(left_out_error([w.get(name, math.nan) for w in without])) for name in all_of_them}
+    return {
+        name: Estimate(value, errors[name], groups)
+        for name, value in all_of_them.items()
+        if math.isfinite(value) and math.isfinite(errors[name])
+    }
+
+
+def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, float]:
+    """What theory has for each: sqrt(2 a E* / M), q_min v_0, -2 H - 3, pi v_0 / a, the jump at the end of records.
+
+    jumps: of some of the wheels, all by default.
+    """
+    scene = spectrum.scene
+    rough = scene.rail or scene.wheel
+    if rough is None:
+        raise ValueError("scene must be rough, got a smooth rail and a smooth wheel")
+    exponent, floor = (
+        -2 * rough.hurst - 3,
+        float(np.mean((spectrum.jumps if jumps is None else jumps) ** 2)) / spectrum.duration,
+    )
+    period = math.pi * scene.speed / scene.contact_radius
+    # sin^2 in the mean: (14.14) through the resonator, far above the resonance
+    power = wheel_theory.over_frequency(
+        rolling_theory.mean_force_spectrum_1d(scene.cutoff / scene.speed, roughness(scene), modulus=scene.modulus),
+        speed=scene.speed,
+    ) / (scene.mass**2 * scene.cutoff**exponent)
+    if scene.rail and scene.wheel and _shape(scene.rail) != _shape(scene.wheel):
+        # no power law: what the same rule finds in linear theory
+        first, last = _third(scene, scene.jump)
+        fine = np.arange(1, math.ceil(1.1 * scene.cutoff / spectrum.omega[0])) * spectrum.omega[0]
+        linear = linear_spectrum(scene, fine)
+        if last - first >= FEWEST_PERIODS * period:
+            exponent = regions.slope(fine, linear, first, last, period)
+            power = np.asarray(regions.power_level(fine, linear, first, last, period, exponent))
+    return {
+        PEAK: scene.eigenfrequency,
+        JUMP: scene.jump,
+        SLOPE: exponent,
+        PERIOD: period,
+        FLOOR: floor,
+        BREAK: regions.crossing(float(power), exponent, floor),
+    }
+
+
+def _third(scene: WheelScene, jump: float) -> tuple[float, float]:
+    """Where region 3 is looked at, clear of its ends and of the resonance."""
+    return max(AFTER * jump, CLEAR * scene.eigenfrequency), BEFORE * scene.cutoff
+
+
+def _shape(rough: Roughness) -> tuple[float, float, float]:
+    return rough.hurst, rough.longest, rough.shortest
+
+
+def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: FloatArray) -> dict[str, float]:
+    """Those of one mean spectrum, as far as the scene has room for them: a jump apart from the peak, enough periods of
+    the oscillation in region 3, frequencies beyond the roughness."""
+    scene, omega = spectrum.scene, spectrum.omega
+    between = math.sqrt(scene.eigenfrequency * scene.jump)
+    apart = scene.jump > APART * scene.eigenfrequency
+    values = {PEAK: regions.peak(omega, hann, between if apart else APART * scene.eigenfrequency)}
+    if apart:
+        values[JUMP] = regions.jump(omega, hann, between, 0.5 * scene.cutoff)
+    expect = expected(spectrum, jumps)
+    first, last = (beyond * scene.cutoff for beyond in BEYOND)
+    last = min(last, BEFORE * float(omega[-1]))
+    if first < BEFORE * last:
+        values[FLOOR] = regions.floor_level(omega, plain, first, last, spectrum.time_step)
+        values[FLOOR + PREDICTED] = values[FLOOR] / expect[FLOOR]
+    first, last = _third(scene, values.get(JUMP, scene.jump))
+    period = expect[PERIOD]
+    if last - first < FEWEST_PERIODS * period:
+        return values
+    values[SLOPE] = regions.slope(omega, hann, first, last, period)
+    values[PERIOD] = regions.oscillation_period(omega, hann, first, HALF * scene.cutoff, FEWEST_PERIODS)
+    power = regions.power_level(omega, hann, first, last, period, expect[SLOPE])
+    if FLOOR in values:
+        values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])
+        values[BREAK + PREDICTED] = values[BREAK] / expect[BREAK]
+    return values

@@ -1,0 +1,1 @@
+"""Independent solves: seeds, workers, stored results."""

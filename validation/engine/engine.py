@@ -1,0 +1,249 @@
+"""Independent solves: their seeds, their workers, their stored results. The one seam for everything done many times."""
+
+import hashlib
+import importlib.metadata
+import importlib.util
+import json
+import logging
+import re
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, field, replace
+from functools import cache
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+import joblib
+import numpy as np
+
+from validation.engine import stored
+from validation.engine.progress import Progress
+
+Outcome = stored.Outcome
+P = TypeVar("P")
+
+NUMERICS = ("mdr", "bem3d", "validation")
+ON_PAPER = "report"
+"""The folder of a package that only draws and writes."""
+LIBRARIES = ("numpy", "scipy", "pyfftw")
+LOCAL = "local"
+PATIENCE = 10
+"""Seconds in which a scheduler and its first worker must answer."""
+KEPT = "finished solves are kept, the same command goes on from there"
+
+
+def generator(entropy: int, *key: int) -> np.random.Generator:
+    """The random numbers of one realisation, independent of all others and of who computes them.
+
+    entropy: seed of the whole run, zero or positive; key: address of the realisation, whole numbers.
+    """
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(entropy, spawn_key=key)))
+
+
+class WorkerLostError(RuntimeError):
+    """A worker died at its work, so that no run can end; what was finished is kept."""
+
+
+@dataclass(frozen=True)
+class Engine:
+    """Runs independent solves on worker processes and keeps what they found.
+
+    workers: processes on this machine; store: folder for finished results, None keeps nothing; progress: on stderr;
+    executor: "local", or "dask://HOST:PORT", a running scheduler whose workers take the place of those here.
+    A stored result is used again only if the solve, its problem, the source of the numerics and their libraries are
+    the same; damaged or foreign files are computed anew. A result is stored as soon as it is there, by the worker that
+    found it, or, where that may be on another machine without a disk in common, as it comes in here: who is
+    interrupted, or killed, loses no finished one.
+    Raises ValueError for any other executor, fewer workers than one, a place in the store that something else has
+    taken, and where the scheduler or its workers do not answer; ConnectionError where the scheduler is lost;
+    WorkerLostError where a worker is killed; OSError, which names the place, where a result cannot be stored.
+    """
+
+    workers: int = 1
+    store: Path | None = None
+    progress: bool = False
+    executor: str = LOCAL
+    asked: list[Callable[..., Outcome]] | None = field(default=None, repr=False, compare=False)
+    """The solves of a timed run, each as often as it was asked for."""
+
+    def __post_init__(self) -> None:
+        if self.executor != LOCAL and not re.fullmatch(r"dask://[^/\s]+:\d+", self.executor):
+            raise ValueError(f'executor must be "local" or dask://HOST:PORT, got {self.executor!r}')
+        if self.workers < 1:
+            raise ValueError(f"workers must be at least 1, got {self.workers}")
+
+    def map(self, solve: Callable[[P], Outcome], problems: Sequence[P]) -> list[Outcome]:
+        """solve(problem) for each problem, in their order, whatever the number of workers.
+
+        solve: a module's own function; where part of it has not converged, its outcome says so by a number "failed";
+        problems: frozen dataclasses of plain values, which their repr identifies.
+        """
+        if self.asked is not None:
+            self.asked.append(solve)
+        keys = [f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_numerics()}" for problem in problems]
+        places = [self._place(solve, key) for key in keys]
+        known = {i: outcome for i, outcome in enumerate(map(_load, places, keys)) if outcome is not None}
+        missing = [i for i in range(len(problems)) if i not in known]
+        failed = sum(map(_failed, known.values()))
+        name = solve.__name__.replace("_", " ")
+        with Progress(name, total=len(problems), stored=len(known), failed=failed, shown=self.progress) as progress:
+            tasks = [_Task(solve, problems[i], i, places[i], keys[i]) for i in missing]
+            # whatever is raised meanwhile ends the workers here and now
+            with closing(self._solved(tasks)) as solved:
+                for i, outcome in solved:
+                    known[i] = outcome
+                    progress.step(_failed(outcome))
+        return [known[i] for i in range(len(problems))]
+
+    @contextmanager
+    def timed(self) -> Iterator["Engine"]:
+        """One solve at a time, so that none is disturbed. What is over is computed anew the next time, by whatever name
+        it was stored; what was interrupted goes on.
+        """
+        alone = replace(self, workers=1, executor=LOCAL, asked=[])
+        yield alone
+        if self.store is not None:
+            stored.forget(self.store, [_named(solve) for solve in alone.asked or ()])
+
+    def _solved(self, tasks: Sequence["_Task[P]"]) -> Generator[tuple[int, Outcome], None, None]:
+        """Each as soon as it is finished."""
+        if not tasks:
+            return
+        if self.executor == LOCAL:
+            calls = [joblib.delayed(_solve_and_save)(task, _numerics()) for task in tasks]
+            try:
+                with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
+                    yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
+            except BrokenExecutor:
+                raise WorkerLostError(
+                    "a worker was killed, perhaps by the system for want of memory, which fewer workers need less of; "
+                    + KEPT
+                ) from None
+            return
+        by_index = {task.index: task for task in tasks}
+        with _client(self.executor) as (client, as_completed):
+            # not by joblib, which computes here what it could give to a single worker
+            futures = [client.submit(_solve, t.solve, t.problem, t.index, _numerics(), pure=False) for t in tasks]
+            for future in as_completed(futures, loop=client.loop):
+                i, outcome = future.result()
+                _save(by_index[i].place, by_index[i].key, outcome)
+                yield i, outcome
+
+    def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
+        if self.store is None:
+            return None
+        return stored.place_of(self.store, *_named(solve), key)
+
+
+SERIAL = Engine()
+
+
+@dataclass(frozen=True)
+class _Task(Generic[P]):
+    """A problem, which of all it is, and where its result belongs."""
+
+    solve: Callable[[P], Outcome]
+    problem: P
+    index: int
+    place: Path | None
+    key: str
+
+
+def _solve_and_save(task: _Task[P], numerics: str) -> tuple[int, Outcome]:
+    i, outcome = _solve(task.solve, task.problem, task.index, numerics)
+    _save(task.place, task.key, outcome)
+    return i, outcome
+
+
+def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome]:
+    """On a worker, perhaps on another machine: only if its numerics are those of who asks."""
+    if _numerics() != numerics:
+        raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
+    try:
+        return i, solve(problem)
+    except Exception as error:
+        error.add_note(f"in {solve.__name__}({problem!r})")
+        raise
+
+
+def _named(solve: Callable[..., Outcome]) -> tuple[str, str]:
+    """Module and name of a solve, as its results are named."""
+    return solve.__module__.rpartition(".")[2], solve.__name__
+
+
+def _failed(outcome: Outcome) -> bool:
+    return bool(outcome.get("failed", np.zeros(1)).any())
+
+
+@contextmanager
+def _client(executor: str) -> Iterator[tuple[Any, Any]]:
+    """A connection to a scheduler that has a worker, and what hands out results as they come."""
+    try:
+        from distributed import Client, KilledWorker, as_completed
+        from distributed.comm.core import CommClosedError
+    except ImportError:
+        raise ValueError(f"executor {executor} needs the extra dask: pip install 'mdr-validation[dask]'") from None
+    address = executor.replace("dask://", "tcp://")
+    try:
+        client = Client(  # type: ignore[no-untyped-call]
+            address, timeout=PATIENCE, set_as_default=False
+        )
+    except (OSError, ValueError) as error:
+        raise ValueError(f"executor must be a running scheduler, got {executor}: {error}") from None
+    logger = logging.getLogger("distributed.client")
+    level = logger.level
+    # what it would log, with tracebacks, is said in a sentence below
+    logger.setLevel(logging.CRITICAL)
+    try:
+        with client:
+            try:
+                client.wait_for_workers(1, timeout=PATIENCE)
+            except TimeoutError:
+                raise ValueError(f"executor must have workers, got {executor} without any") from None
+            yield client, as_completed
+    except (CancelledError, CommClosedError):
+        raise ConnectionError(f"the scheduler at {executor} is gone; {KEPT}") from None
+    except KilledWorker:
+        raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {KEPT}") from None
+    finally:
+        logger.setLevel(level)
+
+
+def _load(path: Path | None, key: str) -> Outcome | None:
+    return stored.load(path, key) if path else None
+
+
+def _save(path: Path | None, key: str, outcome: Outcome) -> None:
+    if path:
+        stored.save(path, key, outcome)
+
+
+@cache
+def _numerics() -> str:
+    """Digest of all source but what only draws and writes, and of the libraries under it."""
+    digest = hashlib.sha256()
+    for package in NUMERICS:
+        for source in sources_of(package):
+            digest.update(source.read_bytes())
+    digest.update(json.dumps({name: importlib.metadata.version(name) for name in LIBRARIES}).encode())
+    return digest.hexdigest()
+
+
+def sources_of(package: str) -> list[Path]:
+    """All files of a package whose code may change a result. Raises RuntimeError where there is none to be found."""
+    found = importlib.util.find_spec(package)
+    folders = [Path(folder) for folder in (found and found.submodule_search_locations) or ()]
+    sources = [
+        source
+        for folder in folders
+        for source in sorted(folder.rglob("*.py"))
+        if ON_PAPER not in source.relative_to(folder).parts
+    ]
+    if not sources:
+        raise RuntimeError(f"the source of {package} is not to be found: stored results could be of any version of it")
+    return sources
+
+
+# taken when the code is: whoever edits it while it runs does not make old results new
+_numerics()

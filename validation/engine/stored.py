@@ -1,0 +1,111 @@
+"""Results of finished solves on disk: what is not exactly as it was written is not there."""
+
+import hashlib
+import io
+import json
+import re
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.engine.files import is_plain, is_there, read_plain, write_whole
+
+Outcome = dict[str, NDArray[np.float64]]
+
+FORMAT = 2
+"""1 had no list of what it held."""
+LABEL = "stored"
+"""The entry of an archive that says what it is the result of, and lists its arrays."""
+SEAL = hashlib.sha256().digest_size
+NAME = re.compile(r"(?P<module>\w+)-(?P<solve>\w+)-[0-9a-f]{24}\.npz")
+
+
+def place_of(folder: Path, module: str, solve: str, key: str) -> Path:
+    """Where a result belongs. key: all that determines it."""
+    return folder / f"{module}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
+
+
+def load(path: Path, key: str) -> Outcome | None:
+    """The result that was stored under this key, or None where there is none that is as it was written.
+
+    Raises ValueError for a place that something else has taken, a link or a folder.
+    """
+    if is_there(path) and not is_plain(path):
+        raise ValueError(f"a stored result must be a plain file, got {path}: move that away")
+    try:
+        return _arrays(_unsealed(path), key)
+    # whoever makes a seal of his own may have put anything behind it
+    except Exception:
+        return None
+
+
+def save(path: Path, key: str, outcome: Outcome) -> None:
+    """Store a result, whole or not at all. Raises OSError, which names the place."""
+    arrays = {name: np.asarray(value) for name, value in outcome.items()}
+    label = json.dumps({"format": FORMAT, "key": key, "arrays": _listed(arrays)}, sort_keys=True)
+    archive = io.BytesIO()
+    np.savez(archive, **{LABEL: np.array(label), **arrays})  # type: ignore[arg-type]  # stubs take a name for a flag
+    contents = archive.getvalue()
+    # behind an archive a seal disturbs no reader of archives
+    write_whole(path, contents + hashlib.sha256(contents).digest())
+
+
+def forget(folder: Path, solves: Sequence[tuple[str, str]]) -> None:
+    """Remove the stored results of these solves, each a module and a name, and nothing that has no seal."""
+    for path in sorted(folder.glob("*.npz")):
+        named = NAME.fullmatch(path.name)
+        if named and (named["module"], named["solve"]) in solves and is_plain(path) and _is_sealed(path):
+            path.unlink()
+
+
+def _is_sealed(path: Path) -> bool:
+    try:
+        _unsealed(path)
+    except (OSError, ValueError, MemoryError):
+        return False
+    return True
+
+
+def _unsealed(path: Path) -> bytes:
+    whole = read_plain(path)
+    archive, seal = whole[:-SEAL], whole[-SEAL:]
+    if hashlib.sha256(archive).digest() != seal:
+        raise ValueError("the seal is broken")
+    return archive
+
+
+def _listed(arrays: Outcome) -> dict[str, list[object]]:
+    return {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
+
+
+def _arrays(archive: bytes, key: str) -> Outcome:
+    """What an archive holds. Raises whatever comes where it is not as `save` writes it."""
+    with zipfile.ZipFile(io.BytesIO(archive)) as entries:
+        # nothing is compressed, so that nothing is larger than the file that it comes from
+        if sum(entry.file_size for entry in entries.infolist()) > len(archive):
+            raise ValueError("the archive holds more than its own length")
+        arrays = {entry.filename.removesuffix(".npy"): _array(entries.read(entry)) for entry in entries.infolist()}
+        count = len(entries.infolist())
+    label = json.loads(str(arrays.pop(LABEL)))
+    if label != {"format": FORMAT, "key": key, "arrays": _listed(arrays)} or count != len(arrays) + 1:
+        raise ValueError("the archive is not what its label says")
+    return arrays
+
+
+def _array(entry: bytes) -> NDArray[np.float64]:
+    """One array, which fills its entry: a header may promise any size."""
+    stream = io.BytesIO(entry)
+    if np.lib.format.read_magic(stream) != (1, 0):
+        raise ValueError("another version of the format of arrays")
+    shape, _, dtype = np.lib.format.read_array_header_1_0(stream)
+    size = dtype.itemsize
+    for length in shape:
+        size *= length
+    if dtype.hasobject or size != len(entry) - stream.tell():
+        raise ValueError("the array is not as long as its header says")
+    stream.seek(0)
+    array: NDArray[np.float64] = np.lib.format.read_array(stream, allow_pickle=False)
+    return array

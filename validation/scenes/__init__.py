@@ -1,0 +1,1 @@
+"""What is given: bodies, roughness, measured heights, scene files."""

@@ -1,0 +1,287 @@
+"""The scene of a wheel that rolls along a rough rail: what it is made of, what follows from that, where it is read."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from scipy.fft import next_fast_len
+
+from mdr.border import count, positive
+from validation.scenes.material import Material, material_of
+from validation.scenes.reader import (
+    FORCE,
+    LENGTH,
+    MASS,
+    SPEED,
+    WHOLE,
+    Reader,
+    named,
+    naming,
+    path_of,
+    shipped,
+    table,
+    tables_of,
+)
+from validation.scenes.roughness import Roughness, check_band, roughness_of
+from validation.scenes.steadiness import doubts_of_short_waves, no_steady_answer
+from validation.scenes.wheel_body import Wheel
+
+KEYS = {
+    "radius": "wheel.radius",
+    "mass": "wheel.mass",
+    "load": "wheel.load",
+    "speed": "wheel.speed",
+    "distance": "simulation.distance",
+}
+"""Where what must be positive stands in a scene file."""
+MOST_POINTS = 10**9
+"""Springs of a track of eight gigabytes."""
+
+FEW_SPRINGS = 4
+"""To a wave: with fewer its curvature is off."""
+FEW_WAVES = 10
+"""To a track: with fewer the longest waves are a handful of lines in a spectrum."""
+HIGH = 1e-4
+"""Heights in metres that no rolling surface has."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WheelScene:
+    """A wheel on a rail, either of them rough or smooth.
+
+    radius: R [m]; mass: M [kg]; load: F [N]; speed: v0 [m/s]; material: what both bodies are made of;
+    rail, wheel: their roughness, None where smooth; distance: to roll at least, before the track begins again [m];
+    springs: to a contact radius.
+    Raises ValueError or TypeError naming the key of a scene file that is out of range.
+    """
+
+    name: str
+    radius: float
+    mass: float
+    load: float
+    speed: float
+    material: Material
+    rail: Roughness | None
+    wheel: Roughness | None
+    distance: float
+    springs: int
+
+    def __post_init__(self) -> None:
+        named("name", self.name)
+        for name, key in KEYS.items():
+            positive(key, getattr(self, name))
+        if not isinstance(self.material, Material):
+            raise TypeError(f"material must be a Material, got {self.material!r}")
+        count("simulation.springs", self.springs, least=1)
+        for key, rough in (("rail.roughness", self.rail), ("wheel.roughness", self.wheel)):
+            if rough is not None:
+                check_band(key, rough)
+        _check_lengths(self)
+
+    @property
+    def modulus(self) -> float:
+        """E* of wheel and rail [Pa]."""
+        return self.material.modulus
+
+    @property
+    def body(self) -> Wheel:
+        """The wheel without its roughness."""
+        return Wheel(radius=self.radius, mass=self.mass, modulus=self.modulus, load=self.load)
+
+    @property
+    def approach(self) -> float:
+        """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth wheel [m]."""
+        return self.body.approach
+
+    @property
+    def contact_radius(self) -> float:
+        """a = sqrt(R d) [m]."""
+        return self.body.contact_radius
+
+    @property
+    def stiffness(self) -> float:
+        """k = 2 E* a [N/m]."""
+        return self.body.stiffness
+
+    @property
+    def eigenfrequency(self) -> float:
+        """omega = sqrt(2 a E* / M) [rad/s]."""
+        return self.body.eigenfrequency
+
+    @property
+    def jump(self) -> float:
+        """omega = q_min v0 of the longest wave, on the rail or the wheel [rad/s]; ValueError if both are smooth."""
+        return min(rough.q_min for rough in self._rough().values()) * self.speed
+
+    @property
+    def cutoff(self) -> float:
+        """omega = q_max v0 of the shortest wave, on the rail or the wheel [rad/s]; ValueError if both are smooth."""
+        return max(rough.q_max for rough in self._rough().values()) * self.speed
+
+    @property
+    def rms(self) -> float:
+        """sqrt(h_rail^2 + h_wheel^2), the height of both together, zero where smooth [m]."""
+        return math.hypot(*(rough.rms for rough in (self.rail, self.wheel) if rough is not None))
+
+    @property
+    def slope_along(self) -> float:
+        """Root mean square slope of both together along the track [-]."""
+        return math.hypot(*(rough.slope_along for rough in (self.rail, self.wheel) if rough is not None))
+
+    @property
+    def spacing(self) -> float:
+        """dx = a / springs [m]."""
+        return self.contact_radius / self.springs
+
+    @property
+    def points(self) -> int:
+        """Springs of the track: those on the distance, and more up to the next length that an FFT is fast at."""
+        return int(next_fast_len(math.ceil(self.distance / self.spacing)))
+
+    @property
+    def length(self) -> float:
+        """points dx, the period of the track [m]."""
+        return self.points * self.spacing
+
+    @property
+    def time_step(self) -> float:
+        """dt = dx / v0 [s]."""
+        return self.spacing / self.speed
+
+    @property
+    def circumference_points(self) -> int:
+        """2 pi R / dx, rounded."""
+        return round(2 * math.pi * self.radius / self.spacing)
+
+    def doubts(self) -> tuple[str, ...]:
+        """What may be wrong about this scene though it is valid, in sentences with numbers."""
+        grounds = [rough for rough in (self.rail, self.wheel) if rough is not None]
+        short = doubts_of_short_waves(self.body, grounds) if grounds else ()
+        return (*_doubts_of_roughness(self), *_doubts_of_motion(self), *short)
+
+    def no_steady_answer(self) -> str:
+        """Why the motion has no level that the distance leaves alone, in a sentence; empty where it has."""
+        if self.rail is None and self.wheel is None:
+            return ""
+        return no_steady_answer(self.body, self.speed, list(self._rough().values()))
+
+    def _rough(self) -> dict[str, Roughness]:
+        """What is rough, by its key."""
+        both = {"rail.roughness": self.rail, "wheel.roughness": self.wheel}
+        rough = {key: each for key, each in both.items() if each is not None}
+        if not rough:
+            raise ValueError(f"scene {self.name!r} must have a rough rail or wheel for this, got both smooth")
+        return rough
+
+
+def shipped_wheels() -> tuple[str, ...]:
+    """Names of the shipped scenes of a dynamic wheel."""
+    return tuple(name for name in shipped() if "mass" in tables_of(path_of(name)).get("wheel", {}))
+
+
+def read_scene(scene: str | Path) -> WheelScene:
+    """The scene of a dynamic wheel in a TOML file, or the shipped one of that name.
+
+    scene: a path; a name without folder and without ".toml" is that of a shipped scene.
+    Raises ValueError naming the first thing that is missing, unknown or out of range, and OSError for files that
+    cannot be read.
+    """
+    path = path_of(scene)
+    tables = tables_of(path)
+    with naming(path):
+        return wheel_of(tables)
+
+
+def wheel_of(tables: dict[str, Any]) -> WheelScene:
+    """The scene in the tables of a file."""
+    found = table(SCENE, ("rail",), "", tables)
+    wheel, rail = found["wheel"], found.get("rail", {})
+    return WheelScene(
+        name=found["name"],
+        wheel=wheel.pop("roughness", None),
+        rail=rail.get("roughness"),
+        **wheel,
+        material=found["material"],
+        **found["simulation"],
+    )
+
+
+WHEEL: dict[str, Reader] = {"radius": LENGTH, "mass": MASS, "load": FORCE, "speed": SPEED, "roughness": roughness_of}
+SCENE: dict[str, Reader] = {
+    "name": named,
+    "wheel": partial(table, WHEEL, ("roughness",)),
+    "material": material_of,
+    "rail": partial(table, {"roughness": roughness_of}, ("roughness",)),
+    "simulation": partial(table, {"distance": LENGTH, "springs": WHOLE}, ()),
+}
+"""How each value of a scene file is read."""
+
+
+def _check_lengths(scene: WheelScene) -> None:
+    """Contact, track and waves beside each other."""
+    a, distance, circumference = scene.contact_radius, scene.distance, 2 * math.pi * scene.radius
+    if a >= scene.radius:
+        raise ValueError(f"wheel.load must leave a contact smaller than the wheel, {scene.radius:g} m, got {a:g} m")
+    if distance <= 2 * a:
+        raise ValueError(f"simulation.distance must be longer than the contact, {2 * a:g} m, got {distance:g} m")
+    most = MOST_POINTS * a / max(distance, circumference)
+    if scene.springs > most:
+        raise ValueError(f"simulation.springs must be at most {most:.0f} on such a track, got {scene.springs}")
+    if scene.rail is not None:
+        _check_waves("rail.roughness", scene.rail, scene, period=scene.length)
+    if scene.wheel is not None:
+        _check_waves("wheel.roughness", scene.wheel, scene, period=scene.circumference_points * scene.spacing)
+
+
+def _check_waves(key: str, rough: Roughness, scene: WheelScene, *, period: float) -> None:
+    """Waves on the springs of a track of that period."""
+    longest, shortest = rough.longest, rough.shortest
+    if scene.distance <= longest:
+        track = f"longer than {key}.longest, {longest:g} m"
+        raise ValueError(f"simulation.distance must be {track}, got {scene.distance:g} m")
+    if shortest < 2 * scene.spacing:
+        raise ValueError(f"{key}.shortest must hold two springs, {2 * scene.spacing:g} m, got {shortest:g} m")
+    if math.floor(period / shortest) < math.ceil(period / longest):
+        raise ValueError(
+            f"{key}.shortest must leave a wave that fits a period of {period:g} m a whole number of times, "
+            f"got waves from {shortest:g} m to {longest:g} m"
+        )
+
+
+def _doubts_of_roughness(scene: WheelScene) -> Iterator[str]:
+    circumference = 2 * math.pi * scene.radius
+    for key, rough in (("rail.roughness", scene.rail), ("wheel.roughness", scene.wheel)):
+        if rough is None:
+            continue
+        springs, waves = rough.shortest / scene.spacing, scene.distance / rough.longest
+        if springs < FEW_SPRINGS:
+            yield f"{key}.shortest holds {springs:.3g} springs, fewer than {FEW_SPRINGS}: its waves are not resolved."
+        if waves < FEW_WAVES:
+            yield (
+                f"simulation.distance holds {waves:.3g} waves of {key}.longest, fewer than {FEW_WAVES}: "
+                "the low end of a spectrum rests on few waves."
+            )
+        if rough.rms > HIGH:
+            yield f"{key}.rms is {rough.rms:.3g} m, more than {HIGH:g} m: is its unit right?"
+    if scene.wheel is not None and scene.wheel.longest > circumference / 2:
+        yield (
+            f"wheel.roughness.longest is {scene.wheel.longest:.3g} m, more than half of the circumference of "
+            f"{circumference:.3g} m: a wheel carries whole waves only."
+        )
+
+
+def _doubts_of_motion(scene: WheelScene) -> Iterator[str]:
+    a, turn = scene.contact_radius, scene.time_step * scene.eigenfrequency
+    if turn > 0.2:
+        yield (
+            f"a time step is {turn:.3g} over the eigenfrequency, more than 0.2, and 2 is unstable: "
+            "roll slower or take more springs."
+        )
+    if a > scene.radius / 10:
+        yield (
+            f"the contact radius is {a / scene.radius:.3g} of wheel.radius, more than a tenth: "
+            "no half-space; are the units of wheel.load and material.youngs_modulus right?"
+        )

@@ -1,0 +1,107 @@
+"""The scene of a body pressed onto a half-space: a sphere or a square punch, smooth or rough."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from mdr.border import positive
+from validation.scenes.material import Material, check_modulus
+from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.reader import named
+from validation.scenes.roughness import Roughness, check_band
+from validation.theory import closed_forms
+
+Shape = Literal["sphere", "punch"]
+Ground = Roughness | MeasuredHeights
+
+
+@dataclass(frozen=True, kw_only=True)
+class PressedScene:
+    """An elastic half-space under a rigid sphere or square punch.
+
+    shape; size: radius of the sphere or side of the punch [m]; load: F [N]; modulus: E* [Pa]; ground: roughness, None
+    where smooth; material: what E* is that of, None where it is given. A measured punch is as large as its heights.
+    Raises ValueError or TypeError naming the key of a scene file that is out of range.
+    """
+
+    name: str
+    shape: Shape
+    size: float
+    load: float
+    modulus: float
+    ground: Ground | None = None
+    material: Material | None = None
+
+    def __post_init__(self) -> None:
+        named("name", self.name)
+        if self.shape not in ("sphere", "punch"):
+            raise ValueError(f'shape must be "sphere" or "punch", got {self.shape!r}')
+        positive("sphere.radius" if self.shape == "sphere" else "punch.side", self.size)
+        positive(f"{self.shape}.load", self.load)
+        positive("modulus", self.modulus)
+        check_modulus(self.modulus, self.material)
+        if isinstance(self.ground, Roughness):
+            self._check_waves(self.ground)
+        elif self.ground is not None:
+            self._check_measured(self.ground)
+
+    @property
+    def approach(self) -> float:
+        """Of Hertz, where the body is a sphere [m]."""
+        return closed_forms.hertz_approach(radius=self.size, modulus=self.modulus, force=self.load)
+
+    @property
+    def contact_radius(self) -> float:
+        """Of Hertz, where the body is a sphere [m]."""
+        return closed_forms.hertz_contact_radius(radius=self.size, approach=self.approach)
+
+    @property
+    def stiffness(self) -> float:
+        """Of the smooth body, 2 E* a or 1.1523 E* L [N/m]."""
+        if self.shape == "sphere":
+            return closed_forms.circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
+        return closed_forms.square_punch_stiffness(side=self.size, modulus=self.modulus)
+
+    @property
+    def reduced_load(self) -> float:
+        """Fbar = F / (E* h L) of a rough punch; infinite where smooth [-]."""
+        return self.load / (self.modulus * self.ground.rms * self.size) if self.ground else math.inf
+
+    @property
+    def roughness_ratio(self) -> float:
+        """h / d of a rough sphere; zero where smooth [-]."""
+        return self.ground.rms / self.approach if self.ground else 0.0
+
+    def doubts(self) -> tuple[str, ...]:
+        """What may be wrong about this scene though it is valid, in sentences with numbers."""
+        found = self.ground.notes() if isinstance(self.ground, MeasuredHeights) else ()
+        if self.shape == "sphere" and self.contact_radius > self.size / 10:
+            return (
+                *found,
+                f"the contact radius is {self.contact_radius / self.size:.3g} of sphere.radius, more than a tenth: no "
+                "half-space; are the units of sphere.load and material.youngs_modulus right?",
+            )
+        return found
+
+    def _check_waves(self, rough: Roughness) -> None:
+        check_band("roughness", rough)
+        if self.shape == "punch" and rough.longest > self.size * (1 + 1e-9):
+            raise ValueError(
+                f"roughness.longest must not exceed the side of the punch, {self.size:g} m, got {rough.longest:g} m"
+            )
+
+    def _check_measured(self, heights: MeasuredHeights) -> None:
+        if not isinstance(heights, MeasuredHeights):
+            raise TypeError(f"ground must be Roughness, MeasuredHeights or None, got {heights!r}")
+        longest, shortest = max(heights.sides), min(heights.sides)
+        if self.shape == "punch" and (longest - shortest > 1e-6 * longest or abs(longest / self.size - 1) > 1e-6):
+            raise ValueError(
+                f"heights must be as large as the punch, punch.side = {self.size:g} m, got {heights.sides} m: "
+                "see heights.spacing"
+            )
+        if self.shape == "sphere" and shortest < 3 * self.contact_radius:
+            raise ValueError(
+                f"heights must be three contact radii wide, {3 * self.contact_radius:.3g} m, got {heights.sides}"
+            )
+        if self.shape == "sphere":
+            check_points(heights, self.contact_radius)

@@ -1,0 +1,103 @@
+"""Whichever scene a file holds: a sphere, a punch, a wheel that rolls, a wheel that rolls with a mass."""
+
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from validation.scenes.dynamic_wheel import wheel_of
+from validation.scenes.height_files import heights_of
+from validation.scenes.indentation import PressedScene
+from validation.scenes.material import Material, material_of
+from validation.scenes.reader import (
+    FORCE,
+    LENGTH,
+    MASS,
+    SPEED,
+    Reader,
+    named,
+    naming,
+    path_of,
+    shipped,
+    table,
+    tables_of,
+)
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import roughness_of
+
+Scene = PressedScene | RollingScene
+
+
+def read_any(scene: str | Path) -> Scene:
+    """The scene in a TOML file, or the shipped one of that name, by the body that it has a table of.
+
+    Raises ValueError naming the first thing that is missing, unknown or out of range, and OSError for files that
+    cannot be read.
+    """
+    path = path_of(scene)
+    tables = tables_of(path)
+    with naming(path):
+        return _scene_of(tables, path.parent)
+
+
+def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
+    bodies = [body for body in ("sphere", "punch", "wheel") if body in tables]
+    if len(bodies) != 1:
+        found = " and ".join(bodies) or "none"
+        raise ValueError(f"a scene must have one table of sphere, punch and wheel, got {found}")
+    body = bodies[0]
+    if body != "wheel":
+        return _pressed(body, tables, folder)
+    wheel, rail = tables["wheel"], tables.get("rail")
+    moving = isinstance(wheel, dict) and "mass" in wheel
+    if moving and not (isinstance(rail, dict) and "heights" in rail):
+        return RollingScene.of_wheel(wheel_of(tables))
+    return _rolling(tables, moving, folder)
+
+
+def comparable() -> tuple[str, ...]:
+    """Names of the shipped scenes that the ladder can be asked of: those of a smooth wheel, and of other bodies."""
+    return tuple(name for name in shipped() if "roughness" not in tables_of(path_of(name)).get("wheel", {}))
+
+
+def _pressed(body: str, tables: dict[str, Any], folder: Path) -> PressedScene:
+    size = "radius" if body == "sphere" else "side"
+    readers: dict[str, Reader] = {
+        "name": named,
+        body: partial(table, {size: LENGTH, "load": FORCE}, ()),
+        "material": material_of,
+        "roughness": roughness_of,
+        "heights": partial(heights_of, folder=folder),
+    }
+    found = table(readers, ("roughness", "heights"), "", tables)
+    return PressedScene(
+        name=found["name"],
+        shape="sphere" if body == "sphere" else "punch",
+        size=found[body][size],
+        load=found[body]["load"],
+        modulus=found["material"].modulus,
+        material=found["material"],
+        ground=_one_ground("a scene", found),
+    )
+
+
+def _rolling(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene:
+    motion: dict[str, Reader] = {"mass": MASS, "speed": SPEED} if moving else {}
+    ground: dict[str, Reader] = {"roughness": roughness_of, "heights": partial(heights_of, folder=folder)}
+    readers: dict[str, Reader] = {
+        "name": named,
+        "wheel": partial(table, {"radius": LENGTH, "load": FORCE, **motion}, ()),
+        "material": material_of,
+        "rail": partial(table, ground, tuple(ground)),
+    }
+    found = table(readers, (), "", tables)
+    rough = _one_ground("rail", found["rail"])
+    if rough is None:
+        raise ValueError("rail must have roughness or heights, got a smooth one")
+    material: Material = found["material"]
+    return RollingScene(name=found["name"], ground=rough, modulus=material.modulus, material=material, **found["wheel"])
+
+
+def _one_ground(name: str, found: dict[str, Any]) -> Any:
+    if "roughness" in found and "heights" in found:
+        raise ValueError(f"{name} must have roughness or heights, got both")
+    return found.get("roughness", found.get("heights"))

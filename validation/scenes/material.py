@@ -1,0 +1,132 @@
+"""Whose modulus it is: the contact modulus E* of two bodies, and how it came about."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from mdr.border import finite, positive
+from validation.scenes.reader import NUMBER, PRESSURE, Reader, table
+from validation.scenes.shown import in_quotes
+from validation.scenes.units import in_unit
+
+OTHERS = ("youngs_modulus", "poisson_ratio", "counterface")
+"""What stands in the place of a contact modulus."""
+WORDS = ("rigid", "same")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Elastic:
+    """An isotropic body; the material that holds it checks it. youngs_modulus: E [Pa]; poisson_ratio: nu."""
+
+    youngs_modulus: float
+    poisson_ratio: float
+
+    @property
+    def against_rigid(self) -> float:
+        """E / (1 - nu^2) [Pa]."""
+        return self.youngs_modulus / (1 - self.poisson_ratio**2)
+
+    def __str__(self) -> str:
+        return f"E = {in_unit(self.youngs_modulus, 'pressure')}, nu = {self.poisson_ratio:.5g}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Material:
+    """What two bodies in contact are made of: 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
+
+    contact_modulus: E* itself [Pa], and nothing else; or else youngs_modulus: E [Pa] and poisson_ratio: nu in [0, 0.5]
+    of one body, and counterface, the other: "rigid", "same" for two equal bodies, or Elastic.
+    Raises ValueError or TypeError naming the key of a scene file that is missing, contradicts another or is out of
+    range.
+    """
+
+    contact_modulus: float | None = None
+    youngs_modulus: float | None = None
+    poisson_ratio: float | None = None
+    counterface: Literal["rigid", "same"] | Elastic | None = None
+
+    def __post_init__(self) -> None:
+        others = [key for key in OTHERS if getattr(self, key) is not None]
+        if self.contact_modulus is not None:
+            if others:
+                raise ValueError(f"material.contact_modulus must stand alone, got {', '.join(others)} beside it")
+            positive("material.contact_modulus", self.contact_modulus)
+            return
+        if not others:
+            raise ValueError(f"material must have contact_modulus, or else {', '.join(OTHERS)}, got none of them")
+        for key in OTHERS[:2]:
+            if key not in others:
+                raise ValueError(f"material.{key} is missing, material must have it")
+        _check("material", self._body)
+        self._check_counterface()
+        positive("material: E* of both bodies", self.modulus)
+
+    @property
+    def modulus(self) -> float:
+        """E* [Pa]."""
+        if self.contact_modulus is not None:
+            return self.contact_modulus
+        body = self._body
+        if isinstance(self.counterface, Elastic):
+            return 1 / (1 / body.against_rigid + 1 / self.counterface.against_rigid)
+        return body.against_rigid if self.counterface == "rigid" else body.against_rigid / 2
+
+    @property
+    def because(self) -> str:
+        """How E* came about, in words."""
+        if self.contact_modulus is not None:
+            return "as it was given"
+        if isinstance(self.counterface, Elastic):
+            return f"a body of {self._body} on one of {self.counterface}"
+        other = "the other body is rigid" if self.counterface == "rigid" else "two equal bodies"
+        return f"{other}, {self._body}"
+
+    @property
+    def _body(self) -> Elastic:
+        assert self.youngs_modulus is not None  # unless E* was given
+        assert self.poisson_ratio is not None
+        return Elastic(youngs_modulus=self.youngs_modulus, poisson_ratio=self.poisson_ratio)
+
+    def _check_counterface(self) -> None:
+        other, alone = self.counterface, self._body.against_rigid
+        if other is None:
+            rigid, same = in_unit(alone, "pressure", digits=6), in_unit(alone / 2, "pressure", digits=6)
+            raise ValueError(
+                "material.counterface is missing: E* depends on the other body, too. Add one of these lines to "
+                "[material]\n"
+                f'    counterface = "rigid"   # the other body is rigid: E* = E / (1 - nu^2) = {rigid}\n'
+                f'    counterface = "same"    # two equal bodies: E* = E / (2 (1 - nu^2)) = {same}\n'
+                "or a table [material.counterface] with youngs_modulus and poisson_ratio of the other body"
+            )
+        if isinstance(other, Elastic):
+            _check("material.counterface", other)
+        elif other not in WORDS:
+            raise ValueError(
+                'material.counterface must be "rigid", "same", or a table with youngs_modulus and poisson_ratio of the '
+                f"other body, got {in_quotes(other)}"
+            )
+
+
+def material_of(name: str, given: object) -> Material:
+    """Of a table in a scene file."""
+    readers: dict[str, Reader] = {"contact_modulus": PRESSURE, **BODY, "counterface": _counterface}
+    return Material(**table(readers, tuple(readers), name, given))
+
+
+def check_modulus(modulus: float, material: Material | None) -> None:
+    """Raises ValueError where a contact modulus [Pa] is not that of its material."""
+    if material is not None and material.modulus != modulus:
+        raise ValueError(f"modulus must be that of the material, {material.modulus:g} Pa, got {modulus:g} Pa")
+
+
+BODY: dict[str, Reader] = {"youngs_modulus": PRESSURE, "poisson_ratio": NUMBER}
+
+
+def _counterface(name: str, given: object) -> object:
+    """A word, which the material knows or not, or the other body."""
+    return Elastic(**table(BODY, (), name, given)) if isinstance(given, dict) else given
+
+
+def _check(key: str, body: Elastic) -> None:
+    positive(f"{key}.youngs_modulus", body.youngs_modulus)
+    if not 0 <= finite(f"{key}.poisson_ratio", body.poisson_ratio) <= 0.5:
+        raise ValueError(f"{key}.poisson_ratio must lie in [0, 0.5], got {body.poisson_ratio}")

@@ -1,0 +1,259 @@
+"""Measured heights: checked, levelled, and asked what Geike's rule takes for granted, isotropy and Gaussian heights."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import interpolate, stats
+
+from mdr.border import positive
+from validation.scenes.shown import shown
+from validation.scenes.units import UNITS, quantity
+
+FloatArray = NDArray[np.float64]
+
+FEWEST = 16
+"""Points along each side, below which there is no spectrum to speak of."""
+RINGS = 5
+"""To an octave of wavenumbers."""
+STEEP = 0.3
+"""Root mean square slope from where on it is warned of."""
+OBLONG, SKEWED, PEAKED, TILTED = 1.5, 0.5, 1.0, 1.0
+"""From where on texture, skewness, excess kurtosis and tilt are warned of."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MeasuredHeights:
+    """Heights of a surface on a regular grid, their mean plane removed.
+
+    height: shape (nx, ny), positive towards the other body [m]; spacing: (dx, dy) [m]; tilt: root mean square of the
+    plane that was removed, over that of what is left [-].
+    Raises ValueError for fewer than 16 points along a side, values that are masked or not finite, or a plane, TypeError
+    for values that are no real numbers.
+    """
+
+    height: FloatArray
+    spacing: tuple[float, float]
+    tilt: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        height = _grid(self.height)
+        for name, side in zip(("spacing[0]", "spacing[1]"), self.spacing, strict=True):
+            positive(name, side)
+        level = _levelled(height)
+        if not level.std() > 1e-9 * np.abs(height).max():
+            raise ValueError("heights must be rough, got a plane")
+        object.__setattr__(self, "height", level)
+        object.__setattr__(self, "tilt", float((height - level).std() / level.std()))
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Lengths of the grid [m]."""
+        (nx, ny), (dx, dy) = self.height.shape, self.spacing
+        return nx * dx, ny * dy
+
+    @property
+    def rms(self) -> float:
+        """Root mean square height [m]."""
+        return float(self.height.std())
+
+    @property
+    def edges(self) -> tuple[float, ...]:
+        """Ends of the rings of wavenumbers in which the spectrum is known [rad/m]."""
+        return self._rings[0]
+
+    @property
+    def q_min(self) -> float:
+        """Of the first ring [rad/m]."""
+        return self.edges[0]
+
+    @property
+    def q_max(self) -> float:
+        """Of the last ring, at the Nyquist wavenumber of the coarser axis [rad/m]."""
+        return self.edges[-1]
+
+    def c2d(self, q: ArrayLike) -> FloatArray:
+        """C_2D as the mean over all directions, constant in each ring, of the mean square of the heights [m^4]."""
+        edges, level = np.array(self.edges), np.array(self._rings[1])
+        ring = np.searchsorted(edges, np.abs(np.asarray(q, dtype=np.float64)), side="right") - 1
+        inside = (ring >= 0) & (ring < level.size)
+        return np.asarray(np.where(inside, level[np.clip(ring, 0, level.size - 1)], 0.0))
+
+    def at(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> FloatArray:
+        """Heights over the grid of x and y, from the middle of the surface, ascending [m]: linear between points."""
+        ends = [(np.arange(n) - (n - 1) / 2) * d for n, d in zip(self.height.shape, self.spacing, strict=True)]
+        inside = [np.clip(places, end[0], end[-1]) for places, end in zip((x, y), ends, strict=True)]
+        return np.asarray(interpolate.RectBivariateSpline(*ends, self.height, kx=1, ky=1)(*inside))
+
+    @cached_property
+    def texture(self) -> float:
+        """sqrt(l1 / l2) of the eigenvalues of <dh/dx_i dh/dx_j>: one where isotropic, large for ridges [-]."""
+        gx, gy = np.gradient(self.height, *self.spacing)
+        tensor = [[np.mean(gx * gx), np.mean(gx * gy)], [np.mean(gx * gy), np.mean(gy * gy)]]
+        small, large = np.linalg.eigvalsh(np.array(tensor))
+        return math.sqrt(large / max(small, 1e-12 * large))
+
+    def notes(self) -> tuple[str, ...]:
+        """All that may be wrong about these heights though they are valid, in sentences."""
+        found = []
+        if self.slope > STEEP:
+            found.append(
+                f"heights are steep, rms slope {self.slope:.2g}: theory is that of small slopes; are the units of "
+                "heights and of their spacing right?"
+            )
+        if self.tilt > TILTED:
+            found.append(
+                f"heights are tilted: the plane that was taken off them is {self.tilt:.2g} times as rough as what is "
+                "left, and a body that may not turn would feel it."
+            )
+        (nx, ny), (dx, dy) = self.height.shape, self.spacing
+        if nx != ny and abs(dx * nx / (dy * ny) * nx / ny - 1) < 1e-6:
+            found.append(
+                f"{nx} x {ny} heights are {dx * nx:.3g} m x {dy * ny:.3g} m large, so that their points are "
+                f"{max(dx / dy, dy / dx):.3g} times as far apart along one side as along the other; with both sides "
+                "exchanged they would be as far: are the sides in the order of the axes?"
+            )
+        return (*found, *self.beyond_a_spectrum())
+
+    def beyond_a_spectrum(self) -> tuple[str, ...]:
+        """What Geike's rule takes for granted and these heights do not have: isotropy, Gaussian heights."""
+        skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
+        found = []
+        if self.texture > OBLONG:
+            found.append(
+                f"heights are anisotropic, slopes along one axis {self.texture:.2g} times those along the other: "
+                "models of an isotropic spectrum do not hold, boundary elements do."
+            )
+        if abs(skewness) > SKEWED or abs(kurtosis) > PEAKED:
+            found.append(
+                f"heights are not Gaussian, skewness {skewness:.2g} and excess kurtosis {kurtosis:.2g}: a spectrum "
+                "does not tell all of them, boundary elements on the heights themselves do."
+            )
+        return tuple(found)
+
+    @property
+    def slope(self) -> float:
+        """Root mean square slope, between neighbouring points [-]."""
+        return math.hypot(*self._slopes)
+
+    @property
+    def slope_along(self) -> float:
+        """The same along the first axis alone [-]."""
+        return self._slopes[0]
+
+    @cached_property
+    def _slopes(self) -> tuple[float, float]:
+        along, across = (np.diff(self.height, axis=i) / d for i, d in enumerate(self.spacing))
+        return math.sqrt(float(np.mean(along**2))), math.sqrt(float(np.mean(across**2)))
+
+    @cached_property
+    def _rings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        return _spectrum(self.height, self.spacing)
+
+
+def check_points(heights: MeasuredHeights, contact_radius: float) -> None:
+    """Raises ValueError where a contact is smaller than the spacing of the points."""
+    if max(heights.spacing) > contact_radius:
+        raise ValueError(
+            f"heights.spacing must be no more than the contact radius, {contact_radius:.3g} m, got "
+            f"{max(heights.spacing):.3g} m"
+        )
+
+
+def measured(surface: Any) -> MeasuredHeights:
+    """Of any object that has heights, a method or an array (nx, ny), and physical_sizes, (Lx, Ly).
+
+    Both in metres, or in the unit that the object names: unit, "um", or an entry of that name in a dict info.
+    Raises TypeError for other objects, ValueError for heights that are masked, as points without data are, or not
+    finite, and for sizes and units that are none.
+    """
+    if not (hasattr(surface, "heights") and hasattr(surface, "physical_sizes")):
+        raise TypeError(f"surface must have heights and physical_sizes, got {type(surface).__name__}")
+    height = _numbers(surface.heights() if callable(surface.heights) else surface.heights)
+    metres, sizes = _metres(surface), surface.physical_sizes
+    if not isinstance(sizes, (Sequence, np.ndarray)) or height.ndim != 2 or len(sizes) != 2:
+        raise ValueError(
+            f"heights must be two-dimensional with two physical_sizes, got shape {height.shape} and {shown(sizes)}"
+        )
+    sides = [positive(f"physical_sizes[{i}]", size) * metres for i, size in enumerate(sizes)]
+    spacing = sides[0] / max(height.shape[0], 1), sides[1] / max(height.shape[1], 1)
+    return MeasuredHeights(height=height * metres, spacing=spacing)
+
+
+def _metres(surface: Any) -> float:
+    """The unit of a surface, one metre where it names none."""
+    info = getattr(surface, "info", None)
+    unit = getattr(surface, "unit", None) or (info.get("unit") if isinstance(info, Mapping) else None)
+    if unit is None:
+        return 1.0
+    try:
+        return quantity("unit", f"1 {unit}", "length")
+    except ValueError:
+        raise ValueError(
+            f"unit of the surface must be one of {', '.join(UNITS['length'])}, got {shown(unit)}"
+        ) from None
+
+
+def _numbers(height: ArrayLike) -> FloatArray:
+    """Real numbers without a mask."""
+    if isinstance(height, np.ma.MaskedArray) and np.ma.is_masked(height):
+        raise ValueError(_undefined("masked", np.ma.getmaskarray(height)))
+    try:
+        values = np.asarray(height)
+    except ValueError:
+        raise ValueError("heights must be a regular array of numbers, got rows of different length") from None
+    if values.dtype.kind not in "fiu":
+        raise TypeError(f"heights must be real numbers, got dtype {values.dtype}")
+    return values.astype(np.float64)
+
+
+def _undefined(what: str, places: NDArray[np.bool_]) -> str:
+    count, first = int(places.sum()), np.argwhere(places)[0].tolist()
+    return (
+        f"heights must be known everywhere, got {count} of {places.size} ({100 * count / places.size:.3g} %) {what}, "
+        f"the first at {first}: cut out a part that is known, or fill them in from their neighbours"
+    )
+
+
+def _grid(height: ArrayLike) -> FloatArray:
+    values = _numbers(height)
+    if values.ndim != 2 or min(values.shape) < FEWEST:
+        raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
+    if not np.isfinite(values).all():
+        raise ValueError(_undefined("not finite", ~np.isfinite(values)))
+    return values
+
+
+def _levelled(height: FloatArray) -> FloatArray:
+    """Less the plane of least squares; rows and columns are orthogonal about their middle."""
+    x, y = (np.arange(n) - (n - 1) / 2 for n in height.shape)
+    slope_x = (height.mean(axis=1) @ x) / (x @ x)
+    slope_y = (height.mean(axis=0) @ y) / (y @ y)
+    return np.asarray(height - height.mean() - slope_x * x[:, np.newaxis] - slope_y * y)
+
+
+def _spectrum(height: FloatArray, spacing: tuple[float, float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Edges of rings and C_2D in each: |H|^2 behind Hann's window, scaled to the mean square of the heights."""
+    (nx, ny), (dx, dy) = height.shape, spacing
+    hann_x, hann_y = (np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2 for n in (nx, ny))
+    power = np.abs(np.fft.fft2(hann_x[:, np.newaxis] * hann_y * height)) ** 2
+    q = np.hypot(2 * np.pi * np.fft.fftfreq(nx, dx)[:, np.newaxis], 2 * np.pi * np.fft.fftfreq(ny, dy))
+    first, last = 2 * math.pi / max(nx * dx, ny * dy), math.pi / max(dx, dy)
+    rings = max(math.floor(RINGS * math.log2(last / first)), 1)
+    edges = first * (last / first) ** (np.arange(rings + 1) / rings)
+    # narrow rings around the longest waves may hold none: they go to the next
+    counts = np.histogram(q, edges)[0]
+    edges = np.concatenate([[edges[0]], edges[1:][np.cumsum(counts > 0) > 0]])
+    counts, sums = np.histogram(q, edges)[0], np.histogram(q, edges, weights=power)[0]
+    keep = counts > 0
+    level = np.where(keep, sums / np.maximum(counts, 1), 0.0)
+    # an empty ring between others has the level of the one before
+    for i in np.flatnonzero(~keep):
+        level[i] = level[i - 1] if i else 0.0
+    whole = np.pi * float(np.sum(level * np.diff(edges**2)))
+    level *= height.var() / whole
+    return tuple(edges.tolist()), tuple(level.tolist())

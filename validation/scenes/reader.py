@@ -1,0 +1,111 @@
+"""Scene files: TOML tables, each value by its own reader, everything else refused by name."""
+
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from mdr.border import count, finite
+from validation.scenes.input_files import contents_of
+from validation.scenes.shown import is_printable, printable, shown
+from validation.scenes.units import quantity
+
+Reader = Callable[[str, object], Any]
+
+SCENES = Path(__file__).parent
+MOST_BYTES, LONGEST_LINE = 100_000, 1000
+"""Of a scene file. Keys of thousands of parts, all on one line, would take minutes to be told apart."""
+
+
+def shipped() -> tuple[str, ...]:
+    """Names of the scenes that come with this package."""
+    return tuple(sorted(path.stem for path in SCENES.glob("*.toml")))
+
+
+def path_of(scene: str | Path) -> Path:
+    """The file of a scene: a path, or, without folder and without ".toml", the name of a shipped one.
+
+    Raises ValueError for a name that none has.
+    """
+    name = str(scene)
+    if name.endswith(".toml") or Path(name).name != name:
+        return Path(name)
+    if name not in shipped():
+        name = printable(name)
+        raise ValueError(f'scene must be a file, as "./{name}.toml", or one of {", ".join(shipped())}, got "{name}"')
+    return SCENES / f"{name}.toml"
+
+
+def tables_of(path: Path) -> dict[str, Any]:
+    """What a scene file holds.
+
+    Raises OSError for files that cannot be read, ValueError where they are not TOML, too large or no regular files.
+    """
+    contents = contents_of("scene", path, most=MOST_BYTES)
+    longest = max(map(len, contents.splitlines()), default=0)
+    if longest > LONGEST_LINE:
+        raise ValueError(f"scene {printable(path)} must have lines of at most {LONGEST_LINE} bytes, got {longest}")
+    try:
+        # with or without the mark that some editors put in front
+        return tomllib.loads(contents.decode("utf-8-sig"))
+    except (ValueError, RecursionError) as problem:
+        got = "values nested too deep" if isinstance(problem, RecursionError) else printable(problem)
+        raise ValueError(f"scene {printable(path)} must be valid TOML, got: {got}") from None
+
+
+class SceneError(ValueError):
+    """What is wrong with a scene file, and where it can be shown, the lines that would be right."""
+
+
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """What is refused of a scene is refused with the name of its file."""
+    try:
+        yield
+    except ValueError as problem:
+        raise SceneError(f"scene {printable(path)}: {problem}") from None
+
+
+def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
+    """Each value of a table by its own reader; no key unknown, none missing but what is optional."""
+    if not isinstance(given, dict):
+        raise ValueError(f"{name} must be a table, got {shown(given)}")
+    full = {key: f"{name}.{key}" if name else key for key in (*given, *readers)}
+    for key in given:
+        if key not in readers:
+            unknown = printable(full[key])
+            raise ValueError(f"{unknown} is unknown, {name or 'a scene'} must be made of {', '.join(readers)}")
+    for key in readers:
+        if key not in given and key not in optional:
+            raise ValueError(f"{full[key]} is missing, {name or 'a scene'} must have it")
+    return {key: read(full[key], given[key]) for key, read in readers.items() if key in given}
+
+
+def plain(read: Reader, name: str, given: object) -> Any:
+    """A value without unit. In a file a wrong type is a wrong value, too."""
+    if isinstance(given, (dict, list)):
+        raise ValueError(f"{name} must be a number, got {shown(given)}")
+    try:
+        return read(name, given)
+    except TypeError as problem:
+        raise ValueError(str(problem)) from None
+    except OverflowError:
+        raise ValueError(f"{name} must be finite, got a number of {len(str(given))} digits") from None
+
+
+def named(name: str, given: object) -> str:
+    """A text on one line that is not blank and can be printed."""
+    if not isinstance(given, str) or not given.strip():
+        raise ValueError(f"{name} must be a text that is not blank, got {shown(given)}")
+    if not is_printable(given):
+        raise ValueError(f"{name} must be one line without control characters, got {shown(given)}")
+    return given
+
+
+LENGTH, MASS, FORCE, PRESSURE, SPEED = (
+    partial(quantity, dimension=dimension, positive=True)
+    for dimension in ("length", "mass", "force", "pressure", "speed")
+)
+NUMBER, WHOLE = partial(plain, finite), partial(plain, partial(count, least=1))

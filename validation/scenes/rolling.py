@@ -1,0 +1,115 @@
+"""The scene of a wheel that rolls over rough ground: quasi-statically, or with a mass."""
+
+import math
+from dataclasses import dataclass
+
+from mdr.border import positive
+from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.material import Material, check_modulus
+from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.reader import named
+from validation.scenes.roughness import Roughness, check_band
+from validation.scenes.steadiness import doubts_of_short_waves, no_steady_answer
+from validation.scenes.wheel_body import Wheel
+
+Ground = Roughness | MeasuredHeights
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollingScene:
+    """A smooth wheel on rough ground, at the approach at which its smooth contact bears the load.
+
+    radius: R [m]; load: F_N [N]; modulus: E* [Pa]; ground: isotropic roughness, or
+    heights, rolled over along their first axis; mass: M [kg]; speed: v0 [m/s], both or neither: without them the wheel
+    keeps its approach; material: what E* is that of, None where it is given.
+    Raises ValueError or TypeError naming the key of a scene file that is out of range.
+    """
+
+    name: str
+    radius: float
+    load: float
+    modulus: float
+    ground: Ground
+    mass: float | None = None
+    speed: float | None = None
+    material: Material | None = None
+
+    def __post_init__(self) -> None:
+        named("name", self.name)
+        for key in ("radius", "load"):
+            positive(f"wheel.{key}", getattr(self, key))
+        positive("modulus", self.modulus)
+        check_modulus(self.modulus, self.material)
+        if (self.mass is None) != (self.speed is None):
+            raise ValueError(f"wheel.mass and wheel.speed must both be given or neither, got {self.mass}, {self.speed}")
+        for key in ("mass", "speed"):
+            if getattr(self, key) is not None:
+                positive(f"wheel.{key}", getattr(self, key))
+        if isinstance(self.ground, MeasuredHeights):
+            self._check_measured(self.ground)
+        else:
+            check_band("rail.roughness", self.ground)
+
+    @classmethod
+    def of_wheel(cls, scene: WheelScene) -> "RollingScene":
+        """Of a dynamic wheel whose rail alone is rough. Raises ValueError for another."""
+        if scene.rail is None or scene.wheel is not None:
+            raise ValueError(f"scene {scene.name!r} must have a rough rail and a smooth wheel to be compared")
+        return cls(
+            name=scene.name,
+            radius=scene.radius,
+            load=scene.load,
+            modulus=scene.modulus,
+            ground=scene.rail,
+            mass=scene.mass,
+            speed=scene.speed,
+            material=scene.material,
+        )
+
+    @property
+    def body(self) -> Wheel:
+        """The wheel; of unit mass where it has none."""
+        return Wheel(radius=self.radius, mass=self.mass or 1.0, modulus=self.modulus, load=self.load)
+
+    @property
+    def approach(self) -> float:
+        """d_N of Hertz [m]."""
+        return self.body.approach
+
+    @property
+    def contact_radius(self) -> float:
+        """a = sqrt(R d_N) [m]."""
+        return self.body.contact_radius
+
+    @property
+    def roughness_ratio(self) -> float:
+        """h / d [-]."""
+        return self.ground.rms / self.approach
+
+    def doubts(self) -> tuple[str, ...]:
+        """What may be wrong about this scene though it is valid, in sentences with numbers."""
+        found = list(self.ground.notes()) if isinstance(self.ground, MeasuredHeights) else []
+        if self.roughness_ratio > 1 / 3:
+            found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
+        if self.mass is not None:
+            found += doubts_of_short_waves(self.body, [self.ground])
+        if self.contact_radius > self.radius / 10:
+            found.append(
+                f"the contact radius is {self.contact_radius / self.radius:.3g} of wheel.radius, more than a tenth: no "
+                "half-space; are the units of wheel.load and material.youngs_modulus right?"
+            )
+        return tuple(found)
+
+    def no_steady_answer(self) -> str:
+        """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""
+        return "" if self.speed is None else no_steady_answer(self.body, self.speed, [self.ground])
+
+    def _check_measured(self, heights: MeasuredHeights) -> None:
+        along, across = heights.sides
+        a = self.contact_radius
+        if along < 4 * math.pi * a or across < 3 * a:
+            raise ValueError(
+                f"rail.heights must be {4 * math.pi * a:.3g} m long and {3 * a:.3g} m wide for this contact, got "
+                f"{along:.3g} m and {across:.3g} m"
+            )
+        check_points(heights, a)

@@ -1,0 +1,120 @@
+"""Whether the motion of a wheel over rough ground has a level at all, or one that depends on how far it has rolled.
+
+Nothing damps the wheel. Where roughness excites its resonance, or throws it off the track, the level grows with the
+distance, and a number for it would be one of the distance.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.roughness import Roughness
+from validation.scenes.wheel_body import Wheel
+from validation.theory.rolling import force_spectrum_1d
+
+FloatArray = NDArray[np.float64]
+Ground = Roughness | MeasuredHeights
+
+MOST_FORCE = 0.25
+"""Root mean square of the force by linear theory, over the load, from where on wheels leave the track."""
+MOST_HEIGHT = 1 / 3
+"""h / d from where on they do, or their level grows along the track."""
+SHORT, FEEDING = 2.0, 0.1
+"""q a of the longest wave, and h / d, from where on short waves feed the free vibration."""
+NODES, RATIO = 16, 1.4
+"""Of Gauss and Legendre on a panel; of the ends of a panel, from the resonance, at the most."""
+
+
+def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> str:
+    """Why the level of the motion depends on the distance, in a sentence; empty where it does not.
+
+    Of three conditions the first that holds:
+    q_min v_0 <= omega_eigen <= q_max v_0; h / d > 1/3; sigma > F_N / 4 of `force_on_the_way`.
+
+    speed: v_0 [m/s]; grounds: what is rough, rail and wheel.
+
+    Measured on 12 wheels on springs, Table 14.1 but for what is said, over 2 m: growth is that of the root mean square
+    acceleration from the first quarter of the way to the last, flight the share of time in the air in the last.
+    - q_min v_0 / omega_eigen = 0.5, 0.8, 0.95, h/d = 0.003, 4 m: growth 2.8, 2.4, 2.6, and flight at h/d = 0.03;
+      q_min v_0 / omega_eigen = 1.05, 1.2, 1.5, 3, h/d = 0.003 and 0.03: growth below 1.06, no flight.
+    - 10 to 0.5 mm, h/d = 0.3, 0.45, 0.6, 1, sigma / F_N = 0.22, 0.33, 0.44, 0.73: growth 1.1, 1.3, 1.5, 1.6, flight 0,
+      0.1, 2, 19 %.
+    - 10 to 1 mm, 5 m/s, h/d = 0.2, 0.3, 0.4, sigma / F_N = 0.17, 0.25, 0.34: flight 0, 1, 23 %.
+    - 30 to 3 mm, h/d = 0.1, 0.2, 0.3, sigma / F_N = 0.14, 0.27, 0.41: flight 0, 0, 0.6 %.
+    - 4 to 1 mm, shorter than the contact, so that the force hardly changes, h/d = 0.2, 0.3, 0.4, 0.5, 1: growth 1.2,
+      1.6, 2.3, 2.6, 2, flight 0, 0, 0, 0.01, 7 %.
+    Below the limits such short waves still feed the free vibration, which is told by `doubts_of_short_waves`. In three
+    dimensions waves oblique to the track excite the resonance from below q_min v_0, too.
+    """
+    slow, fast = min(g.q_min for g in grounds) * speed, max(g.q_max for g in grounds) * speed
+    omega = wheel.eigenfrequency
+    if slow <= omega <= fast:
+        return (
+            f"nothing damps the wheel, and its resonance, {omega:.4g} rad/s, lies among the waves that excite it, "
+            f"{slow:.4g} to {fast:.4g} rad/s: the level grows with the distance"
+        )
+    height = math.hypot(*(ground.rms for ground in grounds))
+    if height > MOST_HEIGHT * wheel.approach:
+        return (
+            f"the roughness is {height / wheel.approach:.3g} of the approach of {wheel.approach:.3g} m, more than a "
+            "third: the wheel leaves the track, and the level depends on the distance"
+        )
+    force = force_on_the_way(wheel, speed, grounds)
+    if force > MOST_FORCE * wheel.load:
+        return (
+            f"by linear theory the force changes by {force / wheel.load:.3g} of the load, root mean square, more than "
+            f"{MOST_FORCE:g}: the wheel leaves the track, and the level depends on the distance"
+        )
+    return ""
+
+
+def doubts_of_short_waves(wheel: Wheel, grounds: Sequence[Ground]) -> tuple[str, ...]:
+    """Whether waves shorter than the contact, too high for linear theory, feed the free vibration from beat to beat.
+
+    Measured as in `no_steady_answer`: the acceleration grows, for waves of 2 to 0.5 mm, h/d = 0.1, 0.2, 0.3, by 1.2,
+    1.7, 2.3; of 1 to 0.25 mm by 1.6, 2.5, 2.8; of 10 to 0.5 mm by 1.04, 1.07, 1.09.
+    """
+    height, longest = math.hypot(*(g.rms for g in grounds)), min(g.q_min for g in grounds) * wheel.contact_radius
+    if longest < SHORT or height < FEEDING * wheel.approach:
+        return ()
+    ratio = height / wheel.approach
+    return (
+        f"the longest wave is short beside the contact, q a = {longest:.3g}, and the roughness {ratio:.3g} of the "
+        "approach: it feeds the free vibration, whose level at the resonance grows with the distance.",
+    )
+
+
+def force_on_the_way(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> float:
+    """Root mean square change of the force on a wheel that moves, by linear theory [N].
+
+    sigma^2 = 2 int C_F(q) / (1 - (omega_eigen / (q v_0))^2)^2 dq, C_F of (14.12) with Geike's spectrum.
+    Infinite where the resonance is among the waves.
+    """
+    return math.hypot(*(_of_one(wheel, wheel.eigenfrequency / speed, ground) for ground in grounds))
+
+
+def _of_one(wheel: Wheel, resonance: float, ground: Ground) -> float:
+    if ground.q_min <= resonance <= ground.q_max:
+        return math.inf
+    q, weight = _nodes(resonance, ground, math.pi / wheel.contact_radius)
+    force = force_spectrum_1d(
+        q, lambda s: np.pi * s * ground.c2d(s), contact_radius=wheel.contact_radius, modulus=wheel.modulus
+    )
+    return math.sqrt(2 * float(np.sum(weight * force / (1 - (resonance / q) ** 2) ** 2)))
+
+
+def _nodes(resonance: float, ground: Ground, period: float) -> tuple[FloatArray, FloatArray]:
+    """Of a quadrature on panels that shrink towards the resonance, none longer than a period of sin^2."""
+    low, high = sorted(abs(q - resonance) for q in (ground.q_min, ground.q_max))
+    powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(RATIO)))
+    waves = np.linspace(low, high, 2 + math.floor((high - low) / period))
+    inner = [abs(q - resonance) for q in ground.edges]
+    ends = np.union1d(np.union1d(powers, waves), np.clip(inner, low, high))
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    half = np.diff(ends)[:, np.newaxis] / 2
+    away = (ends[:-1, np.newaxis] + half * (1 + node)).ravel()
+    sign = 1 if resonance < ground.q_min else -1
+    return resonance + sign * away, (half * weight).ravel()

@@ -1,0 +1,116 @@
+"""What was understood of a scene, and what may be wrong about it: said first, on terminal and page."""
+
+import math
+
+from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.indentation import PressedScene
+from validation.scenes.material import Material
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.scenes.units import in_unit
+
+AnyScene = PressedScene | RollingScene | WheelScene
+Pairs = tuple[tuple[str, str], ...]
+
+
+def understood(scene: AnyScene) -> Pairs:
+    """What a scene is, in pairs of a name and a value with its unit: E* and its origin, body, contact, roughness."""
+    material = scene.material or Material(contact_modulus=scene.modulus)
+    modulus = ("contact modulus E*", f"{in_unit(scene.modulus, 'pressure', digits=6)}: {material.because}")
+    if isinstance(scene, WheelScene):
+        return modulus, *_of_wheel(scene), *_of_motion(scene), *_of_roughness_of_wheel(scene)
+    if isinstance(scene, RollingScene):
+        return modulus, *_of_wheel(scene), *_of_motion(scene), *_of_ground(scene, scene.ground)
+    if scene.shape == "sphere":
+        return modulus, *_of_sphere(scene), *_of_ground(scene, scene.ground)
+    return modulus, *_of_punch(scene)
+
+
+def said_first(scene: AnyScene, *, moving: bool = True) -> list[str]:
+    """Lines for a terminal: why there is no steady answer, other doubts, what was understood.
+
+    moving: whether the motion of a wheel is asked for.
+    """
+    reason = scene.no_steady_answer() if moving and not isinstance(scene, PressedScene) else ""
+    lines = [f"no steady answer: {reason}"] if reason else []
+    lines += [f"note: {doubt}" for doubt in scene.doubts()]
+    pairs = understood(scene)
+    width = max(len(name) for name, _ in pairs)
+    return [*lines, *(f"  {name:{width}s}  {value}" for name, value in pairs)]
+
+
+def _of_sphere(scene: PressedScene) -> Pairs:
+    return (
+        ("sphere", f"radius {in_unit(scene.size, 'length')}, load {in_unit(scene.load, 'force')}"),
+        *_of_contact(scene),
+    )
+
+
+def _of_wheel(scene: RollingScene | WheelScene) -> Pairs:
+    return (
+        ("wheel", f"radius {in_unit(scene.radius, 'length')}, load {in_unit(scene.load, 'force')}"),
+        *_of_contact(scene),
+    )
+
+
+def _of_contact(scene: AnyScene) -> Pairs:
+    return (
+        ("contact radius a", f"{in_unit(scene.contact_radius, 'length')}, of the smooth body"),
+        ("approach d", f"{in_unit(scene.approach, 'length')}, of the smooth body"),
+    )
+
+
+def _of_motion(scene: RollingScene | WheelScene) -> Pairs:
+    if scene.mass is None or scene.speed is None:
+        return (("motion", "none, the wheel keeps its approach"),)
+    body = f"mass {in_unit(scene.mass, 'mass')}, speed {in_unit(scene.speed, 'speed')}"
+    return (("motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, undamped"),)
+
+
+def _of_ground(scene: PressedScene | RollingScene, ground: Roughness | MeasuredHeights | None) -> Pairs:
+    if ground is None:
+        return (("roughness", "none"),)
+    return (_height(ground.rms, scene.approach), _slope(ground.slope_along, scene), ("waves", _waves(ground, scene)))
+
+
+def _of_roughness_of_wheel(scene: WheelScene) -> Pairs:
+    rough = [(name, r) for name, r in (("rail", scene.rail), ("wheel", scene.wheel)) if r]
+    if not rough:
+        return (("roughness", "none"),)
+    waves = ((f"waves of the {name}", _waves(ground, scene)) for name, ground in rough)
+    return (_height(scene.rms, scene.approach), _slope(scene.slope_along, scene), *waves)
+
+
+def _of_punch(scene: PressedScene) -> Pairs:
+    body = ("punch", f"side L = {in_unit(scene.size, 'length')}, load {in_unit(scene.load, 'force')}")
+    ground = scene.ground
+    if ground is None:
+        return body, ("roughness", "none")
+    # a measured face is as long as its first wave
+    longest = f"longest waves on a side: {scene.size * ground.q_min / (2 * math.pi):.3g}"
+    return (
+        body,
+        ("rms height h", f"{in_unit(ground.rms, 'length')}, F / (E* h L) = {scene.reduced_load:.3g}"),
+        ("rms slope h'", f"{ground.slope_along:.3g}, in one direction"),
+        ("waves", f"{_waves(ground, scene)}; {longest}"),
+    )
+
+
+def _height(rms: float, approach: float) -> tuple[str, str]:
+    return "rms height h", f"{in_unit(rms, 'length')}, h/d = {rms / approach:.3g}"
+
+
+def _slope(slope: float, scene: AnyScene) -> tuple[str, str]:
+    lost = slope * scene.contact_radius / scene.approach
+    return "rms slope h'", f"{slope:.3g}, in one direction, h' a/d = {lost:.3g}"
+
+
+def _waves(ground: Roughness | MeasuredHeights, scene: AnyScene) -> str:
+    if isinstance(ground, MeasuredHeights):
+        sides = " x ".join(in_unit(side, "length") for side in ground.sides)
+        return f"measured, {ground.height.shape[0]} x {ground.height.shape[1]} points on {sides}"
+    found = f"{in_unit(ground.longest, 'length')} to {in_unit(ground.shortest, 'length')}, Hurst exponent "
+    found += f"{ground.hurst:.3g}"
+    speed = None if isinstance(scene, PressedScene) else scene.speed
+    return found if speed is None else f"{found}, {ground.q_min * speed:.4g} to {ground.q_max * speed:.4g} rad/s"

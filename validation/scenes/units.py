@@ -1,0 +1,83 @@
+"""Quantities with units, as they stand in scene files: "0.5 m", "210 GPa", "72 km/h"."""
+
+import math
+from decimal import Context, Decimal, InvalidOperation
+from fractions import Fraction
+from typing import Literal
+
+from validation.scenes.shown import in_quotes
+
+Dimension = Literal["length", "mass", "force", "pressure", "speed"]
+
+UNITS: dict[Dimension, dict[str, Fraction]] = {
+    "length": {
+        "m": Fraction(1),
+        "mm": Fraction(1, 10**3),
+        "um": Fraction(1, 10**6),
+        "µm": Fraction(1, 10**6),
+        "nm": Fraction(1, 10**9),
+        "km": Fraction(10**3),
+    },
+    "mass": {"kg": Fraction(1), "g": Fraction(1, 10**3), "t": Fraction(10**3)},
+    "force": {"N": Fraction(1), "kN": Fraction(10**3), "MN": Fraction(10**6), "mN": Fraction(1, 10**3)},
+    "pressure": {"Pa": Fraction(1), "kPa": Fraction(10**3), "MPa": Fraction(10**6), "GPa": Fraction(10**9)},
+    "speed": {"m/s": Fraction(1), "mm/s": Fraction(1, 10**3), "km/h": Fraction(10, 36)},
+}
+"""Each unit over the SI unit of its dimension."""
+EXAMPLES: dict[Dimension, str] = {
+    "length": "0.5 m",
+    "mass": "500 kg",
+    "force": "4905 N",
+    "pressure": "210 GPa",
+    "speed": "20 m/s",
+}
+SAID: dict[Dimension, tuple[str, ...]] = {
+    "length": ("nm", "µm", "mm", "m"),
+    "mass": ("g", "kg", "t"),
+    "force": ("mN", "N", "kN", "MN"),
+    "pressure": ("Pa", "kPa", "MPa", "GPa"),
+    "speed": ("mm/s", "m/s"),
+}
+"""Units in which a quantity is said, the smallest first."""
+# decimal, so that "0.5 um" is the float nearest to 5e-7; nothing trapped, since what is not finite is refused anyway
+DECIMAL = Context(prec=60, traps=[InvalidOperation])
+
+
+def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = False) -> float:
+    """The float nearest to a quantity of the given dimension, in SI units.
+
+    text: a decimal number and a unit, with a space between them; positive: whether it must be above zero.
+    Raises ValueError naming the quantity that is of another form or dimension, not finite, or not positive.
+    """
+    found = _read(text, dimension)
+    if found is None:
+        accepted = f'a {dimension}, as "{EXAMPLES[dimension]}", in one of {", ".join(UNITS[dimension])}'
+        raise ValueError(f"{name} must be {accepted}, got {in_quotes(text)}")
+    if not math.isfinite(found):
+        raise ValueError(f"{name} must be finite, got {in_quotes(text)}")
+    if positive and found <= 0:
+        raise ValueError(f"{name} must be positive, got {in_quotes(text)}")
+    return found
+
+
+def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
+    """A quantity in SI units with so many digits, in the largest unit that leaves one or more before the point."""
+    units = [unit for unit in SAID[dimension] if abs(value) * (1 + 1e-9) >= UNITS[dimension][unit]]
+    unit = units[-1] if units else SAID[dimension][0]
+    return f"{float(value) / UNITS[dimension][unit]:.{digits}g} {unit}"
+
+
+def _read(text: object, dimension: Dimension) -> float | None:
+    """The quantity, or None if the text is of another form or dimension."""
+    words = text.split() if isinstance(text, str) else []
+    # the micro sign and the Greek letter look the same
+    unit = UNITS[dimension].get(words[1].replace("\N{GREEK SMALL LETTER MU}", "µ")) if len(words) == 2 else None
+    if unit is None:
+        return None
+    try:
+        number = DECIMAL.create_decimal(words[0])
+    except InvalidOperation:
+        return None
+    if not number.is_finite():
+        return math.nan
+    return float(DECIMAL.divide(DECIMAL.multiply(number, Decimal(unit.numerator)), Decimal(unit.denominator)))

@@ -1,0 +1,47 @@
+"""A wheel by itself: its contact, its stiffness, its resonance."""
+
+import math
+from dataclasses import dataclass
+
+from validation.theory.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
+from validation.theory.wheel import eigenfrequency
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wheel:
+    """A rigid wheel on an elastic half-space, in static equilibrium on a smooth track.
+
+    radius: R [m]; mass: M [kg]; modulus: E* [Pa]; load: F_N [N]; all positive, or else ValueError. Its speed is in the
+    time step of the simulation, dx / v_0.
+    """
+
+    radius: float
+    mass: float
+    modulus: float
+    load: float
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "mass", "modulus", "load"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0):
+                raise ValueError(f"{name} must be finite and positive, got {value}")
+
+    @property
+    def approach(self) -> float:
+        """d_N of Hertz [m]."""
+        return hertz_approach(radius=self.radius, modulus=self.modulus, force=self.load)
+
+    @property
+    def contact_radius(self) -> float:
+        """a = sqrt(R d_N) [m]."""
+        return hertz_contact_radius(radius=self.radius, approach=self.approach)
+
+    @property
+    def stiffness(self) -> float:
+        """k = 2 E* a [N/m]."""
+        return circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
+
+    @property
+    def eigenfrequency(self) -> float:
+        """omega_eigen = sqrt(2 a E* / M) [rad/s]."""
+        return eigenfrequency(contact_radius=self.contact_radius, modulus=self.modulus, mass=self.mass)

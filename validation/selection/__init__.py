@@ -1,0 +1,1 @@
+"""The cheapest model that meets a tolerance."""

@@ -1,0 +1,174 @@
+"""Boundary elements for a body that is pressed: surfaces on a grid, and what coarser grids say of its error."""
+
+import math
+import warnings
+from dataclasses import dataclass
+from itertools import chain
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+from validation.scenes.indentation import PressedScene
+from validation.scenes.measured import MeasuredHeights
+from validation.selection.hierarchy import (
+    BOUNDARY_ELEMENTS,
+    STUDENT,
+    Answer,
+    Claim,
+    Cost,
+    grid_error,
+    mean_error,
+    realisations,
+)
+from validation.simulation.indentation import cells_wanted, height_of, holds_waves, side_of
+from validation.simulation.resolution import too_few
+
+FloatArray = NDArray[np.float64]
+
+CELL, PRESS = 2.0e-8, 3.5e-3
+"""Seconds that a cell takes in an application, and what else a contact, about."""
+APPLICATIONS = 24
+"""Of the operator, to a contact and its stiffness."""
+SCATTER = 0.22
+"""Relative deviation of the stiffness of one rough punch without roll-off, about: Fig. 14.1."""
+SPHERE_SCATTER = 0.3
+"""The same of a rough sphere, over h/d."""
+FEWEST, MOST = 8, 1000
+"""Surfaces: of which a deviation is estimated, and that are drawn at the most."""
+
+
+@dataclass(frozen=True)
+class BoundaryElements:
+    """Surfaces on cells x cells, with the waves that those carry: what half as many a side change is the error.
+
+    A measured surface is itself; on a coarser grid, the mean of its points in each cell.
+    """
+
+    model: ClassVar = BOUNDARY_ELEMENTS
+
+    scene: PressedScene
+    tolerance: float
+    seed: int
+    cells: int
+
+    @property
+    def name(self) -> str:
+        """With the cells of its grid."""
+        return f"{self.model} {self.cells}²"
+
+    @property
+    def measured(self) -> bool:
+        """Whether there is a single surface."""
+        return isinstance(self.scene.ground, MeasuredHeights)
+
+    @property
+    def count(self) -> int:
+        """Surfaces that are expected to leave half of the tolerance."""
+        return 1 if self.measured else realisations(self._scatter, self.tolerance / 2, least=FEWEST, most=MOST)
+
+    @property
+    def _scatter(self) -> float:
+        """Of one drawn surface, relative, about."""
+        return SCATTER if self.scene.shape == "punch" else SPHERE_SCATTER * self.scene.roughness_ratio
+
+    def cost(self) -> Cost:
+        """Operator applications times cells, on this grid and for some surfaces on the next coarser one."""
+        return self._cost(self.count, min(self.count, FEWEST))
+
+    def claim(self) -> Claim:
+        """The sample's part: only a solve tells what the grid leaves."""
+        if not holds_waves(self.scene, self._grids[-1]):
+            return Claim.out_of_range(f"a grid of {self._grids[-1]}² cells, beside which it is judged, holds no wave")
+        sample = 0.0 if self.measured else max(self.tolerance / 2, STUDENT * self._scatter / math.sqrt(MOST))
+        return Claim(error=sample, because="the grid is judged by coarser ones, once all are solved")
+
+    def solve(self) -> Answer:
+        """The mean stiffness, surface by surface until the sample leaves half of the tolerance."""
+        found: list[Pressed] = []
+        while not self._enough(found):
+            found.append(self._pressed(len(found), self.cells))
+        coarse = [[self._pressed(i, cells) for cells in self._grids] for i in range(min(len(found), FEWEST))]
+        cost, contacts = self._cost(len(found), len(coarse)), [*found, *chain.from_iterable(coarse)]
+        if lost := [contact.failed for contact in contacts if contact.failed]:
+            failed = f"{len(lost)} of {len(contacts)} contacts {lost[0]}"
+            return Answer(value=np.array([np.nan]), cost=cost, failed=failed)
+        fine = np.array([contact.stiffness for contact in found])
+        grid, because = self._left_by_the_grid(found, coarse)
+        return Answer(
+            value=np.array([fine.mean()]),
+            cost=cost,
+            grid=grid,
+            sample=0.0 if self.measured else mean_error(fine[:, np.newaxis] / fine.mean()),
+            because=f"{because}, surfaces: {fine.size}",
+            failed=too_few(float(np.median([contact.cells for contact in found])), "cells")
+            or ("" if math.isfinite(grid) else f"{because}, no less than by the step before: no error bar"),
+        )
+
+    def _left_by_the_grid(self, found: "list[Pressed]", coarse: "list[list[Pressed]]") -> tuple[float, str]:
+        """Half-width of 95 %, infinite where grids do not converge, and what it rests on."""
+        levels = np.log(
+            [[fine.stiffness, *(c.stiffness for c in row)] for fine, row in zip(found, coarse, strict=False)]
+        )
+        changes = levels[:, :-1] - levels[:, 1:]
+        grid = self._grid_of_one(changes[0]) if self.measured else grid_error(changes[:, 1], changes[:, 0])
+        last = math.expm1(float(changes[:, 0].mean()))
+        return grid, f"{self.cells}² cells change {self.cells // 2}² by {last:+.1%}"
+
+    @property
+    def _grids(self) -> tuple[int, ...]:
+        """Coarser ones, each of half as many cells a side: two, of a single surface three."""
+        return tuple(self.cells // 2**i for i in range(1, 4 if self.measured else 3))
+
+    def _cost(self, fine: int, coarse: int) -> Cost:
+        """Of surfaces on this grid, and on the coarser ones."""
+        work = APPLICATIONS * float(fine * self.cells**2 + coarse * sum(cells**2 for cells in self._grids))
+        return Cost(
+            work=work, unit="cell applications", seconds=CELL * work + PRESS * (fine + len(self._grids) * coarse)
+        )
+
+    def _grid_of_one(self, changes: FloatArray) -> float:
+        """The change by the last doubling or half of that before, with half as much again: one face may hide it.
+
+        And as much for each doubling that is left to the points of the face, which have waves that this one has not.
+        Infinite where the last change is the largest of all.
+        """
+        last, *before = np.abs(changes)
+        if last >= max(before):
+            return math.inf if last > 0 else 0.0
+        change = max(last, before[0] / 2)
+        return float(1.5 * change * (1 + math.log2(cells_wanted(self.scene) / self.cells)))
+
+    def _enough(self, found: "list[Pressed]") -> bool:
+        if self.measured or len(found) < FEWEST:
+            return self.measured and len(found) == 1
+        drawn = np.array([one.stiffness for one in found])
+        left = mean_error(drawn[:, np.newaxis] / drawn.mean())
+        return not left > self.tolerance / 2 or len(found) >= MOST
+
+    def _pressed(self, realisation: int, cells: int) -> "Pressed":
+        scene, side = self.scene, side_of(self.scene)
+        half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=side / cells, modulus=scene.modulus)
+        gap = -height_of(scene, cells, realisation, self.seed)
+        if scene.shape == "sphere":
+            x = ((np.arange(cells) + 0.5) / cells - 0.5) * side
+            gap = gap + (x[:, np.newaxis] ** 2 + x**2) / (2 * scene.size)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always", bem3d.ContactWarning)
+            try:
+                contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-4)
+                stiffness = float(contact.stiffness())
+            except bem3d.ConvergenceError:
+                return Pressed(math.nan, 0, "did not converge")
+        # too few cells are counted, and a punch ends where its grid does
+        at_edge = scene.shape == "sphere" and any(issubclass(one.category, bem3d.EdgeWarning) for one in said)
+        return Pressed(stiffness, int(np.count_nonzero(contact.pressure)), "reached the edge of the grid" * at_edge)
+
+
+class Pressed(NamedTuple):
+    """One contact: its stiffness [N/m], the cells in it, and why it is none."""
+
+    stiffness: float
+    cells: int
+    failed: str = ""

@@ -1,0 +1,323 @@
+"""Rungs for a wheel that rolls: linear filters in one dimension and in three, springs, boundary elements."""
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.selection.calibrated import Ranges, outside
+from validation.selection.hierarchy import (
+    BOUNDARY_ELEMENTS,
+    Answer,
+    Claim,
+    Cost,
+    Rung,
+    counted,
+    distance,
+    mean_error,
+    realisations,
+)
+from validation.selection.indentation_models import beyond_spectra
+from validation.simulation.rolling_levels import (
+    Rolled,
+    by_linear_theory,
+    on_boundary_elements,
+    on_springs,
+    springs_to_a_radius,
+    strip_of,
+)
+from validation.simulation.rolling_quantity import Question, Want
+from validation.theory.rolling import contact_lost
+
+FloatArray = NDArray[np.float64]
+
+Rule = tuple[float, float, float]
+LINEAR_BANDS: Rule = (2.0, 0.5, 0.015)
+LINEAR_RMS: Rule = (1.2, 0.05, 0.002)
+GEIKE_BANDS: Rule = (2.0, 0.5, 0.55)
+FED_BANDS: Rule = (0.0, 0.6, 0.45)
+SPRINGS_RMS: Rule = (1.0, 0.1, 0.002)
+"""Errors of linear theory, of that with Geike's spectrum in one dimension, and of springs, in bands and in the rms: a
+sum over the contact that linear theory loses, h/d, and one. Envelopes of what was measured beside boundary elements on
+random scenes; others hold them to account, see `cases/ladder.py`."""
+FORMULA, NODE, SPRING, CELL, POSITION = 1.0e-4, 4.5e-4, 6.0e-7, 2.0e-8, 1.0e-3
+"""Seconds that a formula at a node takes, a quadrature across the track there, a position on springs, a cell in an
+application, what else a contact, about."""
+STRIP_RMS, STRIP_BANDS = 0.35, 0.7
+"""Scatter of one strip over linear theory on itself, over h/d: how many strips are expected."""
+MOST_CELLS = 64
+"""To a contact radius, on the finest grid that is offered."""
+MEASURED_SCATTER = 0.5
+"""Of the levels of one track about those of all that have its spectrum."""
+TRACKS = 60
+OF_COARSE, OF_FINE = 1.8, 0.8
+"""Error over the change between two grids in the ratio 1.5, of second order: of the coarse one, of the fine one."""
+FEWEST_STRIPS, MOST_STRIPS = 4, 10
+MOST_ON_A_STRIP, MOST_ON_TRACKS = 2**26, 2**27
+"""Cells and springs that are drawn at once at the most; they take up to four gigabytes."""
+FINE, COARSE, LEAST = 4.0, 2.5, 8
+"""Cells to the shortest wave on both grids, and to a contact radius at least."""
+HEIGHT, LONG, SHORT = "h/d", "q a of the longest wave", "q a of the shortest wave"
+RATIO, HURST = "longest over shortest wave", "Hurst exponent"
+"""What decides how far cheap models are off, in words."""
+RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), HURST: (0.2, 1.2)}
+"""Scenes on which the errors above were measured. Longer waves only move the contact, which linear theory knows."""
+
+
+def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[Rung]:
+    """All that a scene can be asked with, the cheapest first. Raises ValueError for a question without an answer."""
+    question = Question(scene, want)
+    radii = question.q_max * scene.contact_radius / (2 * math.pi)
+    coarse = min(max(LEAST, math.ceil(COARSE * radii)), MOST_CELLS * 2 // 3)
+    fine = min(max(math.ceil(1.5 * coarse), math.ceil(FINE * radii)), MOST_CELLS)
+    linear: list[Rung] = [LinearFilter(question)]
+    if want != "force-rms" or isinstance(scene.ground, MeasuredHeights):
+        linear.append(LinearSpace(question))
+    return [
+        *linear,
+        Springs(question, tolerance, seed),
+        BoundaryElements(question, tolerance, seed, coarse, beside=fine),
+        BoundaryElements(question, tolerance, seed, fine, beside=coarse),
+    ]
+
+
+@dataclass(frozen=True)
+class LinearFilter:
+    """(14.12) with Geike's spectrum: exact over ridges; over isotropic ground in the variance of the force alone."""
+
+    model: ClassVar = "linear filter, 1D"
+    name: ClassVar = model
+
+    question: Question
+
+    def cost(self) -> Cost:
+        """A formula at each node."""
+        return Cost(work=self.question.nodes, unit="nodes", seconds=FORMULA * self.question.nodes)
+
+    def claim(self) -> Claim:
+        """By the height, and what Geike's spectrum makes of levels along the track."""
+        if said := beyond_spectra(self.question.scene.ground) or _outside(self.question):
+            return Claim.out_of_range(said)
+        own = MEASURED_SCATTER if isinstance(self.question.scene.ground, MeasuredHeights) else 0.0
+        if self.question.want == "force-rms":
+            error, because = _claimed(LINEAR_RMS, self.question)
+            return Claim(error=error + own, because=f"{because}; Geike's rule keeps the variance of the force")
+        error, because = _claimed(GEIKE_BANDS, self.question)
+        return Claim(error=error + own, because=f"{because}; Geike's rule does not keep levels along a track")
+
+    def solve(self) -> Answer:
+        """By quadrature."""
+        claim = self.claim()
+        value = self.question.expected(one_dimensional=True)
+        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because)
+
+
+@dataclass(frozen=True)
+class LinearSpace:
+    """The spectrum of the force on the half-space, for a contact that keeps its radius; of heights, on themselves."""
+
+    model: ClassVar = "linear filter, 3D"
+    name: ClassVar = model
+
+    question: Question
+
+    def cost(self) -> Cost:
+        """A quadrature across the track at each node."""
+        return Cost(work=self.question.nodes, unit="quadratures", seconds=NODE * self.question.nodes)
+
+    def claim(self) -> Claim:
+        """By the height."""
+        if said := _outside(self.question):
+            return Claim.out_of_range(said)
+        error, because = _claimed(LINEAR_RMS if self.question.want == "force-rms" else LINEAR_BANDS, self.question)
+        return Claim(error=error, because=because)
+
+    def solve(self) -> Answer:
+        """By quadrature, or on the heights themselves."""
+        question, claim = self.question, self.claim()
+        if isinstance(question.scene.ground, MeasuredHeights):
+            cells = max(LEAST, math.ceil(FINE * question.q_max * question.scene.contact_radius / (2 * math.pi)))
+            spacing = question.scene.contact_radius / cells
+            value = by_linear_theory(question, strip_of(question, cells, 0, 0), spacing)
+        else:
+            value = question.expected(one_dimensional=False)
+        failed = "" if (value > 0).all() else "the heights have no waves in some band"
+        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because, failed=failed)
+
+
+@dataclass(frozen=True)
+class Springs:
+    """One-sided springs, over what the linear filter has on the same tracks, times what linear theory expects."""
+
+    model: ClassVar = "springs"
+    name: ClassVar = model
+
+    question: Question
+    tolerance: float
+    seed: int
+
+    def cost(self) -> Cost:
+        """Positions of all tracks, and what linear theory expects."""
+        work = TRACKS * Rolled.of(self.question, 1).along * springs_to_a_radius(self.question)
+        nodes = 0 if self.question.want == "force-rms" else self.question.nodes
+        return Cost(work=work, unit="positions", seconds=SPRING * work + NODE * nodes)
+
+    def claim(self) -> Claim:
+        """By the height."""
+        if said := beyond_spectra(self.question.scene.ground) or _outside(self.question):
+            return Claim.out_of_range(said)
+        springs = self.cost().work
+        if springs > MOST_ON_TRACKS:
+            return Claim.out_of_range(f"{TRACKS} tracks need {springs:.2g} springs, more than {MOST_ON_TRACKS:.2g}")
+        own = self._own_scatter + self.tolerance / 10
+        if self.question.want == "force-rms":
+            error, because = _claimed(SPRINGS_RMS, self.question)
+            return Claim(error=error + own, because=because)
+        error, because = _claimed(FED_BANDS, self.question)
+        return Claim(error=error + own, because=f"{because}; springs have the right level only in the mean over bands")
+
+    def solve(self) -> Answer:
+        """The mean of logarithms over all tracks."""
+        claim = self.claim()
+        change = on_springs(self.question, TRACKS, self.seed)
+        if not np.isfinite(change).all():
+            failed = "a wheel was thrown farther than sums are exact for"
+            return Answer(value=np.array([np.nan]), cost=self.cost(), failed=failed)
+        return Answer(
+            value=self.question.expected(one_dimensional=self.question.want == "force-rms")
+            * np.exp(change.mean(axis=0)),
+            cost=self.cost(),
+            model=claim.error,
+            sample=mean_error(change),
+            because=claim.because,
+        )
+
+    @property
+    def _own_scatter(self) -> float:
+        return MEASURED_SCATTER if isinstance(self.question.scene.ground, MeasuredHeights) else 0.0
+
+
+@dataclass(frozen=True)
+class BoundaryElements:
+    """A contact a cell, over linear theory on the same strips, times what that expects; heights are rolled themselves.
+
+    beside: the grid that is asked, on one strip, what the cells leave open.
+    """
+
+    model: ClassVar = BOUNDARY_ELEMENTS
+
+    question: Question
+    tolerance: float
+    seed: int
+    cells: int
+    beside: int
+
+    @property
+    def name(self) -> str:
+        """With the cells of its grid."""
+        return f"{self.model}, a = {self.cells} cells"
+
+    def cost(self) -> Cost:
+        """Cells of the window times applications times positions, of all strips and the one beside."""
+        strips = realisations(self._scatter, self.tolerance / 2, least=FEWEST_STRIPS, most=MOST_STRIPS)
+        return self._cost(1 if self._measured else strips, 1)
+
+    def claim(self) -> Claim:
+        """Of the sample what as many strips as there may be leave at the least; only a solve tells of the grid."""
+        if said := self.question.unsteady or self._too_large():
+            return Claim.out_of_range(said)
+        sample = 0.0 if self._measured else self._scatter / math.sqrt(MOST_STRIPS)
+        return Claim(error=sample, because=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted")
+
+    @property
+    def _scatter(self) -> float:
+        """Of one strip over linear theory on itself, about."""
+        return (STRIP_RMS if self.question.whole else STRIP_BANDS) * self.question.scene.roughness_ratio
+
+    def solve(self) -> Answer:
+        """Strip by strip, until the sample leaves half of the tolerance."""
+        change: list[FloatArray] = []
+        while not self._enough(change):
+            change.append(self._rolled(len(change), self.cells))
+        other = self._rolled(0, self.beside)
+        cost = self._cost(len(change), 1)
+        if not (np.isfinite(change).all() and np.isfinite(other).all()):
+            return Answer(value=np.array([np.nan]), cost=cost, failed="some contact along a strip did not converge")
+        mean, apart = np.mean(change, axis=0), distance(np.exp(change[0]), np.exp(other))
+        return Answer(
+            value=np.exp(mean) * (1.0 if self._measured else self.question.expected(one_dimensional=False)),
+            cost=cost,
+            grid=apart * (OF_COARSE if self.beside > self.cells else OF_FINE),
+            sample=0.0 if self._measured else mean_error(np.array(change)),
+            because=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change it by "
+            f"{apart:.1%}; strips: {len(change)}",
+        )
+
+    @property
+    def _measured(self) -> bool:
+        """Whether there is one strip, as it was measured."""
+        return isinstance(self.question.scene.ground, MeasuredHeights)
+
+    def _enough(self, change: list[FloatArray]) -> bool:
+        """Whether the sample leaves half of the tolerance, or there is no more of it, or no use in more."""
+        if self._measured or not np.isfinite(change).all():
+            return len(change) > 0
+        if len(change) < FEWEST_STRIPS:
+            return False
+        return len(change) >= MOST_STRIPS or mean_error(np.array(change)) <= self.tolerance / 2
+
+    def _cost(self, strips: int, beside: int) -> Cost:
+        """Cells of the window times applications times positions, of strips on this grid and on the other."""
+        rolled = ((strips, Rolled.of(self.question, self.cells)), (beside, Rolled.of(self.question, self.beside)))
+        work, positions = sum(n * grid.work for n, grid in rolled), sum(n * grid.along for n, grid in rolled)
+        return Cost(work=work, unit="cell applications", seconds=CELL * work + POSITION * positions)
+
+    def _too_large(self) -> str:
+        """Why no grid that fits into memory holds the waves; empty where one does."""
+        waves = min(self.cells, self.beside) / self.cells * self._waves
+        if waves < 2:
+            return f"the shortest wave has {waves:.2g} cells on the finest grids that are offered, fewer than 2"
+        grid = Rolled.of(self.question, max(self.cells, self.beside))
+        if grid.along * grid.across > MOST_ON_A_STRIP:
+            return f"a strip needs {grid.along} x {grid.across} cells, more than {MOST_ON_A_STRIP:.2g}"
+        return ""
+
+    @property
+    def _waves(self) -> float:
+        """Cells to the shortest wave."""
+        return 2 * math.pi * self.cells / (self.question.q_max * self.question.scene.contact_radius)
+
+    def _rolled(self, realisation: int, cells: int) -> FloatArray:
+        """ln of levels over those of linear theory on the same strip; of heights, of the levels themselves."""
+        return on_boundary_elements(self.question, cells, realisation, self.seed)
+
+
+def _outside(question: Question) -> str:
+    """Why the errors of cheap models are not known for a scene; empty where they are."""
+    if said := question.unsteady:
+        return said
+    scene, ground = question.scene, question.scene.ground
+    first, last = (q * scene.contact_radius for q in (ground.q_min, question.q_max))
+    conditions = {HEIGHT: scene.roughness_ratio, LONG: first, SHORT: last, RATIO: last / first}
+    if isinstance(ground, Roughness):
+        conditions[HURST] = ground.hurst
+    return outside(conditions, RANGES)
+
+
+def _claimed(rule: Rule, question: Question) -> tuple[float, str]:
+    """The error by a rule, and what it rests on."""
+    scene, ratio = question.scene, question.scene.roughness_ratio
+    lost = contact_lost(
+        scene.ground.c2d, edges=scene.ground.edges, contact_radius=scene.contact_radius, radius=scene.radius
+    )
+    error = float(np.dot(rule, (lost, ratio, 1.0)))
+    return error, counted({"contact that linear theory loses": lost, "h/d": ratio})
+
+
+CHEAP = (LinearFilter.model, LinearSpace.model, Springs.model)
+"""The models below boundary elements, by their names."""

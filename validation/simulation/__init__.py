@@ -1,0 +1,1 @@
+"""Problems solved by either method, for all that use them."""

@@ -1,0 +1,137 @@
+"""Contact forces under a wheel that rolls: Hertz, a linear filter, springs, boundary elements, all behind one face."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+import mdr
+from validation.scenes.wheel_body import Wheel
+
+FloatArray = NDArray[np.float64]
+
+
+class ContactLaw(Protocol):
+    """The force of several wheels, each on a track of its own, all over the same place of it."""
+
+    def force(self, place: int, approach: FloatArray) -> FloatArray:
+        """At approaches of any sign, shape (wheels,) [N]; not negative, but for a linear law; place: a cell."""
+
+    def at_rest(self, place: int) -> FloatArray:
+        """The approach of each wheel at which it bears its load, shape (wheels,) [m]."""
+
+
+@dataclass(frozen=True)
+class Hertz:
+    """F = 4/3 E* sqrt(R) max(d, 0)^(3/2): a smooth track. wheels: how many."""
+
+    wheel: Wheel
+    wheels: int = 1
+
+    def force(self, place: int, approach: FloatArray) -> FloatArray:
+        """Of Hertz, whatever the place."""
+        d = np.maximum(approach, 0.0)
+        return np.asarray(4 / 3 * self.wheel.modulus * math.sqrt(self.wheel.radius) * d * np.sqrt(d))
+
+    def at_rest(self, place: int) -> FloatArray:
+        """d_N."""
+        return np.full(self.wheels, self.wheel.approach)
+
+
+@dataclass(frozen=True)
+class Linear:
+    """F = F_N + k (d - d_N) + dF(x): a contact that keeps its radius.
+
+    change: dF of the roughness at the approach d_N, shape (places, wheels) [N]. It may pull.
+    """
+
+    wheel: Wheel
+    change: FloatArray
+
+    def force(self, place: int, approach: FloatArray) -> FloatArray:
+        """Linear in approach and height."""
+        linear = self.wheel.load + self.wheel.stiffness * (approach - self.wheel.approach)
+        return np.asarray(linear + self.change[place % len(self.change)])
+
+    def at_rest(self, place: int) -> FloatArray:
+        """d_N - dF / k."""
+        return np.asarray(self.wheel.approach - self.change[place % len(self.change)] / self.wheel.stiffness)
+
+    def steady(self, time_step: float) -> tuple[FloatArray, FloatArray]:
+        """Approach and velocity at place 0 of the motion that repeats itself with the track, exactly in leapfrog steps.
+
+        d = d_N + sum_j y_j exp(i omega_j t), y_j = -dF_j / (k - M (2 sin(omega_j dt / 2) / dt)^2); no free vibration.
+        Raises ValueError for a track on which a wave resonates.
+        """
+        count = len(self.change)
+        waves = np.fft.rfft(self.change, axis=0, norm="forward")
+        omega = 2 * np.pi * np.fft.rfftfreq(count, time_step)[:, np.newaxis]
+        stepped = (2 * np.sin(omega * time_step / 2) / time_step) ** 2
+        dynamic = self.wheel.stiffness - self.wheel.mass * stepped
+        if np.abs(dynamic).min() < 1e-9 * self.wheel.stiffness:
+            raise ValueError("the track must not have a wave at the resonance, whose motion does not repeat itself")
+        # the velocity of leapfrog at whole steps is the central difference
+        motion = np.fft.irfft(-waves / dynamic, count, axis=0, norm="forward")
+        velocity = (motion[1] - motion[-1]) / (2 * time_step)
+        return np.asarray(self.wheel.approach + motion[0]), np.asarray(velocity)
+
+
+class Springs:
+    """One-sided springs, (14.15): height of tracks, shape (places, wheels), positive towards the wheel; spacing [m]."""
+
+    def __init__(self, wheel: Wheel, height: FloatArray, spacing: float):
+        self.wheel = wheel
+        self.foundation = mdr.Wheels(
+            height, spacing=spacing, radius=wheel.radius, modulus=wheel.modulus, force=wheel.load
+        )
+
+    def force(self, place: int, approach: FloatArray) -> FloatArray:
+        """By the method of dimensionality reduction."""
+        return self.foundation.force(place, approach)
+
+    def at_rest(self, place: int) -> FloatArray:
+        """By Newton's method on the springs."""
+        return self.foundation.approach(place, self.wheel.load)
+
+
+class BoundaryElements:
+    """Three-dimensional contact on rough strips of shape (places, width), one a wheel.
+
+    tolerance: residual of each contact. Raises bem3d.ConvergenceError where one does not converge.
+    """
+
+    def __init__(self, wheel: Wheel, strips: Sequence[FloatArray], spacing: float, *, tolerance: float = 1e-5):
+        self.wheel = wheel
+        self.contacts = [
+            bem3d.RollingContact(
+                bem3d.Track(height=strip, spacing=spacing, radius=wheel.radius, modulus=wheel.modulus),
+                tolerance=tolerance,
+            )
+            for strip in strips
+        ]
+        self.operator_applications = 0
+
+    def force(self, place: int, approach: FloatArray) -> FloatArray:
+        """One contact problem a wheel, begun from those of the two places before."""
+        pairs = zip(self.contacts, approach, strict=True)
+        return np.array([self._solved(contact.press(place, float(d)), place).force for contact, d in pairs])
+
+    def at_rest(self, place: int) -> FloatArray:
+        """The contact under the load itself."""
+        solved = (self._solved(contact.carry(place, self.wheel.load), place) for contact in self.contacts)
+        return np.array([contact.approach for contact in solved])
+
+    def _solved(self, contact: bem3d.WheelContact, place: int) -> bem3d.WheelContact:
+        self.operator_applications += contact.operator_applications
+        if not contact.converged:
+            raise bem3d.ConvergenceError(
+                f"residual {contact.residual:.3g} after {len(contact.history) - 1} iterations ({contact.status}) at "
+                f"place {place}",
+                contact.history,
+                None,
+            )
+        return contact

@@ -1,0 +1,147 @@
+"""The rough face of a body that is pressed, on a grid: how large and how fine it must be, drawn or measured."""
+
+import math
+import warnings
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+from validation.engine.engine import generator
+from validation.scenes.indentation import PressedScene
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.roughness import Roughness
+
+FloatArray = NDArray[np.float64]
+
+SURFACES = 2
+"""The spawn key under which surfaces draw."""
+FEW, MANY = 16, 512
+"""Cells a side of the coarsest grid that is worth a solve, and of the finest that is offered."""
+WAVE = 8
+"""Cells to the shortest wave on the finest grid."""
+RADIUS = 16
+"""Cells to the contact radius of a smooth sphere, on the finest grid."""
+CONTACT = 16
+"""Cells in the contact of a rough punch, on the finest grid."""
+DEEPEST = 4.0
+"""Heights of roughness, in rms, that a rough sphere may carry outside of its smooth contact."""
+LATTICE = 512
+"""Waves on a side up to which their mean square is summed one by one; shorter ones are an integral."""
+
+
+def ground_of(scene: PressedScene) -> Roughness | MeasuredHeights:
+    """What is rough. Raises ValueError for a smooth body."""
+    if scene.ground is None:
+        raise ValueError("scene must be rough for this rung")
+    return scene.ground
+
+
+def side_of(scene: PressedScene) -> float:
+    """Of the model: that of the punch, or what a rough sphere may touch and the longest wave [m]."""
+    if scene.shape == "punch":
+        return scene.size
+    ground = ground_of(scene)
+    reach = 2 * math.sqrt(2 * scene.size * (scene.approach + DEEPEST * ground.rms))
+    if isinstance(ground, MeasuredHeights):
+        return min(reach, *ground.sides)
+    return max(reach, ground.longest)
+
+
+def cells_wanted(scene: PressedScene) -> int:
+    """A power of two that has eight cells to the shortest wave and 16 in contact; of measured heights, their points.
+
+    In contact is a part 2 F / (E* h' L^2) of a punch under a light load, h' the rms slope.
+    Source: Hyun, Pei, Molinari, Robbins, Phys. Rev. E 70, 026117 (2004).
+    """
+    ground = ground_of(scene)
+    if isinstance(ground, MeasuredHeights):
+        points = side_of(scene) / max(ground.spacing)
+        return int(max(FEW, 2 ** math.floor(math.log2(points * (1 + 1e-9)))))
+    wanted = WAVE * ground.q_max * side_of(scene) / (2 * math.pi)
+    if scene.shape == "sphere":
+        wanted = max(wanted, RADIUS * side_of(scene) / scene.contact_radius)
+    else:
+        slope = math.sqrt(_moment(ground, ground.q_min, 2))
+        wanted = max(wanted, scene.size * math.sqrt(CONTACT * scene.modulus * slope / (2 * scene.load)))
+    return int(max(FEW, 2 ** math.ceil(math.log2(wanted * (1 - 1e-9)))))
+
+
+def finest_cells(scene: PressedScene) -> int:
+    """A side of the finest grid that is offered."""
+    return min(MANY, cells_wanted(scene))
+
+
+def holds_waves(scene: PressedScene, cells: int) -> bool:
+    """Whether a grid of so many cells a side holds the longest wave."""
+    ground = ground_of(scene)
+    return isinstance(ground, MeasuredHeights) or ground.q_min <= shortest_held(scene, cells)
+
+
+def shortest_held(scene: PressedScene, cells: int) -> float:
+    """Wavenumber of two cells to a wave [rad/m]."""
+    return math.pi * cells / side_of(scene) * (1 + 1e-9)
+
+
+def height_of(scene: PressedScene, cells: int, realisation: int, seed: int) -> FloatArray:
+    """Heights at the centres of cells: the same waves on every grid that holds them, or the measured ones [m].
+
+    Of measured heights, the mean of their points in each cell.
+    """
+    ground, side = ground_of(scene), side_of(scene)
+    if isinstance(ground, MeasuredHeights):
+        return _resampled(ground, side, cells)
+    return _drawn(ground, shortest_held(scene, cells), cells, side, generator(seed, SURFACES, realisation))
+
+
+def _drawn(ground: Roughness, shortest: float, cells: int, side: float, rng: np.random.Generator) -> FloatArray:
+    """The waves of a surface up to a wavenumber; the same waves on every grid."""
+    with warnings.catch_warnings():
+        # few cells to a wave are what grids are compared for
+        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+        surface = bem3d.rough_surface(
+            lambda q: np.where(np.abs(q) <= shortest, ground.c2d(q), 0.0),
+            shape=(cells, cells),
+            spacing=side / cells,
+            rng=rng,
+        )
+    # the mean square of the whole band, less what is left out of it
+    return np.asarray(surface * _whole(ground, side))
+
+
+@lru_cache(maxsize=64)
+def _whole(ground: Roughness, side: float) -> float:
+    """What makes the height of all waves of the square that of the scene.
+
+    Raises ValueError where no wave of the band fits the side a whole number of times.
+    """
+    waves = ground.q_max * side / (2 * math.pi) * (1 + 1e-9)
+    last = math.floor(min(waves, LATTICE))
+    i = np.arange(-last, last + 1)
+    q = 2 * np.pi / side * np.hypot(i[:, np.newaxis], i)
+    if waves > LATTICE:
+        q = q[q <= 2 * np.pi / side * LATTICE]
+    drawn = (2 * np.pi / side) ** 2 * float(ground.c2d(q[q > 0]).sum())
+    if waves > LATTICE:
+        drawn += _moment(ground, 2 * np.pi / side * LATTICE, 0)
+    if not drawn > 0:
+        raise ValueError("no wave of the roughness fits the side a whole number of times")
+    return ground.rms / math.sqrt(drawn)
+
+
+def _moment(ground: Roughness, first: float, power: int) -> float:
+    """2 pi int q^power C_2D q dq from a wavenumber to the last [m^(2 - power)]."""
+    low = max(first, ground.q_min)
+    node, weight = np.polynomial.legendre.leggauss(24)
+    ends = np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low)))
+    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
+    q = middle + half * node
+    return float(2 * np.pi * np.sum(half * weight * q ** (power + 1) * ground.c2d(q)))
+
+
+def _resampled(heights: MeasuredHeights, side: float, cells: int) -> FloatArray:
+    """The middle of a measured surface on cells x cells: the mean over each cell."""
+    parts = max(1, math.ceil(side / cells / min(heights.spacing)))
+    at = ((np.arange(parts * cells) + 0.5) / (parts * cells) - 0.5) * side
+    return np.asarray(heights.at(at, at).reshape(cells, parts, cells, parts).mean(axis=(1, 3)))

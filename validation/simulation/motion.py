@@ -1,0 +1,172 @@
+"""(14.15) and (14.16): a wheel that rolls over a rough track, for any contact force."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.scenes.wheel_body import Wheel
+from validation.simulation.contact_laws import ContactLaw
+from validation.simulation.integrators import VELOCITY_VERLET, Integrator
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Motion:
+    """Wheels at the beginning of each step.
+
+    acceleration: z'' upward, shape (steps, wheels) [m/s^2]; time_step: of the record [s]; lowest, highest: approach met
+    by each wheel [m]; airborne: steps of each wheel without contact; started: d' at first [m/s]; approach, velocity,
+    onward: d [m], d' [m/s] and z'' [m/s^2] after the last step; path: d at each step, shape (steps, wheels), None where
+    it was not asked for.
+    """
+
+    acceleration: FloatArray
+    time_step: float
+    lowest: FloatArray
+    highest: FloatArray
+    airborne: NDArray[np.int64]
+    started: FloatArray
+    approach: FloatArray
+    velocity: FloatArray
+    onward: FloatArray
+    path: FloatArray | None = None
+
+    @property
+    def duration(self) -> float:
+        """T = N dt [s]."""
+        return len(self.acceleration) * self.time_step
+
+    @property
+    def jump(self) -> FloatArray:
+        """Of the acceleration, from the record continued to its beginning: what leaks, of each wheel [m/s^2]."""
+        return np.asarray(self.onward - self.acceleration[0])
+
+
+def simulate(
+    wheel: Wheel,
+    law: ContactLaw,
+    *,
+    time_step: float,
+    steps: int,
+    approach: FloatArray | None = None,
+    velocity: FloatArray | None = None,
+    integrator: Integrator = VELOCITY_VERLET,
+    path: bool = False,
+) -> Motion:
+    """M z'' = F(x, d) - F_N, d'' = -z'', one cell of the track in each time step dx / v_0.
+
+    law: the contact force of all wheels, which advance together; time_step: of one cell [s]; steps: that are recorded;
+    approach, velocity: of each wheel at the beginning, by default static equilibrium over the first cell [m, m/s];
+    integrator: symplectic and of second order by default; path: whether to keep the approaches.
+    Wheels may lose contact, F = 0, and come back.
+    Raises ValueError for a step at or past the limit of the integrator, omega_eigen dt, before it begins.
+    """
+    step = integrator.cells * _positive("time_step", time_step)
+    _stable(wheel, step, integrator)
+    if steps < 1:
+        raise ValueError(f"steps must be at least 1, got {steps}")
+    d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
+    v = np.zeros_like(d) if velocity is None else np.array(velocity, dtype=np.float64)
+    if not (np.isfinite(d).all() and np.isfinite(v).all() and d.shape == v.shape):
+        raise ValueError(f"approach and velocity must be finite and alike in shape, got {d} and {v}")
+    gravity = wheel.load / wheel.mass
+
+    def acceleration(place: int, d: FloatArray) -> FloatArray:
+        return np.asarray(gravity - law.force(place, d) / wheel.mass)
+
+    states = integrator.march(acceleration, d, v, time_step)
+    found, started = np.empty((steps, d.size)), v
+    kept = np.empty((steps, d.size)) if path else None
+    lowest, highest = d, d
+    for n in range(steps):
+        d, v, a = next(states)
+        np.negative(a, out=found[n])
+        lowest, highest = np.minimum(lowest, d), np.maximum(highest, d)
+        if kept is not None:
+            kept[n] = d
+    airborne = np.count_nonzero(found <= -gravity, axis=0)
+    d, v, a = next(states)
+    return Motion(
+        acceleration=found,
+        time_step=step,
+        lowest=lowest,
+        highest=highest,
+        airborne=airborne,
+        started=started,
+        approach=d,
+        velocity=v,
+        onward=-a,
+        path=kept,
+    )
+
+
+def repeating(
+    wheel: Wheel,
+    law: Callable[[int], ContactLaw],
+    *,
+    time_step: float,
+    steps: int,
+    start: tuple[FloatArray, FloatArray],
+    tolerance: float = 1e-9,
+    rounds: int = 12,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Approach and velocity over the first cell of the motion that repeats itself with the track: no free vibration.
+
+    By shooting: the state after one round less that before it is to vanish. Its derivative comes from two neighbours of
+    each wheel, rolled beside it once, and is kept.
+    law(n): the contact of n copies of all wheels, copy after copy; start: a state to begin with; tolerance: of what is
+    left over of the approach, over d_N; rounds: at most, after the first.
+    Returns both, and what was left over of each wheel: who is not within the tolerance has not converged.
+    Best conditioned where the track takes a whole and a half turns of the resonance.
+    """
+    d, v = (np.array(x, dtype=np.float64) for x in start)
+    small = 1e-6 * wheel.approach
+    omega = wheel.eigenfrequency
+
+    def after(n: int, d: FloatArray, v: FloatArray) -> FloatArray:
+        motion = simulate(wheel, law(n), time_step=time_step, steps=steps, approach=d, velocity=omega * v)
+        return np.stack([motion.approach, motion.velocity / omega]).reshape(2, n, -1)
+
+    v = v / omega
+    near = after(3, np.concatenate([d, d + small, d]), np.concatenate([v, v, v + small]))
+    turn = np.moveaxis((near[:, 1:] - near[:, :1]) / small, -1, 0)
+    correction = np.linalg.inv(np.eye(2) - turn)
+    state, image = np.stack([d, v]), near[:, 0]
+    left = np.abs(image - state).max(axis=0) / wheel.approach
+    for _ in range(rounds):
+        if (left <= tolerance).all():
+            break
+        (r, s), ((a, b), (c, e)) = image - state, np.moveaxis(correction, 0, -1)
+        step = np.clip(np.stack([a * r + b * s, c * r + e * s]), -wheel.approach / 2, wheel.approach / 2)
+        # who is there stays there, whoever else goes on
+        state = np.where(left > tolerance, state + step, state)
+        image = after(1, *state)[:, 0]
+        left = np.abs(image - state).max(axis=0) / wheel.approach
+    return state[0], omega * state[1], left
+
+
+def turns(wheel: Wheel, length: float, speed: float) -> float:
+    """Of the resonance while the wheel rolls that far."""
+    return wheel.eigenfrequency * length / speed / (2 * math.pi)
+
+
+def _stable(wheel: Wheel, step: float, integrator: Integrator) -> None:
+    turn, limit = wheel.eigenfrequency * step, max(integrator.limit, 2.0)
+    if turn >= limit:
+        why = "the motion would grow without bound"
+        if not integrator.limit:
+            why = "the motion grows at any step, and from 2 on it is refused, since nothing is left of it"
+        raise ValueError(
+            f"time_step must be below {limit:.6g} / omega_eigen = {limit / wheel.eigenfrequency:.6g} s for "
+            f"{integrator.name}, got {step:.6g} s: omega_eigen dt = {turn:.6g}, and {why}"
+        )
+
+
+def _positive(name: str, value: float) -> float:
+    if not (math.isfinite(value) and value > 0):
+        raise ValueError(f"{name} must be finite and positive, got {value}")
+    return float(value)

@@ -1,0 +1,239 @@
+"""A wheel rolled over rough ground with one model, in levels: what the rungs of a rolling wheel compute."""
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+import mdr
+from validation.analysis.spectra import levels, waves
+from validation.engine.engine import generator
+from validation.scenes.measured import MeasuredHeights
+from validation.simulation.contact_laws import BoundaryElements, ContactLaw, Linear, Springs
+from validation.simulation.motion import simulate
+from validation.simulation.resolution import too_few
+from validation.simulation.rolling_quantity import Question
+from validation.simulation.wheel_on_half_space import narrowed
+from validation.simulation.wheel_on_springs import filtered, rolling_feed
+from validation.theory.rolling import linear_force
+
+FloatArray = NDArray[np.float64]
+
+TRACKS, STRIPS = 1, 2
+"""The spawn keys under which each kind of roughness draws."""
+LONGEST, RADII = 8, 32
+"""Longest waves, and contact radii, along a strip at least."""
+ACROSS, WIDE = 3, 6
+"""The same across it."""
+SPRINGS = 32
+"""To a contact radius at least, and four to the shortest wave."""
+
+
+@dataclass(frozen=True)
+class Rolled:
+    """A grid along and across the track: spacing a / cells [m], cells along and across."""
+
+    spacing: float
+    along: int
+    across: int
+    cells: int
+
+    @classmethod
+    def of(cls, question: Question, cells: int) -> "Rolled":
+        """Long enough for some of the longest waves, or as long as what was measured, there and back.
+
+        A dynamic wheel comes back in the middle of a turn of its resonance, where free vibration is least excited.
+        """
+        scene, ground = question.scene, question.scene.ground
+        a = scene.contact_radius
+        spacing = a / cells
+        if isinstance(ground, MeasuredHeights):
+            long, wide = ground.sides
+            return cls(spacing, 2 * math.floor(long / spacing), math.floor(wide / spacing), cells)
+        longest = 2 * math.pi / ground.q_min
+        # whole radii, so that all grids draw the same surface
+        length = max(LONGEST * longest, RADII * a)
+        if question.dynamic:
+            turn = 2 * math.pi * (scene.speed or 0.0) / scene.body.eigenfrequency
+            length = (math.ceil(length / turn) + 0.5) * turn
+        wide = max(ACROSS * longest, WIDE * a)
+        return cls(spacing, cells * math.ceil(length / a), cells * math.ceil(wide / a), cells)
+
+    @property
+    def work(self) -> float:
+        """Cell applications of one strip: a window of three radii, doubled in free space."""
+        return self.along * APPLICATIONS * (3 * self.cells) ** 2
+
+
+APPLICATIONS = 7
+"""Of the operator, a position."""
+
+
+def strip_of(question: Question, cells: int, realisation: int, seed: int) -> FloatArray:
+    """Heights at the centres of cells; drawn, or those that were measured, there and back [m]."""
+    grid, ground = Rolled.of(question, cells), question.scene.ground
+    if isinstance(ground, MeasuredHeights):
+        there = _resampled(ground, grid)
+        return np.concatenate([there, there[::-1]])
+    with warnings.catch_warnings():
+        # grids are compared, and what they leave open is estimated
+        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+        return bem3d.rough_surface(
+            ground.c2d,
+            shape=(grid.along, grid.across),
+            spacing=grid.spacing,
+            rng=generator(seed, STRIPS, realisation),
+            rms=ground.rms,
+        )
+
+
+def by_linear_theory(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+    """Root mean square in each band along a strip, for a contact that keeps its radius."""
+    return _levels(question, _linear(question, surface, spacing), spacing, question.transfer)
+
+
+def by_boundary_elements(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+    """Root mean square in each band along a strip; NaN where a contact did not converge."""
+    scene = question.scene
+    if question.dynamic:
+        return _accelerated(question, surface, spacing)
+    found = bem3d.roll(
+        narrowed(surface, spacing, scene.body),
+        spacing=spacing,
+        radius=scene.radius,
+        modulus=scene.modulus,
+        approach=scene.approach,
+        tolerance=_tolerance(question),
+        raise_on_failure=False,
+    )
+    if not found.converged.all():
+        return np.full(len(question.bands.edges) - 1, np.nan)
+    if few := too_few(float(np.median(found.area)) / spacing**2, "cells"):
+        raise ValueError(few)
+    return _levels(question, found.force, spacing)
+
+
+def on_boundary_elements(question: Question, cells: int, realisation: int, seed: int) -> FloatArray:
+    """ln of levels over those of linear theory on the same strip; of measured heights, of the levels themselves."""
+    surface, spacing = strip_of(question, cells, realisation, seed), question.scene.contact_radius / cells
+    found = np.log(by_boundary_elements(question, surface, spacing))
+    if isinstance(question.scene.ground, MeasuredHeights):
+        return found
+    return np.asarray(found - np.log(by_linear_theory(question, surface, spacing)))
+
+
+def on_springs(question: Question, tracks: int, seed: int) -> FloatArray:
+    """ln of levels of one-sided springs over what linear theory expects, (tracks, bands).
+
+    Of the rms of the force, on tracks of Geike's spectrum and over the linear filter on them; else on tracks that are
+    fed for rolling, over the half-space.
+    """
+    scene = question.scene
+    height, spacing = _tracks(question, tracks, seed)
+    if question.dynamic:
+        return _springs_accelerated(question, height, spacing)
+    roll = partial(mdr.roll, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
+    with warnings.catch_warnings():
+        # how far a linear contact is off is what both are compared for
+        warnings.simplefilter("ignore", mdr.LinearityWarning)
+        found = _levels(question, np.array([roll(track).force for track in height.T]), spacing)
+        if question.want == "force-rms":
+            linear = np.array([roll(track, contact="linear").force for track in height.T])
+            return np.asarray(np.log(found) - np.log(_levels(question, linear, spacing)))
+    return np.asarray(np.log(found) - np.log(question.expected(one_dimensional=False)))
+
+
+def springs_to_a_radius(question: Question) -> int:
+    """Four to the shortest wave, and 32 at least."""
+    scene = question.scene
+    return max(SPRINGS, math.ceil(4 * scene.ground.q_max * scene.contact_radius / (2 * math.pi)))
+
+
+def _tracks(question: Question, tracks: int, seed: int) -> tuple[FloatArray, float]:
+    """Heights, (points, tracks), and their spacing [m]."""
+    scene, ground = question.scene, question.scene.ground
+    coarse = Rolled.of(question, 1)
+    a = scene.contact_radius
+    springs = springs_to_a_radius(question)
+    points, spacing = coarse.along * springs, a / springs
+    geike = question.want == "force-rms"
+    feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_feed(ground, a)
+    drawn = [
+        mdr.rough_profile(
+            feed,
+            length=points * spacing,
+            points=points,
+            rng=generator(seed, TRACKS, i),
+            rms=ground.rms if geike else None,
+        )
+        for i in range(tracks)
+    ]
+    return np.array(drawn).T, spacing
+
+
+def _springs_accelerated(question: Question, height: FloatArray, spacing: float) -> FloatArray:
+    body = question.scene.body
+    try:
+        found = _rolled_on(question, Springs(body, height, spacing), filtered(body, height, spacing), spacing)
+    except ArithmeticError:
+        return np.full((height.shape[1], len(question.bands.edges) - 1), np.nan)
+    return np.asarray(np.log(_levels(question, found.T, spacing)) - np.log(question.expected(one_dimensional=False)))
+
+
+def _accelerated(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+    """Of a wheel with boundary elements in the time loop."""
+    body = question.scene.body
+    law = BoundaryElements(body, [narrowed(surface, spacing, body)], spacing, tolerance=_tolerance(question))
+    linear = Linear(body, (_linear(question, surface, spacing) - body.load)[:, np.newaxis])
+    try:
+        found = _rolled_on(question, law, linear, spacing)
+    except bem3d.ConvergenceError:
+        return np.full(len(question.bands.edges) - 1, np.nan)
+    return _levels(question, found[:, 0], spacing)
+
+
+def _linear(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+    """The force along the middle of a strip [N]."""
+    scene = question.scene
+    return linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
+
+
+def _rolled_on(question: Question, law: ContactLaw, linear: Linear, spacing: float) -> FloatArray:
+    """Acceleration of wheels over one round, (steps, wheels), begun on the linear motion that repeats itself."""
+    assert question.scene.speed is not None  # a dynamic question has a speed
+    time_step = spacing / question.scene.speed
+    approach, velocity = linear.steady(time_step)
+    start = law.at_rest(0) + approach - linear.at_rest(0)
+    body, steps = question.scene.body, len(linear.change)
+    return simulate(body, law, time_step=time_step, steps=steps, approach=start, velocity=velocity).acceleration
+
+
+def _levels(
+    question: Question,
+    series: FloatArray,
+    spacing: float,
+    transfer: Callable[[FloatArray], FloatArray] | None = None,
+) -> FloatArray:
+    """sqrt(2 sum |c|^2) over each band, along the last axis of a series."""
+    found = waves(series, spacing=spacing)
+    if transfer is not None:
+        found = type(found)(found.q, found.amplitude * transfer(found.q))
+    return np.asarray(np.sqrt(2 * levels(found, question.bands)))
+
+
+def _tolerance(question: Question) -> float:
+    """The lower the roughness, the less its waves change the force, and the finer the residual."""
+    return float(np.clip(1e-4 * question.scene.roughness_ratio, 1e-7, 3e-5))
+
+
+def _resampled(heights: MeasuredHeights, grid: Rolled) -> FloatArray:
+    """Measured heights, their mean over each cell: what is shorter than that is no other wave."""
+    parts = max(1, math.ceil(grid.spacing / min(heights.spacing) * (1 - 1e-9)))
+    shape = (grid.along // 2, grid.across)
+    along, across = ((np.arange(parts * n) - (parts * n - 1) / 2) * grid.spacing / parts for n in shape)
+    return np.asarray(heights.at(along, across).reshape(shape[0], parts, shape[1], parts).mean(axis=(1, 3)))

@@ -1,0 +1,119 @@
+"""What is asked of a wheel that rolls: levels in bands, of force or acceleration, and what linear theory expects."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.spectra import Bands
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling import RollingScene
+from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
+
+FloatArray = NDArray[np.float64]
+Want = Literal["force-rms", "force-spectrum", "acceleration", "acceleration-rms"]
+
+NODES = 8
+"""Of Gauss and Legendre, on half a wave of sin^2."""
+PANEL = 1.4
+"""Ratio of the ends of a panel at the most."""
+WAVES = 4
+"""Of the length that was measured, in the longest band."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is wanted of a wheel that rolls.
+
+    Levels in one-third octaves from the longest to the shortest wave, root mean square in each, [N] or [m/s^2]; of the
+    acceleration only those an octave and more above the resonance, since nothing damps that; or one of all of these.
+    """
+
+    scene: RollingScene
+    want: Want
+
+    @property
+    def dynamic(self) -> bool:
+        """Whether the wheel has a mass."""
+        return self.want.startswith("acceleration")
+
+    @cached_property
+    def unsteady(self) -> str:
+        """Why there is no level of what is wanted, whatever the model; empty where there is one."""
+        return self.scene.no_steady_answer() if self.dynamic else ""
+
+    @property
+    def whole(self) -> bool:
+        """Whether all bands are one."""
+        return self.want.endswith("rms")
+
+    @property
+    def q_max(self) -> float:
+        """The shortest wave that counts: of measured heights, four of their points [rad/m]."""
+        ground = self.scene.ground
+        return ground.q_max / 2 if isinstance(ground, MeasuredHeights) else ground.q_max
+
+    @cached_property
+    def bands(self) -> Bands:
+        """Of wavenumbers along the track [rad/m]; ValueError where there is none."""
+        if self.want == "force-rms":
+            return Bands((0.0, math.inf))
+        ground, body = self.scene.ground, self.scene.body
+        first = WAVES * ground.q_min if isinstance(ground, MeasuredHeights) else ground.q_min
+        if self.dynamic:
+            first = max(first, 2 * body.eigenfrequency / (self.scene.speed or 1.0))
+        found = Bands.around(math.pi / self.scene.contact_radius, first, self.q_max)
+        if len(found.edges) < 2:
+            raise ValueError(
+                f"scene must leave a one-third octave of waves between {first:.3g} and {self.q_max:.3g} rad/m for "
+                f"{self.want}, got none"
+            )
+        return Bands((found.edges[0], found.edges[-1])) if self.whole else found
+
+    def transfer(self, q: FloatArray) -> FloatArray:
+        """From the force to what is wanted: one, or omega^2 / |k - M omega^2| with omega = q v0 [-, 1/kg]."""
+        if not self.dynamic:
+            return np.ones_like(q)
+        body = self.scene.body
+        omega = q * (self.scene.speed or 0.0)
+        return np.asarray(omega**2 / np.abs(body.stiffness - body.mass * omega**2))
+
+    def expected(self, one_dimensional: bool) -> FloatArray:
+        """Levels by linear theory, of the spectrum [N] or [m/s^2]; the variance of the force is the same in both."""
+        scene, ground = self.scene, self.scene.ground
+        contact = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
+        if self.want == "force-rms":
+            return np.array([math.sqrt(force_variance(ground.c2d, edges=ground.edges, **contact))])
+        found = []
+        for low, high in zip(self.bands.edges, self.bands.edges[1:], strict=False):
+            q, weight = _nodes(low, high, scene.contact_radius)
+            if one_dimensional:
+                density = force_spectrum_1d(q, lambda s: np.pi * np.abs(s) * ground.c2d(s), **contact)
+            else:
+                density = force_spectrum_3d(q, ground.c2d, edges=ground.edges, **contact)
+            found.append(math.sqrt(2 * float(np.sum(weight * density * self.transfer(q) ** 2))))
+        return np.array(found)
+
+    @property
+    def nodes(self) -> int:
+        """Of the quadrature over all bands."""
+        if self.want == "force-rms":
+            return NODES
+        pairs = zip(self.bands.edges, self.bands.edges[1:], strict=False)
+        return sum(_nodes(low, high, self.scene.contact_radius)[0].size for low, high in pairs)
+
+
+def _nodes(low: float, high: float, contact_radius: float) -> tuple[FloatArray, FloatArray]:
+    """Of Gauss and Legendre in a band, and their weights.
+
+    On panels no longer than half a wave of sin^2(q a), nor than what a power law bends in.
+    """
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    waves = np.linspace(low, high, 2 + math.floor((high - low) * contact_radius / math.pi))
+    powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(PANEL)))
+    ends = np.union1d(waves, powers)
+    half = np.diff(ends)[:, np.newaxis] / 2
+    return (ends[:-1, np.newaxis] + half * (1 + node)).ravel(), (half * weight).ravel()

@@ -1,0 +1,222 @@
+"""A rigid square punch with a rough face, drawn and pressed by either method: one solve of every case about it."""
+
+import warnings
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+import mdr
+from validation.analysis.evidence import NotConvergedError
+from validation.engine.engine import Outcome, generator
+
+FloatArray = NDArray[np.float64]
+
+BEM, MDR = "bem3d", "mdr"
+METHODS = (BEM, MDR)
+# the spawn keys under which each kind of roughness draws, and what is drawn again to tell the error of a sample
+PROFILES, SURFACES, BOOTSTRAP = 1, 2, 3
+FEW_CELLS = 30
+"""A contact of fewer cells is under-resolved."""
+# stiffness, area, approach and mean gap of a load that did not converge
+LOST = (np.nan,) * 4
+
+
+def force_levels(decades: tuple[int, int], per_decade: int) -> tuple[float, ...]:
+    """Fbar from one power of ten to another, ascending, so many equal steps of its logarithm in each decade."""
+    first, last = decades
+    return tuple(10.0 ** (first + i / per_decade) for i in range((last - first) * per_decade + 1))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Roughness:
+    """Self-affine roughness on a side L, in units of L = 1, the same on every grid and for both methods.
+
+    hurst: H; waves: the first and the last of the band, as many on a side: q = 2 pi waves / L; height: rms, over L;
+    amplitudes: "fixed" by the spectrum, or "gaussian" around it; normalised: "each" draw has its rms height exactly,
+    or the "ensemble" has it in the mean; seed: zero or positive.
+    Fixed amplitudes are normalised alike either way.
+    """
+
+    hurst: float
+    waves: tuple[int, int]
+    seed: int
+    height: float = 1e-3
+    amplitudes: Literal["fixed", "gaussian"] = "fixed"
+    normalised: Literal["each", "ensemble"] = "each"
+
+    @property
+    def spectrum(self) -> mdr.SelfAffine:
+        """C_2D of the surfaces, and C_1D by Geike's rule of the profiles."""
+        first, last = self.waves
+        return mdr.SelfAffine(hurst=self.hurst, q_min=2 * np.pi * first, q_max=2 * np.pi * last, rms=self.height)
+
+    def surface(self, cells: int, realisation: int) -> FloatArray:
+        """Height of one realisation at the centres of cells x cells."""
+        height = bem3d.rough_surface(
+            self.spectrum.c2d,
+            shape=(cells, cells),
+            spacing=1 / cells,
+            rng=self._generator(SURFACES, realisation),
+            rms=self.height,
+            amplitudes=self.amplitudes,
+        )
+        return self._normalised(height)
+
+    def profile(self, points: int, realisation: int) -> FloatArray:
+        """Height of one realisation of Geike's profile at the middle of its springs."""
+        height = mdr.rough_profile(
+            self.spectrum.c1d,
+            length=1.0,
+            points=points,
+            rng=self._generator(PROFILES, realisation),
+            rms=self.height,
+            amplitudes=self.amplitudes,
+        )
+        return self._normalised(height)
+
+    def _generator(self, kind: int, realisation: int) -> np.random.Generator:
+        """The address of a Hurst exponent is its own, so that adding one leaves the others their numbers."""
+        return generator(self.seed, kind, round(1000 * self.hurst), realisation)
+
+    def _normalised(self, height: FloatArray) -> FloatArray:
+        if self.amplitudes == "fixed" or self.normalised == "ensemble":
+            return height
+        return np.asarray(height * (self.height / height.std()))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Surface:
+    """One rough punch on one grid, pressed with ascending forces Fbar = F / (E* h L) to a residual."""
+
+    roughness: Roughness
+    realisation: int
+    cells: int
+    forces: tuple[float, ...]
+    tolerance: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Profiles:
+    """The first so many rough profiles on one number of springs, in a 1D model of length L_1D, pressed alike."""
+
+    roughness: Roughness
+    realisations: int
+    points: int
+    length: float
+    forces: tuple[float, ...]
+
+
+def press_surface(surface: Surface) -> Outcome:
+    """Boundary elements: k / (E* L), true contact area / L^2, approach / L and mean gap / L at each force.
+
+    Each contact starts from the last. residual: of each; applications: of the operator, by the contacts and by their
+    frozen ones; height, gradient: rms of the surface as drawn, over L, and of its slope; failed: loads that did not
+    converge, whose values are NaN.
+    """
+    cells = surface.cells
+    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
+    height = _drawn(surface)
+    # the mean displacement is the work of p on that of a uniform unit pressure
+    uniform = half_space.displacement(np.ones(half_space.shape)) / cells**2
+    path = bem3d.indent(
+        half_space,
+        -height,
+        forces=surface.roughness.height * np.array(surface.forces),
+        stiffness=True,
+        tolerance=surface.tolerance,
+        raise_on_failure=False,
+    )
+    found, solves = [], []
+    with warnings.catch_warnings():
+        # the punch ends where its grid does, and the figures mark what stands on few cells
+        warnings.simplefilter("ignore", bem3d.ContactWarning)
+        for contact in path:
+            converged = contact.converged and contact.frozen is not None and contact.frozen.converged
+            gap = float((contact.pressure * uniform).sum()) - contact.approach
+            found.append((contact.stiffness(), contact.area, contact.approach, gap) if converged else LOST)
+            frozen = contact.frozen.operator_applications if contact.frozen is not None else 0
+            solves.append((contact.residual, contact.operator_applications, frozen))
+    stiffness, area, approach, gap_mean = np.array(found).T
+    residual, applications, frozen_applications = np.array(solves).T
+    return {
+        "stiffness": stiffness,
+        "area": area,
+        "approach": approach,
+        "gap": gap_mean,
+        "residual": residual,
+        "applications": applications,
+        "frozen applications": frozen_applications,
+        "height": np.array(height.std()),
+        "gradient": np.array(_gradient(height)),
+        "failed": np.array(float(np.isnan(stiffness).sum())),
+    }
+
+
+def press_profiles(profiles: Profiles) -> Outcome:
+    """Springs: the same of every profile at each force, one sort a profile; area: springs in contact over all."""
+    roughness, length = profiles.roughness, profiles.length
+    force = roughness.height * np.array(profiles.forces)
+    stiffness, approach = np.empty((2, profiles.realisations, force.size))
+    heights = np.empty(profiles.realisations)
+    for i in range(profiles.realisations):
+        height = roughness.profile(profiles.points, i)
+        with warnings.catch_warnings():
+            # as with cells: the lightest loads stand on few springs
+            warnings.simplefilter("ignore", mdr.ResolutionWarning)
+            points = mdr.load_curve(height, length=length, modulus=1.0).at_force(force)
+        heights[i], stiffness[i], approach[i] = height.std(), points.stiffness, points.approach
+    return {
+        "stiffness": stiffness,
+        "area": stiffness / length,
+        "approach": approach,
+        # heights have no mean: what is compressed less what is open is the approach
+        "gap": force / length - approach,
+        "height": heights,
+    }
+
+
+def stacked(outcomes: list[Outcome]) -> Outcome:
+    """One row a realisation; NaN at the largest forces of who was pressed at fewer."""
+    longest = max(outcome["stiffness"].size for outcome in outcomes)
+
+    def row(values: FloatArray) -> FloatArray:
+        return np.pad(values, (0, longest - values.size), constant_values=np.nan) if values.ndim else values
+
+    return {name: np.array([row(outcome[name]) for outcome in outcomes]) for name in outcomes[0]}
+
+
+def lost(problems: list[Surface], outcomes: list[Outcome]) -> tuple[str, ...]:
+    """A line for each load that did not converge."""
+    return tuple(
+        f"surface {s.realisation}, H = {s.roughness.hurst:g}, {s.cells}² cells, Fbar = {force:.3g}: "
+        f"residual {residual:.2g}"
+        for s, o in zip(problems, outcomes, strict=True)
+        for force, residual, stiffness in zip(s.forces, o["residual"], o["stiffness"], strict=True)
+        if np.isnan(stiffness)
+    )
+
+
+def enough(outcomes: Iterable[Outcome], unconverged: Sequence[str]) -> None:
+    """Raise NotConvergedError unless three surfaces at the least have converged at each force."""
+    for outcome in outcomes:
+        fewest = int(np.isfinite(outcome["stiffness"]).sum(axis=0).min())
+        if fewest < 3:
+            raise NotConvergedError(f"{fewest} surfaces converged at one of the forces, 3 are needed", unconverged)
+
+
+def _drawn(surface: Surface) -> FloatArray:
+    """Without a word about waves of few cells: grids are compared, and what they leave open is measured."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+        return surface.roughness.surface(surface.cells, surface.realisation)
+
+
+def _gradient(height: FloatArray) -> float:
+    """Root mean square of |grad h| over a period of the unit square."""
+    q = 2 * np.pi * np.fft.fftfreq(height.shape[0], 1 / height.shape[0])
+    power = np.abs(np.fft.fft2(height, norm="forward")) ** 2
+    return float(np.sqrt((power * (q[:, np.newaxis] ** 2 + q**2)).sum()))

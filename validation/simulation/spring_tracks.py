@@ -1,0 +1,259 @@
+"""Wheels on springs over rough tracks, round after round, lifting off, on springs too far apart: one solve of each."""
+
+import math
+import warnings
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+import mdr
+from validation.engine.engine import Outcome, generator
+from validation.scenes.wheel_body import Wheel
+from validation.simulation.contact_laws import Springs
+from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
+from validation.simulation.motion import simulate
+
+FloatArray = NDArray[np.float64]
+
+HEIGHT = 0.5e-6
+"""h_rms of Table 14.1 [m]."""
+FINE = 100
+"""Springs to the shortest wave of the track that stands for the continuum."""
+STRIDES = (3, 5, 9, 15, 25, 45, 75)
+"""Of coarser springs on the same track: odd, so that they stand on the same places; 25 is a quarter of a wave."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Track:
+    """Rough tracks of the springs.
+
+    rms: height [m]; longest, shortest: waves [m]; waves: of the longest, in a period; per_wave: springs to the
+    shortest; hurst: H; realisation: first of all tracks.
+    """
+
+    rms: float
+    seed: int
+    realisation: int = 0
+    longest: float = 10e-3
+    shortest: float = 0.2e-3
+    waves: int = 14
+    per_wave: int = 8
+    hurst: float = 0.7
+
+    @property
+    def spacing(self) -> float:
+        """dx of the springs [m]."""
+        return self.shortest / self.per_wave
+
+    @property
+    def points(self) -> int:
+        """Springs in a period."""
+        return round(self.waves * self.longest / self.spacing)
+
+    def heights(self, count: int) -> FloatArray:
+        """So many tracks, shape (points, count) [m]."""
+        spectrum = mdr.SelfAffine(
+            hurst=self.hurst, q_min=2 * np.pi / self.longest, q_max=2 * np.pi / self.shortest, rms=self.rms
+        )
+        draws = [
+            mdr.rough_profile(
+                spectrum.c1d,
+                length=self.waves * self.longest,
+                points=self.points,
+                rng=generator(self.seed, self.realisation + i),
+                rms=self.rms,
+            )
+            for i in range(count)
+        ]
+        return np.stack(draws, axis=1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rounds:
+    """Round after round over rough tracks, from a release at rest `lift` d_N below equilibrium."""
+
+    scheme: str
+    track: Track
+    wheels: int
+    rounds: int
+    lift: float = 0.2
+
+    @property
+    def turn(self) -> float:
+        """omega_eigen dt."""
+        return WHEEL.eigenfrequency * self.track.spacing / SPEED
+
+
+@dataclass(frozen=True, kw_only=True)
+class LiftOff:
+    """Wheels under a load [N] over rough tracks, from static equilibrium."""
+
+    sweep: str
+    load: float
+    track: Track
+    wheels: int
+    rounds: int
+
+    @property
+    def wheel(self) -> Wheel:
+        """Of Table 14.1, under this load."""
+        return replace(WHEEL, load=self.load)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spacings:
+    """One track under springs of many spacings, at the approach d_N."""
+
+    track: Track
+
+
+def go_round(problem: Rounds) -> Outcome:
+    """Weighted mean square acceleration, and the square of the amplitude at the resonance, of each tenth and wheel."""
+    track = problem.track
+    law = Springs(WHEEL, track.heights(problem.wheels), track.spacing)
+    d = law.at_rest(0) + problem.lift * WHEEL.approach
+    motion = simulate(
+        WHEEL,
+        law,
+        time_step=track.spacing / SPEED,
+        steps=problem.rounds * track.points,
+        approach=d,
+        velocity=np.zeros_like(d),
+        integrator=SCHEMES[problem.scheme],
+        path=True,
+    )
+    assert motion.path is not None
+    shape = (TENTHS, -1, problem.wheels)
+    return {
+        "square": windowed_mean((motion.acceleration**2).reshape(shape)),
+        "free": np.array([resonance(tenth, problem.turn) for tenth in motion.path.reshape(shape)]),
+    }
+
+
+def windowed_mean(tenths: FloatArray) -> FloatArray:
+    """Mean of each tenth with a Hann weight: of tenths that end within a turn of the resonance a plain one swings."""
+    n = tenths.shape[1]
+    weight = np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2
+    return np.asarray(np.einsum("j,ijk->ik", weight / weight.sum(), tenths))
+
+
+def resonance(d: FloatArray, turn: float) -> FloatArray:
+    """A^2 of the least squares of A cos(omega_eigen t + phi) and a constant, of each wheel [m^2]."""
+    t = turn * np.arange(len(d))
+    design = np.stack([np.cos(t), np.sin(t), np.ones_like(t)], axis=1)
+    found = np.linalg.lstsq(design, d, rcond=None)[0]
+    return np.asarray(found[0] ** 2 + found[1] ** 2)
+
+
+def lift_off(problem: LiftOff) -> Outcome:
+    """Time airborne, forces and the balance of momentum, of each wheel, and what linear theory has on its track."""
+    wheel, track = problem.wheel, problem.track
+    height = track.heights(problem.wheels)
+    motion = simulate(
+        wheel,
+        Springs(wheel, height, track.spacing),
+        time_step=track.spacing / SPEED,
+        steps=problem.rounds * track.points,
+    )
+    force = 1 + wheel.mass / wheel.load * motion.acceleration
+    momentum = wheel.mass * (motion.velocity + motion.time_step / 2 * motion.jump) / motion.duration
+    linear = np.stack([linear_change(wheel, track, one) for one in height.T], axis=1)
+    return {
+        "airborne": motion.airborne / len(force),
+        "highest": force.max(axis=0),
+        "lowest": force.min(axis=0),
+        "mean": force.mean(axis=0),
+        "momentum": momentum / wheel.load,
+        "hop": np.maximum(-motion.lowest - height.max(axis=0), 0.0),
+        "rms": linear.std(axis=0),
+        "pull": -linear.min(axis=0),
+        "negative": (linear < -1).mean(axis=0),
+        "failed": np.array(float(not np.isfinite(force).all())),
+    }
+
+
+def linear_change(wheel: Wheel, track: Track, height: FloatArray) -> FloatArray:
+    """dF / F_N of (14.11) along a track."""
+    with warnings.catch_warnings():
+        # how far it holds is what is asked
+        warnings.simplefilter("ignore", mdr.LinearityWarning)
+        rolled = mdr.roll(
+            height,
+            spacing=track.spacing,
+            radius=wheel.radius,
+            modulus=wheel.modulus,
+            approach=wheel.approach,
+            contact="linear",
+        )
+    return np.asarray(rolled.force / wheel.load - 1)
+
+
+def coarsen(problem: Spacings) -> Outcome:
+    """Of each stride, against the finest springs.
+
+    error: the difference of force, rms about its mean, over the fluctuation; level, linear: of the last one-third
+    octave over that of the finest, as it is and by linear theory; spread: see there, of both together.
+    """
+    track = problem.track
+    height = track.heights(1)[:, 0]
+    fine = force_at(height, track.spacing)
+    finest, rows = spread(track, 1), []
+    for stride in STRIDES:
+        middle = slice((stride - 1) // 2, None, stride)
+        force = force_at(height[middle], stride * track.spacing)
+        error = np.std(force - fine[middle]) / fine.std()
+        found = level(force, track) / level(fine, track), linear_level(height, stride, track)
+        rows.append((error, *found, math.hypot(finest, spread(track, stride))))
+    return dict(zip(("error", "level", "linear", "spread"), np.array(rows).T, strict=True))
+
+
+def force_at(height: FloatArray, spacing: float) -> FloatArray:
+    """The force of one-sided springs at d_N [N]."""
+    return mdr.rolling_force(
+        height, spacing=spacing, radius=WHEEL.radius, modulus=WHEEL.modulus, approach=WHEEL.approach
+    )
+
+
+def level(force: FloatArray, track: Track) -> float:
+    """Sum of |F_j|^2 over the last one-third octave; nothing where the points cannot carry it."""
+    band = highest_band(track)
+    if 2 * (band.stop - 1) >= force.size:
+        return 0.0
+    return float(np.sum(np.abs(np.fft.rfft(force, norm="forward")[band]) ** 2))
+
+
+def linear_level(height: FloatArray, stride: int, track: Track) -> float:
+    """The ratio of levels in linear theory, of springs so many places apart over those at every place."""
+    band = highest_band(track)
+    power = np.abs(np.fft.rfft(height)[band]) ** 2
+    coarse, fine = (np.sum(power * linear_response(track, n) ** 2) for n in (stride, 1))
+    return float(coarse / fine)
+
+
+def linear_response(track: Track, stride: int) -> FloatArray:
+    """dx sin(q (m + 1/2) dx) / sin(q dx / 2) of 2 m + 1 springs, in place of 2 sin(q a) / q, in the last band."""
+    band, dx = highest_band(track), stride * track.spacing
+    q = 2 * np.pi / (track.waves * track.longest) * np.arange(band.start, band.stop)
+    m = math.floor(WHEEL.contact_radius / dx)
+    return np.asarray(dx * np.sin(q * (m + 0.5) * dx) / np.sin(q * dx / 2))
+
+
+def spread(track: Track, stride: int) -> float:
+    """Standard deviation of the level, over itself, that the moving ends of contact leave linear theory in one track.
+
+    A spring of gap g under the smooth wheel bears max(g + h, 0) = Phi(g / s) h + phi(g / s) h^2 / s + ..., s = h_rms.
+    The square multiplies a short wave by the long ones, h_rms high: at each of two ends a part e = dx sum phi(g / s) /
+    rms(response) of the short wave is added, in no phase with it. Twice sqrt(2) e / sqrt(waves) remains in the level.
+    """
+    dx, response = stride * track.spacing, linear_response(track, stride)
+    x = dx * np.arange(2 * math.ceil(WHEEL.contact_radius / dx))
+    ends = dx * np.sum(stats.norm.pdf((WHEEL.approach - x**2 / WHEEL.radius) / track.rms))
+    return float(2 * math.sqrt(2 / response.size) * ends / np.sqrt(np.mean(response**2)))
+
+
+def highest_band(track: Track) -> slice:
+    """Waves of the track in the last one-third octave."""
+    last = round(track.waves * track.longest / track.shortest)
+    return slice(math.ceil(last * 2 ** (-1 / 3)), last + 1)

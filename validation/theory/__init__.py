@@ -1,0 +1,1 @@
+"""Closed forms and linear theory: what is known without either method."""
