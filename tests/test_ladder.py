@@ -448,7 +448,7 @@ def test_a_face_is_pressed_on_its_own_points_alone():
     for i, j in ((41, 57), (101, 201), (181, 33), (213, 149)):
         height[i : i + 2, j : j + 2] += 6e-3
     ground = MeasuredHeights(height=height, spacing=(1 / 256, 1 / 256))
-    scene = punch(ground=ground, load=0.05 * ground.rms)
+    scene = punch(ground=ground, load=0.05)
     half_space = bem3d.HalfSpace(shape=(256, 256), spacing=1 / 256, modulus=1.0)
     stiffness = bem3d.solve(half_space, -ground.height, force=scene.load, tolerance=1e-4).stiffness()
     for tolerance in (0.1, 0.3, 1.0):
