@@ -57,6 +57,12 @@ class MeasuredHeights:
         return nx * dx, ny * dy
 
     @property
+    def places(self) -> tuple[FloatArray, FloatArray]:
+        """x and y of the points, from the middle of the surface [m]."""
+        (nx, ny), (dx, dy) = self.height.shape, self.spacing
+        return (np.arange(nx) - (nx - 1) / 2) * dx, (np.arange(ny) - (ny - 1) / 2) * dy
+
+    @property
     def rms(self) -> float:
         """Root mean square height [m]."""
         return float(self.height.std())
@@ -85,7 +91,7 @@ class MeasuredHeights:
 
     def at(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> FloatArray:
         """Heights over the grid of x and y, from the middle of the surface, ascending [m]: linear between points."""
-        ends = [(np.arange(n) - (n - 1) / 2) * d for n, d in zip(self.height.shape, self.spacing, strict=True)]
+        ends = self.places
         inside = [np.clip(places, end[0], end[-1]) for places, end in zip((x, y), ends, strict=True)]
         return np.asarray(interpolate.RectBivariateSpline(*ends, self.height, kx=1, ky=1)(*inside))
 
@@ -121,19 +127,25 @@ class MeasuredHeights:
 
     def beyond_a_spectrum(self) -> tuple[str, ...]:
         """What Geike's rule takes for granted and these heights do not have: isotropy, Gaussian heights."""
-        skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
         found = []
         if self.texture > OBLONG:
             found.append(
                 f"heights are anisotropic, slopes along one axis {self.texture:.2g} times those along the other: "
                 "models of an isotropic spectrum do not hold, boundary elements do."
             )
-        if abs(skewness) > SKEWED or abs(kurtosis) > PEAKED:
-            found.append(
-                f"heights are not Gaussian, skewness {skewness:.2g} and excess kurtosis {kurtosis:.2g}: a spectrum "
-                "does not tell all of them, boundary elements on the heights themselves do."
-            )
+        if said := self.not_gaussian():
+            found.append(said)
         return tuple(found)
+
+    def not_gaussian(self) -> str:
+        """How far from it heights are, in a sentence; empty where they are Gaussian, about."""
+        skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
+        if abs(skewness) <= SKEWED and abs(kurtosis) <= PEAKED:
+            return ""
+        return (
+            f"heights are not Gaussian, skewness {skewness:.2g} and excess kurtosis {kurtosis:.2g}: a spectrum "
+            "does not tell all of them, boundary elements on the heights themselves do."
+        )
 
     @property
     def slope(self) -> float:

@@ -58,11 +58,12 @@ known; waves much longer than the contact of a sphere only move it."""
 
 
 def rungs(scene: PressedScene, tolerance: float, seed: int) -> list[Rung]:
-    """All that a scene can be asked with, the cheapest first."""
+    """All that a scene can be asked with, the cheapest first; measured heights on their own points alone."""
     if scene.ground is None:
         return [ClosedForm(scene)]
     finest = finest_cells(scene)
-    grids = [cells for cells in (finest // 4, finest // 2, finest) if cells >= FEW]
+    measured = isinstance(scene.ground, MeasuredHeights)
+    grids = [finest] if measured else [cells for cells in (finest // 4, finest // 2, finest) if cells >= FEW]
     solved = [BoundaryElements(scene, tolerance, seed, cells) for cells in grids]
     return [ClosedForm(scene), Springs(scene, tolerance, seed), *solved]
 

@@ -22,7 +22,7 @@ from validation.selection.hierarchy import (
     mean_error,
     realisations,
 )
-from validation.simulation.indentation import cells_wanted, height_of, holds_waves, side_of
+from validation.simulation.indentation import cells_wanted, height_of, highest_of, holds_waves, side_of
 from validation.simulation.resolution import too_few
 
 FloatArray = NDArray[np.float64]
@@ -35,6 +35,8 @@ SCATTER = 0.22
 """Relative deviation of the stiffness of one rough punch without roll-off, about: Fig. 14.1."""
 SPHERE_SCATTER = 0.3
 """The same of a rough sphere, over h/d."""
+EDGE = 0.35
+"""Error of the stiffness of a flat square punch times its cells a side."""
 FEWEST, MOST = 8, 1000
 """Surfaces: of which a deviation is estimated, and that are drawn at the most."""
 
@@ -112,7 +114,10 @@ class BoundaryElements:
             [[fine.stiffness, *(c.stiffness for c in row)] for fine, row in zip(found, coarse, strict=False)]
         )
         changes = levels[:, :-1] - levels[:, 1:]
-        grid = self._grid_of_one(changes[0]) if self.measured else grid_error(changes[:, 1], changes[:, 0])
+        if self.measured:
+            grid = self._grid_of_one(changes[0]) + self._hidden(found[0])
+        else:
+            grid = grid_error(changes[:, 1], changes[:, 0])
         last = math.expm1(float(changes[:, 0].mean()))
         return grid, f"{self.cells}² cells change {self.cells // 2}² by {last:+.1%}"
 
@@ -129,16 +134,25 @@ class BoundaryElements:
         )
 
     def _grid_of_one(self, changes: FloatArray) -> float:
-        """The change by the last doubling or half of that before, with half as much again: one face may hide it.
+        """The largest of the last changes, those before halved for each doubling since, with half as much again.
 
-        And as much for each doubling that is left to the points of the face, which have waves that this one has not.
-        Infinite where the last change is the largest of all.
+        One face may hide any of them, but not the edge of a punch; and as much for each doubling that is left to the
+        points of the face, which have waves that this one has not. Infinite where the last change is the largest.
         """
         last, *before = np.abs(changes)
         if last >= max(before):
             return math.inf if last > 0 else 0.0
-        change = max(last, before[0] / 2)
+        edge = EDGE / self.cells if self.scene.shape == "punch" else 0.0
+        change = max(last, before[0] / 2, before[1] / 4, edge)
         return float(1.5 * change * (1 + math.log2(cells_wanted(self.scene) / self.cells)))
+
+    def _hidden(self, found: "Pressed") -> float:
+        """What the mean over cells may hide: the change of the logarithm by the highest point of each in its place."""
+        highest = highest_of(self.scene, self.cells)
+        if np.array_equal(highest, height_of(self.scene, self.cells, 0, self.seed)):
+            return 0.0
+        pressed = self._on(highest)
+        return math.inf if pressed.failed else abs(math.log(pressed.stiffness / found.stiffness))
 
     def _enough(self, found: "list[Pressed]") -> bool:
         if self.measured or len(found) < FEWEST:
@@ -148,9 +162,12 @@ class BoundaryElements:
         return not left > self.tolerance / 2 or len(found) >= MOST
 
     def _pressed(self, realisation: int, cells: int) -> "Pressed":
-        scene, side = self.scene, side_of(self.scene)
+        return self._on(height_of(self.scene, cells, realisation, self.seed))
+
+    def _on(self, height: FloatArray) -> "Pressed":
+        scene, side, cells = self.scene, side_of(self.scene), len(height)
         half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=side / cells, modulus=scene.modulus)
-        gap = -height_of(scene, cells, realisation, self.seed)
+        gap = -height
         if scene.shape == "sphere":
             x = ((np.arange(cells) + 0.5) / cells - 0.5) * side
             gap = gap + (x[:, np.newaxis] ** 2 + x**2) / (2 * scene.size)

@@ -114,7 +114,8 @@ class LinearFilter:
         """By quadrature."""
         claim = self.claim()
         value = self.question.expected(one_dimensional=True)
-        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because)
+        model = claim.error + _left_out(self.question, value)
+        return Answer(value=value, cost=self.cost(), model=model, because=claim.because)
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ class LinearSpace:
 
     def claim(self) -> Claim:
         """By the height."""
-        if said := _outside(self.question):
+        if said := _single_summits(self.question) or _outside(self.question):
             return Claim.out_of_range(said)
         error, because = _claimed(LINEAR_RMS if self.question.want == "force-rms" else LINEAR_BANDS, self.question)
         return Claim(error=error, because=because)
@@ -146,8 +147,10 @@ class LinearSpace:
             value = by_linear_theory(question, strip_of(question, cells, 0, 0), spacing)
         else:
             value = question.expected(one_dimensional=False)
-        failed = "" if (value > 0).all() else "the heights have no waves in some band"
-        return Answer(value=value, cost=self.cost(), model=claim.error, because=claim.because, failed=failed)
+        if not (value > 0).all():
+            return Answer(value=value, cost=self.cost(), failed="the heights have no waves in some band")
+        model = claim.error + _left_out(question, value)
+        return Answer(value=value, cost=self.cost(), model=model, because=claim.because)
 
 
 @dataclass(frozen=True)
@@ -188,11 +191,11 @@ class Springs:
         if not np.isfinite(change).all():
             failed = "a wheel was thrown farther than sums are exact for"
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=failed)
+        value = self.question.expected(one_dimensional=self.question.want == "force-rms") * np.exp(change.mean(axis=0))
         return Answer(
-            value=self.question.expected(one_dimensional=self.question.want == "force-rms")
-            * np.exp(change.mean(axis=0)),
+            value=value,
             cost=self.cost(),
-            model=claim.error,
+            model=claim.error + _left_out(self.question, value),
             sample=mean_error(change),
             because=claim.because,
         )
@@ -307,6 +310,23 @@ def _outside(question: Question) -> str:
     if isinstance(ground, Roughness):
         conditions[HURST] = ground.hurst
     return outside(conditions, RANGES)
+
+
+def _single_summits(question: Question) -> str:
+    """Why the contact that linear theory loses is not that of Gaussian heights; empty where it is."""
+    ground = question.scene.ground
+    return ground.not_gaussian() if isinstance(ground, MeasuredHeights) else ""
+
+
+def _left_out(question: Question, value: FloatArray) -> float:
+    """Error of bands in which measured heights have next to no waves: what linear theory leaves out fills them.
+
+    That is h/d of the level of all bands, in each of them; a drawn band has waves of its own throughout.
+    """
+    if not isinstance(question.scene.ground, MeasuredHeights) or value.size == 1:
+        return 0.0
+    other = question.scene.roughness_ratio * float(np.linalg.norm(value))
+    return distance(np.hypot(value, other), value)
 
 
 def _claimed(rule: Rule, question: Question) -> tuple[float, str]:

@@ -18,7 +18,9 @@ FloatArray = NDArray[np.float64]
 SURFACES = 2
 """The spawn key under which surfaces draw."""
 FEW, MANY = 16, 512
-"""Cells a side of the coarsest grid that is worth a solve, and of the finest that is offered."""
+"""Cells a side of the coarsest grid that is worth a solve, and of the finest that is offered to drawn heights."""
+MANY_POINTS = 2048
+"""The same of measured ones, which are solved once and on their own points: a mean over cells hides their summits."""
 WAVE = 8
 """Cells to the shortest wave on the finest grid."""
 RADIUS = 16
@@ -43,22 +45,37 @@ def side_of(scene: PressedScene) -> float:
     if scene.shape == "punch":
         return scene.size
     ground = ground_of(scene)
-    reach = 2 * math.sqrt(2 * scene.size * (scene.approach + DEEPEST * ground.rms))
     if isinstance(ground, MeasuredHeights):
-        return min(reach, *ground.sides)
-    return max(reach, ground.longest)
+        spacing, points = min(ground.spacing), len(ground.places[0])
+        between = math.ceil(_reach(scene, ground) / spacing)
+        # an even or odd number of cells as of points, so that these are the middles of those
+        return min((between + (points - between) % 2) * spacing, *ground.sides)
+    return max(2 * math.sqrt(2 * scene.size * (scene.approach + DEEPEST * ground.rms)), ground.longest)
+
+
+def _reach(scene: PressedScene, heights: MeasuredHeights) -> float:
+    """Side of the square of all points that a sphere may touch, x^2 / 2R <= d - min h + h, min within r <= a [m].
+
+    No deeper than that goes a sphere that would press a plane at the lowest point of its smooth contact.
+    """
+    x, y = (np.abs(end) for end in heights.places)
+    squared = x[:, np.newaxis] ** 2 + y**2
+    under = squared <= max(scene.contact_radius**2, float(squared.min()))
+    deepest = scene.approach - float(heights.height[under].min())
+    touched = squared <= 2 * scene.size * (deepest + heights.height)
+    farthest = max(float(x[touched.any(axis=1)].max()), float(y[touched.any(axis=0)].max()))
+    return 2 * farthest + 4 * max(heights.spacing)
 
 
 def cells_wanted(scene: PressedScene) -> int:
-    """A power of two that has eight cells to the shortest wave and 16 in contact; of measured heights, their points.
+    """A power of two with eight cells to the shortest wave and 16 in contact; of measured heights, one to a point.
 
     In contact is a part 2 F / (E* h' L^2) of a punch under a light load, h' the rms slope.
     Source: Hyun, Pei, Molinari, Robbins, Phys. Rev. E 70, 026117 (2004).
     """
     ground = ground_of(scene)
     if isinstance(ground, MeasuredHeights):
-        points = side_of(scene) / max(ground.spacing)
-        return int(max(FEW, 2 ** math.floor(math.log2(points * (1 + 1e-9)))))
+        return max(FEW, round(side_of(scene) / min(ground.spacing)))
     wanted = WAVE * ground.q_max * side_of(scene) / (2 * math.pi)
     if scene.shape == "sphere":
         wanted = max(wanted, RADIUS * side_of(scene) / scene.contact_radius)
@@ -70,7 +87,7 @@ def cells_wanted(scene: PressedScene) -> int:
 
 def finest_cells(scene: PressedScene) -> int:
     """A side of the finest grid that is offered."""
-    return min(MANY, cells_wanted(scene))
+    return min(MANY_POINTS if isinstance(scene.ground, MeasuredHeights) else MANY, cells_wanted(scene))
 
 
 def holds_waves(scene: PressedScene, cells: int) -> bool:
@@ -93,6 +110,18 @@ def height_of(scene: PressedScene, cells: int, realisation: int, seed: int) -> F
     if isinstance(ground, MeasuredHeights):
         return _resampled(ground, side, cells)
     return _drawn(ground, shortest_held(scene, cells), cells, side, generator(seed, SURFACES, realisation))
+
+
+def highest_of(scene: PressedScene, cells: int) -> FloatArray:
+    """The highest of the measured points in each cell, where the mean may hide a summit [m]."""
+    heights, side = ground_of(scene), side_of(scene)
+    assert isinstance(heights, MeasuredHeights)  # as asked
+    found = _resampled(heights, side, cells)
+    i, j = (np.floor((end / side + 0.5) * cells).astype(np.int64) for end in heights.places)
+    inside = np.ix_((i >= 0) & (i < cells), (j >= 0) & (j < cells))
+    i, j = np.broadcast_arrays(i[:, np.newaxis], j)
+    np.maximum.at(found, (i[inside], j[inside]), heights.height[inside])
+    return found
 
 
 def _drawn(ground: Roughness, shortest: float, cells: int, side: float, rng: np.random.Generator) -> FloatArray:
