@@ -29,17 +29,104 @@ def rooms(source):
     return {name.partition(".")[0] for name in imported(source)}
 
 
-@pytest.mark.parametrize(("package", "others"), [("mdr", {"bem3d", "validation"}), ("bem3d", {"mdr", "validation"})])
-def test_methods_stand_alone(package, others):
-    for source in sources(package):
-        assert not rooms(source) & others, source
+ROOMS = ("theory", "analysis", "engine", "scenes", "simulation", "selection", "benchmarks", "cases", "report")
+BASE = {"theory", "analysis", "engine", "scenes", "mdr", "bem3d"}
+MAY_IMPORT = {
+    "mdr": set(),
+    "bem3d": set(),
+    "theory": set(),
+    "analysis": set(),
+    "engine": set(),
+    "scenes": {"theory", "mdr"},
+    "simulation": BASE,
+    "selection": BASE | {"simulation"},
+    "benchmarks": BASE | {"simulation"},
+    "cases": BASE | {"simulation", "selection"},
+    "report": {"cases", "benchmarks", "scenes", "analysis", "engine"},
+    "__main__": {"report", "selection", "scenes", "engine"},
+}
+"""The table of ARCHITECTURE.md."""
 
 
-@pytest.mark.parametrize(
-    "referee", ["closed_forms.py", "rolling_theory.py", "spectra.py", "wheel_theory.py", "records.py", "regions.py"]
-)
-def test_referees_import_neither_method(referee):
-    assert not rooms(ROOT / "validation" / referee) & {"mdr", "bem3d", "validation"}
+def room_of(name):
+    """Of a module by its dotted name: a method, a room of validation, or a file beside the rooms."""
+    parts = name.split(".")
+    return parts[0] if parts[0] != "validation" else parts[1] if len(parts) > 1 else ""
+
+
+def modules_imported(source):
+    """Names of the project's modules that a file imports."""
+    names = set()
+    for node in ast.walk(ast.parse(source.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return {name for name in names if name.split(".")[0] in PACKAGES}
+
+
+def name_of(source):
+    return ".".join(source.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+
+
+def arrows():
+    """Who imports whom, room by room, with the files."""
+    return {
+        (room_of(name_of(source)), room_of(name)): source
+        for package in PACKAGES
+        for source in sources(package)
+        for name in modules_imported(source)
+        if room_of(name_of(source)) != room_of(name)
+    }
+
+
+def test_imports_run_downward():
+    found = arrows()
+    assert {room for room, _ in found} - {""} == {room for room, others in MAY_IMPORT.items() if others}
+    wrong = {arrow: str(source) for arrow, source in found.items() if arrow[1] not in MAY_IMPORT.get(arrow[0], set())}
+    assert wrong == {}
+    # no circle: a room comes after all that it may import
+    order = list(MAY_IMPORT)
+    assert all(order.index(other) < order.index(room) for room, others in MAY_IMPORT.items() for other in others)
+
+
+def test_validation_is_made_of_rooms():
+    folders = {path.name for path in (ROOT / "validation").iterdir() if path.is_dir() and path.name != "__pycache__"}
+    assert folders == set(ROOMS)
+    assert {path.name for path in (ROOT / "validation").glob("*.py")} == {"__init__.py", "__main__.py"}
+
+
+def test_no_chapter_of_cases_imports_another():
+    for source in (ROOT / "validation" / "cases").rglob("*.py"):
+        chapter = source.relative_to(ROOT / "validation" / "cases").parts[0]
+        chapters = {name.split(".")[2] for name in modules_imported(source) if name.startswith("validation.cases.")}
+        assert chapters <= {chapter}, source
+
+
+def test_the_page_has_the_table():
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    rows = re.findall(r"^\| (`.*`) \| (.*) \|$", text, flags=re.MULTILINE)
+    named = {room for rooms_, _ in rows for room in re.findall(r"`(\w+)`", rooms_)}
+    assert named == set(MAY_IMPORT)
+    for rooms_, others in rows:
+        for room in re.findall(r"`(\w+)`", rooms_):
+            listed = set(re.findall(r"`(\w+)`", others))
+            if "what it may import" in others:
+                listed |= set().union(*(MAY_IMPORT[other] for other in listed))
+            assert listed == MAY_IMPORT[room], room
+
+
+def test_architecture_names_every_file():
+    """By its own name, in the paragraph of its room."""
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    methods, rooms_ = re.search(r"### The two methods\n(.*)### The rooms of `validation/`\n(.*?)\n\n`", text, re.DOTALL).groups()
+    paragraphs = dict(re.findall(r"- \*\*`(\w+)/`\*\*(.*?)(?=\n- |\Z)", rooms_, re.DOTALL))
+    assert paragraphs.keys() == set(ROOMS)
+    for room in ("mdr", "bem3d", *ROOMS):
+        folder, paragraph = (ROOT / room, methods) if room in PACKAGES else (ROOT / "validation" / room, paragraphs[room])
+        for source in folder.glob("*.py"):
+            named = source.stem == "__init__" or f"`{source.stem}`" in paragraph
+            assert named, f"{source.relative_to(ROOT)} is missing in ARCHITECTURE.md"
 
 
 def test_matplotlib_is_imported_only_where_figures_are_drawn():
@@ -68,11 +155,9 @@ def named_paths():
     text = made + project + mutation + verdicts
     paths = re.findall(r"(?<![\w/])(?:mdr|bem3d|validation|tests)/[\w*/]*(?:\*|\.py)", text)
     tests = " ".join(re.findall(r"^(?:AT_WORK|GUARDS) := ((?:.*\\\n)*.*)", made, flags=re.MULTILINE))
-    moved = re.search(r"VERDICTS = \((.*?)\)", mutation, flags=re.DOTALL)
     return {
         *paths,
         *(f"tests/test_{name}.py" for name in re.findall(r"\w+", tests)),
-        *(f"validation/{name}.py" for name in re.findall(r"\w+", moved[1] if moved else "")),
     }
 
 
@@ -84,11 +169,3 @@ def test_checks_name_files_that_are_there(path):
 
 def test_oracles_share_no_code_with_what_they_check():
     assert not rooms(ROOT / "tests" / "oracles.py") & set(PACKAGES)
-
-
-def test_architecture_names_every_file():
-    text = (ROOT / "ARCHITECTURE.md").read_text()
-    for package in PACKAGES:
-        for source in sources(package):
-            if source.name not in ("__init__.py", "__main__.py"):
-                assert source.name in text, f"{source.relative_to(ROOT)} is missing in ARCHITECTURE.md"
