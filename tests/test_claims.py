@@ -395,6 +395,7 @@ def claims(scene, want="stiffness", tolerance=0.1):
 @pytest.mark.parametrize(
     ("scene", "closed", "springs"),
     [
+        (punch(load=10**-0.5), 0.10, 0.065 + 0.02),
         (punch(load=1.0), 0.07, 0.12 + 0.02),
         # each more of the longest waves on a side
         (punch(load=1.0, first=3, last=24), 0.07 + 2 * 0.015, 0.12 + 2 * 0.06 + 0.02),
@@ -494,7 +495,7 @@ def test_springs_leave_what_their_tracks_scatter(monkeypatch):
 
 @pytest.mark.parametrize("want", ["force-rms", "force-spectrum", "acceleration", "acceleration-rms"])
 def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(want):
-    moving = {"mass": 1.0, "speed": 40.0} if want.startswith("acceleration") else {}
+    moving = {"mass": 3.0, "speed": 40.0} if want.startswith("acceleration") else {}
     scene = replace(rolling(height=1e-4), **moving)
     change = rolled.on_springs(Question(scene, want), 24, 5)
     # tracks that are fed have the level of half-spaces in the mean alone
