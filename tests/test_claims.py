@@ -400,6 +400,7 @@ def claims(scene, want="stiffness", tolerance=0.1):
 @pytest.mark.parametrize(
     ("scene", "closed", "springs"),
     [
+        (punch(load=10**-0.5), 0.10, 0.065 + 0.02),
         (punch(load=1.0), 0.07, 0.12 + 0.02),
         # each more of the longest waves on a side
         (punch(load=1.0, first=3, last=24), 0.07 + 2 * 0.015, 0.12 + 2 * 0.06 + 0.02),
@@ -499,7 +500,7 @@ def test_springs_leave_what_their_tracks_scatter(monkeypatch):
 
 @pytest.mark.parametrize("want", ["force-rms", "force-spectrum", "acceleration", "acceleration-rms"])
 def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(want):
-    moving = {"mass": 1.0, "speed": 40.0} if want.startswith("acceleration") else {}
+    moving = {"mass": 3.0, "speed": 40.0} if want.startswith("acceleration") else {}
     scene = replace(rolling(height=1e-4), **moving)
     change = rolled.on_springs(Question(scene, want), 24, 5)
     # tracks that are fed have the level of half-spaces in the mean alone
@@ -519,29 +520,35 @@ def test_bands_of_measured_heights_are_those_that_they_resolve():
 # Units
 
 
+def in_other_units(scene, modulus=2e11, length=1e-6):
+    """The same scene in pascals and metres, E* and lengths of one being those of a steel of micrometres."""
+    lengths = {name: length * getattr(scene.ground, name) for name in ("rms", "longest", "shortest")}
+    load = modulus * length**2 * scene.load
+    return replace(scene, size=length * scene.size, load=load, modulus=modulus, ground=replace(scene.ground, **lengths))
+
+
 ROUGH_BODIES = [punch(load=0.01, last=16), rolling(height=0.1, shape="sphere")]
 
 
 @pytest.mark.parametrize("scene", ROUGH_BODIES)
 def test_no_stiffness_depends_on_units(scene):
-    """In gigapascals and micrometres every model counts as many springs and cells, and answers E* times length more."""
-    modulus, length = 2e11, 1e-6
-    ground = replace(
-        scene.ground,
-        rms=length * scene.ground.rms,
-        longest=length * scene.ground.longest,
-        shortest=length * scene.ground.shortest,
-    )
-    other = replace(
-        scene, size=length * scene.size, load=modulus * length**2 * scene.load, modulus=modulus, ground=ground
-    )
-    pairs = list(zip(rungs_of(scene, "stiffness", 0.9, 0), rungs_of(other, "stiffness", 0.9, 0), strict=True))
-    assert [one.name for one, _ in pairs] == [two.name for _, two in pairs]
-    for one, two in pairs[:3]:
+    """Every model counts as many springs and cells, and answers E* times length more."""
+    ladders = [rungs_of(one, "stiffness", 0.9, 0) for one in (scene, in_other_units(scene))]
+    for one, two in zip(*(rungs[:3] for rungs in ladders), strict=True):
         here, there = one.solve(), two.solve()
-        assert there.value == pytest.approx(modulus * length * here.value, rel=1e-3)
+        assert there.value == pytest.approx(2e11 * 1e-6 * here.value, rel=1e-3)
         assert there.error == pytest.approx(here.error, rel=1e-2)
         assert (there.failed, there.cost) == (here.failed, here.cost)
+
+
+def test_grids_are_as_fine_in_any_unit():
+    """Sixteen cells in contact of a light punch, 2 F / (E* h' L^2) of all, h' the rms slope of the gradient."""
+    for scene in (*ROUGH_BODIES, light := punch(load=0.001, last=4)):
+        assert pressed_heights.cells_wanted(scene) == pressed_heights.cells_wanted(in_other_units(scene))
+    share = 2 * light.load / (math.sqrt(2) * light.ground.slope_along)
+    cells = pressed_heights.cells_wanted(light)
+    assert cells > 8 * 4
+    assert 16 <= share * cells**2 < 4 * 16
 
 
 def test_a_handful_of_springs_is_none_in_any_unit():

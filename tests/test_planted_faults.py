@@ -1284,6 +1284,10 @@ FAULTS = {
         (pressed_heights, "DEEPEST", 0.0),
         test_claims.test_the_side_of_a_sphere_holds_what_it_may_touch,
     ),
+    "one cell in contact of a light punch": (
+        (pressed_heights, "CONTACT", 1),
+        test_claims.test_grids_are_as_fine_in_any_unit,
+    ),
     "the rule of the rms for levels in bands": (
         (rungs_rolling, "LINEAR_BANDS", rungs_rolling.LINEAR_RMS),
         functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
