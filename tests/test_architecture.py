@@ -42,7 +42,7 @@ MAY_IMPORT = {
     "selection": BASE | {"simulation"},
     "benchmarks": BASE | {"simulation"},
     "cases": BASE | {"simulation", "selection"},
-    "report": {"cases", "benchmarks", "scenes", "analysis", "engine"},
+    "report": {"cases", "benchmarks", "simulation", "theory", "scenes", "analysis", "engine"},
     "__main__": {"report", "selection", "scenes", "engine"},
 }
 """The table of ARCHITECTURE.md."""
@@ -119,11 +119,15 @@ def test_the_page_has_the_table():
 def test_architecture_names_every_file():
     """By its own name, in the paragraph of its room."""
     text = (ROOT / "ARCHITECTURE.md").read_text()
-    methods, rooms_ = re.search(r"### The two methods\n(.*)### The rooms of `validation/`\n(.*?)\n\n`", text, re.DOTALL).groups()
+    methods, rooms_ = re.search(
+        r"### The two methods\n(.*)### The rooms of `validation/`\n(.*?)\n\n`", text, re.DOTALL
+    ).groups()
     paragraphs = dict(re.findall(r"- \*\*`(\w+)/`\*\*(.*?)(?=\n- |\Z)", rooms_, re.DOTALL))
     assert paragraphs.keys() == set(ROOMS)
     for room in ("mdr", "bem3d", *ROOMS):
-        folder, paragraph = (ROOT / room, methods) if room in PACKAGES else (ROOT / "validation" / room, paragraphs[room])
+        folder, paragraph = (
+            (ROOT / room, methods) if room in PACKAGES else (ROOT / "validation" / room, paragraphs[room])
+        )
         for source in folder.glob("*.py"):
             named = source.stem == "__init__" or f"`{source.stem}`" in paragraph
             assert named, f"{source.relative_to(ROOT)} is missing in ARCHITECTURE.md"

@@ -69,7 +69,7 @@ def test_grids_that_do_not_converge_have_no_error_bar():
     # what cannot be told from zero is covered by its sample
     student = stats.t(7).ppf(0.975) * noise.std(ddof=1) / math.sqrt(8)
     assert grid_error(noise, noise[::-1]) == pytest.approx(abs(noise.mean()) + student)
-    for ratio in (0.5, 0.6, 0.75):
+    for ratio in (0.5, 0.6, 0.75, 0.9):
         rest = ratio**2 * 0.3
         assert grid_error(np.full(8, 0.3 * (1 - ratio)), np.full(8, 0.3 * ratio * (1 - ratio))) == pytest.approx(rest)
 
@@ -324,9 +324,11 @@ def test_what_has_failed_leaves_everything_open():
 # Error bars of grids and samples, by hand
 
 
-@pytest.mark.parametrize(("ratio", "factor"), [(0.25, 1.0), (0.5, 1.0), (0.75, 3.0), (0.8, 4.0), (1.01, 4.0)])
+@pytest.mark.parametrize(
+    ("ratio", "factor"), [(0.25, 1.0), (0.5, 1.0), (0.75, 3.0), (0.82, 4.0), (0.9, 9.0), (1.01, math.inf)]
+)
 def test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample(ratio, factor):
-    """The noise of the last change is extended with it; a ratio that the noise hides is taken for 0.8."""
+    """The noise of the last change is extended with it; a ratio of 0.8 within its noise is taken for that."""
     scatter = 0.01 * np.array([1.0, -1.0] * 4)
     noise = stats.t(7).ppf(0.975) * 0.01 * math.sqrt(8 / 7) / math.sqrt(8)
     last = ratio * 0.3

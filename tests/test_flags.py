@@ -11,7 +11,7 @@ import pytest
 
 import bem3d
 from validation import __main__ as command
-from validation.analysis.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict
+from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict
 from validation.benchmarks.work_precision import evidence as precision_evidence
 from validation.benchmarks.work_precision.measurement import BEM, FAILED, FINISHED, LOOSE, MDR, PLAIN, REFUSED
 from validation.cases.limits import limits
@@ -25,6 +25,7 @@ from validation.cases.selection import model_selection as ladder
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, generator
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import read_scene

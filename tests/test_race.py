@@ -17,6 +17,7 @@ from validation.benchmarks.solvers import case as race
 from validation.benchmarks.solvers import evidence as race_evidence
 from validation.benchmarks.solvers.dynamic_wheel import Steps
 from validation.benchmarks.solvers.rolling import Rolls, interpolated
+from validation.report import contents
 from validation.report.contents import TIMED
 
 HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, entrants=())
@@ -229,7 +230,7 @@ def test_exponents_are_those_of_the_measurements(result):
 @pytest.mark.parametrize("installed", [True, False])
 def test_report_runs_the_race_where_there_are_peers(installed, tmp_path, monkeypatch):
     asked = []
-    monkeypatch.setattr(command, "peers_installed", lambda: installed)
+    monkeypatch.setattr(contents, "peers_installed", lambda: installed)
     monkeypatch.setattr(command, "build", lambda names, **settings: asked.extend(names) or [])
     command.main(["report", "--out", str(tmp_path)])
     assert ("race" in asked) == installed

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from validation.analysis.evidence import NotConvergedError
 from validation.benchmarks.work_precision.errors import Answer, _half_width, error, points, reference_of
 from validation.benchmarks.work_precision.exact_problem import logarithm
 from validation.benchmarks.work_precision.measurement import EXTRAPOLATED, FINISHED, REFUSED, Attempt, Quantity
@@ -23,6 +22,7 @@ from validation.benchmarks.work_precision.pareto import (
     why_nobody,
     without_luck,
 )
+from validation.engine.convergence import NotConvergedError
 
 K = Quantity(name="mean", log=logarithm("k"), needs=("k",))
 LEVEL = Quantity(name="level", log=logarithm("k"), needs=("k",), decibel=True, order=2.0)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from validation.analysis import records
-from validation.analysis.evidence import NotConvergedError, Verdict
+from validation.analysis.evidence import Verdict
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
 from validation.cases.wheel import features as wheel_features
@@ -18,6 +18,7 @@ from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
 from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
 from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine
 from validation.scenes.dynamic_wheel import read_scene
 from validation.simulation import wheel_on_springs as wheel_ensemble

@@ -2,7 +2,6 @@
 
 import argparse
 import importlib.metadata
-import math
 import os
 import sys
 import traceback
@@ -13,13 +12,12 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
-from validation.analysis.evidence import Evidence, Verdict
-from validation.benchmarks.peers import peers_installed
 from validation.engine.engine import KEPT, LOCAL, WorkerLostError
 from validation.engine.files import UNUSABLE
 from validation.engine.termination import TerminatedError, terminable
 from validation.report.build import Section, build
-from validation.report.contents import CASES, TIMED
+from validation.report.contents import CASES, TIMED, timed_here
+from validation.report.terminal import lines_of
 from validation.scenes.dynamic_wheel import WheelScene, read_scene, shipped_wheels
 from validation.scenes.load import comparable, read_any
 from validation.scenes.reader import SceneError
@@ -33,18 +31,6 @@ CLOCKED = {
     "precision": "error against cost of every method, a scene at a time; full takes two and a half minutes",
     "race": "our solver beside the peers that are installed; full takes half an hour",
 }
-RACE_COLUMNS = (
-    "problem",
-    "area",
-    "contestant",
-    "status",
-    "median [s]",
-    "fastest [s]",
-    "slowest [s]",
-    "residual",
-    "operator applications",
-    "pressure difference to ours, L2",
-)
 
 
 class Exit(IntEnum):
@@ -103,7 +89,7 @@ def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases and write their report."""
     # what is timed is run last, when nothing else is; a race needs somebody to race against
-    timed = [name for name in TIMED if name != "race" or peers_installed()]
+    timed = timed_here()
     everything = [*CASES, *timed] if arguments.scene is None else ["wheel"]
     names = list(dict.fromkeys(arguments.only or everything))
     some = names if arguments.only or arguments.scene else ()
@@ -171,39 +157,8 @@ def cases(arguments: argparse.Namespace) -> Exit:
     return Exit.MET
 
 
-def _tell(section: Section, *, unsteady: bool = False) -> None:
-    """A line for a case that is finished, and one for each thing in it that is amiss; unsteady: of such a scene."""
-    met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
-    found = ", ".join(f"{section.findings(v)} {v}" for v in Verdict if section.findings(v))
-    if unsteady:
-        met, found = "no steady answer, what is found is that of this distance", ""
-    print(f"{section.name:15s} {'no result' if section.failure else met}" + (f"; findings: {found}" if found else ""))
-    for number in section.missed:
-        print(f"    missed: {number.sentence}")
-    for solve in section.unconverged:
-        print(f"    not converged: {solve}", flush=True)
-    if section.name == "race" and section.evidence:
-        _tell_heats(section.evidence)
-    if section.name in TIMED and section.evidence:
-        for sentence in section.evidence.conclusions:
-            print(f"    {sentence}", flush=True)
-
-
-def _tell_heats(evidence: Evidence) -> None:
-    """The rows of the race."""
-    heats = evidence.table("heats")
-    print("    times in seconds; appl.: operator applications on the finest grid; dp: difference of the pressure, L2")
-    header = ("median", "fastest", "slowest", "residual", "appl.", "dp")
-    print(f"    {'problem':38s}  area {'contestant':17s}" + "".join(f"{name:>10s}" for name in header))
-    for problem, area, name, status, *values in zip(*(heats[name] for name in RACE_COLUMNS), strict=True):
-        median, fastest, slowest, residual, applications, difference = values
-        count = "?" if math.isnan(applications) else f"{applications:.0f}"
-        result = (
-            f"{median:10.4f}{fastest:10.4f}{slowest:10.4f}{residual:10.1e}{count:>10s}{difference:10.1e}"
-            if status == "finished"
-            else f"  {status}"
-        )
-        print(f"    {problem:38s} {area:5.1%} {name:17s}{result}")
+def _tell(section: Section, *, unsteady: bool) -> None:
+    print("\n".join(lines_of(section, unsteady=unsteady)), flush=True)
 
 
 class _Parser(argparse.ArgumentParser):

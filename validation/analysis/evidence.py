@@ -9,14 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 
-class NotConvergedError(RuntimeError):
-    """Too little of a case has converged for any evidence; `lost` says what has not."""
-
-    def __init__(self, message: str, lost: Sequence[str] = ()):
-        super().__init__(message)
-        self.lost = tuple(lost)
-
-
 class Verdict(StrEnum):
     """What a number says about its reference."""
 

@@ -18,6 +18,7 @@ import joblib
 import numpy as np
 
 from validation.engine import stored
+from validation.engine.convergence import as_not_converged
 from validation.engine.progress import Progress
 
 Outcome = stored.Outcome
@@ -161,7 +162,8 @@ def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> 
     if _numerics() != numerics:
         raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
     try:
-        return i, solve(problem)
+        with as_not_converged():
+            return i, solve(problem)
     except Exception as error:
         error.add_note(f"in {solve.__name__}({problem!r})")
         raise

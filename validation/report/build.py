@@ -11,8 +11,8 @@ from urllib.parse import quote
 import jinja2
 from markupsafe import Markup, escape
 
-from bem3d import ConvergenceError
-from validation.analysis.evidence import Evidence, NotConvergedError, Number, Role, Verdict
+from validation.analysis.evidence import Evidence, Number, Role, Verdict
+from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
 from validation.report.contents import CASES, CHAPTERS, TIMED, Entry, Profile
 from validation.report.figures import DRAW
@@ -133,9 +133,8 @@ def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | 
     entry = TIMED[name] if name in TIMED else CASES[name]
     case = entry.case(profile, seed, scene)
     try:
-        evidence = entry.evidence(entry.run(case, engine))
-    except ConvergenceError as error:
-        return Section(name, entry, entry.needs(case), asdict(case), None, (str(error),))
+        with as_not_converged():
+            evidence = entry.evidence(entry.run(case, engine))
     except NotConvergedError as error:
         return Section(name, entry, entry.needs(case), asdict(case), None, (str(error), *error.lost))
     return Section(name, entry, entry.needs(case), asdict(case), evidence)

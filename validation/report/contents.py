@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from validation.analysis.evidence import Evidence
+from validation.benchmarks.peers import peers_installed
 from validation.benchmarks.solvers import case as race
 from validation.benchmarks.solvers import dynamic_wheel as race_wheel
 from validation.benchmarks.solvers import evidence as race_evidence
@@ -363,3 +364,8 @@ CASES = {
         needs.always("chosen scene by scene"),
     ),
 }
+
+
+def timed_here() -> list[str]:
+    """What is timed and can be here: other solvers only where some are installed."""
+    return [name for name in TIMED if name != "race" or peers_installed()]

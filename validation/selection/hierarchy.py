@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 STUDENT = 2.0
 """Standard errors of a 95 % interval; samples here have eight realisations or more, or say so by a wider one."""
 SLOWEST = 0.8
-"""Ratio of two changes that a sample may hide behind: four times the last change is then left."""
+"""Largest ratio of two changes that a sample may feign: four times the last change is then left."""
 BOUNDARY_ELEMENTS = "boundary elements"
 """The model that judges all others, on whichever grid."""
 
@@ -194,8 +194,10 @@ def grid_error(earlier: FloatArray, last: FloatArray) -> float:
         return after + noise
     if after >= before + noise_before:
         return math.inf
-    ratio = min(after / before, SLOWEST)
-    return (after + noise) * max(1.0, ratio / (1 - ratio))
+    ratio = after / before
+    if after - noise <= SLOWEST * (before + noise_before):
+        ratio = min(ratio, SLOWEST)
+    return (after + noise) * max(1.0, ratio / (1 - ratio)) if ratio < 1 else math.inf
 
 
 def realisations(deviation: float, error: float, *, least: int = 8, most: int = 2000) -> int:

@@ -331,12 +331,13 @@ def _left_out(question: Question, value: FloatArray) -> float:
 
 def _claimed(rule: Rule, question: Question) -> tuple[float, str]:
     """The error by a rule, and what it rests on."""
-    scene, ratio = question.scene, question.scene.roughness_ratio
+    scene, ratio = question.scene, question.scene.roughness_ratio * question.amplification
     lost = contact_lost(
         scene.ground.c2d, edges=scene.ground.edges, contact_radius=scene.contact_radius, radius=scene.radius
     )
     error = float(np.dot(rule, (lost, ratio, 1.0)))
-    return error, counted({"contact that linear theory loses": lost, "h/d": ratio})
+    height = "h/d, by the resonance" if question.amplification > 1 else "h/d"
+    return error, counted({"contact that linear theory loses": lost, height: ratio})
 
 
 CHEAP = (LinearFilter.model, LinearSpace.model, Springs.model)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import Bands
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
+from validation.scenes.steadiness import force_on_the_way
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 
 FloatArray = NDArray[np.float64]
@@ -44,6 +45,19 @@ class Question:
     def unsteady(self) -> str:
         """Why there is no level of what is wanted, whatever the model; empty where there is one."""
         return self.scene.no_steady_answer() if self.dynamic else ""
+
+    @cached_property
+    def amplification(self) -> float:
+        """Of the force on a wheel that moves over that on one that keeps its approach, one at least [-].
+
+        Near its resonance a wheel presses deeper than roughness alone, and leaves linear theory earlier.
+        """
+        if not self.dynamic or self.scene.speed is None:
+            return 1.0
+        body, ground = self.scene.body, self.scene.ground
+        contact = {"contact_radius": self.scene.contact_radius, "modulus": self.scene.modulus}
+        still = math.sqrt(force_variance(ground.c2d, edges=ground.edges, **contact))
+        return max(1.0, force_on_the_way(body, self.scene.speed, [ground]) / still)
 
     @property
     def whole(self) -> bool:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import bem3d
 import mdr
-from validation.analysis.evidence import NotConvergedError
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome, generator
 
 FloatArray = NDArray[np.float64]

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from validation.analysis.evidence import NotConvergedError
 from validation.analysis.statistics import left_out_error
 from validation.benchmarks.work_precision.measurement import (
     EXTRAPOLATED,
@@ -23,6 +22,7 @@ from validation.benchmarks.work_precision.measurement import (
     answers_of,
 )
 from validation.benchmarks.work_precision.pareto import Point
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
 
 IntArray = NDArray[np.int64]

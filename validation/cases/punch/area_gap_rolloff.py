@@ -7,7 +7,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, cg
 
 import bem3d
-from validation.analysis.evidence import Evidence, NotConvergedError, Number, Role, Verdict, table_of
+from validation.analysis.evidence import Evidence, Number, Role, Verdict, table_of
 from validation.analysis.statistics import (
     DECIBEL,
     FIVE_PER_CENT,
@@ -29,6 +29,7 @@ from validation.analysis.statistics import (
     pairs,
     sample,
 )
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.simulation.rough_punch import (
     BEM,

@@ -3,8 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from validation.analysis.evidence import NotConvergedError
 from validation.analysis.spectra import Bands
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.rolling_strip import (
     Feed,

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.analysis.evidence import Evidence, NotConvergedError, Number, Role, Table, Verdict, table_of
+from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict, table_of
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import Estimate, Sample, at, change, combined, log_mean, nearest, pairs, sample
 from validation.cases.rolling.force_spectrum_evidence import POWER, REASON, over_bands
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.simulation.rolling_strip import (
     BOOTSTRAP,

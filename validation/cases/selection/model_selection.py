@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from validation.analysis.evidence import Evidence, NotConvergedError, Number, Role, Table, table_of
+from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
 from validation.cases.selection.random_scenes import KINDS, RANGES, WANTED, random_scene
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import PressedScene
 from validation.selection import indentation_models as rungs_pressed

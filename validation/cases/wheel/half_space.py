@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from validation.analysis.evidence import NotConvergedError
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
 from validation.simulation.wheel_on_half_space import Strip, roll_strip

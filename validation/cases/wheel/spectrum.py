@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import bem3d
 from mdr import SelfAffine
-from validation.analysis.evidence import NotConvergedError
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
 from validation.simulation.contact_laws import BoundaryElements, Springs

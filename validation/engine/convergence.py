@@ -1,0 +1,27 @@
+"""Not converged is never success: the exception that says what has not."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+
+class NotConvergedError(RuntimeError):
+    """Too little has converged for any evidence; `lost` says what has not."""
+
+    def __init__(self, message: str, lost: Sequence[str] = ()):
+        super().__init__(message)
+        self.lost = tuple(lost)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return NotConvergedError, (str(self), self.lost)
+
+
+@contextmanager
+def as_not_converged() -> Iterator[None]:
+    """An iteration that ends short of its tolerance keeps its history, whichever method it is of: NotConvergedError."""
+    try:
+        yield
+    except Exception as error:
+        if hasattr(error, "history"):
+            raise NotConvergedError(str(error)) from error
+        raise
