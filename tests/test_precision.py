@@ -43,6 +43,7 @@ from validation.benchmarks.work_precision.pareto import Point, asked, break_even
 from validation.benchmarks.work_precision.rolling import Rolling
 from validation.benchmarks.work_precision.rough_punch import Fractal, log_deviation
 from validation.engine.engine import Engine
+from validation.report import contents
 from validation.report.contents import TIMED
 from validation.simulation.motion import simulate
 from validation.simulation.rolling_strip import HERTZ
@@ -504,7 +505,7 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     monkeypatch.setattr(Precision, "scenes", lambda self: (scene,))
     engine = Engine(store=tmp_path)
     engine.map(precision.measure, [Trial(scene, slow=1.0, enough=0.0)])
-    assert [file.match("precision-measure-*.npz") for file in tmp_path.iterdir()] == [True]
+    assert [file.match("*-measure-*.npz") for file in tmp_path.iterdir()] == [True]
     run(SMALL, engine)
     assert not list(tmp_path.iterdir())
 
@@ -611,7 +612,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize("installed", [True, False])
 def test_report_times_last_of_all_and_before_the_race(installed, tmp_path, monkeypatch):
     seen = []
-    monkeypatch.setattr(command, "peers_installed", lambda: installed)
+    monkeypatch.setattr(contents, "peers_installed", lambda: installed)
     monkeypatch.setattr(command, "build", lambda names, **settings: seen.extend(names) or [])
     command.main(["report", "--out", str(tmp_path)])
     assert seen[-2:] == ["precision", "race"] if installed else seen[-1] == "precision" and "race" not in seen

@@ -92,7 +92,7 @@ def page_of(numbers, shown=(), **settings):
     section = build.Section("geike", CASES["geike"], "none", {}, shown)
     about = {name: {} for name in ("libraries", "seeds")} | {"seconds": {"geike": 1.0}, "timed": ()}
     about |= dict.fromkeys(("version", "commit", "python", "system", "workers"), "")
-    return Rows(build._page([section], "full", {}, about).decode()).rows
+    return Rows(build._page([section], "full", {}, about, None).decode()).rows
 
 
 NUMBERS = [
