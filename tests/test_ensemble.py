@@ -566,3 +566,22 @@ def test_one_part_that_fails_is_a_failed_solve():
     assert ensemble._failed({"failed": np.array([0.0, 1.0])})
     assert not ensemble._failed({"failed": np.zeros(2)})
     assert not ensemble._failed({})
+
+
+def test_an_engine_is_its_settings():
+    """Silent, alone and without a store unless it is told; what a timed run has asked for is no setting."""
+    assert Engine() == Engine(workers=1, store=None, progress=False, executor="local")
+    with Engine().timed() as alone:
+        alone.map(plain_toy, [1])
+        assert alone == Engine()
+
+
+def plain_toy(problem):
+    return {"value": np.zeros(problem)}
+
+
+def test_the_source_is_read_when_the_code_is():
+    """Whoever edits it while it runs does not make old results new."""
+    code = "from validation.engine import engine; print(engine._numerics.cache_info().currsize)"
+    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True)
+    assert run.stdout == "1\n", run.stderr
