@@ -11,12 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 import bem3d
 import mdr
-from bem3d import ConvergenceError
 from validation.engine.engine import Outcome
 
 FloatArray = NDArray[np.float64]
 T = TypeVar("T")
-REFUSALS = (ValueError, ArithmeticError, ConvergenceError)
+REFUSALS = (ValueError, ArithmeticError, bem3d.ConvergenceError)
 
 
 @dataclass(frozen=True, kw_only=True)
