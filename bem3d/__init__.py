@@ -5,22 +5,26 @@ All lengths in metres, forces in newtons; ``modulus`` is always the contact modu
 
 from bem3d.contact import Contact, Status, residual
 from bem3d.convergence import ConvergenceError
-from bem3d.doubts import ContactWarning, EdgeWarning, ResolutionWarning, UnitsWarning
-from bem3d.frozen import FrozenContact, press_frozen
+from bem3d.diagnostics import ContactWarning, EdgeWarning, ResolutionWarning, UnitsWarning
 from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
-from bem3d.plain import solve_plain
+from bem3d.polonsky_keer import solve_polonsky_keer
 from bem3d.problem import Problem
 from bem3d.rolling import Rolling, RollingContact, WheelContact, roll, rolling_force
+from bem3d.rolling_frame import Track
 from bem3d.solver import solve
 from bem3d.surface import rough_surface
-from bem3d.track import Track
+from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
+
+# names of 0.1, for one release
+FrozenContact, press_frozen, solve_plain = FixedContactArea, solve_fixed_area, solve_polonsky_keer
 
 __all__ = [
     "Contact",
     "ContactWarning",
     "ConvergenceError",
     "EdgeWarning",
+    "FixedContactArea",
     "FrozenContact",
     "HalfSpace",
     "Problem",
@@ -38,5 +42,7 @@ __all__ = [
     "rolling_force",
     "rough_surface",
     "solve",
+    "solve_fixed_area",
     "solve_plain",
+    "solve_polonsky_keer",
 ]

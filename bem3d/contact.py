@@ -6,12 +6,12 @@ from enum import StrEnum
 
 import numpy as np
 
-from bem3d.border import FloatArray
+from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
-from bem3d.doubts import Doubt, doubts_of, doubts_of_units
-from bem3d.frozen import FrozenContact, press_frozen
+from bem3d.diagnostics import Doubt, doubts_of, doubts_of_units
 from bem3d.problem import Problem
 from bem3d.read_only import ReadOnly
+from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 
 Level = tuple[tuple[int, int], int]
 """Shape of a coarser grid, and the operator applications on it."""
@@ -46,7 +46,7 @@ class Contact(ReadOnly):
     operator_applications: int
     status: Status
     coarse_applications: tuple[Level, ...] = field(default=(), repr=False)
-    frozen: FrozenContact | None = field(default=None, repr=False)
+    frozen: FixedContactArea | None = field(default=None, repr=False)
 
     @property
     def force(self) -> float:
@@ -101,8 +101,8 @@ class Contact(ReadOnly):
             return self.frozen.stiffness
         half_space, contact = self.problem.half_space, self.pressure > 0
         if tolerance is None:
-            return press_frozen(half_space, contact).stiffness
-        return press_frozen(half_space, contact, tolerance=tolerance).stiffness
+            return solve_fixed_area(half_space, contact).stiffness
+        return solve_fixed_area(half_space, contact, tolerance=tolerance).stiffness
 
 
 def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:

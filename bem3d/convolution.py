@@ -9,7 +9,7 @@ import numpy as np
 import pyfftw
 from numpy.typing import NDArray
 
-from bem3d.border import FloatArray, IndexArray
+from bem3d.checks import FloatArray, IndexArray
 
 Planning = Literal["estimate", "measure"]
 ComplexArray = NDArray[np.complex128]

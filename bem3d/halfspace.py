@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from bem3d import kernel
-from bem3d.border import FloatArray, field, grid_shape, grid_spacing, positive
+from bem3d.checks import FloatArray, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import Convolution, PlainConvolution, Planning, padded_convolution
 
 KEEPING = threading.Lock()

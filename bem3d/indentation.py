@@ -7,14 +7,14 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bem3d.border import FloatArray, count, finite, fraction, not_negative
+from bem3d.checks import FloatArray, count, finite, fraction, not_negative
 from bem3d.contact import Contact
-from bem3d.doubts import warn
-from bem3d.frozen import FrozenContact, press_frozen
+from bem3d.diagnostics import warn
 from bem3d.halfspace import HalfSpace
-from bem3d.press import Start
 from bem3d.problem import Problem
 from bem3d.solver import answer, checked
+from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
+from bem3d.window_solve import InitialGuess
 
 STIFFNESS_TOLERANCE = 1e-4
 """Relative residual of the frozen contacts: their stiffness is good to some tens of times its square."""
@@ -63,13 +63,13 @@ def _path(
 ) -> Iterator[Contact]:
     past: tuple[Contact, ...] = ()
     warned: set[object] = set()
-    frozen: FrozenContact | None = None
+    frozen: FixedContactArea | None = None
     for problem in problems:
         contact = answer(problem, _predicted(problem, past), tolerance, max_iterations)
         if raise_on_failure:
             checked(contact)
         if stiffness and contact.converged:
-            frozen = press_frozen(
+            frozen = solve_fixed_area(
                 problem.half_space,
                 contact.pressure > 0,
                 start=None if frozen is None else frozen.pressure,
@@ -84,7 +84,7 @@ def _path(
         yield contact
 
 
-def _predicted(problem: Problem, past: tuple[Contact, ...]) -> Start | None:
+def _predicted(problem: Problem, past: tuple[Contact, ...]) -> InitialGuess | None:
     """Along the tangent or the secant; None, a cold start, where there is nothing to start from."""
     if not past or not past[-1].pressure.any():
         return None
@@ -100,11 +100,11 @@ def _predicted(problem: Problem, past: tuple[Contact, ...]) -> Start | None:
     return _start(problem, pressure, last.approach + part * (last.approach - past[0].approach))
 
 
-def _start(problem: Problem, pressure: FloatArray, approach: float) -> Start | None:
+def _start(problem: Problem, pressure: FloatArray, approach: float) -> InitialGuess | None:
     """The part of a predicted pressure that presses."""
     pressure = np.maximum(pressure, 0.0)
     overlap = approach - problem.first_touch
-    return Start(pressure, overlap if overlap > 0 else None) if pressure.any() else None
+    return InitialGuess(pressure, overlap if overlap > 0 else None) if pressure.any() else None
 
 
 def _prescribed(problem: Problem) -> float:

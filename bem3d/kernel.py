@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
 
-from bem3d.border import FloatArray
+from bem3d.checks import FloatArray
 
 UNIFORM = 0.3
 """The wave, as a part of the longest, to whose pressure a contact yields about as to a uniform one."""

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from bem3d.border import FloatArray
+from bem3d.checks import FloatArray
 from bem3d.contact import Level
 from bem3d.halfspace import HalfSpace
-from bem3d.press import Start, press
 from bem3d.problem import Problem
+from bem3d.window_solve import InitialGuess, solve_on_window
 
 FEWEST_CELLS = 32
 """An axis of fewer cells is not coarsened."""
@@ -14,19 +14,19 @@ PART = 0.03
 """A coarser grid is solved to so much of the error that its own start had, which the finer one will have again."""
 
 
-def cold_start(problem: Problem, max_iterations: int) -> tuple[Start, tuple[Level, ...]]:
+def cold_start(problem: Problem, max_iterations: int) -> tuple[InitialGuess, tuple[Level, ...]]:
     """A pressure for a touching problem, from the solution on coarser grids, and the applications it took there."""
     coarse = _coarser_problem(problem)
     if coarse is None or coarse.uniform or not coarse.touching:
         return first_pressure(problem), ()
     start, levels = cold_start(coarse, max_iterations)
-    attempt = press(coarse, start, PART * min(start.error, 1.0), max_iterations)
+    attempt = solve_on_window(coarse, start, PART * min(start.error, 1.0), max_iterations)
     levels = (*levels, (coarse.half_space.shape, attempt.operator_applications))
     pressure = prolong(attempt.pressure, problem.half_space)
     overlap = attempt.overlap + coarse.first_touch - problem.first_touch
     if not np.isfinite(overlap) or not np.isfinite(pressure).all() or not pressure.any():
         return first_pressure(problem), levels
-    return Start(pressure, overlap, attempt.history[0]), levels
+    return InitialGuess(pressure, overlap, attempt.history[0]), levels
 
 
 def _coarser_problem(problem: Problem) -> Problem | None:
@@ -42,15 +42,15 @@ def _coarser_problem(problem: Problem) -> Problem | None:
     return Problem(half_space=half_space, gap=gap, approach=problem.approach, force=problem.force)
 
 
-def first_pressure(problem: Problem) -> Start:
+def first_pressure(problem: Problem) -> InitialGuess:
     """Uniform at a prescribed force; else proportional to the overlap, as large as lowers the energy most."""
     if problem.depth is None:
-        return Start(np.ones(problem.half_space.shape))
+        return InitialGuess(np.ones(problem.half_space.shape))
     # in units of the deepest, whose square may not be a number that there is
     overlap = np.maximum(1 - (problem.gap - problem.first_touch) / problem.depth, 0.0)
     yielding = problem.half_space.apply(overlap)
     size = problem.depth * float((overlap**2).sum()) / float((overlap * yielding).sum())
-    return Start(size * overlap, problem.depth)
+    return InitialGuess(size * overlap, problem.depth)
 
 
 def coarser(half_space: HalfSpace) -> HalfSpace | None:

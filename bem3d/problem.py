@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from bem3d.border import FloatArray, field, finite, not_negative
+from bem3d.checks import FloatArray, field, finite, not_negative
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 

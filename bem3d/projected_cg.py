@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from bem3d.border import BoolArray, FloatArray
+from bem3d.checks import BoolArray, FloatArray
 from bem3d.contact import residual
 from bem3d.window import dot, dots
 
@@ -119,7 +119,7 @@ def solved(gram: list[list[float]], wanted: list[float]) -> list[float]:
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class IterationStep:
     """A change of the pressure that keeps it in bounds, the slope of the energy along it, whether it was cut short."""
 
     change: FloatArray
@@ -179,7 +179,7 @@ def projected_cg(
 
 def _downhill(
     cells: Operator, pressure: FloatArray, w: FloatArray, load: Load, memory: Memory, length: float
-) -> Step | None:
+) -> IterationStep | None:
     """The first of three steps that gains energy: conjugate, preconditioned, plain. None if none does."""
     free = (pressure > 0) | (w < 0)
     downhill = -w * free
@@ -191,18 +191,18 @@ def _downhill(
     if not step.gain > 0:
         # along the gradient and back to the nearest pressure: downhill unless there is no lower place
         change = load.nearest(pressure + length * cells.stiffness * downhill, free) - pressure
-        step = Step(change, -dot(w, change), cut=True)
+        step = IterationStep(change, -dot(w, change), cut=True)
     return step if step.gain > 0 else None
 
 
-def _step(direction: FloatArray, pressure: FloatArray, w: FloatArray, free: BoolArray, load: Load) -> Step:
+def _step(direction: FloatArray, pressure: FloatArray, w: FloatArray, free: BoolArray, load: Load) -> IterationStep:
     """From the pressure to the projection of pressure + direction."""
     aim = (pressure + direction) * free
     change = load.scaled(np.maximum(aim, 0.0)) - pressure
-    return Step(change, -dot(w, change), bool(aim.min() < 0))
+    return IterationStep(change, -dot(w, change), bool(aim.min() < 0))
 
 
-def _taken(step: Step, best: float, pressure: FloatArray, length: float) -> tuple[float, float]:
+def _taken(step: IterationStep, best: float, pressure: FloatArray, length: float) -> tuple[float, float]:
     """How much of the step to take, and the length to estimate next."""
     if not step.cut:
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -8,15 +8,15 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bem3d.border import BoolArray, FloatArray, count, finite, fraction, positive
+from bem3d.checks import BoolArray, FloatArray, count, finite, fraction, positive
 from bem3d.contact import Status, residual
 from bem3d.convergence import ConvergenceError
-from bem3d.doubts import warn
-from bem3d.press import Attempt, may_touch
+from bem3d.diagnostics import warn
 from bem3d.projected_cg import Load, projected_cg
 from bem3d.read_only import ReadOnly
-from bem3d.track import Frame, Spans, Track
+from bem3d.rolling_frame import Frame, Spans, Track
 from bem3d.window import Candidates, smallest_box
+from bem3d.window_solve import IterationState, may_touch
 
 FIRST_STEP = 1.0
 """Of a start that is warm, the first step may be as long as the approximate inverse says."""
@@ -161,7 +161,7 @@ class RollingContact:
         self.tolerance = fraction("tolerance", tolerance)
         self.max_iterations = count("max_iterations", max_iterations)
         self._frame: Frame | None = None
-        self._past: tuple[Pressed, ...] = ()
+        self._past: tuple[FramePressure, ...] = ()
         self._position = -1
 
     def press(self, position: int, approach: float) -> WheelContact:
@@ -191,7 +191,7 @@ class RollingContact:
         expected: approach, about; prescribed: the load, from the approach of first touch and the area of a cell.
         """
         frame = self._frame or self._around(self.track.smooth_contact(expected), MARGIN)
-        start, attempt = self._carried(position), Attempt(np.empty(frame.shape), math.nan)
+        start, attempt = self._carried(position), IterationState(np.empty(frame.shape), math.nan)
         while True:
             gap = frame.gap(position)
             touch = float(gap.min())
@@ -201,7 +201,7 @@ class RollingContact:
             if spans is None or attempt.status is not Status.CONVERGED:
                 break
             frame = self._around(spans)
-            start, attempt.status = Pressed.by(frame, frame.take(pressed.pressure, pressed.frame)), None
+            start, attempt.status = FramePressure.by(frame, frame.take(pressed.pressure, pressed.frame)), None
             attempt.operator_applications += 1
         if frame.at_edge(pressed.pressure):
             raise ValueError(
@@ -219,8 +219,14 @@ class RollingContact:
         )
 
     def _pressed(
-        self, frame: Frame, near: FloatArray, load: Load, start: "Pressed | None", expected: float, attempt: Attempt
-    ) -> "Pressed":
+        self,
+        frame: Frame,
+        near: FloatArray,
+        load: Load,
+        start: "FramePressure | None",
+        expected: float,
+        attempt: IterationState,
+    ) -> "FramePressure":
         """The contact on a frame: iterate on cells that may touch, until a fresh application finds no others.
 
         near: gap from the first touch; start: a pressure to begin with, None where there is none; expected: overlap.
@@ -228,9 +234,9 @@ class RollingContact:
         if load.overlap is not None and load.overlap <= 0:
             attempt.overlap = load.overlap
             attempt.judge(0.0, self.tolerance, self.max_iterations)
-            return Pressed.nowhere(frame)
+            return FramePressure.nowhere(frame)
         if start is None:
-            start = Pressed.by(frame, load.scaled(_cold(frame, near, expected)))
+            start = FramePressure.by(frame, load.scaled(_cold(frame, near, expected)))
             attempt.operator_applications += 1
         if load.total is not None:
             start = start.times(load.total / float(start.pressure.sum()))
@@ -249,7 +255,7 @@ class RollingContact:
                 attempt.status = Status.STAGNATION
             if attempt.status is not None:
                 return start
-            start = Pressed.by(frame, self._iterated(frame, marked, start.pressure, separation, load, attempt))
+            start = FramePressure.by(frame, self._iterated(frame, marked, start.pressure, separation, load, attempt))
             attempt.operator_applications += 1
 
     def _iterated(
@@ -259,7 +265,7 @@ class RollingContact:
         pressure: FloatArray,
         separation: FloatArray,
         load: Load,
-        attempt: Attempt,
+        attempt: IterationState,
     ) -> FloatArray:
         """The pressure at which the running residual on the marked cells is small enough, or nothing more is gained."""
         box = smallest_box(frame.half_space, marked)
@@ -281,7 +287,7 @@ class RollingContact:
         found[box] = cells.spread(state.pressure)
         return found
 
-    def _carried(self, position: int) -> "Pressed | None":
+    def _carried(self, position: int) -> "FramePressure | None":
         """The secant through the last two pressures, which stay where they are on the ground as the wheel goes on.
 
         It may pull where the contact closes behind the wheel. Its displacement needs no application.
@@ -294,7 +300,7 @@ class RollingContact:
         # what has left the frame, or is about to, is nothing to begin with
         return carried if float(carried.pressure.sum()) > 0 else None
 
-    def _remember(self, position: int, pressed: "Pressed", status: Status | None) -> None:
+    def _remember(self, position: int, pressed: "FramePressure", status: Status | None) -> None:
         """What the next position begins with; now and then, on a frame that fits anew."""
         frame = pressed.frame
         past = [p for p in self._past[-1:] if position == self._position + 1 and p.frame is frame]
@@ -313,7 +319,7 @@ class RollingContact:
 
 
 @dataclass(frozen=True, eq=False)
-class Pressed:
+class FramePressure:
     """A pressure on a frame, and the displacement that it makes there."""
 
     frame: Frame
@@ -321,33 +327,33 @@ class Pressed:
     displacement: FloatArray
 
     @classmethod
-    def by(cls, frame: Frame, pressure: FloatArray) -> "Pressed":
+    def by(cls, frame: Frame, pressure: FloatArray) -> "FramePressure":
         """By one application of the operator."""
         return cls(frame, pressure, frame.half_space.apply(pressure))
 
     @classmethod
-    def nowhere(cls, frame: Frame) -> "Pressed":
+    def nowhere(cls, frame: Frame) -> "FramePressure":
         """No contact."""
         return cls(frame, np.zeros(frame.shape), np.zeros(frame.shape))
 
-    def on(self, frame: Frame) -> "Pressed":
+    def on(self, frame: Frame) -> "FramePressure":
         """On a frame that is part of this one."""
-        return Pressed(frame, frame.take(self.pressure, self.frame), frame.take(self.displacement, self.frame))
+        return FramePressure(frame, frame.take(self.pressure, self.frame), frame.take(self.displacement, self.frame))
 
-    def times(self, factor: float) -> "Pressed":
+    def times(self, factor: float) -> "FramePressure":
         """So many times as hard."""
-        return Pressed(self.frame, factor * self.pressure, factor * self.displacement)
+        return FramePressure(self.frame, factor * self.pressure, factor * self.displacement)
 
-    def less(self, other: "Pressed") -> "Pressed":
+    def less(self, other: "FramePressure") -> "FramePressure":
         """The difference to another on this frame."""
-        return Pressed(self.frame, self.pressure - other.pressure, self.displacement - other.displacement)
+        return FramePressure(self.frame, self.pressure - other.pressure, self.displacement - other.displacement)
 
-    def behind(self, rows: int) -> "Pressed":
+    def behind(self, rows: int) -> "FramePressure":
         """Where it is on the ground when the wheel is so many rows further; ahead, as deep as in the last row known."""
         pressure, displacement = np.zeros(self.frame.shape), np.empty(self.frame.shape)
         pressure[:-rows], displacement[:-rows] = self.pressure[rows:], self.displacement[rows:]
         displacement[-rows:] = self.displacement[-1]
-        return Pressed(self.frame, pressure, displacement)
+        return FramePressure(self.frame, pressure, displacement)
 
 
 def hertz_approach(track: Track, force: float) -> float:

@@ -5,14 +5,14 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bem3d.border import FloatArray, count, field, fraction
+from bem3d.checks import FloatArray, count, field, fraction
 from bem3d.contact import Contact, Level, Status
 from bem3d.convergence import ConvergenceError
-from bem3d.doubts import warn
+from bem3d.diagnostics import warn
 from bem3d.halfspace import HalfSpace
 from bem3d.nested import cold_start
-from bem3d.press import Attempt, Start, press
 from bem3d.problem import Problem
+from bem3d.window_solve import InitialGuess, IterationState, solve_on_window
 
 
 def solve(
@@ -52,7 +52,7 @@ def solve(
     return checked(contact) if raise_on_failure else contact
 
 
-def answer(problem: Problem, start: Start | None, tolerance: float, max_iterations: int) -> Contact:
+def answer(problem: Problem, start: InitialGuess | None, tolerance: float, max_iterations: int) -> Contact:
     """`solve` for a problem and numbers that are known to be in order: a contact, converged or not."""
     contact = known_at_once(problem, tolerance)
     if contact is not None:
@@ -60,7 +60,7 @@ def answer(problem: Problem, start: Start | None, tolerance: float, max_iteratio
     # numbers that overflow end as a residual that is none, and that is a status
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         begin, levels = (start, ()) if start else cold_start(problem, max_iterations)
-        attempt = press(problem, begin, tolerance, max_iterations)
+        attempt = solve_on_window(problem, begin, tolerance, max_iterations)
     return contact_of(problem, tolerance, attempt, levels)
 
 
@@ -95,7 +95,7 @@ def checked(contact: Contact) -> Contact:
     )
 
 
-def contact_of(problem: Problem, tolerance: float, attempt: Attempt, levels: tuple[Level, ...] = ()) -> Contact:
+def contact_of(problem: Problem, tolerance: float, attempt: IterationState, levels: tuple[Level, ...] = ()) -> Contact:
     """What an attempt has come to."""
     return Contact(
         problem=problem,
@@ -109,7 +109,7 @@ def contact_of(problem: Problem, tolerance: float, attempt: Attempt, levels: tup
     )
 
 
-def _start(start: Contact | ArrayLike | None, problem: Problem) -> Start | None:
+def _start(start: Contact | ArrayLike | None, problem: Problem) -> InitialGuess | None:
     """A given pressure to begin with; None where there is no contact in it."""
     if start is None:
         return None
@@ -119,4 +119,4 @@ def _start(start: Contact | ArrayLike | None, problem: Problem) -> Start | None:
     if not pressure.any():
         return None
     overlap = start.approach - problem.first_touch if isinstance(start, Contact) else 0.0
-    return Start(pressure.copy(), overlap if overlap > 0 else None)
+    return InitialGuess(pressure.copy(), overlap if overlap > 0 else None)

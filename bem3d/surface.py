@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from bem3d.border import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
-from bem3d.doubts import doubt_waves, warn
+from bem3d.checks import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
+from bem3d.diagnostics import doubt_waves, warn
 from bem3d.memory import fits
 
 ComplexArray = NDArray[np.complex128]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bem3d.border import BoolArray, FloatArray
+from bem3d.checks import BoolArray, FloatArray
 from bem3d.halfspace import HalfSpace
 
 Box = tuple[slice, slice]

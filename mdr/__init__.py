@@ -3,7 +3,7 @@
 All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
 """
 
-from mdr.doubts import ContactWarning, LinearityWarning, ResolutionWarning, UnitsWarning
+from mdr.diagnostics import LinearityWarning, SpringContactWarning, SpringResolutionWarning, SpringUnitsWarning
 from mdr.foundation import (
     LoadCurve,
     LoadPoint,
@@ -13,10 +13,14 @@ from mdr.foundation import (
     stiffness_under,
 )
 from mdr.profile import rough_profile, rough_profiles, sphere_profile
-from mdr.rolling import Rolling, roll, rolling_force
+from mdr.rolling import RollingTrack, roll, rolling_force
+from mdr.rolling_ensemble import RollingEnsemble
 from mdr.rolling_spectrum import rolling_spectrum
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
-from mdr.wheels import Wheels
+
+# names of 0.1, for one release
+ContactWarning, ResolutionWarning, UnitsWarning = SpringContactWarning, SpringResolutionWarning, SpringUnitsWarning
+Rolling, Wheels = RollingTrack, RollingEnsemble
 
 __all__ = [
     "ContactWarning",
@@ -25,8 +29,13 @@ __all__ = [
     "LoadPoint",
     "ResolutionWarning",
     "Rolling",
+    "RollingEnsemble",
+    "RollingTrack",
     "SelfAffine",
     "SphereContact",
+    "SpringContactWarning",
+    "SpringResolutionWarning",
+    "SpringUnitsWarning",
     "UnitsWarning",
     "Wheels",
     "geike",

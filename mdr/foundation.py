@@ -7,15 +7,15 @@ from typing import Generic, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
-from mdr.doubts import doubts_of_load, doubts_of_units, warn
-from mdr.read_only import ReadOnly
+from mdr.checks import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
+from mdr.diagnostics import doubts_of_load, doubts_of_units, warn
+from mdr.read_only import ReadOnlyArrays
 
 Value = TypeVar("Value", float, FloatArray)
 
 
 @dataclass(frozen=True)
-class LoadPoint(ReadOnly, Generic[Value]):
+class LoadPoint(ReadOnlyArrays, Generic[Value]):
     """One state of a load curve (or an array of states): approach [m], force [N], stiffness dF/dd [N/m]."""
 
     approach: Value
@@ -24,7 +24,7 @@ class LoadPoint(ReadOnly, Generic[Value]):
 
 
 @dataclass(frozen=True, eq=False)
-class LoadCurve(ReadOnly):
+class LoadCurve(ReadOnlyArrays):
     """Force of a rigid rough profile on the spring foundation, exact at every approach.
 
     F(d) = E* dx sum_i max(d + h_i, 0): linear between the breakpoints d = -h_i, where one more spring is met.

@@ -5,9 +5,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, Spectrum, density, doubles, finite_array, held, positive
-from mdr.border import count as whole
-from mdr.doubts import Doubt, doubts_of_waves, warn
+from mdr.checks import FloatArray, Spectrum, density, doubles, finite_array, held, positive
+from mdr.checks import count as whole
+from mdr.diagnostics import Doubt, doubts_of_waves, warn
 from mdr.memory import fits
 
 BYTES_A_POINT = 40

@@ -8,7 +8,7 @@ import numpy as np
 Kept = TypeVar("Kept")
 
 
-class ReadOnly:
+class ReadOnlyArrays:
     """For frozen dataclasses: arrays are copied and closed when one is made, copied or unpickled.
 
     A read-only array is not enough: who holds an older view of it may still write.

@@ -7,12 +7,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, doubles, finite_array, held, positive
-from mdr.borne import Borne, by_sorting
-from mdr.doubts import Doubt, doubts_of_linearity, warn
-from mdr.near import Near
-from mdr.read_only import ReadOnly
-from mdr.track import Track
+from mdr.approach_by_sorting import Borne, by_sorting
+from mdr.candidate_springs import Near
+from mdr.checks import FloatArray, doubles, finite_array, held, positive
+from mdr.diagnostics import Doubt, doubts_of_linearity, warn
+from mdr.read_only import ReadOnlyArrays
+from mdr.spring_track import SpringTrack
 
 BLOCK = 1024
 """Positions at a time: few enough to stay in the cache, and to see little of the range of the heights."""
@@ -24,7 +24,7 @@ Contact = Literal["one-sided", "full", "linear"]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Rolling(ReadOnly):
+class RollingTrack(ReadOnlyArrays):
     """A wheel at each point of its track: arrays of shape (points,).
 
     force [N]; approach: to the plane of height zero [m]; stiffness: dF/dd of the springs in contact [N/m];
@@ -46,7 +46,7 @@ def roll(
     approach: float | ArrayLike | None = None,
     force: float | None = None,
     contact: Contact = "one-sided",
-) -> Rolling:
+) -> RollingTrack:
     """Roll a wheel of profile x^2 / R along a rough track of springs, quasi-statically.
 
     F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0), the wheel over each of the springs in turn.
@@ -68,7 +68,7 @@ def roll(
     Where the roughness makes the contact longer than that, it meets the same roughness again.
     Source: Popov and Hess, (14.2), (14.5) and (14.11).
     """
-    track = Track(height, spacing, radius, modulus)
+    track = SpringTrack(height, spacing, radius, modulus)
     rolled, doubts = _within_doubles(track, approach, force, contact)
     warn(doubts)
     return rolled
@@ -78,15 +78,15 @@ def rolling_force(
     height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
 ) -> FloatArray:
     """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
-    track = Track(height, spacing, radius, modulus)
+    track = SpringTrack(height, spacing, radius, modulus)
     rolled, doubts = _within_doubles(track, approach, None, "one-sided")
     warn(doubts)
     return rolled.force.copy()
 
 
 def _within_doubles(
-    track: Track, approach: float | ArrayLike | None, force: float | None, contact: Contact
-) -> tuple[Rolling, tuple[Doubt, ...]]:
+    track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
+) -> tuple[RollingTrack, tuple[Doubt, ...]]:
     """`_rolled`, refused where its numbers are too large or too small."""
     load = {"force": force} if approach is None else {"approach": approach}
     given = {"height": float(np.abs(track.height).max()), "spacing": track.spacing, "radius": track.radius}
@@ -99,8 +99,8 @@ def _within_doubles(
 
 
 def _rolled(
-    track: Track, approach: float | ArrayLike | None, force: float | None, contact: Contact
-) -> tuple[Rolling, tuple[Doubt, ...]]:
+    track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
+) -> tuple[RollingTrack, tuple[Doubt, ...]]:
     """`roll`, and what to doubt about it."""
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
@@ -126,7 +126,7 @@ def _rolled(
     return linear, (*track.doubts(d), *moved)
 
 
-def _linear(track: Track, d: float, force: float | None) -> Rolling:
+def _linear(track: SpringTrack, d: float, force: float | None) -> RollingTrack:
     """Hertz and (14.11), sum over q of 2 E* sin(q a) / q h(q) exp(i q x): 2 E* a sinc(q a)."""
     a, points = math.sqrt(track.radius * d), track.height.size
     k = 2 * track.modulus * a
@@ -135,7 +135,7 @@ def _linear(track: Track, d: float, force: float | None) -> Rolling:
     return _of_linear(2 / 3 * k * d + change, d, np.full(points, k), force)
 
 
-def _full(track: Track, d: float, force: float | None) -> Rolling:
+def _full(track: SpringTrack, d: float, force: float | None) -> RollingTrack:
     """E* dx sum of d - x^2 / R + h over the springs with |x| < a, from prefix sums."""
     m, points = track.reach(d), track.height.size
     j = np.arange(-m, m + 1)
@@ -145,11 +145,13 @@ def _full(track: Track, d: float, force: float | None) -> Rolling:
     return _of_linear(track.spring * (smooth + near), d, np.full(points, k), force)
 
 
-def _of_linear(at_d: FloatArray, d: float, stiffness: FloatArray, force: float | None) -> Rolling:
+def _of_linear(at_d: FloatArray, d: float, stiffness: FloatArray, force: float | None) -> RollingTrack:
     """The forces at approach d; or, under a force, the approaches at which a contact of this stiffness has it."""
     if force is None:
-        return Rolling(force=at_d, approach=np.full(at_d.size, d), stiffness=stiffness, examined=np.zeros(at_d.size))
-    return Rolling(
+        return RollingTrack(
+            force=at_d, approach=np.full(at_d.size, d), stiffness=stiffness, examined=np.zeros(at_d.size)
+        )
+    return RollingTrack(
         force=np.full(at_d.size, force),
         approach=d + (force - at_d) / stiffness,
         stiffness=stiffness,
@@ -157,7 +159,7 @@ def _of_linear(at_d: FloatArray, d: float, stiffness: FloatArray, force: float |
     )
 
 
-def _one_sided_along(track: Track, approach: FloatArray, contact: Contact) -> Rolling:
+def _one_sided_along(track: SpringTrack, approach: FloatArray, contact: Contact) -> RollingTrack:
     if contact != "one-sided":
         raise ValueError(f'approach must be one number where contact is "{contact}", got {approach.size} of them')
     if approach.size != track.height.size:
@@ -166,17 +168,19 @@ def _one_sided_along(track: Track, approach: FloatArray, contact: Contact) -> Ro
     return _one_sided(track, approach)
 
 
-def _one_sided(track: Track, approach: FloatArray) -> Rolling:
+def _one_sided(track: SpringTrack, approach: FloatArray) -> RollingTrack:
     """At given approaches, block by block."""
     force, count, examined = np.empty((3, approach.size))
     for first in range(0, approach.size, BLOCK):
         block = slice(first, min(first + BLOCK, approach.size))
         near = Near(track, block, float(approach[block].max()))
         force[block], count[block], examined[block] = _pressed(near, approach[block])
-    return Rolling(force=track.spring * force, approach=approach, stiffness=track.spring * count, examined=examined)
+    return RollingTrack(
+        force=track.spring * force, approach=approach, stiffness=track.spring * count, examined=examined
+    )
 
 
-def _one_sided_under(track: Track, force: float, d: float) -> Rolling:
+def _one_sided_under(track: SpringTrack, force: float, d: float) -> RollingTrack:
     """At the approaches that bear a force, block by block."""
     approach, stiffness, examined = np.empty((3, track.height.size))
     wanted = force / track.spring
@@ -184,10 +188,10 @@ def _one_sided_under(track: Track, force: float, d: float) -> Rolling:
         block = slice(first, min(first + BLOCK, track.height.size))
         borne = _by_newton(track, block, wanted, d) or by_sorting(track, block, wanted, d)
         approach[block], stiffness[block], examined[block] = borne.approach, track.spring * borne.pressed, borne.looked
-    return Rolling(force=np.full(approach.size, force), approach=approach, stiffness=stiffness, examined=examined)
+    return RollingTrack(force=np.full(approach.size, force), approach=approach, stiffness=stiffness, examined=examined)
 
 
-def _by_newton(track: Track, block: slice, wanted: float, d: float) -> Borne | None:
+def _by_newton(track: SpringTrack, block: slice, wanted: float, d: float) -> Borne | None:
     """From where every wheel is too deep, so that none loses contact; None where rounding keeps it from an end."""
     deep = d - float(track.height.min())
     if track.distance(deep + float(track.height.max())) > FARTHEST:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, Spectrum, density, doubles, finite_array, held, positive
+from mdr.checks import FloatArray, Spectrum, density, doubles, finite_array, held, positive
 
 NODES = 24
 WIDEST = 1.4

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
-from mdr.border import FloatArray, Spectrum, count, density, doubles, finite, finite_array, held, positive
+from mdr.checks import FloatArray, Spectrum, count, density, doubles, finite, finite_array, held, positive
 
 # The wave at q_min = 2 pi / L carries most of the height; rounding must not push it out of the band.
 EDGE = 1e-9

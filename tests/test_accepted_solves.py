@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d.press import Attempt
+from bem3d.window_solve import IterationState
 from tests.oracles import displacement
 
 ASKED = np.geomspace(3e-2, 3e-9, 15)
@@ -36,7 +36,7 @@ def residual_by_hand(contact):
     return max((p * np.abs(w)).sum() / p.sum(), -w.min()) / overlap
 
 
-SOLVERS = {"solve": bem3d.solve, "solve_plain": bem3d.solve_plain}
+SOLVERS = {"solve": bem3d.solve, "solve_plain": bem3d.solve_polonsky_keer}
 
 
 @pytest.mark.parametrize("periodic", [False, True])
@@ -69,7 +69,7 @@ def test_a_solve_that_is_cut_short_says_so(solver, limit):
     [(0.0, "converged"), (1e-4, "converged"), (1.001e-4, None), (9.9e-4, None), (np.nan, "breakdown")],
 )
 def test_the_tolerance_is_the_one_that_was_asked_for(residual, status):
-    attempt = Attempt(np.zeros((1, 1)), 1.0)
+    attempt = IterationState(np.zeros((1, 1)), 1.0)
     attempt.judge(residual, 1e-4, 5)
     assert attempt.status == status
     assert attempt.history == [residual]
@@ -78,7 +78,7 @@ def test_the_tolerance_is_the_one_that_was_asked_for(residual, status):
 @pytest.mark.parametrize(("entries", "status"), [(5, None), (6, "iteration limit")])
 def test_the_limit_is_the_one_that_was_asked_for(entries, status):
     """A history has an entry for the start, too."""
-    attempt = Attempt(np.zeros((1, 1)), 1.0)
+    attempt = IterationState(np.zeros((1, 1)), 1.0)
     for _ in range(entries):
         attempt.judge(1.0, 1e-4, 5)
     assert attempt.status == status
@@ -109,7 +109,7 @@ def test_a_frozen_contact_is_within_its_tolerance():
     body, gap = rough(False)
     cells = gap < 0
     for tolerance in ASKED:
-        found = bem3d.press_frozen(body, cells, tolerance=tolerance)
+        found = bem3d.solve_fixed_area(body, cells, tolerance=tolerance)
         left = 1 - displacement(body, found.pressure)[cells]
         assert found.converged
         assert np.sqrt(np.mean(left**2)) <= tolerance * (1 + 1e-6)
@@ -119,10 +119,10 @@ def test_a_frozen_contact_is_within_its_tolerance():
 def test_a_frozen_contact_that_is_cut_short_says_so(limit):
     body, gap = rough(False)
     cut = {"max_iterations": limit, "raise_on_failure": False}
-    left = bem3d.press_frozen(body, gap < 0, tolerance=1e-12, **cut).residual
+    left = bem3d.solve_fixed_area(body, gap < 0, tolerance=1e-12, **cut).residual
     for part in BELOW:
-        assert not bem3d.press_frozen(body, gap < 0, tolerance=part * left, **cut).converged
-    assert bem3d.press_frozen(body, gap < 0, tolerance=1.01 * left, **cut).converged
+        assert not bem3d.solve_fixed_area(body, gap < 0, tolerance=part * left, **cut).converged
+    assert bem3d.solve_fixed_area(body, gap < 0, tolerance=1.01 * left, **cut).converged
 
 
 def bumps():

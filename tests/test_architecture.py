@@ -147,7 +147,7 @@ def test_numerics_neither_print_nor_write():
         }
         assert not calls & {"print", "open"}, source
         assert not rooms(source) & {"os", "pathlib", "logging"}, source
-        assert "warnings" not in rooms(source) or source.name == "doubts.py", source
+        assert "warnings" not in rooms(source) or source.name == "diagnostics.py", source
 
 
 def named_paths():

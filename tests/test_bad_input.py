@@ -56,7 +56,7 @@ def solve(**changes):
 
 
 def frozen(**changes):
-    return bem3d.press_frozen(**{"half_space": half_space(), "contact": np.ones((4, 5), dtype=bool), **changes})
+    return bem3d.solve_fixed_area(**{"half_space": half_space(), "contact": np.ones((4, 5), dtype=bool), **changes})
 
 
 def springs(**changes):
@@ -400,7 +400,7 @@ def wide(**changes):
 def wheels_at(**changes):
     """Two tracks, whose middles are 1 and -2 from the plane that heights count from."""
     settings = {"spacing": 1.0, "radius": 4.0, "modulus": 1.0, "force": 2.0}
-    wheels = mdr.Wheels(np.tile([1.0, -2.0], (9, 1)), **settings)
+    wheels = mdr.RollingEnsemble(np.tile([1.0, -2.0], (9, 1)), **settings)
     return wheels.force(**{"place": 0, "approach": np.zeros(2), **changes})
 
 
@@ -427,7 +427,7 @@ def wheels_at(**changes):
         ),
         (lambda: wheels_at(approach=np.array([5.0, np.inf])), "approach must be finite, got [ 5. inf]"),
         (
-            lambda: mdr.Wheels(np.zeros((4, 1)), spacing=0.5, radius=1.0, modulus=1.0, force=4 / 3),
+            lambda: mdr.RollingEnsemble(np.zeros((4, 1)), spacing=0.5, radius=1.0, modulus=1.0, force=4 / 3),
             "height must be longer than the contact, 2 m, got a track of 2 m",
         ),
     ],
@@ -464,11 +464,11 @@ FAILING = {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True}
     ("function", "called", "defaults"),
     [
         (bem3d.solve, solve, {**FAILING, "start": None}),
-        (bem3d.solve_plain, lambda: bem3d.solve_plain(half_space(), np.zeros((4, 5)), approach=1.0),
+        (bem3d.solve_polonsky_keer, lambda: bem3d.solve_polonsky_keer(half_space(), np.zeros((4, 5)), approach=1.0),
          {**FAILING, "max_iterations": 2000}),
         (bem3d.indent, lambda: list(bem3d.indent(half_space(), np.zeros((4, 5)), forces=[1.0])),
          {**FAILING, "stiffness": False}),
-        (bem3d.press_frozen, frozen, FAILING),
+        (bem3d.solve_fixed_area, frozen, FAILING),
         (bem3d.roll, lambda: wide(positions=1), {**FAILING, "tolerance": 1e-5, "positions": None}),
         (bem3d.rolling_force,
          lambda: bem3d.rolling_force(np.zeros((4, 40)), spacing=0.6, radius=1.0, modulus=1.0, approach=1.0),
@@ -491,7 +491,7 @@ def test_what_is_not_asked_for(function, called, defaults):
 
 def test_the_springs_of_sums_that_round_are_counted():
     """2 sqrt(d R) / dx of them."""
-    wheels = mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=4.0, modulus=1.0, force=2.0)
+    wheels = mdr.RollingEnsemble(np.zeros((9, 1)), spacing=1.0, radius=4.0, modulus=1.0, force=2.0)
     with pytest.raises(ArithmeticError) as caught:
         wheels.force(0, [1.1e10])
     assert str(caught.value) == (
@@ -549,7 +549,7 @@ EXTREME = [
     (springs, {"height": [0.0, 1e100] * 4, "approach": None, "force": 1.0}),
     (springs, {"contact": "linear", "height": np.full(8, 1.7e308)}),
     (springs, {"radius": HUGE, "spacing": 1e300, "height": np.full(8, 1e20)}),
-    (lambda **changes: mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=HUGE, force=TINY), {}),
+    (lambda **changes: mdr.RollingEnsemble(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=HUGE, force=TINY), {}),
 ]
 
 
@@ -561,7 +561,7 @@ def test_numbers_that_no_double_holds_are_refused(function, changes):
 
 
 def test_wheels_in_step_are_not_laid_over_more_springs_than_memory_holds():
-    wheels = mdr.Wheels(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=1.0, force=1.0)
+    wheels = mdr.RollingEnsemble(np.zeros((9, 1)), spacing=1.0, radius=1.0, modulus=1.0, force=1.0)
     for deep in (1e17, 1e300):
         with pytest.raises(ArithmeticError, match="approach must be less deep, or spacing larger"):
             wheels.force(0, np.array([deep]))

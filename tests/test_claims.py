@@ -10,7 +10,7 @@ from scipy import stats
 import bem3d
 from validation.cases.selection import model_selection as ladder
 from validation.cases.selection.random_scenes import KINDS, WANTED, random_scene
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
@@ -20,17 +20,17 @@ from validation.selection import indentation_on_grids as rungs_pressed_grids
 from validation.selection import rolling_models as rungs_rolling
 from validation.selection.calibrated import outside
 from validation.selection.compare import compare, rungs_of, told, wants_of
-from validation.selection.hierarchy import Answer, Cost, climb, grid_error, mean_error
+from validation.selection.hierarchy import Answer, Cost, grid_error, mean_error, select_model
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.resolution import too_few
-from validation.simulation.rolling_quantity import Question
+from validation.simulation.rolling_quantity import RollingQuantity
 from validation.theory.rolling import contact_lost
 
 
 def punch(load=0.1, first=1, last=8, hurst=0.7, height=1e-3):
     ground = Roughness(rms=height, hurst=hurst, longest=1 / first, shortest=1 / last)
-    return PressedScene(name="punch", shape="punch", size=1.0, load=load * height, modulus=1.0, ground=ground)
+    return IndentationScene(name="punch", shape="punch", size=1.0, load=load * height, modulus=1.0, ground=ground)
 
 
 def rolling(height=0.03, first=1.0, last=4.0, hurst=0.7, shape="wheel"):
@@ -38,7 +38,7 @@ def rolling(height=0.03, first=1.0, last=4.0, hurst=0.7, shape="wheel"):
     ground = Roughness(rms=0.1 * height, hurst=hurst, longest=2 * math.pi / first, shortest=2 * math.pi / last)
     given = {"load": 4 / 3 * 0.1, "modulus": 1.0, "ground": ground}
     if shape == "sphere":
-        return PressedScene(name="sphere", shape="sphere", size=10.0, **given)
+        return IndentationScene(name="sphere", shape="sphere", size=10.0, **given)
     return RollingScene(name="wheel", radius=10.0, **given)
 
 
@@ -114,7 +114,7 @@ def test_light_loads_have_no_answer_unless_it_is_that_of_the_summits(load, last)
 def test_few_springs_and_few_cells_are_no_answer():
     scene = punch(load=1e-3, last=32)
     assert "springs or fewer" in rungs_of(scene, "stiffness", 0.5, 0)[1].solve().failed
-    assert "cells or fewer" in rungs_pressed_grids.BoundaryElements(scene, 0.5, 0, 64).solve().failed
+    assert "cells or fewer" in rungs_pressed_grids.IndentationOnGrid(scene, 0.5, 0, 64).solve().failed
     assert set(fates(compare(punch(load=1e-6), tolerance=0.5)).values()) == {"out of range", "failed"}
 
 
@@ -124,14 +124,14 @@ def test_a_sphere_that_reaches_the_edge_of_its_grid_is_no_answer(monkeypatch):
         monkeypatch.setattr(module, "side_of", lambda scene: 1.5)
     ball = rolling(height=0.1, first=4.5, last=9, shape="sphere")
     assert (
-        rungs_pressed_grids.BoundaryElements(ball, 0.5, 0, 32).solve().failed.endswith("reached the edge of the grid")
+        rungs_pressed_grids.IndentationOnGrid(ball, 0.5, 0, 32).solve().failed.endswith("reached the edge of the grid")
     )
 
 
 def test_a_contact_that_is_cut_short_is_no_answer(monkeypatch):
     solve = bem3d.solve
     monkeypatch.setattr(bem3d, "solve", lambda *a, **k: solve(*a, **{**k, "max_iterations": 1}))
-    answer = rungs_pressed_grids.BoundaryElements(punch(), 0.5, 0, 32).solve()
+    answer = rungs_pressed_grids.IndentationOnGrid(punch(), 0.5, 0, 32).solve()
     assert answer.failed.endswith("did not converge")
     assert answer.error == math.inf
 
@@ -209,7 +209,7 @@ def test_a_model_out_of_range_is_never_asked():
         def solve(self):
             raise AssertionError("asked all the same")
 
-    climbed = climb([Refusing()], 0.1)
+    climbed = select_model([Refusing()], 0.1)
     assert [step.fate for step in climbed.steps] == ["out of range"]
     assert climbed.best is None
     assert ladder_of_models.needed([Refusing()], 1e300) is None
@@ -237,7 +237,7 @@ def test_a_solve_that_raises_is_a_row_and_the_others_go_on(problem, monkeypatch)
     def raising(self):
         raise problem
 
-    monkeypatch.setattr(rungs_pressed.Springs, "solve", raising)
+    monkeypatch.setattr(rungs_pressed.IndentationOnSprings, "solve", raising)
     found = compare(punch(load=0.1), tolerance=0.3)
     assert fates(found)["springs"] == "failed"
     assert found.climb.met
@@ -268,7 +268,7 @@ def test_the_shortest_waves_cost_no_memory():
 
 
 def test_profiles_in_blocks_are_those_drawn_at_once(monkeypatch):
-    rung = rungs_pressed.Springs(punch(), 0.2, seed=3)
+    rung = rungs_pressed.IndentationOnSprings(punch(), 0.2, seed=3)
     whole = rung.solve()
     monkeypatch.setattr(rungs_pressed, "BLOCK", 7 * rung.points)
     assert rung.solve().value == whole.value
@@ -300,7 +300,7 @@ def test_every_model_has_its_claims_tested(kind):
 
 
 def test_a_model_that_the_case_does_not_know_is_an_error():
-    class New(rungs_pressed.ClosedForm):
+    class New(rungs_pressed.IndentationClosedForm):
         model = name = "a new closed form"
 
     rungs = [New(punch()), *rungs_of(punch(), "stiffness", 0.1, 0)]
@@ -348,7 +348,7 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
     """Half as much again of the last change or of half of that before, whichever is more."""
     height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
     scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
-    left = {cells: rungs_pressed_grids.BoundaryElements(scene, 0.1, 0, cells)._grid_of_one for cells in (16, 32, 64)}
+    left = {cells: rungs_pressed_grids.IndentationOnGrid(scene, 0.1, 0, cells)._grid_of_one for cells in (16, 32, 64)}
     assert [left[cells](np.array([0.1, 0.15, 0.2])) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
     assert left[64](np.array([-0.01, 0.1, 0.2])) == pytest.approx(0.075)
     assert left[64](np.array([0.2, 0.15, 0.1])) == math.inf
@@ -364,7 +364,7 @@ def test_grids_are_compared_on_the_same_surfaces():
     height_of = pressed_heights.height_of
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rungs_pressed_grids, "height_of", recorded)
-        rungs_pressed_grids.BoundaryElements(punch(), 0.8, 3, 32).solve()
+        rungs_pressed_grids.IndentationOnGrid(punch(), 0.8, 3, 32).solve()
     fine = [(32, i, 3) for i in range(len(seen) - 16)]
     assert sorted(seen) == sorted([*fine, *((cells, i, 3) for cells in (8, 16) for i in range(8))])
 
@@ -374,19 +374,19 @@ def test_realisations_are_others():
         return pressed_heights.height_of(punch(), 32, realisation, seed).ravel()
 
     def strips(realisation, seed):
-        return rolled.strip_of(Question(rolling(), "force-rms"), 4, realisation, seed).ravel()
+        return rolled.strip_of(RollingQuantity(rolling(), "force-rms"), 4, realisation, seed).ravel()
 
     for draw in (heights, strips):
         assert (draw(1, 3) == draw(1, 3)).all()
         for realisation, seed in ((0, 3), (1, 4)):
             # of some hundred waves
             assert abs(np.corrcoef(draw(1, 3), draw(realisation, seed))[0, 1]) < 0.5
-    tracks, _ = rolled._tracks(Question(rolling(), "force-rms"), 3, 3)
+    tracks, _ = rolled._tracks(RollingQuantity(rolling(), "force-rms"), 3, 3)
     assert (abs(np.corrcoef(tracks.T) - np.eye(3)) < 0.5).all()
 
 
 def test_a_contact_costs_the_same_on_every_grid():
-    rung = rungs_pressed_grids.BoundaryElements(punch(), 0.4, 0, 32)
+    rung = rungs_pressed_grids.IndentationOnGrid(punch(), 0.4, 0, 32)
     cost = rung._cost(9, 8)
     contacts = (cost.seconds - rungs_pressed_grids.CELL * cost.work) / rungs_pressed_grids.PRESS
     assert contacts == pytest.approx(9 + 2 * 8)
@@ -504,7 +504,7 @@ def test_springs_leave_what_their_tracks_scatter(monkeypatch):
 def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(want):
     moving = {"mass": 3.0, "speed": 40.0} if want.startswith("acceleration") else {}
     scene = replace(rolling(height=1e-4), **moving)
-    change = rolled.on_springs(Question(scene, want), 24, 5)
+    change = rolled.on_springs(RollingQuantity(scene, want), 24, 5)
     # tracks that are fed have the level of half-spaces in the mean alone
     assert abs(change.mean()) <= mean_error(change) + (0.0 if want == "force-rms" else 0.1)
 
@@ -513,7 +513,7 @@ def test_bands_of_measured_heights_are_those_that_they_resolve():
     """Four of the longest band on the length that was measured, four points to the shortest wave."""
     height = 1e-4 * np.random.default_rng(6).standard_normal((512, 128))
     ground = MeasuredHeights(height=height, spacing=(1 / 16, 1 / 16))
-    bands = Question(replace(rolling(), ground=ground), "force-spectrum").bands
+    bands = RollingQuantity(replace(rolling(), ground=ground), "force-spectrum").bands
     step = 10**0.1
     assert bands.edges[0] >= 4 * 2 * math.pi / 32 > bands.edges[0] / step
     assert bands.edges[-1] <= math.pi * 16 / 2 * (1 + 1e-9) < bands.edges[-1] * step * (1 + 1e-9)
@@ -555,13 +555,13 @@ def test_grids_are_as_fine_in_any_unit():
 
 def test_a_handful_of_springs_is_none_in_any_unit():
     ground = Roughness(rms=1e-9, hurst=0.7, longest=1e-6, shortest=1e-6 / 32)
-    few = PressedScene(name="few", shape="punch", size=1e-6, load=1e-3 * 2e11 * 1e-15, modulus=2e11, ground=ground)
+    few = IndentationScene(name="few", shape="punch", size=1e-6, load=1e-3 * 2e11 * 1e-15, modulus=2e11, ground=ground)
     assert "springs or fewer" in rungs_of(few, "stiffness", 0.5, 0)[1].solve().failed
 
 
 def test_a_sphere_of_low_roughness_is_that_of_hertz():
     scene = rolling(height=0.01, first=1.9, last=4, shape="sphere")
-    found = rungs_pressed_grids.BoundaryElements(scene, 0.1, 0, 32).solve()
+    found = rungs_pressed_grids.IndentationOnGrid(scene, 0.1, 0, 32).solve()
     assert found.error < 0.1
     assert abs(math.log(found.value[0] / scene.stiffness)) <= found.error + 0.32 * 0.01 + 0.01
 

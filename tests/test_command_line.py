@@ -53,7 +53,7 @@ SMALL = {
         roll_offs=(1, 2), cells=16, surfaces=6, refined=3, profiles=40, points=64, decades=(-1, 0)
     ),
     "ridges": ridges.Ridges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
-    "rolling": rolling.Rolling(
+    "rolling": rolling.ForceSpectrum(
         heights=(0.01, 0.3),
         last=6.0,
         lowest=0.5,
@@ -79,7 +79,7 @@ SMALL = {
         surfaces=4,
         profiles=10,
     ),
-    "wheel": wheel.Wheel(
+    "wheel": wheel.WheelSpectrum(
         scene=replace(wheel.TABLE, distance=0.15, springs=40),
         realisations=6,
         groups=3,
@@ -339,5 +339,5 @@ def test_cases_deal_with_every_warning(name):
     case = entry.quick if name in ("hertz", "geike") else SMALL.get(name, entry.quick)
     with warnings.catch_warnings():
         warnings.simplefilter("error", bem3d.ContactWarning)
-        warnings.simplefilter("error", mdr.ContactWarning)
+        warnings.simplefilter("error", mdr.SpringContactWarning)
         entry.run(case, SERIAL)

@@ -191,7 +191,7 @@ def test_no_contact():
     half_space = bem3d.HalfSpace(shape=(4, 5), spacing=1.0, modulus=1.0)
     gap = np.full((4, 5), 0.5)
     loads = ({"force": 0.0}, {"approach": 0.5}, {"approach": -1.0})
-    for solver, prescribed in itertools.product((bem3d.solve, bem3d.solve_plain), loads):
+    for solver, prescribed in itertools.product((bem3d.solve, bem3d.solve_polonsky_keer), loads):
         contact = solver(half_space, gap, **prescribed)
         assert (contact.force, contact.area, contact.residual, contact.stiffness()) == (0, 0, 0, 0)
         assert contact.approach == prescribed.get("approach", 0.5)
@@ -217,7 +217,7 @@ def test_flat_periodic_half_space_takes_a_uniform_pressure(shape):
     assert contact.approach == 0.3
 
 
-@pytest.mark.parametrize("solver", [bem3d.solve, bem3d.solve_plain])
+@pytest.mark.parametrize("solver", [bem3d.solve, bem3d.solve_polonsky_keer])
 def test_result_carries_its_problem_and_its_costs(solver, monkeypatch):
     calls = []
     transform = convolution.CachedConvolution._convolve
@@ -246,8 +246,8 @@ def test_not_converged_is_never_success(prescribed):
     with pytest.raises(bem3d.ConvergenceError, match="no stiffness"):
         result.stiffness()
     with pytest.raises(bem3d.ConvergenceError, match="frozen-contact"):
-        bem3d.press_frozen(half_space, gap < 0.5, tolerance=1e-10, max_iterations=2)
-    frozen = bem3d.press_frozen(half_space, gap < 0.5, max_iterations=2, raise_on_failure=False)
+        bem3d.solve_fixed_area(half_space, gap < 0.5, tolerance=1e-10, max_iterations=2)
+    frozen = bem3d.solve_fixed_area(half_space, gap < 0.5, max_iterations=2, raise_on_failure=False)
     assert not frozen.converged
 
 
@@ -275,12 +275,12 @@ def test_textbook_iteration_may_cycle_under_a_force():
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=(2.0, 0.3125), modulus=1.0)
     gap = np.ones((8, 8))
     gap[0, 0] = 0.0
-    stuck = bem3d.solve_plain(half_space, gap, force=1.0, max_iterations=200, raise_on_failure=False)
+    stuck = bem3d.solve_polonsky_keer(half_space, gap, force=1.0, max_iterations=200, raise_on_failure=False)
     assert stuck.status == "iteration limit"
     with pytest.raises(bem3d.ConvergenceError, match="after 200 iterations"):
-        bem3d.solve_plain(half_space, gap, force=1.0, max_iterations=200)
+        bem3d.solve_polonsky_keer(half_space, gap, force=1.0, max_iterations=200)
     assert stuck.history[-1] == pytest.approx(stuck.history[-3], rel=1e-3)
-    assert bem3d.solve_plain(half_space, gap, approach=1.1, tolerance=TIGHT).converged
+    assert bem3d.solve_polonsky_keer(half_space, gap, approach=1.1, tolerance=TIGHT).converged
     assert bem3d.solve(half_space, gap, force=1.0, tolerance=TIGHT).converged
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mdr
-from mdr import doubts
+from mdr import diagnostics
 
 WHEEL = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 
@@ -28,7 +28,7 @@ def parabola(springs):
 def test_few_springs_in_contact(springs, warned):
     point, found = said(parabola(springs).at_approach, 1.0)
     assert round(point.stiffness * springs / 2) == springs
-    assert [category for category, _, _ in found] == [mdr.ResolutionWarning] * warned
+    assert [category for category, _, _ in found] == [mdr.SpringResolutionWarning] * warned
     if warned:
         _, sentence, place = found[0]
         assert sentence.startswith(f"only {springs} springs in contact: k may be {1 / springs:.0%} off")
@@ -71,7 +71,7 @@ def test_short_waves(waves, warned):
     """So many of the shortest on 64 springs."""
     band = mdr.SelfAffine(hurst=0.8, q_min=2 * np.pi, q_max=2 * np.pi * waves, rms=1e-2)
     _, found = said(mdr.rough_profile, band.c1d, length=1.0, points=64, rng=np.random.default_rng(0))
-    assert [category for category, _, _ in found] == [mdr.ResolutionWarning] * warned
+    assert [category for category, _, _ in found] == [mdr.SpringResolutionWarning] * warned
     if warned:
         assert found[0][1].startswith(f"the shortest wave of the spectrum has {64 / waves:.2g} springs, fewer than 4")
         assert found[0][2] == __file__
@@ -81,11 +81,13 @@ def test_short_waves(waves, warned):
 @pytest.mark.parametrize(("springs", "warned"), [(5, True), (15, True), (16, False), (60, False)])
 def test_a_smooth_contact_of_few_springs(roll, springs, warned):
     _, found = said(roll, np.zeros(8 * springs), spacing=2 / springs, **WHEEL)
-    assert [category for category, _, _ in found] == [mdr.ResolutionWarning] * warned
+    assert [category for category, _, _ in found] == [mdr.SpringResolutionWarning] * warned
     if warned:
         assert found[0][1].startswith(f"the contact of the smooth wheel has only {springs} springs")
         assert found[0][2] == __file__
-    _, in_step = said(mdr.Wheels, np.zeros((8 * springs, 2)), spacing=2 / springs, radius=1.0, modulus=1.0, force=4 / 3)
+    _, in_step = said(
+        mdr.RollingEnsemble, np.zeros((8 * springs, 2)), spacing=2 / springs, radius=1.0, modulus=1.0, force=4 / 3
+    )
     assert [warning[:2] for warning in in_step] == [warning[:2] for warning in found]
 
 
@@ -103,17 +105,17 @@ def test_units_of_a_sphere_are_asked_about(modulus, approach, asked):
     _, rolled = said(mdr.roll, np.zeros(200), **wheel, approach=approach)
     _, borne = said(mdr.roll, np.zeros(200), **wheel, force=contact.force * (1 - 1e-12))
     _, forced = said(mdr.rolling_force, np.zeros(200), **wheel, approach=approach)
-    _, in_step = said(mdr.Wheels, np.zeros((200, 1)), **wheel, force=contact.force * (1 - 1e-12))
+    _, in_step = said(mdr.RollingEnsemble, np.zeros((200, 1)), **wheel, force=contact.force * (1 - 1e-12))
     sentence = "the radius of contact is 1.1 times that of the sphere: are the units right?"
     for told in (found, rolled, borne, forced, in_step):
-        assert told == [(mdr.UnitsWarning, sentence, __file__)] * asked
+        assert told == [(mdr.SpringUnitsWarning, sentence, __file__)] * asked
 
 
 def test_a_modulus_in_gigapascals_is_asked_about():
     """2 GPa typed as 2."""
     assert said(mdr.press_sphere, radius=1e-2, modulus=2e9, force=50.0)[1] == []
     ((category, sentence, _),) = said(mdr.press_sphere, radius=1e-2, modulus=2.0, force=50.0)[1]
-    assert category is mdr.UnitsWarning
+    assert category is mdr.SpringUnitsWarning
     assert sentence == "the radius of contact is 57.2 times that of the sphere: are the units right?"
 
 
@@ -162,7 +164,7 @@ def test_a_smooth_track_is_not_doubted():
     ],
 )  # fmt: skip
 def test_few_springs_are_said_with_their_number(pressed, sentence):
-    found = doubts.doubts_of_load(np.array(pressed), 1000)
+    found = diagnostics.doubts_of_load(np.array(pressed), 1000)
     more = "; take more springs (16 or more in contact are not warned of)"
     assert [said for _, said in found] == ([] if sentence is None else [sentence + more])
 
@@ -173,7 +175,7 @@ def test_what_a_linear_contact_leaves_out_is_said_with_its_part():
     height, change = 0.3 * rng.normal(size=50), 0.2 * rng.normal(size=50)
     left_out = np.array([(height[i - 7] ** 2 + height[(i + 7) % 50] ** 2) / (4 * 0.8) for i in range(50)])
     part = np.std(left_out) / np.std(change)
-    ((category, sentence),) = doubts.doubts_of_linearity(height, change, approach=0.8, reach=7)
+    ((category, sentence),) = diagnostics.doubts_of_linearity(height, change, approach=0.8, reach=7)
     assert category is mdr.LinearityWarning
     assert sentence.startswith(f"roughness of h_rms / d = {np.std(height) / 0.8:.2g} moves the ends of the contact")
     assert f"to second order {part:.0%} of the fluctuation of its force" in sentence
@@ -183,8 +185,8 @@ def test_what_a_linear_contact_leaves_out_is_said_with_its_part():
 def test_a_wave_or_a_wheel_is_too_short_by_a_billionth(short, warned):
     """Four springs to a wave, sixteen under a wheel."""
     q = np.array([1.0, 2 * np.pi / (4 * (1 - short)), 3.0])
-    assert len(doubts.doubts_of_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
-    assert len(doubts.doubts_of_wheel(16 * (1 - short))) == warned
+    assert len(diagnostics.doubts_of_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
+    assert len(diagnostics.doubts_of_wheel(16 * (1 - short))) == warned
 
 
 @pytest.mark.parametrize("contact", ["linear", "full"])

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d import convolution, press, projected_cg, rolling
-from bem3d.projected_cg import Load, Memory, Step
+from bem3d import convolution, projected_cg, rolling, window_solve
+from bem3d.projected_cg import IterationStep, Load, Memory
 from tests import oracles
 
 TRACK = {"spacing": 1 / 8, "radius": 1.0, "modulus": 1.0}
@@ -88,8 +88,8 @@ def sphere(by, shaken):
 def plain(periodic, shaken):
     """By a force, and by the approach that comes of it."""
     half_space, gap = body((32, 32), periodic), -rough((32, 32), rms=0.01, shaken=shaken)
-    by_force = bem3d.solve_plain(half_space, gap, force=0.001, tolerance=1e-6)
-    return [of(by_force), of(bem3d.solve_plain(half_space, gap, approach=by_force.approach, tolerance=1e-6))]
+    by_force = bem3d.solve_polonsky_keer(half_space, gap, force=0.001, tolerance=1e-6)
+    return [of(by_force), of(bem3d.solve_polonsky_keer(half_space, gap, approach=by_force.approach, tolerance=1e-6))]
 
 
 def rolled(by, rms, positions, shaken):
@@ -388,7 +388,7 @@ def test_an_operator_that_answers_nothing_ends_the_iteration():
     ],
 )
 def test_how_much_of_a_step_is_taken(cut, best, length, taken, following):
-    step = Step(np.array([-1.0, -2.0, 1.0, 0.0]), 1.0, cut)
+    step = IterationStep(np.array([-1.0, -2.0, 1.0, 0.0]), 1.0, cut)
     found = projected_cg._taken(step, best, np.array([1.6, 3.6, 0.0, 0.0]), length)
     assert found == pytest.approx((taken, following))
 
@@ -420,11 +420,14 @@ def falling(factor, every):
 
 
 def iterations_of_press(monkeypatch, states, tolerance, most):
-    monkeypatch.setattr(press, "projected_cg", states)
+    monkeypatch.setattr(window_solve, "projected_cg", states)
     half_space = bem3d.HalfSpace(shape=(2, 2), spacing=1.0, modulus=1.0)
-    cells, attempt = press.Candidates(half_space, np.ones((2, 2), dtype=bool)), press.Attempt(np.zeros((2, 2)), 0.0)
+    cells, attempt = (
+        window_solve.Candidates(half_space, np.ones((2, 2), dtype=bool)),
+        window_solve.IterationState(np.zeros((2, 2)), 0.0),
+    )
     field = np.ones((2, 2))
-    press._iterate(cells, field, field, Load(overlap=1.0), attempt, tolerance, most)
+    window_solve._iterate(cells, field, field, Load(overlap=1.0), attempt, tolerance, most)
     assert attempt.operator_applications == len(attempt.history)
     assert attempt.status is None
     return len(attempt.history)
@@ -434,7 +437,7 @@ def iterations_of_rolling(monkeypatch, states, tolerance, most):
     monkeypatch.setattr(rolling, "projected_cg", states)
     track = bem3d.Track(height=np.zeros((40, 40)), **TRACK)
     wheel = bem3d.RollingContact(track, tolerance=tolerance, max_iterations=most)
-    frame, attempt = rolling.Frame(track, ((0, 4), (18, 22))), rolling.Attempt(np.zeros((4, 4)), 0.0)
+    frame, attempt = rolling.Frame(track, ((0, 4), (18, 22))), rolling.IterationState(np.zeros((4, 4)), 0.0)
     field = np.ones((4, 4))
     wheel._iterated(frame, field > 0, field, field, Load(overlap=1.0), attempt)
     assert attempt.operator_applications == len(attempt.history) - 1
@@ -457,9 +460,9 @@ def rounds_of_press(monkeypatch, errors):
     """Of a punch with a flat face, which all cells touch: iterations that leave an error of so much, in turn."""
     half_space, depth = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0), 1.0
     exact = np.linalg.solve(oracles.dense_operator(half_space), np.full(16, depth)).reshape(4, 4)
-    monkeypatch.setattr(press, "_iterate", lambda *_: (1 + next(errors)) * exact)
+    monkeypatch.setattr(window_solve, "_iterate", lambda *_: (1 + next(errors)) * exact)
     problem = bem3d.problem.Problem(half_space=half_space, gap=np.zeros((4, 4)), approach=depth)
-    attempt = press.press(problem, press.Start((1 + next(errors)) * exact), 1e-6, 99)
+    attempt = window_solve.solve_on_window(problem, window_solve.InitialGuess((1 + next(errors)) * exact), 1e-6, 99)
     return attempt.operator_applications, str(attempt.status)
 
 
@@ -477,8 +480,8 @@ def rounds_of_rolling(monkeypatch, errors):
         return (1 + next(errors)) * exact
 
     monkeypatch.setattr(wheel, "_iterated", iterated)
-    attempt = rolling.Attempt(np.zeros(0), 0.0)
-    start = rolling.Pressed.by(frame, (1 + next(errors)) * exact)
+    attempt = rolling.IterationState(np.zeros(0), 0.0)
+    start = rolling.FramePressure.by(frame, (1 + next(errors)) * exact)
     wheel._pressed(frame, np.zeros((4, 4)), Load(overlap=1.0), start, 1.0, attempt)
     return attempt.operator_applications, str(attempt.status)
 

@@ -29,7 +29,7 @@ from validation.analysis.statistics import (
     ratio_of_means,
     sample,
 )
-from validation.benchmarks.work_precision.errors import Answer, error
+from validation.benchmarks.work_precision.errors import MethodAnswers, error
 from validation.benchmarks.work_precision.exact_problem import logarithm
 from validation.benchmarks.work_precision.measurement import Quantity
 from validation.cases.limits import evidence as limits_evidence
@@ -274,7 +274,7 @@ def comparison(**changes):
         "refined_springs": Estimate(-0.004, 0.9, 200),
     }
     name = changes.pop("name", "mean stiffness")
-    return fractal_punch_decades.Comparison(name, 0.7, 0.1, **{**settings, **changes})
+    return fractal_punch_decades.DecadeComparison(name, 0.7, 0.1, **{**settings, **changes})
 
 
 def test_the_grid_interval_of_fig_14_1():
@@ -328,7 +328,7 @@ def test_intervals_of_where_mdr_must_fail():
     rng = np.random.default_rng(1)
     coarse, fine = on_grids(rng, 12)
     other = 2.0 + 0.2 * rng.standard_normal((40, 1))
-    mine = mdr_limits.Samples(
+    mine = mdr_limits.RollOffSamples(
         1,
         {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
         {"gap": pairs(coarse[:4], fine[:4], rng)},
@@ -364,7 +364,7 @@ def test_the_error_of_an_answer_covers_its_truth(size, short, paired, quantity):
         reference = 1 + 0.1 * rng.standard_normal(size)
         own = reference if paired else 1 + 0.1 * rng.standard_normal(size)
         mine = 1.5 * own * (1 + 0.05 * rng.standard_normal(size))
-        one = error(quantity, Answer({"k": mine}, paired=paired), Answer({"k": reference}))
+        one = error(quantity, MethodAnswers({"k": mine}, paired=paired), MethodAnswers({"k": reference}))
         return one.value, one.half_width
 
     assert holds(covered(drawn, truth, trials=400), trials=400, short=short, wide=0.0 if paired else 0.04)
@@ -375,18 +375,18 @@ def test_the_error_of_an_answer_has_the_quantile_of_its_sample(paired):
     """Of a mean of n: t s / sqrt(n) over the mean of the reference, on both sides where they are not paired."""
     x = np.random.default_rng(0).lognormal(0, 0.1, 5)
     exact = {"k": np.full(5, 2.0)}
-    one = error(MEAN, Answer({"k": x}, paired=paired), Answer(exact))
+    one = error(MEAN, MethodAnswers({"k": x}, paired=paired), MethodAnswers(exact))
     assert one.half_width == pytest.approx(t(5) * x.std(ddof=1) / math.sqrt(5) / 2)
     # half of it extrapolated the same way leaves the same; twice the change leaves more
-    more = error(MEAN, Answer({"k": x}, {"k": np.full(5, 1.0)}, 2.0, paired=paired), Answer(exact))
+    more = error(MEAN, MethodAnswers({"k": x}, {"k": np.full(5, 1.0)}, 2.0, paired=paired), MethodAnswers(exact))
     assert more.half_width > 1.5 * one.half_width
 
 
 def test_two_realisations_have_an_error_bar_and_one_has_none():
     x, exact = np.array([1.0, 1.2]), {"k": np.array([1.0, 1.0])}
-    assert error(MEAN, Answer({"k": x}), Answer(exact)).half_width == pytest.approx(t(2) * 0.1)
-    assert error(MEAN, Answer({"k": x[:1]}), Answer({"k": np.ones(1)})).half_width == 0.0
-    alone = error(MEAN, Answer({"k": np.ones(1)}, paired=False), Answer({"k": x}))
+    assert error(MEAN, MethodAnswers({"k": x}), MethodAnswers(exact)).half_width == pytest.approx(t(2) * 0.1)
+    assert error(MEAN, MethodAnswers({"k": x[:1]}), MethodAnswers({"k": np.ones(1)})).half_width == 0.0
+    alone = error(MEAN, MethodAnswers({"k": np.ones(1)}, paired=False), MethodAnswers({"k": x}))
     assert alone.half_width == pytest.approx(t(2) * 0.1 / 1.1**2, rel=0.01)
 
 
@@ -395,13 +395,15 @@ def test_two_realisations_tell_nothing_of_how_a_deviation_scatters():
         name="s", log=lambda a: np.log(np.atleast_1d(a["k"].std(ddof=1) if a["k"].size > 1 else 0.0)), needs=("k",)
     )
     with np.errstate(divide="ignore", invalid="ignore"):
-        found_ = error(deviation, Answer({"k": np.array([1.0, 1.2])}), Answer({"k": np.array([1.0, 1.3])}))
+        found_ = error(
+            deviation, MethodAnswers({"k": np.array([1.0, 1.2])}), MethodAnswers({"k": np.array([1.0, 1.3])})
+        )
     assert found_.half_width == math.inf
 
 
 # --- rolling ---
 
-ROLLING = rolling.Rolling(heights=(0.1,), last=4.0, lowest=0.5, length=32.0, strips=4, refined=3, tracks=30)
+ROLLING = rolling.ForceSpectrum(heights=(0.1,), last=4.0, lowest=0.5, length=32.0, strips=4, refined=3, tracks=30)
 
 
 def rolled(rng, *, springs=1.2, finer=0.98, scatter=0.03, case=ROLLING):

@@ -29,7 +29,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, generator
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import read_scene
-from validation.selection.hierarchy import Answer, Claim, Cost, climb
+from validation.selection.hierarchy import Answer, Claim, Cost, select_model
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.rolling_strip import self_affine
@@ -100,13 +100,13 @@ def test_a_position_that_does_not_converge_has_no_force(monkeypatch):
     found = rolling_strip.roll_strip(strip)
     assert found["failed"] == np.isnan(found["force"]).sum() == 32
     assert np.isfinite(found["linear"]).all()
-    levels = rolling_strip.strip_levels([found], 0.25, rolling.Rolling(lowest=1.0, last=3.0, length=32.0).bands)
+    levels = rolling_strip.strip_levels([found], 0.25, rolling.ForceSpectrum(lowest=1.0, last=3.0, length=32.0).bands)
     assert np.isnan(levels["level"]).all()
 
 
 def test_both_ways_over_ridges_are_counted(monkeypatch):
     case = ridges.Ridges(length=8, shortest=4.0, cells=(4,))
-    rolled = ridges.Rolled(case=case, method="bem3d", cells=4)
+    rolled = ridges.RidgesTrack(case=case, method="bem3d", cells=4)
     assert ridges.roll_over(rolled)["failed"] == 0
     calls = iter([False, True])
     monkeypatch.setattr(bem3d, "roll", cut(bem3d.roll, lambda: next(calls)))
@@ -115,7 +115,7 @@ def test_both_ways_over_ridges_are_counted(monkeypatch):
 
 def test_wheels_that_do_not_repeat_themselves_are_counted(monkeypatch):
     scene = replace(read_scene("table_14_1"), distance=0.05, springs=20)
-    rides = wheel_ensemble.Rides(scene=scene, count=4, groups=2, track="steady", seed=1)
+    rides = wheel_ensemble.WheelEnsemble(scene=scene, count=4, groups=2, track="steady", seed=1)
     monkeypatch.setattr(wheel_ensemble, "repeating", lambda *_, start, **__: (*start, np.array([0, 1, 2e-3, 0.0])))
     assert wheel_ensemble.roll_wheels(rides)["failed"] == np.sum(np.array([0, 1, 2e-3, 0.0]) > wheel_ensemble.LEFT)
     assert wheel_ensemble.LEFT < 1e-3
@@ -152,11 +152,11 @@ def pressed(problem, lost):
         cells = round(problem.length * problem.cells)
         force = np.random.default_rng(problem.realisation).standard_normal(cells)
         return {"force": np.nan * force if lost else force, "linear": force, "failed": np.array(7.0 * lost)}
-    if isinstance(problem, ridges.Rolled):
+    if isinstance(problem, ridges.RidgesTrack):
         return {"response": np.ones((2, 3)), "failed": np.array(3.0 * lost)}
-    if isinstance(problem, wheel_ensemble.Rides):
+    if isinstance(problem, wheel_ensemble.WheelEnsemble):
         return {"failed": np.array(float(lost))}
-    if isinstance(problem, ladder.Trial):
+    if isinstance(problem, ladder.CalibrationTrial):
         return {"failed": np.array(float(lost))}
     if hasattr(problem, "turns"):
         return {"failed": np.array(float(lost))}
@@ -202,13 +202,13 @@ LOST = {
     ),
     "rolling, finer grid": (
         rolling.run,
-        rolling.Rolling(heights=(0.1,), strips=4, refined=4, cells=4),
+        rolling.ForceSpectrum(heights=(0.1,), strips=4, refined=4, cells=4),
         one_strip(3, 0.1, 8),
         "strip 3, h/d = 0.1, 8 cells to a radius: 7 positions",
     ),
     "rolling, all strips": (
         rolling.run,
-        rolling.Rolling(heights=(0.1, 0.3), strips=4, rough_strips=4, cells=4),
+        rolling.ForceSpectrum(heights=(0.1, 0.3), strips=4, rough_strips=4, cells=4),
         one_strip(0, 0.3, 4),
         "strip 0, h/d = 0.3, 4 cells to a radius: 7 positions",
     ),
@@ -244,8 +244,8 @@ def test_what_is_lost_is_a_line_of_the_result(name):
 @pytest.mark.parametrize(
     ("run", "case", "lost"),
     [
-        (rolling.run, rolling.Rolling(heights=(0.1,), strips=3, refined=3, cells=4), one_strip(1, 0.1, 4)),
-        (rolling.run, rolling.Rolling(heights=(0.1,), strips=4, refined=3, cells=4), one_strip(2, 0.1, 8)),
+        (rolling.run, rolling.ForceSpectrum(heights=(0.1,), strips=3, refined=3, cells=4), one_strip(1, 0.1, 4)),
+        (rolling.run, rolling.ForceSpectrum(heights=(0.1,), strips=4, refined=3, cells=4), one_strip(2, 0.1, 8)),
         (
             rolling_input.run,
             rolling_input.RollingInput(heights=(0.03,), strips=3, cells=4, surfaces=3),
@@ -256,7 +256,7 @@ def test_what_is_lost_is_a_line_of_the_result(name):
             rolling_input.RollingInput(heights=(0.03,), strips=3, cells=4, surfaces=3),
             one_surface(0),
         ),
-        (wheel.run, wheel.Wheel(parameters=False), lambda p: isinstance(p, wheel_ensemble.Rides)),
+        (wheel.run, wheel.WheelSpectrum(parameters=False), lambda p: isinstance(p, wheel_ensemble.WheelEnsemble)),
         (wheel_distance.run, wheel_distance.WheelDistance(), lambda p: p.release > 0),
     ],
 )
@@ -468,11 +468,11 @@ class Rung:
 
 
 def test_a_rung_that_fails_is_no_answer_however_small_its_error():
-    found = climb([Rung("fails", 0.01, 0.0, "it was cut short"), Rung("holds", 0.05, 0.04)], 0.05)
+    found = select_model([Rung("fails", 0.01, 0.0, "it was cut short"), Rung("holds", 0.05, 0.04)], 0.05)
     assert [step.fate for step in found.steps] == ["failed", "enough"]
     assert found.best.rung.name == "holds" and found.met
     assert found.steps[0].because == "it was cut short"
-    alone = climb([Rung("fails", 0.01, 0.0, "it was cut short")], 0.05)
+    alone = select_model([Rung("fails", 0.01, 0.0, "it was cut short")], 0.05)
     assert alone.best is None and not alone.met
 
 
@@ -495,7 +495,7 @@ def test_half_widths_add_and_a_failure_has_no_error_bar():
 def test_what_becomes_of_rungs(claims, errors, fates):
     """A tolerance of 0.1 is met by an error of just as much."""
     names = "abc"
-    found = climb([Rung(n, c, e) for n, c, e in zip(names, claims, errors, strict=False)], 0.1)
+    found = select_model([Rung(n, c, e) for n, c, e in zip(names, claims, errors, strict=False)], 0.1)
     assert [step.fate for step in found.steps] == fates
     assert found.met == ("enough" in fates)
 
@@ -535,7 +535,7 @@ def drawn_by(monkeypatch, module):
 def test_surfaces_are_the_same_on_all_grids_and_at_all_heights(monkeypatch):
     """Pairs of grids, and what is taken over linear theory, lean on it."""
     seen = drawn_by(monkeypatch, rolling_strip)
-    case = rolling.Rolling(length=8.0, width=6.0)
+    case = rolling.ForceSpectrum(length=8.0, width=6.0)
     for height in (0.01, 1.0):
         for cells in (4, 8):
             case.strip(height, 2, cells).surface()

@@ -16,7 +16,7 @@ import mdr
 from validation.cases.selection import model_selection as ladder
 from validation.cases.selection.random_scenes import KINDS, WANTED, random_scene
 from validation.report.contents import CASES
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import read_any
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
@@ -28,19 +28,19 @@ from validation.selection import rolling_models as rungs_rolling
 from validation.selection.compare import WANTS, Comparison, compare, rungs_of, told, wants_of
 from validation.selection.hierarchy import (
     Answer,
+    Candidate,
     Claim,
-    Climb,
     Cost,
-    Step,
-    climb,
+    Selection,
     distance,
     mean_error,
     needed,
     realisations,
+    select_model,
 )
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation.rolling_quantity import Question
+from validation.simulation.rolling_quantity import RollingQuantity
 
 ROUGH = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
 
@@ -70,7 +70,7 @@ class Fake:
 def punch(load=0.1, ground=ROUGH, **changes):
     height = ground.rms if ground else 1.0
     settings = {"name": "punch", "shape": "punch", "size": 1.0, "load": load * height, "modulus": 1.0, "ground": ground}
-    return PressedScene(**{**settings, **changes})
+    return IndentationScene(**{**settings, **changes})
 
 
 def wheel(height=0.03, first=1.0, last=4.0, **changes):
@@ -94,7 +94,7 @@ def test_a_climb_ends_where_the_tolerance_is_met():
         Fake(left=0.1, seconds=8),
         Fake(seconds=16),
     ]
-    climbed = climb(rungs, 0.1)
+    climbed = select_model(rungs, 0.1)
     assert fates(climbed) == ["skipped", "not enough", "failed", "enough", "not needed"]
     assert climbed.met
     assert climbed.best.rung is rungs[3]
@@ -104,30 +104,30 @@ def test_a_climb_ends_where_the_tolerance_is_met():
 
 def test_who_misses_the_tolerance_at_the_top_is_told_the_best_there_is():
     rungs = [Fake(left=0.3), Fake(left=0.2), Fake(failed="lost")]
-    climbed = climb(rungs, 0.1)
+    climbed = select_model(rungs, 0.1)
     assert not climbed.met
     assert climbed.best.rung is rungs[1]
-    assert climb([Fake(failed="lost")], 0.1).best is None
-    assert climb([Fake(claimed=math.inf)], 0.1).best is None
+    assert select_model([Fake(failed="lost")], 0.1).best is None
+    assert select_model([Fake(claimed=math.inf)], 0.1).best is None
 
 
 def test_the_best_there_is_may_have_been_skipped():
     rungs = [Fake(claimed=0.2, left=0.15), Fake(claimed=0.15, left=0.12), Fake(left=0.3)]
-    climbed = climb(rungs, 0.1)
+    climbed = select_model(rungs, 0.1)
     assert fates(climbed) == ["skipped", "not enough", "not enough"]
     assert climbed.best.rung is rungs[1]
-    assert fates(climb([Fake(claimed=0.5), Fake(left=0.3)], 0.1)) == ["skipped", "not enough"]
+    assert fates(select_model([Fake(claimed=0.5), Fake(left=0.3)], 0.1)) == ["skipped", "not enough"]
 
 
 @pytest.mark.parametrize("tolerance", [0.0, -0.1, math.nan, math.inf])
 def test_tolerances_out_of_range_are_refused(tolerance):
     with pytest.raises(ValueError, match=f"^tolerance must be finite and positive, got {tolerance}"):
-        climb([Fake()], tolerance)
+        select_model([Fake()], tolerance)
 
 
 def test_what_was_done_is_counted_and_not_what_was_expected():
-    rung = rungs_pressed.BoundaryElements(punch(), 0.6, seed=3, cells=32)
-    climbed = climb([rung], 0.6)
+    rung = rungs_pressed.IndentationOnGrid(punch(), 0.6, seed=3, cells=32)
+    climbed = select_model([rung], 0.6)
     fine, coarse = 9, 8
     assert climbed.steps[0].answer.cost.work == 24 * 32**2 * (fine + coarse / 4 + coarse / 16)
     assert climbed.spent == climbed.steps[0].answer.cost.seconds
@@ -200,10 +200,10 @@ def test_the_law_of_interfaces_holds_as_it_claims(load):
 
 
 def test_springs_are_the_mean_of_load_curves():
-    rung = rungs_pressed.Springs(punch(), 0.2, seed=3)
+    rung = rungs_pressed.IndentationOnSprings(punch(), 0.2, seed=3)
     answer = rung.solve()
     assert answer.sample <= 1.5 * rung.tolerance / 5
-    other = rungs_pressed.Springs(punch(), 0.2, seed=4).solve()
+    other = rungs_pressed.IndentationOnSprings(punch(), 0.2, seed=4).solve()
     # both have two standard errors: half as much again is one in a thousand
     assert 0 < distance(answer.value, other.value) <= 1.5 * math.hypot(answer.sample, other.sample)
     rng, drawn = np.random.default_rng(9), []
@@ -215,7 +215,7 @@ def test_springs_are_the_mean_of_load_curves():
 
 
 def test_boundary_elements_are_those_of_the_solver():
-    rung = rungs_pressed.BoundaryElements(punch(), 0.6, seed=3, cells=32)
+    rung = rungs_pressed.IndentationOnGrid(punch(), 0.6, seed=3, cells=32)
     answer = rung.solve()
     # eight surfaces leave more than half of the tolerance, nine do not
     assert answer.because.endswith("surfaces: 9")
@@ -246,7 +246,7 @@ def test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed():
 
 def test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one():
     tolerance = 0.4
-    coarse, fine = (rungs_pressed.BoundaryElements(punch(), tolerance, 3, n).solve() for n in (32, 64))
+    coarse, fine = (rungs_pressed.IndentationOnGrid(punch(), tolerance, 3, n).solve() for n in (32, 64))
     assert distance(coarse.value, fine.value) <= coarse.grid
 
 
@@ -254,7 +254,7 @@ def test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one():
 
 
 def test_the_expected_levels_are_integrals_of_the_spectrum():
-    question = Question(wheel(), "force-spectrum")
+    question = RollingQuantity(wheel(), "force-spectrum")
     found = question.expected(one_dimensional=False)
     ground = question.scene.ground
 
@@ -272,11 +272,11 @@ def test_the_expected_levels_are_integrals_of_the_spectrum():
 
 
 def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
-    rms = Question(wheel(), "force-rms")
+    rms = RollingQuantity(wheel(), "force-rms")
     c2d = rms.scene.ground.c2d
     variance = 2 * math.pi * integrate.quad(lambda s: (2 * math.sin(s) / s) ** 2 * float(c2d(s)) * s, 1.0, 4.0)[0]
     assert rms.expected(one_dimensional=True)[0] ** 2 == pytest.approx(variance, rel=1e-8)
-    levels = Question(wheel(last=16.0), "force-spectrum")
+    levels = RollingQuantity(wheel(last=16.0), "force-spectrum")
     ratio = levels.expected(one_dimensional=True) / levels.expected(one_dimensional=False)
     # 4 dB at the most, but for the zeros of sin(q a), where it has nothing
     assert np.sqrt(np.mean(ratio[levels.bands.centres > 4] ** 2)) == pytest.approx(10 ** (4 / 20), rel=0.15)
@@ -285,13 +285,13 @@ def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
 @pytest.mark.parametrize("one_dimensional", [True, False])
 def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
     moving = wheel(first=1 / 100, last=4.0, mass=2.0, speed=400.0)
-    bands = Question(moving, "acceleration").expected(one_dimensional)
-    whole = Question(moving, "acceleration-rms").expected(one_dimensional)
+    bands = RollingQuantity(moving, "acceleration").expected(one_dimensional)
+    whole = RollingQuantity(moving, "acceleration-rms").expected(one_dimensional)
     assert whole[0] ** 2 == pytest.approx(np.sum(bands**2), rel=1e-3)
 
 
 def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
-    question = Question(wheel(mass=2.0, speed=3.0), "acceleration")
+    question = RollingQuantity(wheel(mass=2.0, speed=3.0), "acceleration")
     q = np.array([0.5, 2.0, 7.0])
     k, omega = 2.0, 3.0 * q
     assert question.transfer(q) == pytest.approx(omega**2 / np.abs(k - 2.0 * omega**2))
@@ -416,9 +416,9 @@ def test_every_case_states_which_rung_it_needed():
 
 
 def test_a_step_without_an_answer_leaves_everything_open():
-    step = Step(Fake(), "skipped", "", Claim(error=1.0, because=""))
-    assert Climb(0.1, (step,)).best is None
-    assert Climb(0.1, (step,)).spent == 0
+    step = Candidate(Fake(), "skipped", "", Claim(error=1.0, because=""))
+    assert Selection(0.1, (step,)).best is None
+    assert Selection(0.1, (step,)).spent == 0
 
 
 @pytest.mark.parametrize("name", ["sphere", "rough_punch", "rolling_wheel", "table_14_1"])
@@ -480,7 +480,7 @@ def test_faces_of_more_points_than_any_grid_answer_for_the_summits_that_a_mean_h
     monkeypatch.setattr(pressed_heights, "MANY_POINTS", 32)
     (coarse,) = (rung.solve() for rung in rungs_of(scene, "stiffness", 0.2, 0)[2:])
     assert distance(coarse.value, fine.value) <= coarse.error
-    monkeypatch.setattr(pressed_grids.BoundaryElements, "_hidden", lambda *_: 0.0)
+    monkeypatch.setattr(pressed_grids.IndentationOnGrid, "_hidden", lambda *_: 0.0)
     (blind,) = (rung.solve() for rung in rungs_of(scene, "stiffness", 0.2, 0)[2:])
     assert blind.error < coarse.error
 
@@ -488,7 +488,7 @@ def test_faces_of_more_points_than_any_grid_answer_for_the_summits_that_a_mean_h
 def test_changes_of_one_face_that_cancel_leave_no_less_than_those_before_and_its_edge():
     height = np.random.default_rng(0).normal(size=(64, 64))
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)), load=1.0)
-    rung = pressed_grids.BoundaryElements(scene, 0.1, 0, 64)
+    rung = pressed_grids.IndentationOnGrid(scene, 0.1, 0, 64)
     assert rung._grid_of_one(np.array([1e-4, 1e-4, 0.4])) == pytest.approx(1.5 * 0.1)
     assert rung._grid_of_one(np.array([1e-5, 1e-5, 1e-4])) == pytest.approx(1.5 * 0.35 / 64)
     assert rung._grid_of_one(np.array([0.2, 0.1, 0.1])) == math.inf
@@ -502,7 +502,7 @@ def test_a_summit_beyond_four_times_the_roughness_is_under_the_sphere():
     rough = mdr.SelfAffine(hurst=0.8, q_min=2 * np.pi / 4, q_max=4 * np.pi, rms=0.3 * approach)
     height = bem3d.rough_surface(rough.c2d, shape=(128, 128), spacing=spacing, rng=rng, rms=0.3 * approach)
     height[101:104, 63:66] += 3 * approach
-    scene = PressedScene(
+    scene = IndentationScene(
         name="s",
         shape="sphere",
         size=radius,
@@ -524,7 +524,7 @@ def test_short_waves_of_a_measured_track_are_no_longer_ones():
     spacing, a = 1 / 32, 1.0
     x = (np.arange(1024) + 0.5) * spacing
     height = 1e-3 * np.add.outer(np.cos(2 * np.pi * 7 * x / a), np.zeros(128))
-    question = Question(wheel(ground=MeasuredHeights(height=height, spacing=(spacing, spacing))), "force-rms")
+    question = RollingQuantity(wheel(ground=MeasuredHeights(height=height, spacing=(spacing, spacing))), "force-rms")
     assert np.ptp(rolled.strip_of(question, 8, 0, 0)) < 0.25 * np.ptp(height)
 
 
@@ -549,7 +549,7 @@ def test_linear_theory_says_nothing_of_single_summits_and_pits():
 
 def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
     height = 0.05 * wheel().approach * track()
-    question = Question(wheel(ground=MeasuredHeights(height=height, spacing=(1 / 4, 1 / 4))), "force-spectrum")
+    question = RollingQuantity(wheel(ground=MeasuredHeights(height=height, spacing=(1 / 4, 1 / 4))), "force-spectrum")
     linear = rungs_rolling.LinearSpace(question)
     found = linear.solve()
     rolled_over = np.exp(rolled.on_boundary_elements(question, 12, 0, 0))
@@ -585,12 +585,12 @@ class Finding(Fake):
 
 
 def test_of_equal_claims_that_miss_the_tolerance_the_finest_grid_is_asked():
-    climbed = climb([Fake(claimed=0.5, left=0.4), Fake(claimed=0.5, left=0.2)], 0.1)
+    climbed = select_model([Fake(claimed=0.5, left=0.4), Fake(claimed=0.5, left=0.2)], 0.1)
     assert fates(climbed) == ["skipped", "not enough"]
 
 
 def test_the_least_that_is_left_is_the_best_whoever_comes_last():
-    climbed = climb([Fake(left=0.2), Fake(left=0.3)], 0.1)
+    climbed = select_model([Fake(left=0.2), Fake(left=0.3)], 0.1)
     assert climbed.best.rung is climbed.steps[0].rung
 
 
@@ -605,7 +605,7 @@ def test_a_number_is_told_with_the_parts_of_its_error():
         Finding(value=(2e7,), parts=PARTS),
         Fake(seconds=8.0),
     ]
-    lines = told(Comparison(punch(load=1.0), "stiffness", climb(rungs, 0.2)))
+    lines = told(Comparison(punch(load=1.0), "stiffness", select_model(rungs, 0.2)))
     assert "stiffness = (2.00 ± 0.25)e7 N/m (12 %: model 10 %, grid 2 %, sample 0.3 %), by fake" in lines
     assert lines[-1].startswith("solves that were done: about 5 s by their count")
     assert lines[-1].endswith("the rungs that were not asked would have cost 10 s")
@@ -614,10 +614,10 @@ def test_a_number_is_told_with_the_parts_of_its_error():
 @pytest.mark.parametrize(("want", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])
 def test_bands_are_told_with_wavenumber_frequency_and_level(want, unit):
     scene = wheel(first=1 / 20, mass=2.0, speed=400.0, radius=4.0, load=4 / 3 * 16)
-    a, bands = scene.contact_radius, Question(scene, want).bands
+    a, bands = scene.contact_radius, RollingQuantity(scene, want).bands
     assert a != pytest.approx(1.0)
     levels = tuple(float(i + 1) for i in range(bands.centres.size))
-    lines = told(Comparison(scene, want, climb([Finding(value=levels, parts=PARTS)], 0.2)))
+    lines = told(Comparison(scene, want, select_model([Finding(value=levels, parts=PARTS)], 0.2)))
     at = next(i for i, line in enumerate(lines) if "one-third octaves" in line)
     # 20 lg 1.123 = 1.0 dB
     assert lines[at].endswith("± 12 %, 1 dB, over all bands (model 10 %, grid 2 %, sample 0.3 %)")

@@ -17,7 +17,7 @@ from validation.cases.limits import springs as limits_mdr
 from validation.cases.limits import time_stepping as limits_time
 from validation.cases.limits.sweep import Limit, Sweep, heard, swept
 from validation.report.figures import limits as figures
-from validation.simulation.contact_laws import Hertz
+from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.motion import simulate
 from validation.simulation.rolling_strip import self_affine
@@ -132,7 +132,7 @@ def test_captured_words_are_those_of_the_code(result):
         bem3d.solve(body, gap, approach=1.0)
     assert found(result, "cells").said[2] == f"ResolutionWarning: {caught[0].message}"
     with pytest.raises(ValueError, match="time_step") as refused:
-        simulate(WHEEL, Hertz(WHEEL), time_step=3.0 / WHEEL.eigenfrequency, steps=1)
+        simulate(WHEEL, HertzLaw(WHEEL), time_step=3.0 / WHEEL.eigenfrequency, steps=1)
     assert found(result, "step").said[-1] == f"ValueError: {refused.value}"
     assert any("), which touches alone, carries" in words for words in found(result, "spike").said)
     assert found(result, "huge force").said[-1].startswith("ConvergenceError: residual")
@@ -244,7 +244,7 @@ def test_slope_of_a_power_law():
 
 def test_theory_of_small_changes_of_energy():
     """Borders of explicit Euler and of Runge-Kutta, from the product of their factors over a turn."""
-    outcome = limits_time.step_out(limits_time.Steps(verlet=(1.0,), euler=(0.01, 0.02), kutta=(0.9, 1.1), turns=6))
+    outcome = limits_time.step_out(limits_time.TimeSteps(verlet=(1.0,), euler=(0.01, 0.02), kutta=(0.9, 1.1), turns=6))
     x = float(outcome["Euler border"])
     assert (1 + x**2) ** (2 * np.pi / x) - 1 == pytest.approx(limits_time.EULER.tolerance, rel=2 * x)
     x = float(outcome["Runge-Kutta border"])

@@ -65,7 +65,7 @@ def test_error_of_the_stiffness_is_the_residual_squared(problem):
     condition = np.linalg.cond(matrix)
     for tolerance in (1e-1, 1e-2, 1e-3, 1e-5):
         # from a start, what is left is not orthogonal to the pressure
-        frozen = bem3d.press_frozen(body, contact, start=np.ones(body.shape), tolerance=tolerance)
+        frozen = bem3d.solve_fixed_area(body, contact, start=np.ones(body.shape), tolerance=tolerance)
         assert frozen.residual <= tolerance
         short = 1 - frozen.stiffness / exact
         assert -1e-12 * condition <= short <= condition * frozen.residual**2 + 1e-12 * condition
@@ -73,9 +73,9 @@ def test_error_of_the_stiffness_is_the_residual_squared(problem):
 
 def test_a_start_for_the_frozen_contact():
     contact = bem3d.solve(BODY, GAP, force=1.0).pressure > 0
-    cold = bem3d.press_frozen(BODY, contact, tolerance=1e-6)
-    warm = bem3d.press_frozen(BODY, contact, start=cold.pressure + GAP, tolerance=1e-6)
-    again = bem3d.press_frozen(BODY, contact, start=cold.pressure, tolerance=1e-6)
+    cold = bem3d.solve_fixed_area(BODY, contact, tolerance=1e-6)
+    warm = bem3d.solve_fixed_area(BODY, contact, start=cold.pressure + GAP, tolerance=1e-6)
+    again = bem3d.solve_fixed_area(BODY, contact, start=cold.pressure, tolerance=1e-6)
     assert warm.stiffness == pytest.approx(cold.stiffness, rel=1e-9)
     assert again.operator_applications == 1
     assert again.iterations == 0
@@ -88,8 +88,8 @@ def test_a_start_for_the_frozen_contact():
 def test_contacts_come_one_by_one(monkeypatch):
     """Nothing is solved before it is asked for; what is wrong with the input is said at once."""
     solved = []
-    press = bem3d.press.press
-    monkeypatch.setattr(bem3d.solver, "press", lambda problem, *more: solved.append(problem) or press(problem, *more))
+    press = bem3d.window_solve.solve_on_window
+    monkeypatch.setattr(bem3d.solver, "solve_on_window", lambda problem, *more: solved.append(problem) or solve_on_window(problem, *more))
     path = bem3d.indent(BODY, GAP, forces=[1.0, 2.0, 3.0])
     assert not solved
     next(path)

@@ -10,7 +10,7 @@ import pytest
 import bem3d
 from validation.__main__ import main
 from validation.scenes.dynamic_wheel import read_scene
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import read_any
 from validation.scenes.material import Elastic, Material
 from validation.scenes.measured import MeasuredHeights
@@ -115,7 +115,7 @@ def test_no_material_is_refused():
 def test_a_modulus_is_that_of_its_material():
     settings = {"name": "it", "load": 1.0, "material": steel()}
     with pytest.raises(ValueError, match=r"^modulus must be that of the material, 2.30769e\+11 Pa, got 2e\+11 Pa$"):
-        PressedScene(shape="punch", size=1.0, modulus=2e11, **settings)
+        IndentationScene(shape="punch", size=1.0, modulus=2e11, **settings)
     with pytest.raises(ValueError, match="must be that of the material"):
         RollingScene(radius=1.0, modulus=2e11, ground=Roughness(rms=1, hurst=0.7, longest=2, shortest=1), **settings)
 
@@ -244,7 +244,7 @@ def test_punches_are_understood_by_their_load():
     pairs = dict(understood(read_any("rough_punch")))
     assert pairs["rms height h"] == "1 µm, F / (E* h L) = 0.1"
     assert pairs["waves"].endswith("longest waves on a side: 1")
-    smooth = PressedScene(name="flat", shape="punch", size=1.0, load=1.0, modulus=2e9)
+    smooth = IndentationScene(name="flat", shape="punch", size=1.0, load=1.0, modulus=2e9)
     assert dict(understood(smooth)) == {
         "contact modulus E*": "2 GPa: as it was given",
         "punch": "side L = 1 m, load 1 N",
@@ -269,7 +269,7 @@ def test_two_equal_bodies_are_told(tmp_path, capsys):
 def test_measured_faces_are_understood_by_their_points():
     height = 1e-3 * np.random.default_rng(1).standard_normal((64, 32))
     ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 32))
-    scene = PressedScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9, ground=ground)
+    scene = IndentationScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9, ground=ground)
     pairs = dict(understood(scene))
     assert pairs["waves"].startswith("measured, 64 x 32 points on 1 m x 1 m; longest waves on a side: ")
     along = math.sqrt(np.mean((np.diff(height, axis=0) * 64) ** 2))

@@ -13,7 +13,7 @@ import mdr
 from validation import __main__ as command
 from validation.__main__ import main
 from validation.scenes.dynamic_wheel import read_scene
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import read_any
 from validation.scenes.measured import MeasuredHeights, measured
 from validation.scenes.reader import SCENES
@@ -213,12 +213,12 @@ def test_a_tilt_and_steepness_are_notes_and_texture_and_skewness_are_reasons():
     scene = {"name": "it", "shape": "punch", "size": N * DX, "load": 0.1, "modulus": 1e9}
     for ground in (tilted, steep):
         assert ground.beyond_a_spectrum() == ()
-        claims = [rung.claim() for rung in rungs_of(PressedScene(**scene, ground=ground), "stiffness", 0.1, 0)]
+        claims = [rung.claim() for rung in rungs_of(IndentationScene(**scene, ground=ground), "stiffness", 0.1, 0)]
         assert not any("knows the spectrum alone" in claim.because for claim in claims)
-        assert PressedScene(**scene, ground=ground).doubts() == ground.notes()
+        assert IndentationScene(**scene, ground=ground).doubts() == ground.notes()
     for ground in (heights(drawn(), spacing=(DX, 3 * DX)), heights(np.minimum(drawn(), 0.3e-7))):
         assert ground.beyond_a_spectrum() == ground.notes() != ()
-    worn = PressedScene(**scene, ground=heights(np.minimum(drawn(), 0.3e-7)))
+    worn = IndentationScene(**scene, ground=heights(np.minimum(drawn(), 0.3e-7)))
     assert "knows the spectrum alone" in rungs_of(worn, "stiffness", 0.1, 0)[0].claim().because
 
 
@@ -265,7 +265,7 @@ def with_heights(folder, file, *, unit="", side="0.256 mm"):
 
 def test_shipped_scenes_are_what_they_say():
     sphere, rolling = read_any("sphere"), read_any("rolling_wheel")
-    assert isinstance(sphere, PressedScene)
+    assert isinstance(sphere, IndentationScene)
     assert isinstance(rolling, RollingScene)
     assert sphere.contact_radius == pytest.approx(rolling.contact_radius) == pytest.approx(1.982e-3, rel=1e-3)
     assert read_any("rough_punch").reduced_load == pytest.approx(0.1, rel=1e-6)
@@ -383,20 +383,20 @@ def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
 def test_scenes_at_the_prompt_are_refused_by_the_key(changes, sentence):
     settings = {"name": "it", "shape": "punch", "size": 1.0, "load": 1.0, "modulus": 1.0}
     with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
-        PressedScene(**{**settings, **changes})
+        IndentationScene(**{**settings, **changes})
 
 
 def test_heights_must_cover_the_body():
     ground = heights(drawn())
     settings = {"name": "it", "load": 1.0, "modulus": 1e9, "ground": ground}
     with pytest.raises(ValueError, match=r"^heights must be as large as the punch, punch.side = 0.001 m"):
-        PressedScene(shape="punch", size=1e-3, **settings)
+        IndentationScene(shape="punch", size=1e-3, **settings)
     with pytest.raises(ValueError, match=r"^heights must be three contact radii wide"):
-        PressedScene(shape="sphere", size=1.0, **settings)
+        IndentationScene(shape="sphere", size=1.0, **settings)
     with pytest.raises(ValueError, match=r"^rail.heights must be .* long and .* wide"):
         RollingScene(radius=1.0, **settings)
     far = {**settings, "ground": MeasuredHeights(height=ground.height, spacing=(0.2, 0.2)), "load": 1e-3}
-    for scene in (partial(RollingScene, radius=1e-3), partial(PressedScene, shape="sphere", size=1e-3)):
+    for scene in (partial(RollingScene, radius=1e-3), partial(IndentationScene, shape="sphere", size=1e-3)):
         with pytest.raises(ValueError, match=r"^heights.spacing must be no more than the contact radius, .* 0.2 m"):
             scene(**far)
 

@@ -41,13 +41,15 @@ def test_sphere_costs_the_same_on_any_grid(prescribed):
 
 def test_textbook_iteration_grows_with_the_grid():
     """The negative control of the test above."""
-    counts = [bem3d.solve_plain(*sphere(n), approach=1 / 16, tolerance=1e-8).operator_applications for n in (64, 256)]
+    counts = [
+        bem3d.solve_polonsky_keer(*sphere(n), approach=1 / 16, tolerance=1e-8).operator_applications for n in (64, 256)
+    ]
     assert counts[1] > 1.5 * counts[0] > 90
 
 
 def test_textbook_iteration_costs_what_it_does():
     """Two applications an iteration: from the overlap to 1e-8 about 55 of them, from a uniform pressure about 35."""
-    by_approach, by_force = (bem3d.solve_plain(*sphere(128), **load, tolerance=1e-8) for load in BOTH)
+    by_approach, by_force = (bem3d.solve_polonsky_keer(*sphere(128), **load, tolerance=1e-8) for load in BOTH)
     assert 100 <= by_approach.operator_applications <= 120
     assert 60 <= by_force.operator_applications <= 80
 

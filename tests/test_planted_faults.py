@@ -15,16 +15,16 @@ from scipy import stats
 
 import bem3d
 import mdr
-from bem3d import contact, frozen, halfspace, kernel, press, problem, projected_cg, surface, window
+from bem3d import contact, halfspace, kernel, problem, projected_cg, surface, tangent_stiffness, window, window_solve
 from bem3d import rolling as wheel_on_strip
-from bem3d.track import Frame, Track
+from bem3d.rolling_frame import Frame, Track
 from mdr import foundation
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
-from mdr import wheels as wheels_in_step
-from mdr.borne import Borne, by_sorting
-from mdr.doubts import doubts_of_linearity
-from mdr.near import Near
+from mdr import rolling_ensemble as wheels_in_step
+from mdr.approach_by_sorting import Borne, by_sorting
+from mdr.candidate_springs import Near
+from mdr.diagnostics import doubts_of_linearity
 from tests import (
     test_accepted_solves,
     test_claims,
@@ -94,7 +94,7 @@ from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
-from validation.simulation.rough_punch import Roughness
+from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
@@ -188,7 +188,7 @@ def of_unit_modulus(**settings):
     return bem3d.HalfSpace(**{**settings, "modulus": 1.0})
 
 
-pressed_on_a_grid = rungs_pressed_grids.BoundaryElements._pressed
+pressed_on_a_grid = rungs_pressed_grids.IndentationOnGrid._pressed
 
 
 def another_surface_on_coarser_grids(rung, realisation, cells):
@@ -275,7 +275,7 @@ def blind_to_penetration(pressure, w, overlap):
 
 def grown_contact(half_space, cells, **settings):
     wider = cells | np.roll(cells, 1, axis=0)
-    return frozen.press_frozen(half_space, wider, **settings)
+    return tangent_stiffness.solve_fixed_area(half_space, wider, **settings)
 
 
 def half_a_window(half_space, marked):
@@ -288,7 +288,7 @@ def half_a_window(half_space, marked):
 
 def sum_of_the_pressure(half_space, cells, **settings):
     """k = sum(p) dx dy, whose error is the residual and not its square."""
-    result = frozen.press_frozen(half_space, cells, **settings)
+    result = tangent_stiffness.solve_fixed_area(half_space, cells, **settings)
     return dataclasses.replace(result, stiffness=float(result.pressure.sum()) * half_space.cell_area)
 
 
@@ -570,13 +570,13 @@ def unless_it_differs(sentence, numbers):
 
 
 half_of_the_interval, estimated = statistics.Estimate.half_width.fget, statistics.Sample.estimate
-judged = press.Attempt.judge
-log_of_answer = precision_error.Answer.log
+judged = window_solve.IterationState.judge
+log_of_answer = precision_error.MethodAnswers.log
 spectra_of_records, peak = records.spectra, regions.peak
-places_of, heights_of = wheel_ensemble.Rides.places.fget, wheel_ensemble.Rides.heights
+places_of, heights_of = wheel_ensemble.WheelEnsemble.places.fget, wheel_ensemble.WheelEnsemble.heights
 amplification, linear_response = free_vibration.amplification, rough_springs.linear_response
-force_in_step, other_turning_point = mdr.Wheels.force, wheel_theory._other_turning_point
-moments, reach, two_sided = Frame._moments, wheel_on_springs.Track.reach, spectra.Waves.spectrum.fget
+force_in_step, other_turning_point = mdr.RollingEnsemble.force, wheel_theory._other_turning_point
+moments, reach, two_sided = Frame._moments, wheel_on_springs.SpringTrack.reach, spectra.Waves.spectrum.fget
 # the function of this name hides the module in the package
 feed = importlib.import_module("mdr.rolling_spectrum")
 FAULTS = {
@@ -680,11 +680,11 @@ FAULTS = {
         test_springs_against_brute_force.test_force_and_stiffness_at_an_approach,
     ),
     "stiffness of a contact grown by a cell": (
-        (contact, "press_frozen", grown_contact),
+        (contact, "solve_fixed_area", grown_contact),
         test_contact_properties.test_stiffness_is_that_of_the_dense_contact,
     ),
     "line trace for Geike in Fig. 14.1": (
-        (Roughness, "spectrum", property(line_for_geike)),
+        (PunchRoughness, "spectrum", property(line_for_geike)),
         functools.partial(test_fractal_punch.test_profiles_are_those_of_geikes_spectrum, 1.0),
     ),
     "half of the force in Fig. 14.1": (
@@ -700,11 +700,11 @@ FAULTS = {
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
-        (fractal_punch_decades.Comparison, "left", 0.0),
+        (fractal_punch_decades.DecadeComparison, "left", 0.0),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "no extrapolation": (
-        (fractal_punch_decades.Comparison, "correction", 0.0),
+        (fractal_punch_decades.DecadeComparison, "correction", 0.0),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "a third of the interval": (
@@ -726,11 +726,11 @@ FAULTS = {
         test_evidence.test_levels_of_a_realisation_are_resampled_together,
     ),
     "rms of the ensemble for that of each": (
-        (Roughness, "_normalised", lambda roughness, height: height),
+        (PunchRoughness, "_normalised", lambda roughness, height: height),
         functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
     ),
     "rms of each for that of the ensemble": (
-        (Roughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()),
+        (PunchRoughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()),
         functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
     ),
     "mean gap of a half-space that does not yield": (
@@ -750,21 +750,21 @@ FAULTS = {
         test_drawn_roughness.test_profiles_look_the_same_up_and_down,
     ),
     "a residual that forgives": (
-        ((press, projected_cg), "residual", forgiving_residual),
+        ((window_solve, projected_cg), "residual", forgiving_residual),
         test_convergence_rates.test_a_wider_grid_changes_nothing,
     ),
     "a residual blind to penetration": (
-        ((press, projected_cg), "residual", blind_to_penetration),
+        ((window_solve, projected_cg), "residual", blind_to_penetration),
         test_contact_properties.test_complementarity,
     ),
     "a window that cuts cells off": (
-        (press, "smallest_box", half_a_window),
+        (window_solve, "smallest_box", half_a_window),
         functools.partial(
             test_windows_and_starts.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0
         ),
     ),
     "stiffness to first order in the residual": (
-        (bem3d, "press_frozen", sum_of_the_pressure),
+        (bem3d, "solve_fixed_area", sum_of_the_pressure),
         test_load_paths.test_error_of_the_stiffness_is_the_residual_squared,
     ),
     "Geike for the line trace in rolling": (
@@ -794,11 +794,11 @@ FAULTS = {
         functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
     ),
     "a for 2a under the wheel": (
-        (wheel_on_springs.Track, "reach", half_the_contact),
+        (wheel_on_springs.SpringTrack, "reach", half_the_contact),
         test_rolling_springs.test_full_contact_tends_to_the_filter_at_second_order,
     ),
     "x^2 / 2R under the wheel": (
-        (wheel_on_springs.Track, "wheel", scaled(wheel_on_springs.Track.wheel, 0.5)),
+        (wheel_on_springs.SpringTrack, "wheel", scaled(wheel_on_springs.SpringTrack.wheel, 0.5)),
         test_rolling_springs.test_force_is_the_sum_over_all_springs,
     ),
     "springs that pull under the smooth wheel": (
@@ -846,15 +846,15 @@ FAULTS = {
         ),
     ),
     "x^2 / 2R under many wheels": (
-        (mdr.Wheels, "_profile", scaled(mdr.Wheels._profile, 0.5)),
+        (mdr.RollingEnsemble, "_profile", scaled(mdr.RollingEnsemble._profile, 0.5)),
         functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
     ),
     "many wheels half a cell ahead": (
-        (mdr.Wheels, "_profile", profile_half_a_cell_ahead),
+        (mdr.RollingEnsemble, "_profile", profile_half_a_cell_ahead),
         test_wheels_on_springs.test_a_wheel_of_equal_springs_rolls_the_same_in_either_direction,
     ),
     "many wheels a cell ahead": (
-        (mdr.Wheels, "force", a_place_late),
+        (mdr.RollingEnsemble, "force", a_place_late),
         functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
     ),
     "springs that pull under many wheels": (
@@ -866,11 +866,11 @@ FAULTS = {
         functools.partial(test_wheels_on_springs.test_far_above_the_track_there_is_no_force, -50.0),
     ),
     "E for E* under many wheels": (
-        (mdr.Wheels, "force", scaled(force_in_step, E_FOR_E_STAR)),
+        (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),
         functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
     ),
     "E for E* in the force, not in the approach at rest": (
-        (mdr.Wheels, "force", scaled(force_in_step, E_FOR_E_STAR)),
+        (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),
         test_wheel_motion.test_at_rest_the_wheel_bears_its_load,
     ),
     "sums that round": (
@@ -881,7 +881,7 @@ FAULTS = {
         (test_wheel_motion, "simulate", without_load),
         functools.partial(
             test_wheel_motion.test_on_a_smooth_track_a_wheel_stays_at_rest,
-            contact_laws.Hertz(test_wheel_motion.WHEEL, 2),
+            contact_laws.HertzLaw(test_wheel_motion.WHEEL, 2),
             4 * test_wheel_motion.ULP,
         ),
     ),
@@ -997,13 +997,13 @@ FAULTS = {
         test_wheel_cases.test_the_roughness_of_a_wheel_repeats_after_its_circumference,
     ),
     "a closed track taken as open": (
-        (wheel_ensemble.Rides, "places", property(always_open)),
+        (wheel_ensemble.WheelEnsemble, "places", property(always_open)),
         functools.partial(
             test_wheel_cases.test_closed_tracks_hold_whole_turns_and_steady_ones_a_half_more, "steady", 0.5, 0.16
         ),
     ),
     "Geike for the rolling feed of springs": (
-        (wheel_ensemble.Rides, "heights", by_geike),
+        (wheel_ensemble.WheelEnsemble, "heights", by_geike),
         test_wheel_cases.test_rolling_feed_has_long_waves_and_geike_has_none,
     ),
     "no resonator in the linear spectrum": (
@@ -1019,7 +1019,7 @@ FAULTS = {
         test_ladder.test_one_dimension_has_the_variance_of_the_force_and_not_its_levels,
     ),
     "no resonator between force and acceleration": (
-        (rolling_question.Question, "transfer", without_a_resonator),
+        (rolling_question.RollingQuantity, "transfer", without_a_resonator),
         test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
     ),
     "one standard error for a 95 % interval": (
@@ -1135,7 +1135,7 @@ FAULTS = {
         test_precision.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
     ),
     "first order for second in an extrapolation": (
-        (precision_error.Answer, "log", at_first_order),
+        (precision_error.MethodAnswers, "log", at_first_order),
         functools.partial(test_precision.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
     ),
     "decibels of an amplitude for those of a power": (
@@ -1217,11 +1217,11 @@ FAULTS = {
         test_rules_by_loops.test_a_band_holds_its_lower_edge_and_not_its_upper,
     ),
     "accepted at ten times its tolerance": (
-        (press.Attempt, "judge", at_ten_times_the_tolerance),
+        (window_solve.IterationState, "judge", at_ten_times_the_tolerance),
         functools.partial(test_accepted_solves.test_the_tolerance_is_the_one_that_was_asked_for, 9.9e-4, None),
     ),
     "accepted at ten times its tolerance, seen by a solve": (
-        (press.Attempt, "judge", at_ten_times_the_tolerance),
+        (window_solve.IterationState, "judge", at_ten_times_the_tolerance),
         functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
     ),
     "the iteration limit taken for convergence": (
@@ -1261,7 +1261,7 @@ FAULTS = {
         test_claims.test_the_error_over_bands_is_their_root_mean_square,
     ),
     "coarser grids on other surfaces": (
-        (rungs_pressed_grids.BoundaryElements, "_pressed", another_surface_on_coarser_grids),
+        (rungs_pressed_grids.IndentationOnGrid, "_pressed", another_surface_on_coarser_grids),
         test_claims.test_grids_are_compared_on_the_same_surfaces,
     ),
     "one surface for all": (
@@ -1297,7 +1297,7 @@ FAULTS = {
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
     ),
     "a grid beside another on another strip": (
-        (rungs_rolling.BoundaryElements, "_rolled", another_strip_beside),
+        (rungs_rolling.RollingOnGrid, "_rolled", another_strip_beside),
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
     ),
     "Geike's spectrum for springs that roll": (

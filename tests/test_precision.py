@@ -17,11 +17,11 @@ from validation.benchmarks.work_precision import exact_problem as precision_pres
 from validation.benchmarks.work_precision import measurement as precision
 from validation.benchmarks.work_precision import pareto as precision_front
 from validation.benchmarks.work_precision.case import Precision, run
-from validation.benchmarks.work_precision.dynamic_wheel import Wheels, beside, mean_levels, steady_acceleration
-from validation.benchmarks.work_precision.errors import Answer, error, points
+from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem, beside, mean_levels, steady_acceleration
+from validation.benchmarks.work_precision.errors import MethodAnswers, error, points
 from validation.benchmarks.work_precision.evidence import evidence
 from validation.benchmarks.work_precision.exact_problem import logarithm
-from validation.benchmarks.work_precision.exact_problems import Punch, Sphere, Wave
+from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
 from validation.benchmarks.work_precision.measurement import (
     BEM,
     CLOSED,
@@ -33,14 +33,14 @@ from validation.benchmarks.work_precision.measurement import (
     LOOSE,
     MDR,
     PLAIN,
-    Attempt,
+    Configuration,
     Quantity,
-    Trial,
-    Turn,
-    Work,
+    SolveResult,
+    TimedScene,
+    TimedSolve,
 )
 from validation.benchmarks.work_precision.pareto import Point, asked, break_even, cheapest, front, visits, why_nobody
-from validation.benchmarks.work_precision.rolling import Rolling
+from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import Fractal, log_deviation
 from validation.engine.engine import Engine
 from validation.report import contents
@@ -153,11 +153,11 @@ def k(values):
 
 def test_what_realisations_have_of_their_own_drops_out_of_paired_errors():
     drawn = np.random.default_rng(1).lognormal(0, 0.3, 12)
-    paired = error(MEAN, Answer(k(1.1 * drawn)), Answer(k(drawn)))
+    paired = error(MEAN, MethodAnswers(k(1.1 * drawn)), MethodAnswers(k(drawn)))
     assert paired.value == pytest.approx(0.1)
     assert paired.over == pytest.approx(1.1)
     assert paired.half_width < 1e-9
-    alone = error(MEAN, Answer(k(1.1 * drawn), paired=False), Answer(k(drawn)))
+    alone = error(MEAN, MethodAnswers(k(1.1 * drawn), paired=False), MethodAnswers(k(drawn)))
     assert alone.value == pytest.approx(0.1)
     # two means of twelve, each of a relative standard error of s / sqrt(12)
     expected = 2.2 * 1.1 * drawn.std(ddof=1) / drawn.mean() * math.sqrt(2 / 12)
@@ -166,7 +166,7 @@ def test_what_realisations_have_of_their_own_drops_out_of_paired_errors():
 
 def test_fewer_realisations_are_paired_with_the_first_of_the_reference():
     drawn = np.random.default_rng(2).lognormal(0, 0.3, 12)
-    assert error(MEAN, Answer(k(1.1 * drawn[:5])), Answer(k(drawn))).value == pytest.approx(0.1)
+    assert error(MEAN, MethodAnswers(k(1.1 * drawn[:5])), MethodAnswers(k(drawn))).value == pytest.approx(0.1)
 
 
 def test_intervals_cover_the_truth():
@@ -174,7 +174,7 @@ def test_intervals_cover_the_truth():
     rng, held = np.random.default_rng(3), 0
     for _ in range(300):
         mine, reference = rng.lognormal(0, 0.2, 20), rng.lognormal(0, 0.2, 10)
-        found = error(MEAN, Answer(k(mine), paired=False), Answer(k(reference)))
+        found = error(MEAN, MethodAnswers(k(mine), paired=False), MethodAnswers(k(reference)))
         held += found.value <= found.half_width
     assert held > 0.90 * 300
 
@@ -183,7 +183,7 @@ def test_no_scatter_is_all_wrong_and_a_single_value_has_none():
     assert log_deviation({"stiffness": np.ones(1)}) == -np.inf
     quantity = Quantity(name="deviation", log=log_deviation, needs=("stiffness",))
     drawn = {"stiffness": np.random.default_rng(4).lognormal(0, 0.3, 12)}
-    found = error(quantity, Answer({"stiffness": np.ones(1)}, paired=False), Answer(drawn))
+    found = error(quantity, MethodAnswers({"stiffness": np.ones(1)}, paired=False), MethodAnswers(drawn))
     assert found.value == 1.0
 
 
@@ -191,13 +191,13 @@ def test_no_scatter_is_all_wrong_and_a_single_value_has_none():
 def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
     quantity = dataclasses.replace(MEAN, order=order)
     coarse, fine = (k([math.exp(0.3 * n**-order)]) for n in (10.0, 15.0))
-    assert error(quantity, Answer(fine, coarse, 1.5), Answer(k([1.0]))).value < 1e-12
-    assert error(quantity, Answer(fine), Answer(k([1.0]))).value > 1e-4
+    assert error(quantity, MethodAnswers(fine, coarse, 1.5), MethodAnswers(k([1.0]))).value < 1e-12
+    assert error(quantity, MethodAnswers(fine), MethodAnswers(k([1.0]))).value > 1e-4
 
 
 def test_levels_differ_by_the_root_mean_square_of_decibels():
     quantity = Quantity(name="levels", log=lambda a: np.log(a["k"].mean(axis=0)), needs=("k",), decibel=True)
-    found = error(quantity, Answer(k([[2.0, 1.0]])), Answer(k([[1.0, 1.0]])))
+    found = error(quantity, MethodAnswers(k([[2.0, 1.0]])), MethodAnswers(k([[1.0, 1.0]])))
     assert found.value == pytest.approx(10 * math.log10(2) / math.sqrt(2))
     assert math.isnan(found.over)
 
@@ -206,7 +206,7 @@ def test_levels_differ_by_the_root_mean_square_of_decibels():
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Named(Attempt):
+class Named(Configuration):
     """For a test: what it does, by name."""
 
     act: str = "right"
@@ -224,14 +224,16 @@ class Named(Attempt):
                 raise RuntimeError("lost its way")
             return 2.0
 
-        return lambda realisation: Turn(solve, lambda found: Work({"k": np.array(found + realisation)}, 10.0))
+        return lambda realisation: TimedSolve(
+            solve, lambda found: SolveResult({"k": np.array(found + realisation)}, 10.0)
+        )
 
 
 @dataclasses.dataclass(frozen=True)
 class Made:
     """For a test: a scene of such attempts."""
 
-    tried: tuple[Attempt, ...]
+    tried: tuple[Configuration, ...]
     name = "made"
     quantities = (MEAN,)
 
@@ -280,7 +282,7 @@ def use_a_clock_of_its_own(monkeypatch):
 def test_whoever_fails_is_a_row_with_its_reason_and_its_place_on_the_chart():
     """In real processes: who dies takes no other's process along."""
     scene = Made((named("right"), named("refuses"), named("raises"), named("dies", "a"), named("dies at once", "b")))
-    outcome = precision.measure(Trial(scene, slow=1.0, enough=0.0))
+    outcome = precision.measure(TimedScene(scene, slow=1.0, enough=0.0))
     found = {p.line: p for p in points(scene, outcome)}
     assert found["right"].finished and found["right"].error == 0.0
     assert found["right"].runs == precision.FEWEST_RUNS
@@ -301,7 +303,7 @@ def test_attempts_take_turns(by_hand, monkeypatch):
         lambda attempt, realisation: turns.append((attempt.line, realisation)) or turn(attempt, realisation),
     )
     scene = Made((named("right"), named("again", realisations=7)))
-    outcome = precision.measure(Trial(scene, slow=1.0, enough=0.0))
+    outcome = precision.measure(TimedScene(scene, slow=1.0, enough=0.0))
     assert turns[:6] == [("right", 0), ("again", 0), ("right", 0), ("again", 1), ("right", 0), ("again", 2)]
     assert turns[10:] == [("again", 5), ("again", 6)]
     # each realisation is solved once, and all of them are kept
@@ -315,7 +317,7 @@ def test_what_is_too_short_for_the_clock_is_solved_several_times(again, solves, 
     """A first solve of 0.25 ms, and four more to fill a millisecond; but not where the first helps the next."""
     done = []
     attempt = named("right")
-    turn = Turn(lambda: done.append(1), lambda found: Work({}, 1.0), again)
+    turn = TimedSolve(lambda: done.append(1), lambda found: SolveResult({}, 1.0), again)
     monkeypatch.setattr(
         precision, "timed", lambda function: (function(), 0.25e-3 * (len(done) if len(done) < 2 else 2))
     )
@@ -327,20 +329,20 @@ def test_what_is_too_short_for_the_clock_is_solved_several_times(again, solves, 
 
 
 def test_who_is_slow_is_timed_once(by_hand):
-    outcome = precision.measure(Trial(Made((named("right"),)), slow=0.005, enough=0.0))
+    outcome = precision.measure(TimedScene(Made((named("right"),)), slow=0.005, enough=0.0))
     assert outcome["seconds 0"].size == 1
-    outcome = precision.measure(Trial(Made((named("right"),)), slow=1.0, enough=100.0))
+    outcome = precision.measure(TimedScene(Made((named("right"),)), slow=1.0, enough=100.0))
     assert outcome["seconds 0"].size == precision.MOST_RUNS
 
 
 # --- every scene, small ---
 
 SMALL = Precision(
-    sphere=Sphere(
+    sphere=SphereProblem(
         cells=(4, 8, 16), plain=(4, 8), peers=(4, 8), springs=(2.4, 4.4, 8.4, 16.4), fixed=8, tolerances=(0.1, 1e-3)
     ),
-    punch=Punch(cells=(8, 16, 32), plain=(8, 16), springs=(4,), fixed=16, tolerances=(0.1, 1e-3)),
-    wave=Wave(cells=(16, 32, 64), plain=(16, 32), peers=(16, 32), fixed=32, tolerances=(0.1, 1e-3)),
+    punch=PunchProblem(cells=(8, 16, 32), plain=(8, 16), springs=(4,), fixed=16, tolerances=(0.1, 1e-3)),
+    wave=WaveProblem(cells=(16, 32, 64), plain=(16, 32), peers=(16, 32), fixed=32, tolerances=(0.1, 1e-3)),
     fractal=Fractal(
         waves=7,
         surfaces=4,
@@ -351,7 +353,7 @@ SMALL = Precision(
         fixed=16,
         tolerances=(0.1,),
     ),
-    rolling=Rolling(
+    rolling=RollingProblem(
         last=6.0,
         length=24,
         width=12,
@@ -364,7 +366,7 @@ SMALL = Precision(
         fixed=3,
         tolerances=(0.1,),
     ),
-    wheel=Wheels(strips=3, wheels=6, cells=(6, 12), filtered=(6,), springs=(12,), fixed=6, tolerances=(1e-2,)),
+    wheel=WheelProblem(strips=3, wheels=6, cells=(6, 12), filtered=(6,), springs=(12,), fixed=6, tolerances=(1e-2,)),
 )
 
 
@@ -489,7 +491,7 @@ def test_an_answer_that_is_lost_is_not_converged(result):
 def test_the_same_seed_draws_the_same_errors(result, found):
     with pytest.MonkeyPatch.context() as monkeypatch:
         use_a_clock_of_its_own(monkeypatch)
-        one, other = (Trial(dataclasses.replace(SMALL.fractal, seed=seed), 1.0, 0.0) for seed in (SMALL.seed, 5))
+        one, other = (TimedScene(dataclasses.replace(SMALL.fractal, seed=seed), 1.0, 0.0) for seed in (SMALL.seed, 5))
         again, different = precision.measure(one), precision.measure(other)
     first = result.outcomes[3]
     assert again.keys() == first.keys()
@@ -504,7 +506,7 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     scene = Made((named("right"),))
     monkeypatch.setattr(Precision, "scenes", lambda self: (scene,))
     engine = Engine(store=tmp_path)
-    engine.map(precision.measure, [Trial(scene, slow=1.0, enough=0.0)])
+    engine.map(precision.measure, [TimedScene(scene, slow=1.0, enough=0.0)])
     assert [file.match("*-measure-*.npz") for file in tmp_path.iterdir()] == [True]
     run(SMALL, engine)
     assert not list(tmp_path.iterdir())
@@ -517,7 +519,7 @@ def test_peers_are_as_close_as_we_are(contestant, monkeypatch):
         pytest.skip(f"{contestant.name} is not installed")
     monkeypatch.setattr(precision_pressed, "CONTESTANTS", (*CONTESTANTS[:2], contestant))
     for scene in (SMALL.sphere, SMALL.wave):
-        found = points(scene, precision.measure(Trial(scene, slow=0.0, enough=0.0)))
+        found = points(scene, precision.measure(TimedScene(scene, slow=0.0, enough=0.0)))
         mine = {(p.quantity, p.value): p for p in found if p.line == BEM}
         theirs = [
             p for p in found if p.line == contestant.name and (scene.name != "sphere" or p.quantity != "stiffness")
@@ -550,7 +552,7 @@ def test_boundary_elements_find_the_approach_under_a_wave(charts):
     assert mine["error"][-1] < mine["error"][0] * mine["knob"][0] / mine["knob"][-1]
 
 
-STRIP = Wheels(strips=3, wheels=6, cells=(6, 12), fixed=6)
+STRIP = WheelProblem(strips=3, wheels=6, cells=(6, 12), fixed=6)
 
 
 def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():

@@ -368,7 +368,7 @@ def test_rolling_holds_up_to_the_last_height_that_agrees():
 
 
 def test_bands_within_1_and_3_db_are_counted(monkeypatch):
-    case = rolling.Rolling(first=1.0)
+    case = rolling.ForceSpectrum(first=1.0)
     mine = SimpleNamespace(height=0.1, bands=SimpleNamespace(edges=(0.5, 0.9, 1.2, 1.6, 2.0)))
     off = (0.5, -2.0, 3.5, -0.9)
     monkeypatch.setattr(rolling_evidence, "_over", lambda mine, model, band: off[band])

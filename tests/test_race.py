@@ -15,8 +15,8 @@ from validation.benchmarks import peers
 from validation.benchmarks.peers import CONTESTANTS, Contestant, Run
 from validation.benchmarks.solvers import case as race
 from validation.benchmarks.solvers import evidence as race_evidence
-from validation.benchmarks.solvers.dynamic_wheel import Steps
-from validation.benchmarks.solvers.rolling import Rolls, interpolated
+from validation.benchmarks.solvers.dynamic_wheel import SteppingThroughput
+from validation.benchmarks.solvers.rolling import RollingThroughput, interpolated
 from validation.report import contents
 from validation.report.contents import TIMED
 
@@ -106,11 +106,11 @@ def test_threads_of_the_contestants_are_one(monkeypatch):
     assert "MKL_NUM_THREADS" not in os.environ
 
 
-STEPS = Steps(springs=(12, 25), heights=(0.1,), wheels=20, steps=40, cells=8, bem_steps=20)
+STEPS = SteppingThroughput(springs=(12, 25), heights=(0.1,), wheels=20, steps=40, cells=8, bem_steps=20)
 
 
 def small(**settings):
-    rolls = Rolls(cells=(4, 6), tolerances=(1e-3, 1e-5), finest=12, goal=(8, 1e-4), positions=20, last=6.0)
+    rolls = RollingThroughput(cells=(4, 6), tolerances=(1e-3, 1e-5), finest=12, goal=(8, 1e-4), positions=20, last=6.0)
     return race.Race(
         cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), rolling=rolls, wheel=STEPS, **settings
     )

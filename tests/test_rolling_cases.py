@@ -17,7 +17,7 @@ from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import PowerLaws, Strip, Tracks, fed, narrowed, roll_strip, roll_tracks
 from validation.theory.rolling import force_variance, linear_force
 
-SMALL = rolling.Rolling(
+SMALL = rolling.ForceSpectrum(
     heights=(0.01,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=6, strips=4, refined=3, tracks=40, springs=12
 )
 

@@ -8,8 +8,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 import mdr
-from mdr.borne import by_sorting
-from mdr.track import Track
+from mdr.approach_by_sorting import by_sorting
+from mdr.spring_track import SpringTrack
 from tests.oracles import approach_by_fractions, wheel_on_springs
 from tests.strategies import OnSprings, on_springs
 from validation.analysis.spectra import waves
@@ -47,7 +47,7 @@ def test_force_is_the_sum_over_all_springs(track):
 @example(springs=121, spacing=0.701370178925973, radius=5.094218430888326, ulps=1)
 def test_the_reach_of_the_wheel_by_its_profile_as_it_is_rounded(springs, spacing, radius, ulps):
     """x^2 / R < level for so many springs and for no more, also where the level is that of a spring, or next to it."""
-    wheel = Track(np.zeros(3), spacing, radius, 1.0)
+    wheel = SpringTrack(np.zeros(3), spacing, radius, 1.0)
     level = wheel.wheel(springs)
     level += ulps * np.spacing(level)
     found = wheel.reach(level)
@@ -170,7 +170,7 @@ def test_sorting_agrees_with_exact_arithmetic(track, share, spikes, ties):
     height = np.rint(track.height / track.approach * 4) / 4 * track.approach if ties else track.height.copy()
     places = rng.integers(0, height.size, spikes)
     height[places] += track.approach * 10.0 ** rng.uniform(0, 6, spikes)
-    laid = Track(height, **track.wheel)
+    laid = SpringTrack(height, **track.wheel)
     wanted = 10**share * 4 / 3 * math.sqrt(track.radius * track.approach) * track.approach / track.spacing
     smooth = track.approach * 10 ** (share * 2 / 3)
     found = by_sorting(laid, slice(0, height.size), wanted, smooth)
@@ -184,16 +184,16 @@ def test_sorting_agrees_with_exact_arithmetic(track, share, spikes, ties):
 
 def test_a_spring_that_just_touches_is_not_in_contact():
     """Under a force that brings the wheel down to its neighbours and no farther."""
-    found = by_sorting(Track(np.zeros(7), 1.0, 1.0, 1.0), slice(0, 7), 1.0, 0.5)
+    found = by_sorting(SpringTrack(np.zeros(7), 1.0, 1.0, 1.0), slice(0, 7), 1.0, 0.5)
     assert np.array_equal(found.approach, np.ones(7))
     assert np.array_equal(found.pressed, np.ones(7))
 
 
 def test_blocks_that_are_too_large_are_sorted_in_parts(monkeypatch):
     height = spiky(60, spike=0.1)
-    track, wheel = Track(height, 0.005, 1.0, 1.0), slice(0, 60)
+    track, wheel = SpringTrack(height, 0.005, 1.0, 1.0), slice(0, 60)
     whole = by_sorting(track, wheel, 2e-4, 8e-5)
-    monkeypatch.setattr("mdr.borne.MOST_NUMBERS", 100)
+    monkeypatch.setattr("mdr.approach_by_sorting.MOST_NUMBERS", 100)
     parts = by_sorting(track, wheel, 2e-4, 8e-5)
     assert np.array_equal(parts.approach, whole.approach)
     assert np.array_equal(parts.pressed, whole.pressed)
@@ -206,7 +206,7 @@ def test_springs_that_stand_out_are_added_as_neighbours_are(monkeypatch, low):
     height[[300, 300 + low, 300 + 2 * low, 700]] += [73.1, 21.7, 89.3, 50.9]
     wheel = {"spacing": 1 / 20, "radius": 1.0, "modulus": 1.0}
     apart = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
-    monkeypatch.setattr("mdr.near.WORTH", 0.0)
+    monkeypatch.setattr("mdr.candidate_springs.WORTH", 0.0)
     plain = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
     for one, other in zip(apart, plain, strict=True):
         assert np.array_equal(one.force, other.force)
@@ -391,7 +391,7 @@ def test_sorting_leaves_out_no_spring_of_a_long_contact():
     """Four hundred springs to the radius of a smooth contact: the last of them belong to it."""
     spacing, wanted = 1 / 400, 4 / 3 * 400
     by_steps = mdr.roll(np.zeros(900), spacing=spacing, radius=1.0, modulus=1.0, force=4 / 3)
-    found = by_sorting(Track(np.zeros(900), spacing, 1.0, 1.0), slice(0, 9), wanted, 1.0)
+    found = by_sorting(SpringTrack(np.zeros(900), spacing, 1.0, 1.0), slice(0, 9), wanted, 1.0)
     assert found.approach == pytest.approx(by_steps.approach[:9], rel=1e-13)
     assert np.array_equal(found.pressed, np.rint(by_steps.stiffness[:9] / spacing))
 

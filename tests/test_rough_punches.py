@@ -13,7 +13,7 @@ from validation.cases.punch import area_gap_rolloff as mdr_limits
 from validation.cases.punch import normalisation
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
 from validation.cases.punch.normalisation import EACH, ENSEMBLE, FIXED, Normalisation
-from validation.simulation.rough_punch import METHODS, Profiles, Roughness, Surface, press_profiles, press_surface
+from validation.simulation.rough_punch import METHODS, Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.theory import closed_forms
 
 CASE = Normalisation(hursts=(0.4, 1.0), cells=16, points=64)
@@ -75,7 +75,7 @@ def test_no_wave_is_longer_than_the_roll_off_says(roll_off):
 
 def test_a_heavy_load_closes_every_gap():
     """Full contact on coarse cells: area one, gap zero, stiffness of the flat punch of that grid; springs alike."""
-    rough = Roughness(hurst=0.7, waves=(1, 2), seed=3)
+    rough = PunchRoughness(hurst=0.7, waves=(1, 2), seed=3)
     surface = Surface(roughness=rough, realisation=0, cells=8, forces=(0.01, 100.0), tolerance=1e-8)
     found = press_surface(surface)
     assert found["area"].tolist()[1] == 1.0

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from validation.benchmarks.work_precision.errors import Answer, _half_width, error, points, reference_of
+from validation.benchmarks.work_precision.errors import MethodAnswers, _half_width, error, points, reference_of
 from validation.benchmarks.work_precision.exact_problem import logarithm
-from validation.benchmarks.work_precision.measurement import EXTRAPOLATED, FINISHED, REFUSED, Attempt, Quantity
+from validation.benchmarks.work_precision.measurement import EXTRAPOLATED, FINISHED, REFUSED, Configuration, Quantity
 from validation.benchmarks.work_precision.pareto import (
     TOLERANCES,
     Point,
@@ -30,7 +30,7 @@ OTHER = Quantity(name="other", log=logarithm("m"), needs=("m",))
 
 
 def attempt(line, value, **settings):
-    return Attempt(line=line, knob="# cells", value=value, **settings)
+    return Configuration(line=line, knob="# cells", value=value, **settings)
 
 
 COARSE, FINE, SPRINGS = attempt("BEM", 8.0), attempt("BEM", 12.0), attempt("MDR", 64.0, paired=False)
@@ -109,7 +109,7 @@ def test_points_have_their_errors_and_costs():
     fine = point_of(found, "BEM", 12.0)
     assert (fine.scene, fine.quantity, fine.unit, fine.knob) == ("made up", "mean", "%", "# cells")
     assert (fine.error, fine.over) == pytest.approx((0.45, 0.55))
-    one = error(K, Answer({"k": 1.1 * X}), Answer({"k": np.full(3, 2.0)}))
+    one = error(K, MethodAnswers({"k": 1.1 * X}), MethodAnswers({"k": np.full(3, 2.0)}))
     assert fine.half_width == one.half_width > 0
     assert (fine.seconds, fine.runs, fine.setup, fine.visits) == ((20.0, 30.0, 40.0), 5, 0.2, 20.0)
     assert fine.finished and not fine.referee and fine.setting == "12 cells"
@@ -124,7 +124,7 @@ def test_extrapolated_points_cost_both_grids():
     assert both.error == pytest.approx(1 - 1 / 2.2)
     assert both.status == FINISHED and both.knob == "# cells"
     assert both.half_width == pytest.approx(
-        error(K, Answer({"k": 1.1 * X}, {"k": 1.21 * X}, 1.5), Answer({"k": np.full(3, 2.0)})).half_width
+        error(K, MethodAnswers({"k": 1.1 * X}, {"k": 1.21 * X}, 1.5), MethodAnswers({"k": np.full(3, 2.0)})).half_width
     )
 
 
@@ -149,11 +149,11 @@ def test_a_pair_of_which_one_is_lost_is_not_extrapolated():
 
 def test_an_answer_alone_has_the_interval_of_either_sample():
     x, exact = {"k": np.array([1.0, 1.2])}, {"k": np.ones(1)}
-    alone = error(K, Answer(x, paired=False), Answer(exact))
-    assert alone.half_width == pytest.approx(error(K, Answer(x), Answer({"k": np.ones(2)})).half_width)
-    other = error(K, Answer(exact, paired=False), Answer(x))
+    alone = error(K, MethodAnswers(x, paired=False), MethodAnswers(exact))
+    assert alone.half_width == pytest.approx(error(K, MethodAnswers(x), MethodAnswers({"k": np.ones(2)})).half_width)
+    other = error(K, MethodAnswers(exact, paired=False), MethodAnswers(x))
     assert other.half_width > 0
-    both = error(K, Answer(x, paired=False), Answer(x))
+    both = error(K, MethodAnswers(x, paired=False), MethodAnswers(x))
     assert both.half_width == pytest.approx(math.hypot(alone.half_width / 1.1, other.half_width * 1.1), rel=0.02)
 
 
@@ -164,7 +164,9 @@ def test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much(quantity,
     x = np.array([0.9, 0.95, 1.0, 1.05, 1.1])
 
     def half(factor):
-        return error(quantity, Answer({"k": factor * x}, paired=paired), Answer({"k": np.ones(5)})).half_width
+        return error(
+            quantity, MethodAnswers({"k": factor * x}, paired=paired), MethodAnswers({"k": np.ones(5)})
+        ).half_width
 
     unit = 10 / math.log(10) if quantity.decibel else 1.0
     assert half(1.0) == pytest.approx(2.776 * unit * x.std(ddof=1) / math.sqrt(5), rel=0.01)
@@ -176,11 +178,13 @@ def test_several_numbers_have_no_ratio():
         return np.log(answers["k"].mean(axis=0))
 
     two = Quantity(name="bands", log=log, needs=("k",))
-    found = error(two, Answer({"k": np.array([[1.1, 0.7]])}), Answer({"k": np.ones((1, 2))}))
+    found = error(two, MethodAnswers({"k": np.array([[1.1, 0.7]])}), MethodAnswers({"k": np.ones((1, 2))}))
     assert math.isnan(found.over)
     # the farthest of them; of levels in decibels, their root mean square
     assert found.value == pytest.approx(0.3)
-    levels = error(replace(two, decibel=True), Answer({"k": np.array([[10.0, 1.0]])}), Answer({"k": np.ones((1, 2))}))
+    levels = error(
+        replace(two, decibel=True), MethodAnswers({"k": np.array([[10.0, 1.0]])}), MethodAnswers({"k": np.ones((1, 2))})
+    )
     assert levels.value == pytest.approx(10 / math.sqrt(2))
 
 
@@ -291,7 +295,9 @@ def test_where_nobody_has_finished_there_is_nothing_to_tell():
 
 
 def test_a_single_paired_realisation_is_beside_the_first_of_the_reference():
-    assert error(K, Answer({"k": np.array([1.5])}), Answer({"k": np.array([1.0, 3.0])})).value == pytest.approx(0.5)
+    assert error(
+        K, MethodAnswers({"k": np.array([1.5])}), MethodAnswers({"k": np.array([1.0, 3.0])})
+    ).value == pytest.approx(0.5)
 
 
 def test_an_interval_that_one_of_its_parts_lacks_is_infinite():

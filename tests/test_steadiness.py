@@ -15,7 +15,7 @@ from validation.scenes.load import read_any
 from validation.scenes.reader import SCENES
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
-from validation.simulation.wheel_on_springs import Rides, _motion
+from validation.simulation.wheel_on_springs import WheelEnsemble, _motion
 
 TABLE = read_scene("table_14_1")
 TOML = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")
@@ -30,7 +30,7 @@ def scene(height, *, ratio=None, longest=10e-3, waves=3, springs=10, distance=2.
 
 def rolled(wheels):
     """Growth of the acceleration from the first quarter of the way to the last, and the share in the air there."""
-    motion, _ = _motion(Rides(scene=wheels, count=8, seed=1))
+    motion, _ = _motion(WheelEnsemble(scene=wheels, count=8, seed=1))
     first, *_, last = np.array_split(motion.acceleration, 4)
     gravity = wheels.load / wheels.mass
     return math.sqrt(np.mean(last**2) / np.mean(first**2)), float(np.mean(last <= -gravity))

@@ -23,8 +23,8 @@ from validation.engine.engine import Engine
 from validation.scenes.dynamic_wheel import read_scene
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.motion import simulate, turns
-from validation.simulation.wheel_on_half_space import Strip, roll_strip
-from validation.simulation.wheel_on_springs import Rides, roll_wheels
+from validation.simulation.wheel_on_half_space import WheelStrip, roll_strip
+from validation.simulation.wheel_on_springs import WheelEnsemble, roll_wheels
 from validation.theory import wheel as wheel_theory
 
 TABLE = read_scene("table_14_1")
@@ -39,7 +39,7 @@ TRACKS = ("open", "closed", "steady")
 
 
 def rides(scene=SMALL, **settings):
-    return Rides(scene=scene, **{"seed": 5, **settings})
+    return WheelEnsemble(scene=scene, **{"seed": 5, **settings})
 
 
 def power(height):
@@ -107,7 +107,7 @@ def test_rail_and_wheel_add_as_spectra():
     both = rides(BOTH, count=count).heights()[:steps]
     rail = rides(replace(BOTH, wheel=None), count=count).heights()[:steps]
     wheel_alone = replace(BOTH, rail=None)
-    around = wheel_ensemble.Rides._drawn
+    around = wheel_ensemble.WheelEnsemble._drawn
     of_wheel = np.stack(
         [
             np.resize(
@@ -186,7 +186,7 @@ def test_the_balance_of_forces_holds_to_rounding(track, release, linear):
 def test_a_force_of_another_load_is_out_of_balance():
     """Negative control: a velocity that is a thousandth off."""
     heights = rides(count=2).heights()
-    law = wheel_ensemble.Springs(SMALL.body, heights, SMALL.spacing)
+    law = wheel_ensemble.SpringsLaw(SMALL.body, heights, SMALL.spacing)
     motion = simulate(SMALL.body, law, time_step=SMALL.time_step, steps=300)
     assert np.abs(wheel_ensemble.balance(motion)).max() < 1e-13
     assert np.abs(wheel_ensemble.balance(replace(motion, velocity=1.001 * motion.velocity))).min() > 1e-8
@@ -317,7 +317,7 @@ LOW = replace(COARSE, rail=replace(COARSE.rail, shortest=4e-3, rms=1e-3 * COARSE
 
 def strip(scene=LOW, **settings):
     given = {"realisation": 0, "turns": 0, "width": 2, "cells": 4, "shared": 2, "tolerance": 1e-8, "seed": 1}
-    return Strip(scene=scene, **{**given, **settings})
+    return WheelStrip(scene=scene, **{**given, **settings})
 
 
 def test_strips_are_the_same_surface_on_grids_with_a_divisor():
@@ -412,7 +412,7 @@ def whole(evidence):
         assert all(len(column) for column in table.columns.values())
 
 
-LONG = wheel.Wheel(
+LONG = wheel.WheelSpectrum(
     scene=replace(SMALL, distance=3.0),
     realisations=20,
     varied=6,

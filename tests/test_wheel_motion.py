@@ -13,7 +13,7 @@ from tests.oracles import free_vibration_by_small_steps
 from validation.analysis.spectra import waves
 from validation.scenes.wheel_body import Wheel
 from validation.simulation import integrators
-from validation.simulation.contact_laws import BoundaryElements, Hertz, Linear, Springs
+from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, Linear, SpringsLaw
 from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
 from validation.simulation.motion import repeating, simulate, turns
 from validation.theory import wheel as wheel_theory
@@ -47,7 +47,7 @@ def track(points, wheels, rms, *, seed=0, longest=1, shortest=8):
 
 
 def springs_law(height, springs):
-    return Springs(WHEEL, height, 1 / springs)
+    return SpringsLaw(WHEEL, height, 1 / springs)
 
 
 class Counted:
@@ -71,7 +71,7 @@ class Counted:
 @pytest.mark.parametrize(
     ("law", "each"),
     [
-        (Hertz(WHEEL, 2), 4 * ULP),
+        (HertzLaw(WHEEL, 2), 4 * ULP),
         (Linear(WHEEL, np.zeros((7, 2))), 4 * ULP),
         (springs_law(np.zeros((100, 2)), 12.5), quantum(12.5)),
         # the contact ends upon a spring
@@ -91,7 +91,7 @@ def test_on_a_smooth_track_a_wheel_stays_at_rest(law, each):
 
 
 def test_at_rest_the_wheel_bears_its_load():
-    for law in (Hertz(WHEEL, 2), Linear(WHEEL, track(40, 2, 0.3)), springs_law(track(40, 2, 0.3), 12.5)):
+    for law in (HertzLaw(WHEEL, 2), Linear(WHEEL, track(40, 2, 0.3)), springs_law(track(40, 2, 0.3), 12.5)):
         for place in (0, 3, 17):
             assert law.force(place, law.at_rest(place)) == pytest.approx(4 / 3, rel=4 * quantum(12.5))
 
@@ -101,7 +101,7 @@ def test_at_rest_the_wheel_bears_its_load():
 
 def laws(points=200):
     height = track(points, 3, 0.2)
-    return {"springs": springs_law(height, 12.5), "linear": Linear(WHEEL, height), "Hertz": Hertz(WHEEL, 3)}
+    return {"springs": springs_law(height, 12.5), "linear": Linear(WHEEL, height), "Hertz": HertzLaw(WHEEL, 3)}
 
 
 @pytest.mark.parametrize("name", ["springs", "linear", "Hertz"])
@@ -161,7 +161,7 @@ def test_a_wheel_moves_the_same_to_the_last_bit_whoever_rolls_beside_it(name):
     make = {
         "springs": lambda which: springs_law(height[:, which], 12.5),
         "linear": lambda which: Linear(WHEEL, height[:, which]),
-        "Hertz": lambda which: Hertz(WHEEL, len(which)),
+        "Hertz": lambda which: HertzLaw(WHEEL, len(which)),
     }[name]
     start, speed = np.array([1.0, 1.3, 0.4, 1.1]), np.array([0.0, 0.5, -1.0, 0.1])
 
@@ -188,7 +188,9 @@ def test_units_do_not_matter(length, modulus, mass, seed):
     there = Wheel(radius=metre, mass=2 * kilogram, modulus=pascal, load=4 / 3 * pascal * metre**2)
     height = track(150, 2, 0.2, seed=seed)
     one = simulate(WHEEL, springs_law(height, 12.5), time_step=0.1, steps=150, path=True)
-    other = simulate(there, Springs(there, metre * height, metre / 12.5), time_step=0.1 * second, steps=150, path=True)
+    other = simulate(
+        there, SpringsLaw(there, metre * height, metre / 12.5), time_step=0.1 * second, steps=150, path=True
+    )
     allowed = 10 * drift(150, 0.1, 2 * quantum(12.5) + 64 * ULP)
     assert np.abs(other.path / metre - one.path).max() <= allowed
     assert np.abs(other.acceleration * second**2 / metre - one.acceleration).max() <= 2 * allowed
@@ -204,7 +206,7 @@ def test_units_of_time_and_mass_that_are_powers_of_two_change_no_bit(turn, mass)
     there = Wheel(radius=1.0, mass=2 * kilogram, modulus=pascal, load=4 / 3 * pascal)
     height = track(150, 2, 0.2)
     one = simulate(WHEEL, springs_law(height, 12.5), time_step=0.1, steps=150, path=True)
-    other = simulate(there, Springs(there, height, 1 / 12.5), time_step=0.1 * second, steps=150, path=True)
+    other = simulate(there, SpringsLaw(there, height, 1 / 12.5), time_step=0.1 * second, steps=150, path=True)
     assert np.array_equal(other.path, one.path)
     assert np.array_equal(other.velocity * second, one.velocity)
     assert np.array_equal(other.acceleration * second**2, one.acceleration)
@@ -307,7 +309,7 @@ def after(name, cells, turns):
     scheme = SCHEMES[name]
     dt = 2 * math.pi * turns / cells
     steps = cells // scheme.cells
-    motion = simulate(WHEEL, Hertz(WHEEL), time_step=dt, steps=steps, approach=np.array([1.5]), integrator=scheme)
+    motion = simulate(WHEEL, HertzLaw(WHEEL), time_step=dt, steps=steps, approach=np.array([1.5]), integrator=scheme)
     assert motion.duration == pytest.approx(2 * math.pi * turns, rel=1e-12)
     return np.array([motion.approach[0], motion.velocity[0]])
 
@@ -400,11 +402,11 @@ def test_a_step_at_the_limit_is_refused_before_it_begins(name):
     limit = max(SCHEMES[name].limit, 2.0)
     cell = limit / SCHEMES[name].cells
     for time_step in (cell, 1.5 * cell, 1e9):
-        law = Counted(Hertz(WHEEL))
+        law = Counted(HertzLaw(WHEEL))
         with pytest.raises(ValueError, match="time_step must be below"):
             simulate(WHEEL, law, time_step=time_step, steps=5, integrator=SCHEMES[name])
         assert not law.places
-    law = Counted(Hertz(WHEEL))
+    law = Counted(HertzLaw(WHEEL))
     simulate(WHEEL, law, time_step=0.999 * cell, steps=5, integrator=SCHEMES[name])
     assert law.places
 
@@ -412,7 +414,7 @@ def test_a_step_at_the_limit_is_refused_before_it_begins(name):
 @pytest.mark.parametrize("name", SCHEMES)
 def test_the_track_is_met_a_cell_a_step(name):
     """And two cells a step of Runge and Kutta, with its middle in the one between."""
-    scheme, law = SCHEMES[name], Counted(Hertz(WHEEL))
+    scheme, law = SCHEMES[name], Counted(HertzLaw(WHEEL))
     motion = simulate(WHEEL, law, time_step=0.1, steps=4, approach=np.ones(1), integrator=scheme)
     evaluations, cells = scheme.evaluations, scheme.cells
     assert len(law.places) == 4 * evaluations + 1
@@ -432,7 +434,7 @@ def test_the_track_is_met_a_cell_a_step(name):
     ],
 )
 def test_motions_that_are_refused(changes, named):
-    law = Counted(Hertz(WHEEL, 2))
+    law = Counted(HertzLaw(WHEEL, 2))
     with pytest.raises(ValueError, match=named):
         simulate(WHEEL, law, **{"time_step": 0.1, "steps": 5, **changes})
     assert not law.places
@@ -496,9 +498,9 @@ def test_eigenfrequency():
     assert found == pytest.approx(wheel.eigenfrequency, rel=1e-14)
     # the stiffness of Hertz is the derivative of its force, by a central difference of error (e / d)^2 / 24
     e = 1e-3 * wheel.approach
-    rise = np.diff(Hertz(wheel).force(0, wheel.approach + np.array([-e, e]))) / (2 * e)
+    rise = np.diff(HertzLaw(wheel).force(0, wheel.approach + np.array([-e, e]))) / (2 * e)
     assert math.sqrt(rise[0] / wheel.mass) == pytest.approx(found, rel=1e-6)
-    assert Hertz(wheel).force(0, np.array([wheel.approach])) == pytest.approx(4905.0, rel=1e-14)
+    assert HertzLaw(wheel).force(0, np.array([wheel.approach])) == pytest.approx(4905.0, rel=1e-14)
     assert turns(wheel, 2.0, 20.0) == pytest.approx(found * 0.1 / (2 * math.pi), rel=1e-14)
 
 
@@ -507,7 +509,7 @@ def test_eigenfrequency():
 
 def lifted(name):
     """Laws without force above the plane, and one more wheel that stays on the ground."""
-    return {"Hertz": Hertz(WHEEL, 2), "springs": springs_law(np.zeros((60, 2)), 12.5)}[name]
+    return {"Hertz": HertzLaw(WHEEL, 2), "springs": springs_law(np.zeros((60, 2)), 12.5)}[name]
 
 
 @pytest.mark.parametrize("name", ["Hertz", "springs"])
@@ -736,8 +738,8 @@ def three_dimensional(cells, height, steps=30, dt=0.1):
     law = Linear(WHEEL, change[:, np.newaxis])
     d, v = law.steady(dt)
     settings = {"time_step": dt, "steps": steps, "velocity": v, "path": True}
-    rest = BoundaryElements(WHEEL, [0 * strip], 1 / cells, tolerance=1e-6).at_rest(0)
-    solved = BoundaryElements(WHEEL, [strip], 1 / cells, tolerance=1e-6)
+    rest = BoundaryElementsLaw(WHEEL, [0 * strip], 1 / cells, tolerance=1e-6).at_rest(0)
+    solved = BoundaryElementsLaw(WHEEL, [strip], 1 / cells, tolerance=1e-6)
     found = simulate(WHEEL, solved, approach=d - 1 + rest, **settings).path - rest
     expected = simulate(WHEEL, law, approach=d, **settings).path - 1
     assert solved.operator_applications > steps
@@ -757,14 +759,14 @@ def test_boundary_elements_in_the_loop_follow_linear_theory_in_three_dimensions(
 def test_wheels_on_boundary_elements_do_not_know_of_each_other():
     several = strips(4, 0.02, wheels=2)
     settings = {"time_step": 0.2, "steps": 20}
-    together = simulate(WHEEL, BoundaryElements(WHEEL, several, 0.25), **settings)
+    together = simulate(WHEEL, BoundaryElementsLaw(WHEEL, several, 0.25), **settings)
     for i, strip in enumerate(several):
-        alone = simulate(WHEEL, BoundaryElements(WHEEL, [strip], 0.25), **settings)
+        alone = simulate(WHEEL, BoundaryElementsLaw(WHEEL, [strip], 0.25), **settings)
         assert np.array_equal(alone.acceleration[:, 0], together.acceleration[:, i])
 
 
 def test_a_wheel_thrown_off_boundary_elements_comes_back():
-    law = BoundaryElements(WHEEL, strips(4, 0.01), 0.25)
+    law = BoundaryElementsLaw(WHEEL, strips(4, 0.01), 0.25)
     motion = simulate(
         WHEEL, law, time_step=0.1, steps=30, approach=np.array([-0.03]), velocity=np.array([-0.5]), path=True
     )
@@ -774,7 +776,7 @@ def test_a_wheel_thrown_off_boundary_elements_comes_back():
 
 
 def test_a_contact_that_does_not_converge_raises():
-    law = BoundaryElements(WHEEL, strips(4, 0.01), 0.25, tolerance=1e-30)
+    law = BoundaryElementsLaw(WHEEL, strips(4, 0.01), 0.25, tolerance=1e-30)
     with pytest.raises(bem3d.ConvergenceError, match="at place 0") as caught:
         simulate(WHEEL, law, time_step=0.1, steps=5)
     assert len(caught.value.history) > 1
@@ -783,7 +785,7 @@ def test_a_contact_that_does_not_converge_raises():
 
 
 def test_a_motion_is_frozen():
-    motion = simulate(WHEEL, Hertz(WHEEL), time_step=0.1, steps=3)
+    motion = simulate(WHEEL, HertzLaw(WHEEL), time_step=0.1, steps=3)
     assert motion.path is None
     with pytest.raises(dataclasses.FrozenInstanceError):
         motion.time_step = 1.0

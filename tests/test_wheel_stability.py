@@ -12,7 +12,7 @@ from validation.cases.stability import vibration as wheel_stability_vibration
 from validation.report.figures import wheel_stability as figures
 from validation.simulation import free_vibration as free
 from validation.simulation import spring_tracks as rough
-from validation.simulation.contact_laws import Hertz
+from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.integrators import (
     EXPLICIT_EULER,
     INTEGRATORS,
@@ -81,7 +81,7 @@ def test_small_steps_turn_as_the_series_of_each_scheme_says():
 
 
 def test_vibrations_are_those_that_simulate_finds():
-    law, d = Hertz(free.WHEEL), np.array([2 * free.WHEEL.approach])
+    law, d = HertzLaw(free.WHEEL), np.array([2 * free.WHEEL.approach])
     u, _ = free.march(VELOCITY_VERLET, law, 0.1, d, 50)
     step = 0.1 / free.WHEEL.eigenfrequency
     motion = simulate(free.WHEEL, law, time_step=step, steps=50, approach=d, velocity=np.zeros(1), path=True)
@@ -94,7 +94,7 @@ def test_the_period_of_a_cosine():
 
 def test_verlet_keeps_its_energy_to_the_fourth_order():
     """Halving the step divides what is left by sixteen."""
-    law, d = Hertz(free.WHEEL), np.array([1.5 * free.WHEEL.approach])
+    law, d = HertzLaw(free.WHEEL), np.array([1.5 * free.WHEEL.approach])
     swings = [np.ptp(free.kept_energy(*free.march(VELOCITY_VERLET, law, x, d, round(30 / x)), x)) for x in (0.1, 0.05)]
     assert np.log2(swings[0] / swings[1]) == pytest.approx(4, abs=0.3)
 
@@ -154,7 +154,7 @@ def test_springs_taken_for_a_continuum_are_noticed(result, monkeypatch):
 @pytest.mark.parametrize("seed", range(5))
 def test_linear_spacing_holds_for_other_tracks(seed):
     """Within the five standard deviations of the error model; in them it is neither far too wide nor too narrow."""
-    track = rough.Track(rms=1e-3 * free.WHEEL.approach, seed=seed, waves=9, per_wave=rough.FINE)
+    track = rough.RoughTrack(rms=1e-3 * free.WHEEL.approach, seed=seed, waves=9, per_wave=rough.FINE)
     found = rough.coarsen(rough.Spacings(track=track))
     carried = found["level"] > 0
     off = np.log(found["level"][carried] / found["linear"][carried]) / found["spread"][carried]
@@ -163,7 +163,7 @@ def test_linear_spacing_holds_for_other_tracks(seed):
 
 
 def test_the_ends_of_contact_leave_more_open_where_it_is_rougher():
-    low, high = (rough.Track(rms=h * free.WHEEL.approach, seed=0, per_wave=rough.FINE) for h in (1e-3, 1e-2))
+    low, high = (rough.RoughTrack(rms=h * free.WHEEL.approach, seed=0, per_wave=rough.FINE) for h in (1e-3, 1e-2))
     assert rough.spread(high, 1) == pytest.approx(10 * rough.spread(low, 1), rel=0.05)
 
 

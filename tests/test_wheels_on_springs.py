@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import mdr
-from mdr.wheels import BLOCK
+from mdr.rolling_ensemble import BLOCK
 from tests.oracles import springs_under_a_wheel
 
 HERTZ = 4 / 3
@@ -49,7 +49,9 @@ class Tracks:
         return ROOM * (1 + np.ptp(self.height, axis=0)) ** 1.5 * (2 * self.springs + BLOCK) * ULP
 
     def wheels(self, which=slice(None)):
-        return mdr.Wheels(self.height[:, which], spacing=1 / self.springs, radius=1.0, modulus=1.0, force=HERTZ)
+        return mdr.RollingEnsemble(
+            self.height[:, which], spacing=1 / self.springs, radius=1.0, modulus=1.0, force=HERTZ
+        )
 
     def sum_of(self, wheel, place, approach):
         """The force spring by spring, and how far rounded heights, profile and approach may be off it.
@@ -246,7 +248,7 @@ def test_units_do_not_matter(track, length, unit, place):
     approach = np.linspace(0.5, 1.2, track.height.shape[1])
     if not track.fits(approach):
         return
-    there = mdr.Wheels(
+    there = mdr.RollingEnsemble(
         metre * track.height,
         spacing=metre / track.springs,
         radius=metre,
@@ -267,7 +269,9 @@ def test_units_of_force_that_are_powers_of_two_change_no_bit(track, unit):
     if not track.fits(approach):
         return
     newton = 2.0**unit
-    there = mdr.Wheels(track.height, spacing=1 / track.springs, radius=1.0, modulus=newton, force=newton * HERTZ)
+    there = mdr.RollingEnsemble(
+        track.height, spacing=1 / track.springs, radius=1.0, modulus=newton, force=newton * HERTZ
+    )
     assert np.array_equal(there.force(7, approach) / newton, track.wheels().force(7, approach))
     assert np.array_equal(there.approach(7, newton), track.wheels().approach(7, 1.0))
 
@@ -390,7 +394,7 @@ def test_newtons_method_ends_where_a_spring_just_touches(springs):
 
 def test_a_search_that_does_not_end_says_so(monkeypatch):
     """One step from where all springs touch is not enough on a rough track."""
-    monkeypatch.setattr("mdr.wheels.MOST_STEPS", 1)
+    monkeypatch.setattr("mdr.rolling_ensemble.MOST_STEPS", 1)
     with pytest.raises(ArithmeticError, match="did not end within 1 steps"):
         rough(0.1).wheels().approach(0, HERTZ)
 
@@ -407,7 +411,7 @@ def test_a_refused_call_leaves_nothing_behind(wrong):
 
 def laid(**changes):
     settings = {"height": np.zeros((9, 2)), "spacing": 1.0, "radius": 4.0, "modulus": 1.0, "force": 2.0}
-    return mdr.Wheels(**{**settings, **changes})
+    return mdr.RollingEnsemble(**{**settings, **changes})
 
 
 @pytest.mark.parametrize(

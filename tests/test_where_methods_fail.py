@@ -307,7 +307,7 @@ ROUGH = np.random.default_rng(5).normal(size=(24, 20))
 UNDER = bem3d.HalfSpace(shape=(24, 20), spacing=1.0, modulus=1.0)
 
 
-@pytest.mark.parametrize("solve", [bem3d.solve, bem3d.solve_plain])
+@pytest.mark.parametrize("solve", [bem3d.solve, bem3d.solve_polonsky_keer])
 @pytest.mark.parametrize("load", [{"approach": 0.3}, {"force": 40.0}])
 def test_a_solve_that_ends_at_twice_its_tolerance_is_none(solve, load):
     whole = solve(UNDER, ROUGH, **load, tolerance=1e-9)
@@ -321,13 +321,13 @@ def test_a_solve_that_ends_at_twice_its_tolerance_is_none(solve, load):
 
 
 def test_a_frozen_contact_that_ends_at_twice_its_tolerance_is_none():
-    whole = bem3d.press_frozen(UNDER, ROUGH < 0, tolerance=1e-9)
+    whole = bem3d.solve_fixed_area(UNDER, ROUGH < 0, tolerance=1e-9)
     short = cut_short(whole.history[:-1])
-    ended = bem3d.press_frozen(UNDER, ROUGH < 0, **short)
+    ended = bem3d.solve_fixed_area(UNDER, ROUGH < 0, **short)
     assert ended.residual == pytest.approx(2 * short["tolerance"])
     assert not ended.converged
     with pytest.raises(bem3d.ConvergenceError, match="frozen-contact residual"):
-        bem3d.press_frozen(UNDER, ROUGH < 0, **{**short, "raise_on_failure": True})
+        bem3d.solve_fixed_area(UNDER, ROUGH < 0, **{**short, "raise_on_failure": True})
 
 
 def test_a_wheel_that_ends_at_twice_its_tolerance_does_not_stand():
@@ -340,7 +340,7 @@ def test_a_wheel_that_ends_at_twice_its_tolerance_does_not_stand():
     assert not ended.converged[0]
 
 
-@pytest.mark.parametrize("solve", [bem3d.solve, bem3d.solve_plain])
+@pytest.mark.parametrize("solve", [bem3d.solve, bem3d.solve_polonsky_keer])
 @pytest.mark.parametrize("load", [{"approach": 0.3}, {"force": 40.0}])
 @pytest.mark.parametrize("limit", [3, 500])
 def test_the_residual_is_that_of_the_pressure(solve, load, limit):

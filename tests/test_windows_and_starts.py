@@ -38,7 +38,7 @@ def test_contacts_anywhere_on_the_grid(places, force):
     gap = spheres(body.shape, *places)
     contact = bem3d.solve(body, gap, force=force, tolerance=1e-8)
     assert residual(contact) <= 1.01e-8
-    plain = bem3d.solve_plain(body, gap, force=force, tolerance=1e-9)
+    plain = bem3d.solve_polonsky_keer(body, gap, force=force, tolerance=1e-9)
     assert contact.approach == pytest.approx(plain.approach, rel=1e-6)
 
 
@@ -187,7 +187,7 @@ def test_coarse_grids_give_a_start_and_no_more(shape, periodic, monkeypatch):
 @given(problem=pressed(most=40))
 def test_textbook_and_fast_solver_find_the_same(problem):
     fast = problem.solve(tolerance=1e-9)
-    plain = bem3d.solve_plain(
+    plain = bem3d.solve_polonsky_keer(
         problem.half_space, problem.gap, **problem.prescribed, tolerance=1e-9, raise_on_failure=False
     )
     if plain.converged:

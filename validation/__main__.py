@@ -25,7 +25,7 @@ from validation.scenes.shown import printable
 from validation.scenes.understood import said_first
 from validation.selection.compare import WANTS, time_of, told
 from validation.selection.compare import compare as compared
-from validation.selection.hierarchy import Rung
+from validation.selection.hierarchy import ContactModel
 
 CLOCKED = {
     "precision": "error against cost of every method, a scene at a time; full takes two and a half minutes",
@@ -144,7 +144,7 @@ def compare(arguments: argparse.Namespace) -> Exit:
     return Exit.MET if found.climb.met else Exit.NOT_CONVERGED
 
 
-def _asking(rung: Rung) -> None:
+def _asking(rung: ContactModel) -> None:
     """What takes a while is said before it is done."""
     if rung.cost().seconds >= 1:
         print(f"asking {rung.name}, {time_of(rung.cost().seconds)} or so", file=sys.stderr, flush=True)

@@ -109,7 +109,9 @@ def bem3d_plain(task: Task, tolerance: float) -> Solve:
     half_space.displacement(task.gap)
 
     def solve() -> Run:
-        contact = bem3d.solve_plain(half_space, task.gap, force=task.force, tolerance=tolerance, max_iterations=5000)
+        contact = bem3d.solve_polonsky_keer(
+            half_space, task.gap, force=task.force, tolerance=tolerance, max_iterations=5000
+        )
         return Run(contact.pressure, contact.operator_applications)
 
     return solve

@@ -12,9 +12,9 @@ from validation.benchmarks.solvers import evidence as race_evidence
 from validation.benchmarks.solvers import rolling as race_rolling
 from validation.benchmarks.work_precision import case as precision_scenes
 from validation.benchmarks.work_precision import evidence as precision_evidence
-from validation.benchmarks.work_precision.dynamic_wheel import Wheels
-from validation.benchmarks.work_precision.exact_problems import Punch, Sphere, Wave
-from validation.benchmarks.work_precision.rolling import Rolling
+from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
+from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import Fractal
 from validation.cases.exact import geike, hertz, square_punch, westergaard
 from validation.cases.limits import evidence as limits_evidence
@@ -81,14 +81,14 @@ PRECISION = Entry(
     "Speed against accuracy: error against cost of every method, who is the cheapest within which error",
     precision_scenes.Precision(),
     precision_scenes.Precision(
-        sphere=Sphere(
+        sphere=SphereProblem(
             cells=(4, 8, 16, 32, 64),
             plain=(4, 8, 16, 32),
             peers=(4, 8, 16, 32),
             springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
         ),
-        punch=Punch(cells=(8, 16, 32, 64, 128, 256), plain=(8, 16, 32, 64), peers=(8, 16), fixed=64),
-        wave=Wave(
+        punch=PunchProblem(cells=(8, 16, 32, 64, 128, 256), plain=(8, 16, 32, 64), peers=(8, 16), fixed=64),
+        wave=WaveProblem(
             cells=(16, 32, 64, 128, 256, 512, 1024),
             plain=(16, 64, 256, 1024),
             peers=(16, 64, 256, 1024),
@@ -102,8 +102,8 @@ PRECISION = Entry(
             springs=(24, 32, 64, 128, 256, 512, 1024),
             fixed=128,
         ),
-        rolling=Rolling(length=32, strips=8, tracks=60, cells=(3, 4, 6, 8, 12, 16, 32), plain=(4, 6), fixed=12),
-        wheel=Wheels(strips=8, wheels=60, cells=(6, 9, 12, 15, 30), springs=(12, 25, 50, 100), fixed=12),
+        rolling=RollingProblem(length=32, strips=8, tracks=60, cells=(3, 4, 6, 8, 12, 16, 32), plain=(4, 6), fixed=12),
+        wheel=WheelProblem(strips=8, wheels=60, cells=(6, 9, 12, 15, 30), springs=(12, 25, 50, 100), fixed=12),
         slow=1.0,
         enough=0.2,
     ),
@@ -121,8 +121,8 @@ RACE = Entry(
         cells=(256, 512, 1024),
         scaling=(128, 256, 512, 1024, 2048, 4096),
         errand=race.Errand(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
-        rolling=race_rolling.Rolls(cells=(8, 16, 32), finest=64, positions=1600),
-        wheel=race_wheel.Steps(
+        rolling=race_rolling.RollingThroughput(cells=(8, 16, 32), finest=64, positions=1600),
+        wheel=race_wheel.SteppingThroughput(
             springs=(12, 25, 50, 100, 200, 400), heights=(0.01, 0.1, 0.3, 1.0), steps=8000, bem_steps=1600
         ),
     ),
@@ -221,8 +221,8 @@ CASES = {
         ROLLING,
         "One dimension has the force spectrum of a rolling wheel (Fig. 14.3).",
         "Fig. 14.3: rolling force over isotropic roughness, springs beside boundary elements, where each model holds",
-        rolling.Rolling(),
-        rolling.Rolling(
+        rolling.ForceSpectrum(),
+        rolling.ForceSpectrum(
             heights=(0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
             last=20.0,
             lowest=0.22,
@@ -263,8 +263,8 @@ CASES = {
         WHEEL,
         "The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4).",
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and what moves them",
-        wheel.Wheel(),
-        wheel.Wheel(realisations=300, varied=100, cells=24, stills=64),
+        wheel.WheelSpectrum(),
+        wheel.WheelSpectrum(realisations=300, varied=100, cells=24, stills=64),
         wheel.run,
         wheel_evidence.evidence,
         needs.wheel,

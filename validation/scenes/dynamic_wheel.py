@@ -9,7 +9,7 @@ from typing import Any
 
 from scipy.fft import next_fast_len
 
-from mdr.border import count, positive
+from mdr.checks import count, positive
 from validation.scenes.material import Material, material_of
 from validation.scenes.reader import (
     FORCE,

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from mdr.border import positive
+from mdr.checks import positive
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.reader import named
@@ -16,7 +16,7 @@ Ground = Roughness | MeasuredHeights
 
 
 @dataclass(frozen=True, kw_only=True)
-class PressedScene:
+class IndentationScene:
     """An elastic half-space under a rigid sphere or square punch.
 
     shape; size: radius of the sphere or side of the punch [m]; load: F [N]; modulus: E* [Pa]; ground: roughness, None

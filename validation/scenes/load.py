@@ -6,7 +6,7 @@ from typing import Any
 
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.height_files import heights_of
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material, material_of
 from validation.scenes.reader import (
     FORCE,
@@ -24,7 +24,7 @@ from validation.scenes.reader import (
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import roughness_of
 
-Scene = PressedScene | RollingScene
+Scene = IndentationScene | RollingScene
 
 
 def read_any(scene: str | Path) -> Scene:
@@ -59,7 +59,7 @@ def comparable() -> tuple[str, ...]:
     return tuple(name for name in shipped() if "roughness" not in tables_of(path_of(name)).get("wheel", {}))
 
 
-def _pressed(body: str, tables: dict[str, Any], folder: Path) -> PressedScene:
+def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScene:
     size = "radius" if body == "sphere" else "side"
     readers: dict[str, Reader] = {
         "name": named,
@@ -69,7 +69,7 @@ def _pressed(body: str, tables: dict[str, Any], folder: Path) -> PressedScene:
         "heights": partial(heights_of, folder=folder),
     }
     found = table(readers, ("roughness", "heights"), "", tables)
-    return PressedScene(
+    return IndentationScene(
         name=found["name"],
         shape="sphere" if body == "sphere" else "punch",
         size=found[body][size],

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from mdr.border import finite, positive
+from mdr.checks import finite, positive
 from validation.scenes.reader import NUMBER, PRESSURE, Reader, table
 from validation.scenes.shown import in_quotes
 from validation.scenes.units import in_unit

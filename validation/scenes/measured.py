@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import interpolate, stats
 
-from mdr.border import positive
+from mdr.checks import positive
 from validation.scenes.shown import shown
 from validation.scenes.units import UNITS, quantity
 

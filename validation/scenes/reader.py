@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mdr.border import count, finite
+from mdr.checks import count, finite
 from validation.scenes.input_files import contents_of
 from validation.scenes.shown import is_printable, printable, shown
 from validation.scenes.units import quantity

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from mdr.border import positive
+from mdr.checks import positive
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr import SelfAffine
-from mdr.border import positive
+from mdr.checks import positive
 from validation.scenes.reader import LENGTH, NUMBER, Reader, table
 
 

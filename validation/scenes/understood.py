@@ -3,14 +3,14 @@
 import math
 
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.units import in_unit
 
-AnyScene = PressedScene | RollingScene | WheelScene
+AnyScene = IndentationScene | RollingScene | WheelScene
 Pairs = tuple[tuple[str, str], ...]
 
 
@@ -32,7 +32,7 @@ def said_first(scene: AnyScene, *, moving: bool = True) -> list[str]:
 
     moving: whether the motion of a wheel is asked for.
     """
-    reason = scene.no_steady_answer() if moving and not isinstance(scene, PressedScene) else ""
+    reason = scene.no_steady_answer() if moving and not isinstance(scene, IndentationScene) else ""
     lines = [f"no steady answer: {reason}"] if reason else []
     lines += [f"note: {doubt}" for doubt in scene.doubts()]
     pairs = understood(scene)
@@ -40,7 +40,7 @@ def said_first(scene: AnyScene, *, moving: bool = True) -> list[str]:
     return [*lines, *(f"  {name:{width}s}  {value}" for name, value in pairs)]
 
 
-def _of_sphere(scene: PressedScene) -> Pairs:
+def _of_sphere(scene: IndentationScene) -> Pairs:
     return (
         ("sphere", f"radius {in_unit(scene.size, 'length')}, load {in_unit(scene.load, 'force')}"),
         *_of_contact(scene),
@@ -68,7 +68,7 @@ def _of_motion(scene: RollingScene | WheelScene) -> Pairs:
     return (("motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, undamped"),)
 
 
-def _of_ground(scene: PressedScene | RollingScene, ground: Roughness | MeasuredHeights | None) -> Pairs:
+def _of_ground(scene: IndentationScene | RollingScene, ground: Roughness | MeasuredHeights | None) -> Pairs:
     if ground is None:
         return (("roughness", "none"),)
     return (_height(ground.rms, scene.approach), _slope(ground.slope_along, scene), ("waves", _waves(ground, scene)))
@@ -82,7 +82,7 @@ def _of_roughness_of_wheel(scene: WheelScene) -> Pairs:
     return (_height(scene.rms, scene.approach), _slope(scene.slope_along, scene), *waves)
 
 
-def _of_punch(scene: PressedScene) -> Pairs:
+def _of_punch(scene: IndentationScene) -> Pairs:
     body = ("punch", f"side L = {in_unit(scene.size, 'length')}, load {in_unit(scene.load, 'force')}")
     ground = scene.ground
     if ground is None:
@@ -112,5 +112,5 @@ def _waves(ground: Roughness | MeasuredHeights, scene: AnyScene) -> str:
         return f"measured, {ground.height.shape[0]} x {ground.height.shape[1]} points on {sides}"
     found = f"{in_unit(ground.longest, 'length')} to {in_unit(ground.shortest, 'length')}, Hurst exponent "
     found += f"{ground.hurst:.3g}"
-    speed = None if isinstance(scene, PressedScene) else scene.speed
+    speed = None if isinstance(scene, IndentationScene) else scene.speed
     return found if speed is None else f"{found}, {ground.q_min * speed:.4g} to {ground.q_max * speed:.4g} rad/s"

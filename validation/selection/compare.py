@@ -5,13 +5,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from validation.analysis.evidence import plus_minus
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.understood import said_first
 from validation.selection import indentation_models as rungs_pressed
 from validation.selection import rolling_models as rungs_rolling
-from validation.selection.hierarchy import Climb, Rung, Step, climb
-from validation.simulation.rolling_quantity import Question
+from validation.selection.hierarchy import Candidate, ContactModel, Selection, select_model
+from validation.simulation.rolling_quantity import RollingQuantity
 
 PRESSED = ("stiffness",)
 ROLLING = ("force-rms", "force-spectrum")
@@ -32,7 +32,7 @@ class Comparison:
 
     scene: Scene
     want: str
-    climb: Climb
+    climb: Selection
 
     @property
     def unit(self) -> str:
@@ -42,16 +42,16 @@ class Comparison:
 
 def wants_of(scene: Scene) -> tuple[str, ...]:
     """What a scene can be asked for, the first unless something else is wanted."""
-    if isinstance(scene, PressedScene):
+    if isinstance(scene, IndentationScene):
         return PRESSED
     return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
 
 
-def rungs_of(scene: Scene, want: str, tolerance: float, seed: int) -> list[Rung]:
+def rungs_of(scene: Scene, want: str, tolerance: float, seed: int) -> list[ContactModel]:
     """The ladder of a scene, the cheapest model first. Raises ValueError for a want that the scene cannot answer."""
     if want not in wants_of(scene):
         raise ValueError(f"want must be one of {', '.join(wants_of(scene))} for scene {scene.name!r}, got {want!r}")
-    if isinstance(scene, PressedScene):
+    if isinstance(scene, IndentationScene):
         return rungs_pressed.rungs(scene, tolerance, seed)
     return rungs_rolling.rungs(scene, want, tolerance, seed)  # type: ignore[arg-type]  # one of its own, as checked
 
@@ -62,7 +62,7 @@ def compare(
     want: str | None = None,
     tolerance: float = 0.1,
     seed: int = 0,
-    tell: Callable[[Rung], None] = lambda _: None,
+    tell: Callable[[ContactModel], None] = lambda _: None,
 ) -> Comparison:
     """Climb the ladder of a scene as far as the tolerance asks.
 
@@ -71,7 +71,7 @@ def compare(
     Raises ValueError for what the scene cannot answer.
     """
     asked = wants_of(scene)[0] if want is None else want
-    return Comparison(scene, asked, climb(rungs_of(scene, asked, tolerance, seed), tolerance, tell=tell))
+    return Comparison(scene, asked, select_model(rungs_of(scene, asked, tolerance, seed), tolerance, tell=tell))
 
 
 def told(comparison: Comparison) -> list[str]:
@@ -94,13 +94,13 @@ def told(comparison: Comparison) -> list[str]:
     return lines
 
 
-def _row(step: Step) -> str:
+def _row(step: Candidate) -> str:
     cost = step.rung.cost()
     error = "—" if step.fate == "not needed" else _percent(step.answer.error if step.answer else step.claim.error)
     return f"{step.rung.name:36s}{step.fate:18s}{error:>10s}{time_of(cost.seconds):>14s}   {step.because}"
 
 
-def _result(comparison: Comparison, best: Step) -> list[str]:
+def _result(comparison: Comparison, best: Candidate) -> list[str]:
     answer = best.answer
     assert answer is not None  # as asked
     parts = f"model {_percent(answer.model)}, grid {_percent(answer.grid)}, sample {_percent(answer.sample)}"
@@ -108,8 +108,8 @@ def _result(comparison: Comparison, best: Step) -> list[str]:
         value = float(answer.value[0])
         shown = f"{_scaled(value, value * answer.error)} {comparison.unit}"
         return [f"{comparison.want} = {shown} ({_percent(answer.error)}: {parts}), by {best.rung.name}"]
-    assert not isinstance(comparison.scene, PressedScene)  # which has one number
-    question = Question(comparison.scene, comparison.want)  # type: ignore[arg-type]
+    assert not isinstance(comparison.scene, IndentationScene)  # which has one number
+    question = RollingQuantity(comparison.scene, comparison.want)  # type: ignore[arg-type]
     radius, speed = comparison.scene.contact_radius, comparison.scene.speed
     decibels = 20 * math.log10(1 + answer.error)
     lines = [

@@ -73,7 +73,7 @@ class Answer:
         return math.inf if self.failed else self.model + self.grid + self.sample
 
 
-class Rung(Protocol):
+class ContactModel(Protocol):
     """A model of a scene, with what it costs, when it claims to hold, and how to ask it."""
 
     @property
@@ -100,10 +100,10 @@ REFUSALS = (ValueError, ArithmeticError, MemoryError)
 
 
 @dataclass(frozen=True)
-class Step:
+class Candidate:
     """A rung and what became of it."""
 
-    rung: Rung
+    rung: ContactModel
     fate: Fate
     because: str
     claim: Claim
@@ -111,11 +111,11 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Climb:
+class Selection:
     """All rungs, in order, up to where the tolerance was met; those above were not needed."""
 
     tolerance: float
-    steps: tuple[Step, ...]
+    steps: tuple[Candidate, ...]
 
     @property
     def met(self) -> bool:
@@ -123,7 +123,7 @@ class Climb:
         return any(step.fate == "enough" for step in self.steps)
 
     @property
-    def best(self) -> Step | None:
+    def best(self) -> Candidate | None:
         """The rung that was enough, or else the one that leaves the least error; None where none has an answer."""
         solved = [step for step in self.steps if step.answer is not None and not step.answer.failed]
         enough = [step for step in solved if step.fate == "enough"]
@@ -135,7 +135,9 @@ class Climb:
         return sum(step.answer.cost.seconds for step in self.steps if step.answer is not None)
 
 
-def climb(rungs: Sequence[Rung], tolerance: float, *, tell: Callable[[Rung], None] = lambda _: None) -> Climb:
+def select_model(
+    rungs: Sequence[ContactModel], tolerance: float, *, tell: Callable[[ContactModel], None] = lambda _: None
+) -> Selection:
     """Ask rungs from the cheapest on, until one leaves no more than the tolerance.
 
     rungs: in the order of their cost; tolerance: relative, positive; tell: is called with a rung before it is asked. A
@@ -146,23 +148,23 @@ def climb(rungs: Sequence[Rung], tolerance: float, *, tell: Callable[[Rung], Non
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise ValueError(f"tolerance must be finite and positive, got {tolerance}")
-    steps: list[Step] = []
+    steps: list[Candidate] = []
     for rung in rungs:
         claim = rung.claim()
         if any(step.fate == "enough" for step in steps):
-            steps.append(Step(rung, "not needed", "a cheaper rung was enough", claim))
+            steps.append(Candidate(rung, "not needed", "a cheaper rung was enough", claim))
         elif not claim.in_range:
-            steps.append(Step(rung, "out of range", claim.because, claim))
+            steps.append(Candidate(rung, "out of range", claim.because, claim))
         elif claim.error > tolerance:
-            steps.append(Step(rung, "skipped", claim.because, claim))
+            steps.append(Candidate(rung, "skipped", claim.because, claim))
         else:
             tell(rung)
             steps.append(_asked(rung, claim, tolerance))
-    climbed = Climb(tolerance, tuple(steps))
+    climbed = Selection(tolerance, tuple(steps))
     return climbed if climbed.met else _with_the_least_claim(climbed, tell)
 
 
-def needed(rungs: Sequence[Rung], tolerance: float) -> Rung | None:
+def needed(rungs: Sequence[ContactModel], tolerance: float) -> ContactModel | None:
     """The first rung that expects to be enough, without asking it; None where none does."""
     return next((rung for rung in rungs if rung.claim().error <= tolerance), None)
 
@@ -213,7 +215,7 @@ def counted(conditions: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {value:.3g}" for name, value in conditions.items())
 
 
-def answered(rung: Rung) -> Answer:
+def answered(rung: ContactModel) -> Answer:
     """Its answer, or why there is none."""
     try:
         return rung.solve()
@@ -221,15 +223,15 @@ def answered(rung: Rung) -> Answer:
         return Answer(value=np.array([np.nan]), cost=rung.cost(), failed=str(problem) or type(problem).__name__)
 
 
-def _asked(rung: Rung, claim: Claim, tolerance: float) -> Step:
+def _asked(rung: ContactModel, claim: Claim, tolerance: float) -> Candidate:
     answer = answered(rung)
     if answer.failed:
-        return Step(rung, "failed", answer.failed, claim, answer)
+        return Candidate(rung, "failed", answer.failed, claim, answer)
     fate: Fate = "enough" if answer.error <= tolerance else "not enough"
-    return Step(rung, fate, answer.because, claim, answer)
+    return Candidate(rung, fate, answer.because, claim, answer)
 
 
-def _with_the_least_claim(climbed: Climb, tell: Callable[[Rung], None]) -> Climb:
+def _with_the_least_claim(climbed: Selection, tell: Callable[[ContactModel], None]) -> Selection:
     # of equal claims the dearest, which has the finest grid
     skipped = [i for i, step in reversed(list(enumerate(climbed.steps))) if step.fate == "skipped"]
     least = min(skipped, key=lambda i: climbed.steps[i].claim.error, default=None)
@@ -240,10 +242,10 @@ def _with_the_least_claim(climbed: Climb, tell: Callable[[Rung], None]) -> Climb
         return climbed
     tell(step.rung)
     asked = _asked(step.rung, step.claim, climbed.tolerance)
-    return Climb(climbed.tolerance, (*climbed.steps[:least], asked, *climbed.steps[least + 1 :]))
+    return Selection(climbed.tolerance, (*climbed.steps[:least], asked, *climbed.steps[least + 1 :]))
 
 
-def _left(step: Step) -> float:
+def _left(step: Candidate) -> float:
     return step.answer.error if step.answer else math.inf
 
 

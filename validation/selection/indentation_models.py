@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 import mdr
 from validation.engine.engine import generator
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
 from validation.selection.calibrated import Ranges, outside
-from validation.selection.hierarchy import Answer, Claim, Cost, Rung, counted, mean_error, realisations
-from validation.selection.indentation_on_grids import SCATTER, BoundaryElements
+from validation.selection.hierarchy import Answer, Claim, ContactModel, Cost, counted, mean_error, realisations
+from validation.selection.indentation_on_grids import SCATTER, IndentationOnGrid
 from validation.simulation.indentation import FEW, finest_cells, ground_of, side_of
 from validation.simulation.resolution import too_few
 from validation.theory.closed_forms import rough_punch_stiffness
@@ -58,25 +58,25 @@ SPRINGS_RANGES: Mapping[str, Ranges] = {"punch": {LOAD: (1e-3, math.inf), **FACE
 bodies are flat punches, whose stiffness is known; waves much longer than the contact of a sphere only move it."""
 
 
-def rungs(scene: PressedScene, tolerance: float, seed: int) -> list[Rung]:
+def rungs(scene: IndentationScene, tolerance: float, seed: int) -> list[ContactModel]:
     """All that a scene can be asked with, the cheapest first; measured heights on their own points alone."""
     if scene.ground is None:
-        return [ClosedForm(scene)]
+        return [IndentationClosedForm(scene)]
     finest = finest_cells(scene)
     measured = isinstance(scene.ground, MeasuredHeights)
     grids = [finest] if measured else [cells for cells in (finest // 4, finest // 2, finest) if cells >= FEW]
-    solved = [BoundaryElements(scene, tolerance, seed, cells) for cells in grids]
-    return [ClosedForm(scene), Springs(scene, tolerance, seed), *solved]
+    solved = [IndentationOnGrid(scene, tolerance, seed, cells) for cells in grids]
+    return [IndentationClosedForm(scene), IndentationOnSprings(scene, tolerance, seed), *solved]
 
 
 @dataclass(frozen=True)
-class ClosedForm:
+class IndentationClosedForm:
     """2 E* a of a smooth sphere, whose roughness is the error; a rough punch is a flat one in series with its face."""
 
     model: ClassVar = "closed form"
     name: ClassVar = model
 
-    scene: PressedScene
+    scene: IndentationScene
 
     def cost(self) -> Cost:
         """A formula."""
@@ -117,13 +117,13 @@ class ClosedForm:
 
 
 @dataclass(frozen=True)
-class Springs:
+class IndentationOnSprings:
     """MDR with profiles of Geike's spectrum, L_1D = L; of a measured surface, those of its spectrum."""
 
     model: ClassVar = "springs"
     name: ClassVar = model
 
-    scene: PressedScene
+    scene: IndentationScene
     tolerance: float
     seed: int
 
@@ -196,7 +196,7 @@ class Springs:
         return 2 * SCATTER if isinstance(self.scene.ground, MeasuredHeights) else 0.0
 
 
-def _conditions(scene: PressedScene) -> dict[str, float]:
+def _conditions(scene: IndentationScene) -> dict[str, float]:
     """What decides how far cheap models are off."""
     ground = ground_of(scene)
     band = {RATIO: ground.q_max / ground.q_min}
@@ -208,16 +208,16 @@ def _conditions(scene: PressedScene) -> dict[str, float]:
     return {HEIGHT: scene.roughness_ratio, LONG: ground.q_min * radius, SHORT: ground.q_max * radius, **band}
 
 
-def _outside(scene: PressedScene, ranges: Mapping[str, Ranges]) -> str:
+def _outside(scene: IndentationScene, ranges: Mapping[str, Ranges]) -> str:
     """Why the error of a model is not known for a scene; empty where it is."""
     return outside(_conditions(scene), ranges[scene.shape])
 
 
-def _waves_on_a_side(scene: PressedScene) -> float:
+def _waves_on_a_side(scene: IndentationScene) -> float:
     return ground_of(scene).q_min * scene.size / (2 * math.pi)
 
 
-def _springs_model(scene: PressedScene) -> tuple[float, str]:
+def _springs_model(scene: IndentationScene) -> tuple[float, str]:
     """Relative error of the mean stiffness, at the most, and what it rests on."""
     if scene.shape == "sphere":
         ratio = scene.roughness_ratio
@@ -233,5 +233,5 @@ def beyond_spectra(ground: Roughness | MeasuredHeights) -> str:
     return f"knows the spectrum alone, and {beyond[0]}" if beyond else ""
 
 
-CHEAP = (ClosedForm.model, Springs.model)
+CHEAP = (IndentationClosedForm.model, IndentationOnSprings.model)
 """The models below boundary elements, by their names."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.selection.hierarchy import (
     BOUNDARY_ELEMENTS,
@@ -42,7 +42,7 @@ FEWEST, MOST = 8, 1000
 
 
 @dataclass(frozen=True)
-class BoundaryElements:
+class IndentationOnGrid:
     """Surfaces on cells x cells, with the waves that those carry: what half as many a side change is the error.
 
     A measured surface is itself; on a coarser grid, the mean of its points in each cell.
@@ -50,7 +50,7 @@ class BoundaryElements:
 
     model: ClassVar = BOUNDARY_ELEMENTS
 
-    scene: PressedScene
+    scene: IndentationScene
     tolerance: float
     seed: int
     cells: int
@@ -88,7 +88,7 @@ class BoundaryElements:
 
     def solve(self) -> Answer:
         """The mean stiffness, surface by surface until the sample leaves half of the tolerance."""
-        found: list[Pressed] = []
+        found: list[StiffnessOnGrid] = []
         while not self._enough(found):
             found.append(self._pressed(len(found), self.cells))
         coarse = [[self._pressed(i, cells) for cells in self._grids] for i in range(min(len(found), FEWEST))]
@@ -108,7 +108,9 @@ class BoundaryElements:
             or ("" if math.isfinite(grid) else f"{because}, no less than by the step before: no error bar"),
         )
 
-    def _left_by_the_grid(self, found: "list[Pressed]", coarse: "list[list[Pressed]]") -> tuple[float, str]:
+    def _left_by_the_grid(
+        self, found: "list[StiffnessOnGrid]", coarse: "list[list[StiffnessOnGrid]]"
+    ) -> tuple[float, str]:
         """Half-width of 95 %, infinite where grids do not converge, and what it rests on."""
         levels = np.log(
             [[fine.stiffness, *(c.stiffness for c in row)] for fine, row in zip(found, coarse, strict=False)]
@@ -146,7 +148,7 @@ class BoundaryElements:
         change = max(last, before[0] / 2, before[1] / 4, edge)
         return float(1.5 * change * (1 + math.log2(cells_wanted(self.scene) / self.cells)))
 
-    def _hidden(self, found: "Pressed") -> float:
+    def _hidden(self, found: "StiffnessOnGrid") -> float:
         """What the mean over cells may hide: the change of the logarithm by the highest point of each in its place."""
         highest = highest_of(self.scene, self.cells)
         if np.array_equal(highest, height_of(self.scene, self.cells, 0, self.seed)):
@@ -154,17 +156,17 @@ class BoundaryElements:
         pressed = self._on(highest)
         return math.inf if pressed.failed else abs(math.log(pressed.stiffness / found.stiffness))
 
-    def _enough(self, found: "list[Pressed]") -> bool:
+    def _enough(self, found: "list[StiffnessOnGrid]") -> bool:
         if self.measured or len(found) < FEWEST:
             return self.measured and len(found) == 1
         drawn = np.array([one.stiffness for one in found])
         left = mean_error(drawn[:, np.newaxis] / drawn.mean())
         return not left > self.tolerance / 2 or len(found) >= MOST
 
-    def _pressed(self, realisation: int, cells: int) -> "Pressed":
+    def _pressed(self, realisation: int, cells: int) -> "StiffnessOnGrid":
         return self._on(height_of(self.scene, cells, realisation, self.seed))
 
-    def _on(self, height: FloatArray) -> "Pressed":
+    def _on(self, height: FloatArray) -> "StiffnessOnGrid":
         scene, side, cells = self.scene, side_of(self.scene), len(height)
         half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=side / cells, modulus=scene.modulus)
         gap = -height
@@ -177,13 +179,15 @@ class BoundaryElements:
                 contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-4)
                 stiffness = float(contact.stiffness())
             except bem3d.ConvergenceError:
-                return Pressed(math.nan, 0, "did not converge")
+                return StiffnessOnGrid(math.nan, 0, "did not converge")
         # too few cells are counted, and a punch ends where its grid does
         at_edge = scene.shape == "sphere" and any(issubclass(one.category, bem3d.EdgeWarning) for one in said)
-        return Pressed(stiffness, int(np.count_nonzero(contact.pressure)), "reached the edge of the grid" * at_edge)
+        return StiffnessOnGrid(
+            stiffness, int(np.count_nonzero(contact.pressure)), "reached the edge of the grid" * at_edge
+        )
 
 
-class Pressed(NamedTuple):
+class StiffnessOnGrid(NamedTuple):
     """One contact: its stiffness [N/m], the cells in it, and why it is none."""
 
     stiffness: float

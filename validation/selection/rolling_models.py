@@ -15,8 +15,8 @@ from validation.selection.hierarchy import (
     BOUNDARY_ELEMENTS,
     Answer,
     Claim,
+    ContactModel,
     Cost,
-    Rung,
     counted,
     distance,
     mean_error,
@@ -24,14 +24,14 @@ from validation.selection.hierarchy import (
 )
 from validation.selection.indentation_models import beyond_spectra
 from validation.simulation.rolling_levels import (
-    Rolled,
+    RollingGrid,
     by_linear_theory,
     on_boundary_elements,
     on_springs,
     springs_to_a_radius,
     strip_of,
 )
-from validation.simulation.rolling_quantity import Question, Want
+from validation.simulation.rolling_quantity import RollingQuantity, Want
 from validation.theory.rolling import contact_lost
 
 FloatArray = NDArray[np.float64]
@@ -71,20 +71,20 @@ RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), 
 in wider bands is taken from Table 14.1 alone."""
 
 
-def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[Rung]:
+def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[ContactModel]:
     """All that a scene can be asked with, the cheapest first. Raises ValueError for a question without an answer."""
-    question = Question(scene, want)
+    question = RollingQuantity(scene, want)
     radii = question.q_max * scene.contact_radius / (2 * math.pi)
     coarse = min(max(LEAST, math.ceil(COARSE * radii)), MOST_CELLS * 2 // 3)
     fine = min(max(math.ceil(1.5 * coarse), math.ceil(FINE * radii)), MOST_CELLS)
-    linear: list[Rung] = [LinearFilter(question)]
+    linear: list[ContactModel] = [LinearFilter(question)]
     if want != "force-rms" or isinstance(scene.ground, MeasuredHeights):
         linear.append(LinearSpace(question))
     return [
         *linear,
-        Springs(question, tolerance, seed),
-        BoundaryElements(question, tolerance, seed, coarse, beside=fine),
-        BoundaryElements(question, tolerance, seed, fine, beside=coarse),
+        RollingOnSprings(question, tolerance, seed),
+        RollingOnGrid(question, tolerance, seed, coarse, beside=fine),
+        RollingOnGrid(question, tolerance, seed, fine, beside=coarse),
     ]
 
 
@@ -95,7 +95,7 @@ class LinearFilter:
     model: ClassVar = "linear filter, 1D"
     name: ClassVar = model
 
-    question: Question
+    question: RollingQuantity
 
     def cost(self) -> Cost:
         """A formula at each node."""
@@ -127,7 +127,7 @@ class LinearSpace:
     model: ClassVar = "linear filter, 3D"
     name: ClassVar = model
 
-    question: Question
+    question: RollingQuantity
 
     def cost(self) -> Cost:
         """A quadrature across the track at each node."""
@@ -156,19 +156,19 @@ class LinearSpace:
 
 
 @dataclass(frozen=True)
-class Springs:
+class RollingOnSprings:
     """One-sided springs, over what the linear filter has on the same tracks, times what linear theory expects."""
 
     model: ClassVar = "springs"
     name: ClassVar = model
 
-    question: Question
+    question: RollingQuantity
     tolerance: float
     seed: int
 
     def cost(self) -> Cost:
         """Positions of all tracks, and what linear theory expects."""
-        work = TRACKS * Rolled.of(self.question, 1).along * springs_to_a_radius(self.question)
+        work = TRACKS * RollingGrid.of(self.question, 1).along * springs_to_a_radius(self.question)
         nodes = 0 if self.question.want == "force-rms" else self.question.nodes
         return Cost(work=work, unit="positions", seconds=SPRING * work + NODE * nodes)
 
@@ -208,7 +208,7 @@ class Springs:
 
 
 @dataclass(frozen=True)
-class BoundaryElements:
+class RollingOnGrid:
     """A contact a cell, over linear theory on the same strips, times what that expects; heights are rolled themselves.
 
     beside: the grid that is asked, on one strip, what the cells leave open.
@@ -216,7 +216,7 @@ class BoundaryElements:
 
     model: ClassVar = BOUNDARY_ELEMENTS
 
-    question: Question
+    question: RollingQuantity
     tolerance: float
     seed: int
     cells: int
@@ -278,7 +278,10 @@ class BoundaryElements:
 
     def _cost(self, strips: int, beside: int) -> Cost:
         """Cells of the window times applications times positions, of strips on this grid and on the other."""
-        rolled = ((strips, Rolled.of(self.question, self.cells)), (beside, Rolled.of(self.question, self.beside)))
+        rolled = (
+            (strips, RollingGrid.of(self.question, self.cells)),
+            (beside, RollingGrid.of(self.question, self.beside)),
+        )
         work, positions = sum(n * grid.work for n, grid in rolled), sum(n * grid.along for n, grid in rolled)
         return Cost(work=work, unit="cell applications", seconds=CELL * work + POSITION * positions)
 
@@ -287,7 +290,7 @@ class BoundaryElements:
         waves = min(self.cells, self.beside) / self.cells * self._waves
         if waves < 2:
             return f"the shortest wave has {waves:.2g} cells on the finest grids that are offered, fewer than 2"
-        grid = Rolled.of(self.question, max(self.cells, self.beside))
+        grid = RollingGrid.of(self.question, max(self.cells, self.beside))
         if grid.along * grid.across > MOST_ON_A_STRIP:
             return f"a strip needs {grid.along} x {grid.across} cells, more than {MOST_ON_A_STRIP:.2g}"
         return ""
@@ -302,7 +305,7 @@ class BoundaryElements:
         return on_boundary_elements(self.question, cells, realisation, self.seed)
 
 
-def _outside(question: Question) -> str:
+def _outside(question: RollingQuantity) -> str:
     """Why the errors of cheap models are not known for a scene; empty where they are."""
     if said := question.unsteady:
         return said
@@ -314,13 +317,13 @@ def _outside(question: Question) -> str:
     return outside(conditions, RANGES)
 
 
-def _single_summits(question: Question) -> str:
+def _single_summits(question: RollingQuantity) -> str:
     """Why the contact that linear theory loses is not that of Gaussian heights; empty where it is."""
     ground = question.scene.ground
     return ground.not_gaussian() if isinstance(ground, MeasuredHeights) else ""
 
 
-def _left_out(question: Question, value: FloatArray) -> float:
+def _left_out(question: RollingQuantity, value: FloatArray) -> float:
     """Error of bands in which measured heights have next to no waves: what linear theory leaves out fills them.
 
     That is h/d of the level of all bands, in each of them; a drawn band has waves of its own throughout.
@@ -331,7 +334,7 @@ def _left_out(question: Question, value: FloatArray) -> float:
     return distance(np.hypot(value, other), value)
 
 
-def _claimed(rule: Rule, question: Question) -> tuple[float, str]:
+def _claimed(rule: Rule, question: RollingQuantity) -> tuple[float, str]:
     """The error by a rule, and what it rests on."""
     scene, ratio = question.scene, question.scene.roughness_ratio * question.amplification
     lost = contact_lost(
@@ -342,5 +345,5 @@ def _claimed(rule: Rule, question: Question) -> tuple[float, str]:
     return error, counted({"contact that linear theory loses": lost, height: ratio})
 
 
-CHEAP = (LinearFilter.model, LinearSpace.model, Springs.model)
+CHEAP = (LinearFilter.model, LinearSpace.model, RollingOnSprings.model)
 """The models below boundary elements, by their names."""

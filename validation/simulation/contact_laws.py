@@ -26,7 +26,7 @@ class ContactLaw(Protocol):
 
 
 @dataclass(frozen=True)
-class Hertz:
+class HertzLaw:
     """F = 4/3 E* sqrt(R) max(d, 0)^(3/2): a smooth track. wheels: how many."""
 
     wheel: Wheel
@@ -80,12 +80,12 @@ class Linear:
         return np.asarray(self.wheel.approach + motion[0]), np.asarray(velocity)
 
 
-class Springs:
+class SpringsLaw:
     """One-sided springs, (14.15): height of tracks, shape (places, wheels), positive towards the wheel; spacing [m]."""
 
     def __init__(self, wheel: Wheel, height: FloatArray, spacing: float):
         self.wheel = wheel
-        self.foundation = mdr.Wheels(
+        self.foundation = mdr.RollingEnsemble(
             height, spacing=spacing, radius=wheel.radius, modulus=wheel.modulus, force=wheel.load
         )
 
@@ -98,7 +98,7 @@ class Springs:
         return self.foundation.approach(place, self.wheel.load)
 
 
-class BoundaryElements:
+class BoundaryElementsLaw:
     """Three-dimensional contact on rough strips of shape (places, width), one a wheel.
 
     tolerance: residual of each contact. Raises bem3d.ConvergenceError where one does not converge.

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from validation.engine.engine import Outcome
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import ContactLaw, Hertz, Linear
+from validation.simulation.contact_laws import ContactLaw, HertzLaw, Linear
 from validation.simulation.integrators import (
     EXPLICIT_EULER,
     INTEGRATORS,
@@ -134,7 +134,7 @@ def first_turn(scheme: str, x: FloatArray) -> FloatArray:
 def vibrate_hertz(problem: HertzVibrations) -> Outcome:
     """Period over 2 pi / omega_eigen, and the largest change of the energy in either half, of each release."""
     scheme, highest = SCHEMES[problem.scheme], np.array(problem.highest)
-    law = Hertz(WHEEL, highest.size)
+    law = HertzLaw(WHEEL, highest.size)
     longest = max(wheel_theory.hertz_period(u) for u in problem.highest)
     steps = math.ceil(problem.turns * longest * 2 * math.pi / problem.step)
     u, v = march(scheme, law, problem.step, WHEEL.approach * highest, steps)
@@ -162,7 +162,7 @@ def endure(problem: Endurance) -> Outcome:
     """Means in each tenth, over the beginning, of the energy and of what Verlet keeps in its place, of each release."""
     scheme, highest = SCHEMES[problem.scheme], np.array(problem.highest)
     tenth = problem.steps // TENTHS
-    law, d = Hertz(WHEEL, highest.size), WHEEL.approach * highest
+    law, d = HertzLaw(WHEEL, highest.size), WHEEL.approach * highest
     u, v = march(scheme, law, problem.turn, d, TENTHS * tenth)
     found = {"energy": hertz_energy(u, v), "kept": kept_energy(u, v, problem.turn)}
     return {name: e.reshape(TENTHS, tenth, -1).mean(axis=1) / e[0] for name, e in found.items()}

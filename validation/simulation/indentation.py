@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import bem3d
 from validation.engine.engine import generator
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
 
@@ -33,14 +33,14 @@ LATTICE = 512
 """Waves on a side up to which their mean square is summed one by one; shorter ones are an integral."""
 
 
-def ground_of(scene: PressedScene) -> Roughness | MeasuredHeights:
+def ground_of(scene: IndentationScene) -> Roughness | MeasuredHeights:
     """What is rough. Raises ValueError for a smooth body."""
     if scene.ground is None:
         raise ValueError("scene must be rough for this rung")
     return scene.ground
 
 
-def side_of(scene: PressedScene) -> float:
+def side_of(scene: IndentationScene) -> float:
     """Of the model: that of the punch, or what a rough sphere may touch and the longest wave [m]."""
     if scene.shape == "punch":
         return scene.size
@@ -53,7 +53,7 @@ def side_of(scene: PressedScene) -> float:
     return max(2 * math.sqrt(2 * scene.size * (scene.approach + DEEPEST * ground.rms)), ground.longest)
 
 
-def _reach(scene: PressedScene, heights: MeasuredHeights) -> float:
+def _reach(scene: IndentationScene, heights: MeasuredHeights) -> float:
     """Side of the square of all points that a sphere may touch, x^2 / 2R <= d - min h + h, min within r <= a [m].
 
     No deeper than that goes a sphere that would press a plane at the lowest point of its smooth contact.
@@ -67,7 +67,7 @@ def _reach(scene: PressedScene, heights: MeasuredHeights) -> float:
     return 2 * farthest + 4 * max(heights.spacing)
 
 
-def cells_wanted(scene: PressedScene) -> int:
+def cells_wanted(scene: IndentationScene) -> int:
     """A power of two with eight cells to the shortest wave and 16 in contact; of measured heights, one to a point.
 
     In contact is a part 2 F / (E* h' L^2) of a punch under a light load, h' the rms slope.
@@ -85,23 +85,23 @@ def cells_wanted(scene: PressedScene) -> int:
     return int(max(FEW, 2 ** math.ceil(math.log2(wanted * (1 - 1e-9)))))
 
 
-def finest_cells(scene: PressedScene) -> int:
+def finest_cells(scene: IndentationScene) -> int:
     """A side of the finest grid that is offered."""
     return min(MANY_POINTS if isinstance(scene.ground, MeasuredHeights) else MANY, cells_wanted(scene))
 
 
-def holds_waves(scene: PressedScene, cells: int) -> bool:
+def holds_waves(scene: IndentationScene, cells: int) -> bool:
     """Whether a grid of so many cells a side holds the longest wave."""
     ground = ground_of(scene)
     return isinstance(ground, MeasuredHeights) or ground.q_min <= shortest_held(scene, cells)
 
 
-def shortest_held(scene: PressedScene, cells: int) -> float:
+def shortest_held(scene: IndentationScene, cells: int) -> float:
     """Wavenumber of two cells to a wave [rad/m]."""
     return math.pi * cells / side_of(scene) * (1 + 1e-9)
 
 
-def height_of(scene: PressedScene, cells: int, realisation: int, seed: int) -> FloatArray:
+def height_of(scene: IndentationScene, cells: int, realisation: int, seed: int) -> FloatArray:
     """Heights at the centres of cells: the same waves on every grid that holds them, or the measured ones [m].
 
     Of measured heights, the mean of their points in each cell.
@@ -112,7 +112,7 @@ def height_of(scene: PressedScene, cells: int, realisation: int, seed: int) -> F
     return _drawn(ground, shortest_held(scene, cells), cells, side, generator(seed, SURFACES, realisation))
 
 
-def highest_of(scene: PressedScene, cells: int) -> FloatArray:
+def highest_of(scene: IndentationScene, cells: int) -> FloatArray:
     """The highest of the measured points in each cell, where the mean may hide a summit [m]."""
     heights, side = ground_of(scene), side_of(scene)
     assert isinstance(heights, MeasuredHeights)  # as asked

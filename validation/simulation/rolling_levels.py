@@ -14,10 +14,10 @@ import mdr
 from validation.analysis.spectra import levels, waves
 from validation.engine.engine import generator
 from validation.scenes.measured import MeasuredHeights
-from validation.simulation.contact_laws import BoundaryElements, ContactLaw, Linear, Springs
+from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, Linear, SpringsLaw
 from validation.simulation.motion import simulate
 from validation.simulation.resolution import too_few
-from validation.simulation.rolling_quantity import Question
+from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.wheel_on_half_space import narrowed
 from validation.simulation.wheel_on_springs import filtered, rolling_feed
 from validation.theory.rolling import linear_force
@@ -35,7 +35,7 @@ SPRINGS = 32
 
 
 @dataclass(frozen=True)
-class Rolled:
+class RollingGrid:
     """A grid along and across the track: spacing a / cells [m], cells along and across."""
 
     spacing: float
@@ -44,7 +44,7 @@ class Rolled:
     cells: int
 
     @classmethod
-    def of(cls, question: Question, cells: int) -> "Rolled":
+    def of(cls, question: RollingQuantity, cells: int) -> "RollingGrid":
         """Long enough for some of the longest waves, or as long as what was measured, there and back.
 
         A dynamic wheel comes back in the middle of a turn of its resonance, where free vibration is least excited.
@@ -74,9 +74,9 @@ APPLICATIONS = 7
 """Of the operator, a position."""
 
 
-def strip_of(question: Question, cells: int, realisation: int, seed: int) -> FloatArray:
+def strip_of(question: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
     """Heights at the centres of cells; drawn, or those that were measured, there and back [m]."""
-    grid, ground = Rolled.of(question, cells), question.scene.ground
+    grid, ground = RollingGrid.of(question, cells), question.scene.ground
     if isinstance(ground, MeasuredHeights):
         there = _resampled(ground, grid)
         return np.concatenate([there, there[::-1]])
@@ -92,12 +92,12 @@ def strip_of(question: Question, cells: int, realisation: int, seed: int) -> Flo
         )
 
 
-def by_linear_theory(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+def by_linear_theory(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip, for a contact that keeps its radius."""
     return _levels(question, _linear(question, surface, spacing), spacing, question.transfer)
 
 
-def by_boundary_elements(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+def by_boundary_elements(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip; NaN where a contact did not converge."""
     scene = question.scene
     if question.dynamic:
@@ -118,7 +118,7 @@ def by_boundary_elements(question: Question, surface: FloatArray, spacing: float
     return _levels(question, found.force, spacing)
 
 
-def on_boundary_elements(question: Question, cells: int, realisation: int, seed: int) -> FloatArray:
+def on_boundary_elements(question: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
     """ln of levels over those of linear theory on the same strip; of measured heights, of the levels themselves."""
     surface, spacing = strip_of(question, cells, realisation, seed), question.scene.contact_radius / cells
     found = np.log(by_boundary_elements(question, surface, spacing))
@@ -127,7 +127,7 @@ def on_boundary_elements(question: Question, cells: int, realisation: int, seed:
     return np.asarray(found - np.log(by_linear_theory(question, surface, spacing)))
 
 
-def on_springs(question: Question, tracks: int, seed: int) -> FloatArray:
+def on_springs(question: RollingQuantity, tracks: int, seed: int) -> FloatArray:
     """ln of levels of one-sided springs over what linear theory expects, (tracks, bands).
 
     Of the rms of the force, on tracks of Geike's spectrum and over the linear filter on them; else on tracks that are
@@ -148,16 +148,16 @@ def on_springs(question: Question, tracks: int, seed: int) -> FloatArray:
     return np.asarray(np.log(found) - np.log(question.expected(one_dimensional=False)))
 
 
-def springs_to_a_radius(question: Question) -> int:
+def springs_to_a_radius(question: RollingQuantity) -> int:
     """Four to the shortest wave, and 32 at least."""
     scene = question.scene
     return max(SPRINGS, math.ceil(4 * scene.ground.q_max * scene.contact_radius / (2 * math.pi)))
 
 
-def _tracks(question: Question, tracks: int, seed: int) -> tuple[FloatArray, float]:
+def _tracks(question: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
     """Heights, (points, tracks), and their spacing [m]."""
     scene, ground = question.scene, question.scene.ground
-    coarse = Rolled.of(question, 1)
+    coarse = RollingGrid.of(question, 1)
     a = scene.contact_radius
     springs = springs_to_a_radius(question)
     points, spacing = coarse.along * springs, a / springs
@@ -176,19 +176,19 @@ def _tracks(question: Question, tracks: int, seed: int) -> tuple[FloatArray, flo
     return np.array(drawn).T, spacing
 
 
-def _springs_accelerated(question: Question, height: FloatArray, spacing: float) -> FloatArray:
+def _springs_accelerated(question: RollingQuantity, height: FloatArray, spacing: float) -> FloatArray:
     body = question.scene.body
     try:
-        found = _rolled_on(question, Springs(body, height, spacing), filtered(body, height, spacing), spacing)
+        found = _rolled_on(question, SpringsLaw(body, height, spacing), filtered(body, height, spacing), spacing)
     except ArithmeticError:
         return np.full((height.shape[1], len(question.bands.edges) - 1), np.nan)
     return np.asarray(np.log(_levels(question, found.T, spacing)) - np.log(question.expected(one_dimensional=False)))
 
 
-def _accelerated(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+def _accelerated(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Of a wheel with boundary elements in the time loop."""
     body = question.scene.body
-    law = BoundaryElements(body, [narrowed(surface, spacing, body)], spacing, tolerance=_tolerance(question))
+    law = BoundaryElementsLaw(body, [narrowed(surface, spacing, body)], spacing, tolerance=_tolerance(question))
     linear = Linear(body, (_linear(question, surface, spacing) - body.load)[:, np.newaxis])
     try:
         found = _rolled_on(question, law, linear, spacing)
@@ -197,13 +197,13 @@ def _accelerated(question: Question, surface: FloatArray, spacing: float) -> Flo
     return _levels(question, found[:, 0], spacing)
 
 
-def _linear(question: Question, surface: FloatArray, spacing: float) -> FloatArray:
+def _linear(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """The force along the middle of a strip [N]."""
     scene = question.scene
     return linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
 
 
-def _rolled_on(question: Question, law: ContactLaw, linear: Linear, spacing: float) -> FloatArray:
+def _rolled_on(question: RollingQuantity, law: ContactLaw, linear: Linear, spacing: float) -> FloatArray:
     """Acceleration of wheels over one round, (steps, wheels), begun on the linear motion that repeats itself."""
     assert question.scene.speed is not None  # a dynamic question has a speed
     time_step = spacing / question.scene.speed
@@ -214,7 +214,7 @@ def _rolled_on(question: Question, law: ContactLaw, linear: Linear, spacing: flo
 
 
 def _levels(
-    question: Question,
+    question: RollingQuantity,
     series: FloatArray,
     spacing: float,
     transfer: Callable[[FloatArray], FloatArray] | None = None,
@@ -226,12 +226,12 @@ def _levels(
     return np.asarray(np.sqrt(2 * levels(found, question.bands)))
 
 
-def _tolerance(question: Question) -> float:
+def _tolerance(question: RollingQuantity) -> float:
     """The lower the roughness, the less its waves change the force, and the finer the residual."""
     return float(np.clip(1e-4 * question.scene.roughness_ratio, 1e-7, 3e-5))
 
 
-def _resampled(heights: MeasuredHeights, grid: Rolled) -> FloatArray:
+def _resampled(heights: MeasuredHeights, grid: RollingGrid) -> FloatArray:
     """Measured heights, their mean over each cell: what is shorter than that is no other wave."""
     parts = max(1, math.ceil(grid.spacing / min(heights.spacing) * (1 - 1e-9)))
     shape = (grid.along // 2, grid.across)

@@ -26,7 +26,7 @@ WAVES = 4
 
 
 @dataclass(frozen=True)
-class Question:
+class RollingQuantity:
     """What is wanted of a wheel that rolls.
 
     Levels in one-third octaves from the longest to the shortest wave, root mean square in each, [N] or [m/s^2]; of the

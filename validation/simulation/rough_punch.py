@@ -32,7 +32,7 @@ def force_levels(decades: tuple[int, int], per_decade: int) -> tuple[float, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Roughness:
+class PunchRoughness:
     """Self-affine roughness on a side L, in units of L = 1, the same on every grid and for both methods.
 
     hurst: H; waves: the first and the last of the band, as many on a side: q = 2 pi waves / L; height: rms, over L;
@@ -92,7 +92,7 @@ class Roughness:
 class Surface:
     """One rough punch on one grid, pressed with ascending forces Fbar = F / (E* h L) to a residual."""
 
-    roughness: Roughness
+    roughness: PunchRoughness
     realisation: int
     cells: int
     forces: tuple[float, ...]
@@ -103,7 +103,7 @@ class Surface:
 class Profiles:
     """The first so many rough profiles on one number of springs, in a 1D model of length L_1D, pressed alike."""
 
-    roughness: Roughness
+    roughness: PunchRoughness
     realisations: int
     points: int
     length: float
@@ -166,7 +166,7 @@ def press_profiles(profiles: Profiles) -> Outcome:
         height = roughness.profile(profiles.points, i)
         with warnings.catch_warnings():
             # as with cells: the lightest loads stand on few springs
-            warnings.simplefilter("ignore", mdr.ResolutionWarning)
+            warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
             points = mdr.load_curve(height, length=length, modulus=1.0).at_force(force)
         heights[i], stiffness[i], approach[i] = height.std(), points.stiffness, points.approach
     return {

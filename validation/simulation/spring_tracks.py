@@ -11,7 +11,7 @@ from scipy import stats
 import mdr
 from validation.engine.engine import Outcome, generator
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import Springs
+from validation.simulation.contact_laws import SpringsLaw
 from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
 from validation.simulation.motion import simulate
 
@@ -26,7 +26,7 @@ STRIDES = (3, 5, 9, 15, 25, 45, 75)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Track:
+class RoughTrack:
     """Rough tracks of the springs.
 
     rms: height [m]; longest, shortest: waves [m]; waves: of the longest, in a period; per_wave: springs to the
@@ -75,7 +75,7 @@ class Rounds:
     """Round after round over rough tracks, from a release at rest `lift` d_N below equilibrium."""
 
     scheme: str
-    track: Track
+    track: RoughTrack
     wheels: int
     rounds: int
     lift: float = 0.2
@@ -92,7 +92,7 @@ class LiftOff:
 
     sweep: str
     load: float
-    track: Track
+    track: RoughTrack
     wheels: int
     rounds: int
 
@@ -106,13 +106,13 @@ class LiftOff:
 class Spacings:
     """One track under springs of many spacings, at the approach d_N."""
 
-    track: Track
+    track: RoughTrack
 
 
 def go_round(problem: Rounds) -> Outcome:
     """Weighted mean square acceleration, and the square of the amplitude at the resonance, of each tenth and wheel."""
     track = problem.track
-    law = Springs(WHEEL, track.heights(problem.wheels), track.spacing)
+    law = SpringsLaw(WHEEL, track.heights(problem.wheels), track.spacing)
     d = law.at_rest(0) + problem.lift * WHEEL.approach
     motion = simulate(
         WHEEL,
@@ -153,7 +153,7 @@ def lift_off(problem: LiftOff) -> Outcome:
     height = track.heights(problem.wheels)
     motion = simulate(
         wheel,
-        Springs(wheel, height, track.spacing),
+        SpringsLaw(wheel, height, track.spacing),
         time_step=track.spacing / SPEED,
         steps=problem.rounds * track.points,
     )
@@ -174,7 +174,7 @@ def lift_off(problem: LiftOff) -> Outcome:
     }
 
 
-def linear_change(wheel: Wheel, track: Track, height: FloatArray) -> FloatArray:
+def linear_change(wheel: Wheel, track: RoughTrack, height: FloatArray) -> FloatArray:
     """dF / F_N of (14.11) along a track."""
     with warnings.catch_warnings():
         # how far it holds is what is asked
@@ -216,7 +216,7 @@ def force_at(height: FloatArray, spacing: float) -> FloatArray:
     )
 
 
-def level(force: FloatArray, track: Track) -> float:
+def level(force: FloatArray, track: RoughTrack) -> float:
     """Sum of |F_j|^2 over the last one-third octave; nothing where the points cannot carry it."""
     band = highest_band(track)
     if 2 * (band.stop - 1) >= force.size:
@@ -224,7 +224,7 @@ def level(force: FloatArray, track: Track) -> float:
     return float(np.sum(np.abs(np.fft.rfft(force, norm="forward")[band]) ** 2))
 
 
-def linear_level(height: FloatArray, stride: int, track: Track) -> float:
+def linear_level(height: FloatArray, stride: int, track: RoughTrack) -> float:
     """The ratio of levels in linear theory, of springs so many places apart over those at every place."""
     band = highest_band(track)
     power = np.abs(np.fft.rfft(height)[band]) ** 2
@@ -232,7 +232,7 @@ def linear_level(height: FloatArray, stride: int, track: Track) -> float:
     return float(coarse / fine)
 
 
-def linear_response(track: Track, stride: int) -> FloatArray:
+def linear_response(track: RoughTrack, stride: int) -> FloatArray:
     """dx sin(q (m + 1/2) dx) / sin(q dx / 2) of 2 m + 1 springs, in place of 2 sin(q a) / q, in the last band."""
     band, dx = highest_band(track), stride * track.spacing
     q = 2 * np.pi / (track.waves * track.longest) * np.arange(band.start, band.stop)
@@ -240,7 +240,7 @@ def linear_response(track: Track, stride: int) -> FloatArray:
     return np.asarray(dx * np.sin(q * (m + 0.5) * dx) / np.sin(q * dx / 2))
 
 
-def spread(track: Track, stride: int) -> float:
+def spread(track: RoughTrack, stride: int) -> float:
     """Standard deviation of the level, over itself, that the moving ends of contact leave linear theory in one track.
 
     A spring of gap g under the smooth wheel bears max(g + h, 0) = Phi(g / s) h + phi(g / s) h^2 / s + ..., s = h_rms.
@@ -253,7 +253,7 @@ def spread(track: Track, stride: int) -> float:
     return float(2 * math.sqrt(2 / response.size) * ends / np.sqrt(np.mean(response**2)))
 
 
-def highest_band(track: Track) -> slice:
+def highest_band(track: RoughTrack) -> slice:
     """Waves of the track in the last one-third octave."""
     last = round(track.waves * track.longest / track.shortest)
     return slice(math.ceil(last * 2 ** (-1 / 3)), last + 1)

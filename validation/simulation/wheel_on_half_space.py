@@ -12,7 +12,7 @@ from validation.engine.engine import Outcome, generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import BoundaryElements, Linear
+from validation.simulation.contact_laws import BoundaryElementsLaw, Linear
 from validation.simulation.motion import Motion, simulate
 from validation.theory.rolling import linear_force
 
@@ -23,7 +23,7 @@ STRIPS = 4
 
 
 @dataclass(frozen=True, kw_only=True)
-class Strip:
+class WheelStrip:
     """One wheel over one surface, periodic, as long as some turns of the resonance and a half.
 
     scene, whose rail alone is rough; realisation; turns: whole, of the resonance, to which a half is added; width: of
@@ -80,7 +80,7 @@ class Strip:
             )
 
 
-def roll_strip(strip: Strip) -> Outcome:
+def roll_strip(strip: WheelStrip) -> Outcome:
     """z'' of a wheel on boundary elements and on the linear contact, over one round of the same surface [m/s^2].
 
     Both begin on the motion of the linear contact that repeats itself with the track, boundary elements at the force
@@ -93,7 +93,7 @@ def roll_strip(strip: Strip) -> Outcome:
     linear = linear_contact(strip, surface)
     approach, velocity = linear.steady(time_step)
     steps = len(surface)
-    contact = BoundaryElements(
+    contact = BoundaryElementsLaw(
         wheel, [narrowed(surface, strip.spacing, wheel)], strip.spacing, tolerance=strip.tolerance
     )
     beside = simulate(wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
@@ -113,14 +113,14 @@ def roll_strip(strip: Strip) -> Outcome:
     }
 
 
-def linear_contact(strip: Strip, surface: FloatArray) -> Linear:
+def linear_contact(strip: WheelStrip, surface: FloatArray) -> Linear:
     """A contact that keeps its radius, with the force of linear theory along this surface."""
     wheel = strip.scene.body
     smooth = {"spacing": strip.spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
     return Linear(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
 
 
-def by_boundary_elements(contact: BoundaryElements, linear: Linear, time_step: float, steps: int) -> Motion:
+def by_boundary_elements(contact: BoundaryElementsLaw, linear: Linear, time_step: float, steps: int) -> Motion:
     """A wheel that begins as the linear one that repeats its motion, at the force that this has there."""
     approach, velocity = linear.steady(time_step)
     start = contact.at_rest(0) + approach - linear.at_rest(0)

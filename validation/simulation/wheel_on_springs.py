@@ -17,7 +17,7 @@ from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import ContactLaw, Linear, Springs
+from validation.simulation.contact_laws import ContactLaw, Linear, SpringsLaw
 from validation.simulation.motion import Motion, repeating, simulate
 from validation.theory.rolling import response
 
@@ -37,7 +37,7 @@ PARTS = 12
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rides:
+class WheelEnsemble:
     """Some wheels of an ensemble, each with a rail and a roughness of its own.
 
     scene; first, count: which of its realisations; groups: of them, whose mean spectra are kept apart; seed: zero or
@@ -126,7 +126,7 @@ def rolling_feed(ground: Roughness | MeasuredHeights, contact_radius: float) -> 
     return lambda q: values(tuple(q.tolist()))
 
 
-def roll_wheels(rides: Rides) -> Outcome:
+def roll_wheels(rides: WheelEnsemble) -> Outcome:
     """Spectra of the accelerations of wheels on springs.
 
     omega: frequencies; plain, hann: A of (14.17) without window and with Hann's, means of each group, (groups,
@@ -161,10 +161,12 @@ def roll_wheels(rides: Rides) -> Outcome:
     }
 
 
-def _motion(rides: Rides) -> tuple[Motion, FloatArray]:
+def _motion(rides: WheelEnsemble) -> tuple[Motion, FloatArray]:
     scene, wheel = rides.scene, rides.scene.body
     height = rides.heights()
-    law: ContactLaw = filtered(wheel, height, scene.spacing) if rides.linear else Springs(wheel, height, scene.spacing)
+    law: ContactLaw = (
+        filtered(wheel, height, scene.spacing) if rides.linear else SpringsLaw(wheel, height, scene.spacing)
+    )
     start, velocity = law.at_rest(0) + rides.release * scene.approach, np.zeros(rides.count)
     left = np.zeros(rides.count)
     if rides.track == "steady" and isinstance(law, Linear):
@@ -172,7 +174,7 @@ def _motion(rides: Rides) -> tuple[Motion, FloatArray]:
     elif rides.track == "steady":
         start, velocity, left = repeating(
             wheel,
-            lambda n: Springs(wheel, np.tile(height, (1, n)), scene.spacing),
+            lambda n: SpringsLaw(wheel, np.tile(height, (1, n)), scene.spacing),
             time_step=scene.time_step,
             steps=rides.steps,
             start=(start, velocity),

@@ -15,16 +15,16 @@ import mdr
 from validation.analysis.evidence import Table
 from validation.benchmarks.isolation import one_thread, own_process, peak_memory, timed
 from validation.benchmarks.peers import CONTESTANTS, Contestant, Run, Solve, Task
-from validation.benchmarks.solvers.dynamic_wheel import Steps, measure_wheels
-from validation.benchmarks.solvers.rolling import Rolls, measure_rolls
+from validation.benchmarks.solvers.dynamic_wheel import SteppingThroughput, measure_wheels
+from validation.benchmarks.solvers.rolling import RollingThroughput, measure_rolls
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
-from validation.simulation.rough_punch import Roughness, Surface, press_surface
+from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
 
 SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
 SPHERE_LOAD = 4 / 3 / 4**3
 """The force of Hertz for a = L/4 and R = L, over E* L^2."""
 FINISHED = "finished"
-ROLLS, STEPS = Rolls(), Steps()
+ROLLS, STEPS = RollingThroughput(), SteppingThroughput()
 FEWEST_RUNS, MOST_RUNS = 5, 15
 
 
@@ -67,9 +67,9 @@ class Course:
         return Task(height, 1 / self.cells, 1.0, self.periodic, self.load, approach)
 
 
-def punch(cells: int, seed: int) -> Roughness:
+def punch(cells: int, seed: int) -> PunchRoughness:
     """One of those of Fig. 14.1, with four cells to its shortest wave."""
-    return Roughness(hurst=0.7, waves=(1, cells // 4), seed=seed)
+    return PunchRoughness(hurst=0.7, waves=(1, cells // 4), seed=seed)
 
 
 @dataclass(frozen=True)
@@ -124,8 +124,8 @@ class Race:
     slow: float = 5.0
     scaling: tuple[int, ...] = (64, 128, 256)
     errand: Errand = Errand()
-    rolling: Rolls = ROLLS
-    wheel: Steps = STEPS
+    rolling: RollingThroughput = ROLLS
+    wheel: SteppingThroughput = STEPS
     seed: int = 20261121
 
     def courses(self) -> list[Course]:

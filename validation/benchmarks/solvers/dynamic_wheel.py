@@ -13,10 +13,10 @@ from validation.analysis.evidence import Table, table_of
 from validation.benchmarks.isolation import one_thread, own_process, timed
 from validation.engine.engine import Engine, Outcome, generator
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
-from validation.simulation.contact_laws import BoundaryElements, Springs
+from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_half_space import narrowed
-from validation.simulation.wheel_on_springs import Rides
+from validation.simulation.wheel_on_springs import WheelEnsemble
 
 FloatArray = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ TABLE = read_scene("table_14_1")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Steps:
+class SteppingThroughput:
     """All that is timed, each in a process of its own with one thread.
 
     springs: to a contact radius; heights: h_0 / d; wheels: in step; steps: timed of each; scene: that has the goals;
@@ -47,7 +47,7 @@ class Steps:
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnSprings:
+class SpringWheels:
     """Some steps of many wheels."""
 
     scene: WheelScene
@@ -67,13 +67,15 @@ class OnHalfSpace:
     seed: int
 
 
-def measure_wheels(steps: Steps, engine: Engine) -> list[Table]:
+def measure_wheels(steps: SteppingThroughput, engine: Engine) -> list[Table]:
     """Wheel-steps a second by springs and height; the scene that has goals, with the cost of a simulated metre."""
     sweep = [
-        OnSprings(scene=_rough(steps.scene, springs, height), wheels=steps.wheels, steps=steps.steps, seed=steps.seed)
+        SpringWheels(
+            scene=_rough(steps.scene, springs, height), wheels=steps.wheels, steps=steps.steps, seed=steps.seed
+        )
         for height, springs in itertools.product(steps.heights, steps.springs)
     ]
-    scene = OnSprings(scene=steps.scene, wheels=steps.wheels, steps=steps.steps, seed=steps.seed)
+    scene = SpringWheels(scene=steps.scene, wheels=steps.wheels, steps=steps.steps, seed=steps.seed)
     on_springs = engine.map(measure_springs, [*sweep, scene])
     rough = steps.scene.rail
     if rough is None:
@@ -98,18 +100,18 @@ def _rough(scene: WheelScene, springs: int, height: float) -> WheelScene:
     return replace(scene, springs=springs, rail=replace(rough, rms=height * scene.approach, shortest=shortest))
 
 
-def measure_springs(problem: OnSprings) -> Outcome:
+def measure_springs(problem: SpringWheels) -> Outcome:
     """Wheel-steps a second of the simulation; of the plain sum over all springs within reach; their difference."""
     with one_thread(), own_process() as lane:
         return lane.submit(_measure_springs, problem).result()
 
 
-def _measure_springs(problem: OnSprings) -> Outcome:
+def _measure_springs(problem: SpringWheels) -> Outcome:
     scene, wheel = problem.scene, problem.scene.body
-    heights = Rides(scene=scene, count=problem.wheels, seed=problem.seed).heights()
-    law, examined = Springs(wheel, heights, scene.spacing), []
+    heights = WheelEnsemble(scene=scene, count=problem.wheels, seed=problem.seed).heights()
+    law, examined = SpringsLaw(wheel, heights, scene.spacing), []
 
-    class Counted:
+    class CountingLaw:
         """The same law, which counts what it looks at."""
 
         def force(self, place: int, approach: FloatArray) -> FloatArray:
@@ -121,7 +123,7 @@ def _measure_springs(problem: OnSprings) -> Outcome:
             return law.at_rest(place)
 
     settings = {"time_step": scene.time_step, "steps": problem.steps}
-    simulate(wheel, Counted(), **settings)  # type: ignore[arg-type]
+    simulate(wheel, CountingLaw(), **settings)  # type: ignore[arg-type]
     times = [timed(lambda: simulate(wheel, law, **settings)) for _ in range(3)]  # type: ignore[arg-type]
     motion, seconds = min(times, key=lambda time: time[1])
     plain = _Plain(scene, heights, float(motion.highest.max()))
@@ -171,7 +173,7 @@ def _measure_half_space(problem: OnHalfSpace) -> Outcome:
             rng=generator(problem.seed),
             rms=rough.rms,
         )
-    law = BoundaryElements(wheel, [narrowed(surface, spacing, wheel)], spacing, tolerance=problem.tolerance)
+    law = BoundaryElementsLaw(wheel, [narrowed(surface, spacing, wheel)], spacing, tolerance=problem.tolerance)
     time_step = spacing / scene.speed
 
     def roll() -> int:
@@ -188,7 +190,7 @@ def _measure_half_space(problem: OnHalfSpace) -> Outcome:
     }
 
 
-def _sweep(problems: list[OnSprings], outcomes: list[Outcome]) -> Table:
+def _sweep(problems: list[SpringWheels], outcomes: list[Outcome]) -> Table:
     rows: list[dict[str, object]] = [
         {
             "h0/d": problem.scene.rms / problem.scene.approach,
@@ -203,7 +205,7 @@ def _sweep(problems: list[OnSprings], outcomes: list[Outcome]) -> Table:
     return table_of("wheel", rows)
 
 
-def _goals(steps: Steps, springs: Outcome, half_space: Outcome) -> Table:
+def _goals(steps: SteppingThroughput, springs: Outcome, half_space: Outcome) -> Table:
     scene = steps.scene
     rate, solved = float(springs["rate"]), float(half_space["rate"])
     return table_of(

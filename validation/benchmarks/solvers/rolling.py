@@ -21,7 +21,7 @@ WARM = 40
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rolls:
+class RollingThroughput:
     """All that is rolled, each in a process of its own with one thread.
 
     heights: h_rms / d; cells: to a contact radius, ascending; tolerances: residuals; finest: cells to a radius of the
@@ -64,7 +64,7 @@ class Roll:
     positions: int
 
 
-def measure_rolls(rolls: Rolls, engine: Engine) -> list[Table]:
+def measure_rolls(rolls: RollingThroughput, engine: Engine) -> list[Table]:
     """Positions a second beside the error of the force; the scene with a goal. One after the other."""
     rows = [
         Roll(strip=rolls.strip(h, n, rolls.last, rolls.length), tolerance=t, positions=rolls.length * n)
@@ -147,7 +147,7 @@ def _measure_warm_solves(roll: Roll) -> Outcome:
     return {"seconds": np.array(seconds / count), "application": np.array(application / 100)}
 
 
-def _errors(rolls: Rolls, rows: list[Roll], outcomes: list[Outcome], truth: dict[float, Outcome]) -> Table:
+def _errors(rolls: RollingThroughput, rows: list[Roll], outcomes: list[Outcome], truth: dict[float, Outcome]) -> Table:
     tight = {(r.strip.height, r.strip.cells): o for r, o in zip(rows, outcomes, strict=True) if r.tolerance == TIGHT}
     found: list[dict[str, object]] = []
     for roll, outcome in zip(rows, outcomes, strict=True):
@@ -170,7 +170,7 @@ def _errors(rolls: Rolls, rows: list[Roll], outcomes: list[Outcome], truth: dict
     return table_of("rolling", found)
 
 
-def _scenes(rolls: Rolls, scenes: list[Roll], outcomes: list[Outcome], solves: list[Outcome]) -> Table:
+def _scenes(rolls: RollingThroughput, scenes: list[Roll], outcomes: list[Outcome], solves: list[Outcome]) -> Table:
     found: list[dict[str, object]] = []
     for goal, roll, outcome, solve in zip(rolls.goals, scenes, outcomes, solves, strict=True):
         seconds, application = float(outcome["seconds"]), float(solve["application"])

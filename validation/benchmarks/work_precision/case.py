@@ -3,10 +3,10 @@
 from dataclasses import dataclass, field, replace
 
 from validation.benchmarks.peers import CONTESTANTS
-from validation.benchmarks.work_precision.dynamic_wheel import Wheels
-from validation.benchmarks.work_precision.exact_problems import Punch, Sphere, Wave
-from validation.benchmarks.work_precision.measurement import Scene, Trial, measure
-from validation.benchmarks.work_precision.rolling import Rolling
+from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
+from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.measurement import Scene, TimedScene, measure
+from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import Fractal
 from validation.engine.engine import SERIAL, Engine, Outcome
 
@@ -19,12 +19,12 @@ class Precision:
     [s]; enough: after so many seconds five runs are enough; seed: of all roughness, zero or positive.
     """
 
-    sphere: Sphere = field(default_factory=Sphere)
-    punch: Punch = field(default_factory=Punch)
-    wave: Wave = field(default_factory=Wave)
+    sphere: SphereProblem = field(default_factory=SphereProblem)
+    punch: PunchProblem = field(default_factory=PunchProblem)
+    wave: WaveProblem = field(default_factory=WaveProblem)
     fractal: Fractal = field(default_factory=Fractal)
-    rolling: Rolling = field(default_factory=Rolling)
-    wheel: Wheels = field(default_factory=Wheels)
+    rolling: RollingProblem = field(default_factory=RollingProblem)
+    wheel: WheelProblem = field(default_factory=WheelProblem)
     slow: float = 0.2
     enough: float = 0.02
     seed: int = 150
@@ -46,7 +46,7 @@ class PrecisionResult:
 def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
     """Time all scenes, one at a time whatever the engine's workers, so that nobody is disturbed."""
     entrants = tuple(f"{contestant.name} {contestant.version}" for contestant in CONTESTANTS)
-    trials = [Trial(scene, case.slow, case.enough, entrants) for scene in case.scenes()]
+    trials = [TimedScene(scene, case.slow, case.enough, entrants) for scene in case.scenes()]
     with engine.timed() as alone:
         outcomes = alone.map(measure, trials)
     return PrecisionResult(case, outcomes)

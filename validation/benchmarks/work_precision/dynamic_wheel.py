@@ -16,20 +16,20 @@ from validation.benchmarks.work_precision.measurement import (
     FILTER_1D,
     FILTER_3D,
     MDR,
-    Attempt,
+    Configuration,
     Draw,
     FloatArray,
     Quantity,
-    Turn,
-    Work,
+    SolveResult,
+    TimedSolve,
 )
 from validation.benchmarks.work_precision.rolling import log_levels
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import BoundaryElements, Linear, Springs
+from validation.simulation.contact_laws import BoundaryElementsLaw, Linear, SpringsLaw
 from validation.simulation.motion import Motion, repeating, simulate
-from validation.simulation.wheel_on_half_space import Strip, by_boundary_elements, linear_contact, narrowed
-from validation.simulation.wheel_on_springs import LEFT, Feed, Rides, filtered
+from validation.simulation.wheel_on_half_space import WheelStrip, by_boundary_elements, linear_contact, narrowed
+from validation.simulation.wheel_on_springs import LEFT, Feed, WheelEnsemble, filtered
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
@@ -40,7 +40,7 @@ WARM = 40
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wheels(Refined):
+class WheelProblem(Refined):
     """Wheels of a scene over isotropic surfaces, in one round of a track.
 
     scene: whose rail alone is rough; turns: whole, of the resonance, to which a half is added; width: of surfaces over
@@ -73,9 +73,9 @@ class Wheels(Refined):
         names = ("level", "linear level", "mean level")
         return (Quantity(name="acceleration spectrum", log=log_levels, needs=names, decibel=True),)
 
-    def strip(self, realisation: int, cells: int, tolerance: float) -> Strip:
+    def strip(self, realisation: int, cells: int, tolerance: float) -> WheelStrip:
         """The same surface on every grid."""
-        return Strip(
+        return WheelStrip(
             scene=self.scene,
             realisation=realisation,
             turns=self.turns,
@@ -103,14 +103,14 @@ class Wheels(Refined):
         record = spectra(acceleration, time_step=time_step, window="hann")
         return band_levels(record.omega, record.density, self.edges).T
 
-    def attempts(self) -> tuple[Attempt, ...]:
+    def attempts(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs fed twice, boundary elements in the time loop."""
         along: dict[str, Any] = {"knob": "# springs to a radius", "paired": False, "scene": self}
         return (
-            LinearSpectrum(line=CLOSED, knob="linear theory", value=1.0, paired=False, scene=self),
-            *(OnSprings(line=line, value=n, **along) for line in (FILTER_1D, MDR, FED) for n in self.springs),
+            WheelLinearSpectrum(line=CLOSED, knob="linear theory", value=1.0, paired=False, scene=self),
+            *(WheelOnSprings(line=line, value=n, **along) for line in (FILTER_1D, MDR, FED) for n in self.springs),
             *(
-                Filtered(line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self)
+                WheelFiltered(line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self)
                 for n in self.filtered
             ),
             *self.grids(),
@@ -120,14 +120,14 @@ class Wheels(Refined):
         """Boundary elements."""
         return InTheLoop(realisations=self.strips, scene=self, **settings)
 
-    def read(self, acceleration: FloatArray, beside: "Beside", visits: float) -> Work:
+    def read(self, acceleration: FloatArray, beside: "Beside", visits: float) -> SolveResult:
         """Levels of a wheel, and of the linear one on the same surface."""
         level = self.levels(acceleration[:, np.newaxis], beside.time_step)[0]
-        return Work({"level": level, "linear level": beside.level, "mean level": beside.mean}, visits)
+        return SolveResult({"level": level, "linear level": beside.level, "mean level": beside.mean}, visits)
 
-    def alone(self, level: FloatArray, visits: float, count: int = 1) -> Work:
+    def alone(self, level: FloatArray, visits: float, count: int = 1) -> SolveResult:
         """What has no surface of its own."""
-        return Work(
+        return SolveResult(
             {"level": level, "linear level": np.ones(level.shape), "mean level": np.ones(level.shape)}, visits, count
         )
 
@@ -143,7 +143,7 @@ class Beside:
     mean: FloatArray
 
 
-def beside(scene: Wheels, realisation: int, cells: int, tolerance: float) -> Beside:
+def beside(scene: WheelProblem, realisation: int, cells: int, tolerance: float) -> Beside:
     """One strip, drawn."""
     strip = scene.strip(realisation, cells, tolerance)
     surface, time_step = strip.surface(), strip.spacing / scene.scene.speed
@@ -165,7 +165,7 @@ def steady_acceleration(linear: Linear, time_step: float) -> FloatArray:
     return np.fft.irfft(transfer(linear.wheel, omega, time_step) * np.fft.rfft(linear.change, axis=0), count, axis=0)
 
 
-def mean_levels(scene: Wheels, surface: FloatArray, spacing: float, time_step: float) -> FloatArray:
+def mean_levels(scene: WheelProblem, surface: FloatArray, spacing: float, time_step: float) -> FloatArray:
     """Levels of the linear wheel in the mean over all phases of the waves of this surface.
 
     Hann's window mixes a line with its neighbours: 2/3 of itself, 1/6 of each.
@@ -184,10 +184,10 @@ def mean_levels(scene: Wheels, surface: FloatArray, spacing: float, time_step: f
 
 
 @dataclass(frozen=True, kw_only=True)
-class LinearSpectrum(Attempt):
+class WheelLinearSpectrum(Configuration):
     """Linear theory in closed form at the lines of a record."""
 
-    scene: Wheels
+    scene: WheelProblem
 
     def prepare(self) -> Draw:
         """Nothing to do."""
@@ -213,13 +213,13 @@ class LinearSpectrum(Attempt):
             dynamic = wheel_theory.acceleration_over_force(omega, eigenfrequency=wheel.eigenfrequency, mass=wheel.mass)
             return np.asarray(dynamic * wheel_theory.over_frequency(force, speed=scene.scene.speed))
 
-        def read(density: FloatArray) -> Work:
+        def read(density: FloatArray) -> SolveResult:
             return scene.alone(band_levels(omega, density, scene.edges), seen[0])
 
-        return lambda _: Turn(solve, read)
+        return lambda _: TimedSolve(solve, read)
 
 
-class Counted(Springs):
+class CountedSprings(SpringsLaw):
     """Springs that count how many of them have been looked at."""
 
     looked = 0
@@ -233,10 +233,10 @@ class Counted(Springs):
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnSprings(Attempt):
+class WheelOnSprings(Configuration):
     """Wheels on springs, all in step, in the motion that repeats itself; or the filter (14.11) under them."""
 
-    scene: Wheels
+    scene: WheelProblem
 
     def prepare(self) -> Draw:
         """Tracks of all wheels."""
@@ -244,17 +244,17 @@ class OnSprings(Attempt):
         feed: Feed = "rolling" if self.line == FED else "geike"
         distance = scene.duration * scene.scene.speed
         on = replace(scene.scene, distance=distance, springs=round(self.value))
-        rides = Rides(scene=on, count=count, track="steady", feed=feed, seed=scene.seed)
+        rides = WheelEnsemble(scene=on, count=count, track="steady", feed=feed, seed=scene.seed)
         heights = rides.heights()
         roll = _filter(rides, heights) if self.line == FILTER_1D else _springs(rides, heights)
 
-        def read(found: tuple[FloatArray, float]) -> Work:
+        def read(found: tuple[FloatArray, float]) -> SolveResult:
             return scene.alone(scene.levels(found[0], on.time_step), found[1], count)
 
-        return lambda _: Turn(roll, read)
+        return lambda _: TimedSolve(roll, read)
 
 
-def _filter(rides: Rides, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
+def _filter(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
     def roll() -> tuple[FloatArray, float]:
         linear = filtered(rides.scene.body, heights, rides.scene.spacing)
         return steady_acceleration(linear, rides.scene.time_step), float(heights.size)
@@ -262,15 +262,15 @@ def _filter(rides: Rides, heights: FloatArray) -> Callable[[], tuple[FloatArray,
     return roll
 
 
-def _springs(rides: Rides, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
+def _springs(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
     scene, wheel = rides.scene, rides.scene.body
     settings = {"time_step": scene.time_step, "steps": rides.steps}
 
     def roll() -> tuple[FloatArray, float]:
         laws = []
 
-        def law(copies: int) -> Counted:
-            laws.append(Counted(wheel, np.tile(heights, (1, copies)), scene.spacing))
+        def law(copies: int) -> CountedSprings:
+            laws.append(CountedSprings(wheel, np.tile(heights, (1, copies)), scene.spacing))
             return laws[-1]
 
         first = law(1)
@@ -285,32 +285,32 @@ def _springs(rides: Rides, heights: FloatArray) -> Callable[[], tuple[FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
-class Filtered(Attempt):
+class WheelFiltered(Configuration):
     """Linear theory on the same surface: force and wheel by their responses."""
 
-    scene: Wheels
+    scene: WheelProblem
 
     def prepare(self) -> Draw:
         """Nothing to do."""
         scene, cells = self.scene, round(self.value)
 
-        def draw(realisation: int) -> Turn:
+        def draw(realisation: int) -> TimedSolve:
             known = beside(scene, realisation, cells, scene.tight)
             strip = scene.strip(realisation, cells, scene.tight)
 
             def solve() -> FloatArray:
                 return steady_acceleration(linear_contact(strip, known.surface), known.time_step)[:, 0]
 
-            return Turn(solve, lambda found: scene.read(found, known, known.surface.size))
+            return TimedSolve(solve, lambda found: scene.read(found, known, known.surface.size))
 
         return draw
 
 
 @dataclass(frozen=True, kw_only=True)
-class InTheLoop(Attempt):
+class InTheLoop(Configuration):
     """Boundary elements at each time step, each contact from the two before."""
 
-    scene: Wheels
+    scene: WheelProblem
     cells: int
     tolerance: float
 
@@ -319,9 +319,9 @@ class InTheLoop(Attempt):
         scene, wheel = self.scene, self.scene.scene.body
         spacing = scene.strip(0, self.cells, self.tolerance).spacing
 
-        def draw(realisation: int) -> Turn:
+        def draw(realisation: int) -> TimedSolve:
             known = beside(scene, realisation, self.cells, self.tolerance)
-            contact = BoundaryElements(
+            contact = BoundaryElementsLaw(
                 wheel, [narrowed(known.surface, spacing, wheel)], spacing, tolerance=self.tolerance
             )
             # frames and their plans belong to a strip: they are made over its beginning
@@ -333,10 +333,10 @@ class InTheLoop(Attempt):
                 motion = by_boundary_elements(contact, known.linear, known.time_step, len(known.surface))
                 return motion.acceleration[:, 0]
 
-            def read(acceleration: FloatArray) -> Work:
+            def read(acceleration: FloatArray) -> SolveResult:
                 return scene.read(acceleration, known, contact.operator_applications * (2.0 * self.cells) ** 2)
 
-            return Turn(solve, read)
+            return TimedSolve(solve, read)
 
         draw(0)
         return draw

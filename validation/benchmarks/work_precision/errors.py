@@ -15,7 +15,7 @@ from validation.benchmarks.work_precision.measurement import (
     FINISHED,
     REFUSED,
     Answers,
-    Attempt,
+    Configuration,
     FloatArray,
     Quantity,
     Scene,
@@ -26,11 +26,11 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
 
 IntArray = NDArray[np.int64]
-Found = Mapping[Attempt, Answers]
+Found = Mapping[Configuration, Answers]
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class MethodAnswers:
     """What one method says, and on two grids what it tends to.
 
     fine: answers; coarse: of the grid with cells `ratio` times as long, None where nothing is extrapolated; paired:
@@ -70,7 +70,7 @@ class Error:
     over: float
 
 
-def error(quantity: Quantity, mine: Answer, reference: Answer) -> Error:
+def error(quantity: Quantity, mine: MethodAnswers, reference: MethodAnswers) -> Error:
     """How far an answer is from the reference; its interval by leaving out one realisation after the other.
 
     Paired, of both at once: what the realisation has of its own drops out. Otherwise of either by itself.
@@ -109,7 +109,7 @@ def _half_width(without: list[float]) -> float:
     return float(stats.t.ppf(0.975, len(without) - 1) * left_out_error(without))
 
 
-def reference_of(scene: Scene, found: Found) -> tuple[Answer, Callable[[Quantity], float]]:
+def reference_of(scene: Scene, found: Found) -> tuple[MethodAnswers, Callable[[Quantity], float]]:
     """The reference, and its uncertainty for each quantity.
 
     Exact ones have what the quantity says. Others are extrapolated from the two finest grids, and the whole step from
@@ -118,11 +118,11 @@ def reference_of(scene: Scene, found: Found) -> tuple[Answer, Callable[[Quantity
     """
     given = scene.reference()
     if not isinstance(given, tuple):
-        return Answer(given), lambda quantity: quantity.band
+        return MethodAnswers(given), lambda quantity: quantity.band
     coarse, fine = given
     if not (coarse in found and fine in found):
         raise NotConvergedError(f"{scene.name}: the grids of the reference have not finished")
-    answer = Answer(found[fine], found[coarse], fine.value / coarse.value)
+    answer = MethodAnswers(found[fine], found[coarse], fine.value / coarse.value)
 
     def band(quantity: Quantity) -> float:
         rows = np.arange(answer.size)
@@ -152,7 +152,7 @@ def points(scene: Scene, outcome: Outcome) -> list[Point]:
         ]
         for coarse, fine in scene.pairs():
             if coarse in found and fine in found:
-                both = Answer(found[fine], found[coarse], fine.value / coarse.value)
+                both = MethodAnswers(found[fine], found[coarse], fine.value / coarse.value)
                 rows.append(_extrapolated(blank, costs, coarse, fine, error(quantity, both, reference)))
     return rows
 
@@ -168,7 +168,12 @@ def _cost(outcome: Outcome, i: int) -> dict[str, Any]:
 
 
 def _point(
-    blank: Point, attempt: Attempt, status: str, quantity: Quantity, answers: Answers | None, reference: Answer
+    blank: Point,
+    attempt: Configuration,
+    status: str,
+    quantity: Quantity,
+    answers: Answers | None,
+    reference: MethodAnswers,
 ) -> Point:
     named = replace(
         blank, line=attempt.line, knob=attempt.knob, value=attempt.value, referee=attempt.referee, status=status
@@ -177,12 +182,16 @@ def _point(
         return named
     if not set(quantity.needs) <= answers.keys():
         return replace(named, status=f"{REFUSED}: it does not give this quantity")
-    found = error(quantity, Answer(answers, paired=attempt.paired), reference)
+    found = error(quantity, MethodAnswers(answers, paired=attempt.paired), reference)
     return replace(named, error=found.value, half_width=found.half_width, over=found.over)
 
 
 def _extrapolated(
-    blank: Point, costs: Mapping[Attempt, Mapping[str, Any]], coarse: Attempt, fine: Attempt, found: Error
+    blank: Point,
+    costs: Mapping[Configuration, Mapping[str, Any]],
+    coarse: Configuration,
+    fine: Configuration,
+    found: Error,
 ) -> Point:
     one, other = (replace(blank, **costs[a]) for a in (coarse, fine))
     low, median, high = (x + y for x, y in zip(one.seconds, other.seconds, strict=True))

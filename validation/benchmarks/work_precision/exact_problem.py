@@ -17,11 +17,11 @@ from validation.benchmarks.work_precision.measurement import (
     MDR,
     PLAIN,
     Answers,
-    Attempt,
+    Configuration,
     Draw,
     FloatArray,
-    Turn,
-    Work,
+    SolveResult,
+    TimedSolve,
 )
 
 FROZEN = 1e-4
@@ -35,7 +35,7 @@ def logarithm(name: str) -> Callable[[Answers], FloatArray]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pressed(OnGrids):
+class ExactScene(OnGrids):
     """A scene whose answer is known.
 
     peers: of the cells, those for peers; springs: on the length.
@@ -46,11 +46,11 @@ class Pressed(OnGrids):
     tight: float = 1e-8
     tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3, 1e-4)
 
-    def attempts(self) -> tuple[Attempt, ...]:
+    def attempts(self) -> tuple[Configuration, ...]:
         """The closed form, springs, plain and fast boundary elements, and peers where they are installed."""
         return (
             Exact(line=CLOSED, knob="exact", value=1.0, referee=True, scene=self),
-            *(Springs(line=MDR, knob=f"# springs {self.per}", value=n, scene=self) for n in self.springs),
+            *(SmoothSprings(line=MDR, knob=f"# springs {self.per}", value=n, scene=self) for n in self.springs),
             *self.grids(),
             *(self._peer(c, n) for c in CONTESTANTS[2:] if c.version for n in self.peers),
         )
@@ -93,11 +93,11 @@ class Pressed(OnGrids):
         """What peers are pressed with."""
         raise NotImplementedError
 
-    def finish(self, contact: bem3d.Contact) -> bem3d.FrozenContact | None:
+    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
         """What is solved beside the contact, on the clock."""
         return None
 
-    def read(self, contact: bem3d.Contact, frozen: bem3d.FrozenContact | None) -> Answers:
+    def read(self, contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> Answers:
         """Answers of boundary elements."""
         raise NotImplementedError
 
@@ -115,21 +115,23 @@ class Pressed(OnGrids):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exact(Attempt):
+class Exact(Configuration):
     """The closed form."""
 
-    scene: Pressed
+    scene: ExactScene
 
     def prepare(self) -> Draw:
         """Nothing to do."""
-        return lambda _: Turn(self.scene.exact, lambda found: Work({k: v[0] for k, v in found.items()}, 1.0))
+        return lambda _: TimedSolve(
+            self.scene.exact, lambda found: SolveResult({k: v[0] for k, v in found.items()}, 1.0)
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
-class Springs(Attempt):
+class SmoothSprings(Configuration):
     """The foundation: one sort."""
 
-    scene: Pressed
+    scene: ExactScene
 
     def prepare(self) -> Draw:
         """The profile."""
@@ -138,14 +140,14 @@ class Springs(Attempt):
         def solve() -> mdr.LoadPoint[float]:
             return mdr.load_curve(height, length=length, modulus=1.0).at_approach(1.0)
 
-        return lambda _: Turn(solve, lambda point: Work(self.scene.read_springs(point), height.size))
+        return lambda _: TimedSolve(solve, lambda point: SolveResult(self.scene.read_springs(point), height.size))
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnGrid(Attempt):
+class OnGrid(Configuration):
     """Boundary elements, plain or fast, cold."""
 
-    scene: Pressed
+    scene: ExactScene
     cells: int
     tolerance: float
 
@@ -153,21 +155,21 @@ class OnGrid(Attempt):
         """Plans, coarser grids and windows, by a first solve."""
         scene = self.scene
         half_space, gap, load = scene.half_space(self.cells), scene.gap(self.cells), scene.load(self.cells)
-        plain = partial(bem3d.solve_plain, max_iterations=MOST_ITERATIONS)
+        plain = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
         solver: Callable[..., bem3d.Contact] = plain if self.line == PLAIN else bem3d.solve
 
-        def solve() -> tuple[bem3d.Contact, bem3d.FrozenContact | None]:
+        def solve() -> tuple[bem3d.Contact, bem3d.FixedContactArea | None]:
             contact = solver(half_space, gap, **load, tolerance=self.tolerance)
             return contact, scene.finish(contact)
 
-        def read(found: tuple[bem3d.Contact, bem3d.FrozenContact | None]) -> Work:
-            return Work(scene.read(*found), visited(*found))
+        def read(found: tuple[bem3d.Contact, bem3d.FixedContactArea | None]) -> SolveResult:
+            return SolveResult(scene.read(*found), visited(*found))
 
         solve()
-        return lambda _: Turn(solve, read)
+        return lambda _: TimedSolve(solve, read)
 
 
-def visited(contact: bem3d.Contact, frozen: bem3d.FrozenContact | None) -> float:
+def visited(contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> float:
     """Cells times operator applications, as if each were on the whole of its grid."""
     applications = contact.operator_applications + (frozen.operator_applications if frozen else 0)
     coarse = sum(math.prod(shape) * count for shape, count in contact.coarse_applications)
@@ -175,10 +177,10 @@ def visited(contact: bem3d.Contact, frozen: bem3d.FrozenContact | None) -> float
 
 
 @dataclass(frozen=True, kw_only=True)
-class Peer(Attempt):
+class Peer(Configuration):
     """A package of others, by force or by approach as it prefers, in its documented mode."""
 
-    scene: Pressed
+    scene: ExactScene
     cells: int
 
     def prepare(self) -> Draw:
@@ -189,15 +191,15 @@ class Peer(Attempt):
         task = Task(-scene.gap(self.cells), 1 / self.cells, 1.0, half_space.periodic, force, approach)
         tolerance = _loosest(contestant, task, scene.tight)
 
-        def read(run: Run) -> Work:
+        def read(run: Run) -> SolveResult:
             pressure, separation = run.pressure, task.gap + half_space.displacement(run.pressure)
             area = np.count_nonzero(pressure > 1e-9 * pressure.max()) / self.cells**2
             found = float((pressure * separation).sum() / pressure.sum())
             total = float(pressure.sum()) / self.cells**2
-            return Work(scene.read_peer(self.cells, total, found, area), run.applications * pressure.size)
+            return SolveResult(scene.read_peer(self.cells, total, found, area), run.applications * pressure.size)
 
         # what it has solved once may be where it starts from
-        return lambda _: Turn(contestant.prepare(task, tolerance), read, again=False)
+        return lambda _: TimedSolve(contestant.prepare(task, tolerance), read, again=False)
 
 
 def _loosest(contestant: Contestant, task: Task, residual: float) -> float:

@@ -11,13 +11,13 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.work_precision.exact_problem import FROZEN, Pressed, logarithm
+from validation.benchmarks.work_precision.exact_problem import FROZEN, ExactScene, logarithm
 from validation.benchmarks.work_precision.measurement import Answers, FloatArray, Quantity
 from validation.theory import closed_forms
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sphere(Pressed):
+class SphereProblem(ExactScene):
     """A rigid sphere, R = a = d = 1, on a grid of 4 a."""
 
     cells: tuple[int, ...] = (4, 8, 16, 32)
@@ -62,11 +62,11 @@ class Sphere(Pressed):
         """Of Hertz."""
         return float(self.exact()["force"][0])
 
-    def finish(self, contact: bem3d.Contact) -> bem3d.FrozenContact:
+    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
         """The stiffness."""
-        return bem3d.press_frozen(contact.problem.half_space, contact.pressure > 0, tolerance=FROZEN)
+        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FROZEN)
 
-    def read(self, contact: bem3d.Contact, frozen: bem3d.FrozenContact | None) -> Answers:
+    def read(self, contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> Answers:
         """Force, radius of a circle of that area, stiffness."""
         assert frozen is not None
         return {
@@ -98,7 +98,7 @@ class Sphere(Pressed):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Punch(Pressed):
+class PunchProblem(ExactScene):
     """A rigid flat square punch of side L = 1 on a grid that just holds it."""
 
     cells: tuple[int, ...] = (8, 16, 32, 64)
@@ -134,7 +134,7 @@ class Punch(Pressed):
         """At about a unit approach."""
         return closed_forms.SQUARE_PUNCH
 
-    def read(self, contact: bem3d.Contact, frozen: bem3d.FrozenContact | None) -> Answers:
+    def read(self, contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> Answers:
         """F / d."""
         return {"stiffness": np.array(contact.force / contact.approach)}
 
@@ -152,7 +152,7 @@ class Punch(Pressed):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wave(Pressed):
+class WaveProblem(ExactScene):
     """A rigid wave cos(2 pi x) in line contact, amplitude and wavelength one, at a mean pressure, on one row of cells.
 
     pressure: mean, over that of full contact.
@@ -205,7 +205,7 @@ class Wave(Pressed):
         """Mean pressure times a row of cells."""
         return self.pressure * math.pi / cells
 
-    def read(self, contact: bem3d.Contact, frozen: bem3d.FrozenContact | None) -> Answers:
+    def read(self, contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> Answers:
         """Area over the length of the row's side; the approach of the mean plane."""
         return {
             "width": np.array(contact.area / contact.problem.half_space.steps[1]),

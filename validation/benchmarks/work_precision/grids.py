@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from validation.benchmarks.work_precision.measurement import BEM, LOOSE, PLAIN, Attempt
+from validation.benchmarks.work_precision.measurement import BEM, LOOSE, PLAIN, Configuration
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,11 +22,11 @@ class OnGrids:
     per: ClassVar[str] = "a side"
     """The length."""
 
-    def on_grid(self, **settings: Any) -> Attempt:
+    def on_grid(self, **settings: Any) -> Configuration:
         """An attempt with its line, knob, value, cells and tolerance."""
         raise NotImplementedError
 
-    def grids(self) -> tuple[Attempt, ...]:
+    def grids(self) -> tuple[Configuration, ...]:
         """Plain and fast boundary elements along cells, and along the residual on one grid."""
         return (
             *(self._along_cells(PLAIN, n) for n in self.plain),
@@ -43,12 +43,12 @@ class OnGrids:
             ),
         )
 
-    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
+    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
         """Grids of which one has twice the cells of the other."""
         doubled = [n for n in self.cells if 2 * n in self.cells]
         return tuple((self._along_cells(BEM, n), self._along_cells(BEM, 2 * n)) for n in doubled)
 
-    def _along_cells(self, line: str, cells: int) -> Attempt:
+    def _along_cells(self, line: str, cells: int) -> Configuration:
         return self.on_grid(line=line, knob=f"# cells {self.per}", value=cells, cells=cells, tolerance=self.tight)
 
 
@@ -56,11 +56,11 @@ class OnGrids:
 class Refined(OnGrids):
     """A scene whose answer nobody knows: its two finest grids give the reference."""
 
-    def reference(self) -> tuple[Attempt, Attempt]:
+    def reference(self) -> tuple[Configuration, Configuration]:
         """The two finest grids."""
         coarse, fine = (self._along_cells(BEM, n) for n in self.cells[-2:])
         return coarse, fine
 
-    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
+    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
         """Grids of which one has twice the cells of the other; not those of the reference."""
         return tuple(pair for pair in super().pairs() if pair != self.reference())

@@ -32,7 +32,7 @@ ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Work:
+class SolveResult:
     """What a solve has found, and its cost that no machine changes.
 
     values: answers without the axis of realisations, or, where count is not one, with it; visits: cells times operator
@@ -45,20 +45,20 @@ class Work:
 
 
 @dataclass(frozen=True, eq=False)
-class Turn:
+class TimedSolve:
     """solve: on the clock; read: what it has found, off the clock; again: whether a second solve is as cold."""
 
     solve: Callable[[], Any]
-    read: Callable[[Any], Work]
+    read: Callable[[Any], SolveResult]
     again: bool = True
 
 
-Draw = Callable[[int], Turn]
+Draw = Callable[[int], TimedSolve]
 """From the number of a realisation to a solve on it, cold."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Attempt:
+class Configuration:
     """One method at one setting of its knob.
 
     line: the method; knob, value: what is turned along its line; realisations: on so many, one a turn; none, the same
@@ -113,18 +113,18 @@ class Scene(Protocol):
     def quantities(self) -> tuple[Quantity, ...]:
         """All that is asked."""
 
-    def attempts(self) -> tuple[Attempt, ...]:
+    def attempts(self) -> tuple[Configuration, ...]:
         """All that is timed."""
 
-    def reference(self) -> Answers | tuple[Attempt, Attempt]:
+    def reference(self) -> Answers | tuple[Configuration, Configuration]:
         """What is exact, or the coarse and the fine grid from which it is extrapolated."""
 
-    def pairs(self) -> tuple[tuple[Attempt, Attempt], ...]:
+    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
         """Coarse and fine grids that are extrapolated like the reference."""
 
 
 @dataclass(frozen=True)
-class Trial:
+class TimedScene:
     """A scene on the clock.
 
     slow: who takes longer is timed once; enough: seconds after which the fewest runs are enough; entrants: versions of
@@ -138,16 +138,16 @@ class Trial:
 
 
 @dataclass
-class Record:
+class TimingRecord:
     """How one attempt fares: seconds a realisation, what it has found on each, and seconds of whole turns."""
 
     status: str
     setup: float
     seconds: list[float] = field(default_factory=list)
-    works: list[Work] = field(default_factory=list)
+    works: list[SolveResult] = field(default_factory=list)
     taken: list[float] = field(default_factory=list)
 
-    def wanting(self, attempt: Attempt, trial: Trial) -> bool:
+    def wanting(self, attempt: Configuration, trial: TimedScene) -> bool:
         """Whether it has another turn: each realisation once; the same problem until the median is settled."""
         if self.status != FINISHED:
             return False
@@ -157,7 +157,7 @@ class Record:
         return not enough and len(self.taken) < MOST_RUNS and not (self.taken and self.taken[0] > trial.slow)
 
 
-def measure(trial: Trial) -> Outcome:
+def measure(trial: TimedScene) -> Outcome:
     """All attempts at a scene in turns, one thread each, ours in one process, each peer in another.
 
     status: "finished", or why not; setup: seconds before the clock runs; seconds i: of each turn of the i-th attempt, a
@@ -175,14 +175,14 @@ def measure(trial: Trial) -> Outcome:
     return _outcome(records)
 
 
-def _begun(lane: ProcessPoolExecutor, attempt: Attempt) -> Record:
+def _begun(lane: ProcessPoolExecutor, attempt: Configuration) -> TimingRecord:
     try:
-        return Record(*lane.submit(_prepare, attempt).result())
+        return TimingRecord(*lane.submit(_prepare, attempt).result())
     except Exception as error:  # a process that has died
-        return Record(_why(error), float("nan"), [0.0])
+        return TimingRecord(_why(error), float("nan"), [0.0])
 
 
-def _take_turn(lane: ProcessPoolExecutor, attempt: Attempt, record: Record) -> None:
+def _take_turn(lane: ProcessPoolExecutor, attempt: Configuration, record: TimingRecord) -> None:
     realisation = len(record.seconds) if attempt.realisations else 0
     try:
         status, seconds, work = lane.submit(_turn, attempt, realisation).result()
@@ -198,10 +198,10 @@ def _take_turn(lane: ProcessPoolExecutor, attempt: Attempt, record: Record) -> N
         record.works.append(work)
 
 
-_drawn: dict[Attempt, Draw] = {}
+_drawn: dict[Configuration, Draw] = {}
 
 
-def _prepare(attempt: Attempt) -> tuple[str, float, list[float]]:
+def _prepare(attempt: Configuration) -> tuple[str, float, list[float]]:
     """In the process of the attempt: how its set-up ended, and how long it took; the third only where it failed."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -212,7 +212,7 @@ def _prepare(attempt: Attempt) -> tuple[str, float, list[float]]:
     return status, seconds, [seconds]
 
 
-def _turn(attempt: Attempt, realisation: int) -> tuple[str, float, Work | None]:
+def _turn(attempt: Configuration, realisation: int) -> tuple[str, float, SolveResult | None]:
     """One solve from a cold start, or the mean of several where one is too short for the clock."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -242,7 +242,7 @@ def _why(error: Exception) -> str:
     return f"{FAILED}: {type(error).__name__}: {error}"[:300]
 
 
-def _outcome(records: list[Record]) -> Outcome:
+def _outcome(records: list[TimingRecord]) -> Outcome:
     outcome: dict[str, Any] = {
         "status": np.array([record.status for record in records]),
         "setup": np.array([record.setup for record in records]),

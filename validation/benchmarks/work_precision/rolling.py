@@ -24,12 +24,12 @@ from validation.benchmarks.work_precision.measurement import (
     MDR,
     PLAIN,
     Answers,
-    Attempt,
+    Configuration,
     Draw,
     FloatArray,
     Quantity,
-    Turn,
-    Work,
+    SolveResult,
+    TimedSolve,
 )
 from validation.simulation.rolling_strip import HERTZ, Feed, PowerLaws, Strip, Tracks, narrowed, self_affine
 from validation.theory import rolling as rolling_theory
@@ -55,7 +55,7 @@ def log_levels(answers: Answers) -> FloatArray:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rolling(Refined):
+class RollingProblem(Refined):
     """A wheel over self-affine roughness, q a from 1 to `last`, at a fixed approach.
 
     hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; strips, tracks:
@@ -128,7 +128,7 @@ class Rolling(Refined):
         )
         return tracks.track(realisation)
 
-    def attempts(self) -> tuple[Attempt, ...]:
+    def attempts(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs fed twice, plain and fast boundary elements."""
         along: dict[str, Any] = {
             "knob": "# springs to a radius",
@@ -137,10 +137,12 @@ class Rolling(Refined):
             "scene": self,
         }
         return (
-            LinearSpectrum(line=CLOSED, knob="linear theory", value=1.0, paired=False, scene=self),
+            RollingLinearSpectrum(line=CLOSED, knob="linear theory", value=1.0, paired=False, scene=self),
             *(OnTrack(line=line, value=n, **along) for line in (FILTER_1D, MDR, FED) for n in self.springs),
             *(
-                Filtered(line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self)
+                RollingFiltered(
+                    line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self
+                )
                 for n in self.filtered
             ),
             *self.grids(),
@@ -150,9 +152,9 @@ class Rolling(Refined):
         """Boundary elements."""
         return OnStrip(realisations=self.strips, scene=self, **settings)
 
-    def read(self, force: FloatArray, linear: FloatArray, mean: Answers, spacing: float, visits: float) -> Work:
+    def read(self, force: FloatArray, linear: FloatArray, mean: Answers, spacing: float, visits: float) -> SolveResult:
         """Variance and levels of a force, and of the linear one on the same surface; over the force of Hertz."""
-        return Work(
+        return SolveResult(
             {
                 "variance": np.array(force.var()),
                 "level": levels(waves(force, spacing=spacing), self.bands),
@@ -163,11 +165,11 @@ class Rolling(Refined):
             visits,
         )
 
-    def alone(self, variance: float, level: FloatArray, visits: float) -> Work:
+    def alone(self, variance: float, level: FloatArray, visits: float) -> SolveResult:
         """What has no surface of its own, or many tracks."""
         one, ones = np.ones(()), np.ones(level.size)
         found = {"variance": np.array(variance), "linear variance": one, "mean variance": one}
-        return Work({**found, "level": level, "linear level": ones, "mean level": ones}, visits)
+        return SolveResult({**found, "level": level, "linear level": ones, "mean level": ones}, visits)
 
     def mean(self, surface: FloatArray, spacing: float) -> Answers:
         """Variance at a place and levels of the linear force, in the mean over all phases of these waves."""
@@ -181,10 +183,10 @@ class Rolling(Refined):
 
 
 @dataclass(frozen=True, kw_only=True)
-class LinearSpectrum(Attempt):
+class RollingLinearSpectrum(Configuration):
     """Linear theory in closed form: the variance at a place, and C_F along the track at the waves of a strip."""
 
-    scene: Rolling
+    scene: RollingProblem
 
     def prepare(self) -> Draw:
         """Nothing to do."""
@@ -204,18 +206,18 @@ class LinearSpectrum(Attempt):
             variance = rolling_theory.force_variance(c2d, **settings)  # type: ignore[arg-type]
             return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)  # type: ignore[arg-type]
 
-        def read(found: tuple[float, FloatArray]) -> Work:
+        def read(found: tuple[float, FloatArray]) -> SolveResult:
             level = scene.bands.sums(q, found[1]).real
             return scene.alone(found[0] / HERTZ**2, level / HERTZ**2, seen[0])
 
-        return lambda _: Turn(solve, read)
+        return lambda _: TimedSolve(solve, read)
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnTrack(Attempt):
+class OnTrack(Configuration):
     """Springs along a track of their own, one-sided or the filter (14.11) on them."""
 
-    scene: Rolling
+    scene: RollingProblem
 
     def prepare(self) -> Draw:
         """Refuses waves that springs do not resolve."""
@@ -224,49 +226,49 @@ class OnTrack(Attempt):
         contact = "linear" if self.line == FILTER_1D else "one-sided"
         scene.track(feed, springs, 0)
 
-        def draw(realisation: int) -> Turn:
+        def draw(realisation: int) -> TimedSolve:
             track = scene.track(feed, springs, realisation)
             solve = partial(mdr.roll, track, spacing=1 / springs, contact=contact, **SMOOTH)  # type: ignore[arg-type]
 
-            def read(found: mdr.Rolling) -> Work:
+            def read(found: mdr.RollingTrack) -> SolveResult:
                 force = found.force / HERTZ
                 # sums of neighbours cost as much as two looks at each spring
                 visits = float(found.examined.sum()) + 2 * track.size
                 level = levels(waves(force, spacing=1 / springs), scene.bands)
                 return scene.alone(float(force.var()), level, visits)
 
-            return Turn(solve, read)
+            return TimedSolve(solve, read)
 
         return draw
 
 
 @dataclass(frozen=True, kw_only=True)
-class Filtered(Attempt):
+class RollingFiltered(Configuration):
     """Linear theory on the same surface: each wave by its response."""
 
-    scene: Rolling
+    scene: RollingProblem
 
     def prepare(self) -> Draw:
         """Nothing to do."""
         scene, cells = self.scene, round(self.value)
 
-        def draw(realisation: int) -> Turn:
+        def draw(realisation: int) -> TimedSolve:
             surface = scene.strip(realisation, cells).surface()
             mean = scene.mean(surface, 1 / cells)
 
-            def read(force: FloatArray) -> Work:
+            def read(force: FloatArray) -> SolveResult:
                 return scene.read(force / HERTZ, force / HERTZ, mean, 1 / cells, surface.size)
 
-            return Turn(partial(rolling_theory.linear_force, surface, spacing=1 / cells, **SMOOTH), read)
+            return TimedSolve(partial(rolling_theory.linear_force, surface, spacing=1 / cells, **SMOOTH), read)
 
         return draw
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnStrip(Attempt):
+class OnStrip(Configuration):
     """Boundary elements, position by position: fast ones each from the two before, plain ones each cold."""
 
-    scene: Rolling
+    scene: RollingProblem
     cells: int
     tolerance: float
 
@@ -274,16 +276,16 @@ class OnStrip(Attempt):
         """Refuses waves that cells do not resolve."""
         scene, spacing = self.scene, 1 / self.cells
 
-        def draw(realisation: int) -> Turn:
+        def draw(realisation: int) -> TimedSolve:
             surface = scene.strip(realisation, self.cells).surface()
             linear = rolling_theory.linear_force(surface, spacing=spacing, **SMOOTH) / HERTZ
             mean = scene.mean(surface, spacing)
             roll = (_plain if self.line == PLAIN else _fast)(surface, self.cells, self.tolerance)
 
-            def read(found: tuple[FloatArray, float]) -> Work:
+            def read(found: tuple[FloatArray, float]) -> SolveResult:
                 return scene.read(found[0] / HERTZ, linear, mean, spacing, found[1])
 
-            return Turn(roll, read)
+            return TimedSolve(roll, read)
 
         draw(0)
         return draw
@@ -325,7 +327,7 @@ def _plain(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tu
         force, visits = np.empty(len(surface)), 0.0
         for position in range(len(surface)):
             gap = sphere - height.take(ahead + position, axis=0, mode="wrap")
-            contact = bem3d.solve_plain(
+            contact = bem3d.solve_polonsky_keer(
                 half_space, gap, approach=1.0, tolerance=tolerance, max_iterations=MOST_ITERATIONS
             )
             force[position] = contact.force

@@ -16,14 +16,14 @@ from validation.benchmarks.work_precision.measurement import (
     MDR,
     PLAIN,
     Answers,
-    Attempt,
+    Configuration,
     Draw,
     FloatArray,
     Quantity,
-    Turn,
-    Work,
+    SolveResult,
+    TimedSolve,
 )
-from validation.simulation.rough_punch import Roughness
+from validation.simulation.rough_punch import PunchRoughness
 from validation.theory.closed_forms import rough_punch_stiffness
 
 
@@ -68,11 +68,11 @@ class Fractal(Refined):
         )
 
     @property
-    def roughness(self) -> Roughness:
+    def roughness(self) -> PunchRoughness:
         """The same on every grid and in both methods."""
-        return Roughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
+        return PunchRoughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
 
-    def attempts(self) -> tuple[Attempt, ...]:
+    def attempts(self) -> tuple[Configuration, ...]:
         """The closed form, springs, plain and fast boundary elements."""
         return (
             SeriesPunch(line=CLOSED, knob="flat punch on its rough face", value=1.0, paired=False, scene=self),
@@ -96,7 +96,7 @@ class Fractal(Refined):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SeriesPunch(Attempt):
+class SeriesPunch(Configuration):
     """A flat punch in series with its rough face: the same for all surfaces, without scatter."""
 
     scene: Fractal
@@ -106,11 +106,11 @@ class SeriesPunch(Attempt):
         height = self.scene.roughness.height
         load = {"side": 1.0, "modulus": 1.0, "force": self.scene.force * height, "height": height}
         formula = partial(rough_punch_stiffness, **load)
-        return lambda _: Turn(formula, lambda k: Work({"stiffness": np.array(k)}, 1.0))
+        return lambda _: TimedSolve(formula, lambda k: SolveResult({"stiffness": np.array(k)}, 1.0))
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoughSprings(Attempt):
+class RoughSprings(Configuration):
     """A profile of Geike's spectrum on springs, L_1D = L: one sort for all forces."""
 
     scene: Fractal
@@ -120,19 +120,19 @@ class RoughSprings(Attempt):
         scene, roughness, springs = self.scene, self.scene.roughness, round(self.value)
         roughness.profile(springs, 0)
 
-        def draw(realisation: int) -> Turn:
+        def draw(realisation: int) -> TimedSolve:
             height = roughness.profile(springs, realisation)
 
             def solve() -> mdr.LoadPoint[float]:
                 return mdr.load_curve(height, length=1.0, modulus=1.0).at_force(scene.force * roughness.height)
 
-            return Turn(solve, lambda point: Work({"stiffness": np.array(point.stiffness)}, springs))
+            return TimedSolve(solve, lambda point: SolveResult({"stiffness": np.array(point.stiffness)}, springs))
 
         return draw
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoughGrid(Attempt):
+class RoughGrid(Configuration):
     """Boundary elements, plain or fast, a cold solve and its stiffness."""
 
     scene: Fractal
@@ -143,18 +143,20 @@ class RoughGrid(Attempt):
         """Plans, coarser grids and windows, by a solve of the first surface."""
         scene, roughness, n = self.scene, self.scene.roughness, self.cells
         half_space = bem3d.HalfSpace(shape=(n, n), spacing=1 / n, modulus=1.0)
-        plain = partial(bem3d.solve_plain, max_iterations=MOST_ITERATIONS)
+        plain = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
         solver: Callable[..., bem3d.Contact] = plain if self.line == PLAIN else bem3d.solve
         force = scene.force * roughness.height
 
-        def draw(realisation: int) -> Turn:
+        def draw(realisation: int) -> TimedSolve:
             gap = -roughness.surface(n, realisation)
 
-            def solve() -> tuple[bem3d.Contact, bem3d.FrozenContact]:
+            def solve() -> tuple[bem3d.Contact, bem3d.FixedContactArea]:
                 contact = solver(half_space, gap, force=force, tolerance=self.tolerance)
-                return contact, bem3d.press_frozen(half_space, contact.pressure > 0, tolerance=FROZEN)
+                return contact, bem3d.solve_fixed_area(half_space, contact.pressure > 0, tolerance=FROZEN)
 
-            return Turn(solve, lambda found: Work({"stiffness": np.array(found[1].stiffness)}, visited(*found)))
+            return TimedSolve(
+                solve, lambda found: SolveResult({"stiffness": np.array(found[1].stiffness)}, visited(*found))
+            )
 
         draw(0).solve()
         return draw

@@ -310,13 +310,13 @@ def _isotropic_moment(spectrum: mdr.SelfAffine, n: int) -> float:
     return _integral(lambda q: 2 * np.pi * q ** (n + 1) * spectrum.c2d(q), spectrum.q_min, spectrum.q_max)
 
 
-def _moment(c1d: mdr.border.Spectrum, spectrum: mdr.SelfAffine, n: int) -> float:
+def _moment(c1d: mdr.checks.Spectrum, spectrum: mdr.SelfAffine, n: int) -> float:
     """int |q|^n C_1D dq, both sides; below q_min a line has waves too."""
     below = _integral(lambda q: 2 * q**n * c1d(q), 0.0, spectrum.q_min * (1 - 1e-9))
     return below + _integral(lambda q: 2 * q**n * c1d(q), spectrum.q_min * (1 + 1e-12), spectrum.q_max)
 
 
-def _integral(f: mdr.border.Spectrum, low: float, high: float) -> float:
+def _integral(f: mdr.checks.Spectrum, low: float, high: float) -> float:
     """Adaptive quadrature, relative error 1e-10."""
     value, _ = integrate.quad(f, low, high, epsabs=0.0, epsrel=1e-11, limit=400)
     return float(value)

@@ -122,7 +122,7 @@ def press_by_springs(sphere: Sphere) -> Outcome:
     force = closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=sphere.approach)
     with warnings.catch_warnings():
         # grids are compared, and what few springs cost is measured
-        warnings.simplefilter("ignore", mdr.ResolutionWarning)
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         point, by_force = curve.at_approach(sphere.approach), curve.at_force(force)
     return {
         "force": np.array(point.force),

@@ -53,9 +53,9 @@ def press_by_bem(punch: Punch) -> Outcome:
     case, cells = punch.case, punch.cells
     half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=case.side / cells, modulus=case.modulus)
     x = (np.arange(cells) + 0.5) / cells - 0.5
-    square = bem3d.press_frozen(half_space, np.ones((cells, cells), dtype=bool), tolerance=case.tolerance)
+    square = bem3d.solve_fixed_area(half_space, np.ones((cells, cells), dtype=bool), tolerance=case.tolerance)
     disc = np.hypot(x[:, np.newaxis], x) < 0.5
-    circle = bem3d.press_frozen(half_space, disc, tolerance=case.tolerance)
+    circle = bem3d.solve_fixed_area(half_space, disc, tolerance=case.tolerance)
     equivalent = np.sqrt(np.count_nonzero(disc) / np.pi) / cells * case.side
     return {
         "square": np.array(square.stiffness),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 import bem3d
 from validation.cases.limits.sweep import Limit, heard, swept
 from validation.engine.engine import Outcome
-from validation.simulation.rough_punch import Roughness
+from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
 
 FloatArray = NDArray[np.float64]
@@ -139,7 +139,7 @@ LIMITS = (WAVES, CELLS, IMAGES, EDGE, STRIP, FULL, HUGE, SPIKE)
 class Resolved:
     """Periodic rough surfaces on grids of so many cells a side, under one force Fbar = F / (E* h L)."""
 
-    roughness: Roughness
+    roughness: PunchRoughness
     cells: tuple[int, ...]
     finest: int
     surfaces: int
@@ -164,7 +164,7 @@ class Spheres:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Waves:
+class WaveUnderLoad:
     """A cosine wave in line contact on so many cells: mean pressures over p* about full contact, and far beyond."""
 
     cells: int
@@ -185,7 +185,7 @@ def resolve(problem: Resolved) -> Outcome:
     return swept("waves", np.array(problem.cells) / waves, errors, 4.0, said)
 
 
-def _area(roughness: Roughness, cells: int, realisation: int, force: float) -> float:
+def _area(roughness: PunchRoughness, cells: int, realisation: int, force: float) -> float:
     """True contact area under the force; infinitely wrong where the grid cannot carry the surface."""
     height, _ = heard(partial(roughness.surface, cells, realisation))
     if height is None:
@@ -300,7 +300,7 @@ def distance(found: FloatArray, true: FloatArray) -> float:
     return float(np.sqrt(np.sum((found - true) ** 2) / np.sum(true**2)))
 
 
-def press_waves(problem: Waves) -> Outcome:
+def press_waves(problem: WaveUnderLoad) -> Outcome:
     """A wave of unit length and amplitude: by the approach that a mean pressure has; by a huge force.
 
     iterations, L2: of the solve by force at the same mean pressures, and its error against Westergaard.

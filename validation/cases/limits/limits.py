@@ -12,7 +12,7 @@ from validation.cases.limits import time_stepping as limits_time
 from validation.cases.limits.solver import SCENES, SOLVERS, Grid, Row, press_grid, without_an_answer
 from validation.cases.limits.sweep import Limit, Sweep
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rough_punch import Roughness, force_levels
+from validation.simulation.rough_punch import PunchRoughness, force_levels
 
 LIMITS: tuple[Limit, ...] = (*limits_mdr.LIMITS, *limits_time.LIMITS, *limits_bem.LIMITS)
 SOLVES: dict[type, Callable[[Any], Outcome]] = {
@@ -23,11 +23,11 @@ SOLVES: dict[type, Callable[[Any], Outcome]] = {
     limits_mdr.Strips: limits_mdr.make_strips_higher,
     limits_mdr.Coarser: limits_mdr.space_out,
     limits_mdr.Asperities: limits_mdr.press_asperities,
-    limits_time.Steps: limits_time.step_out,
+    limits_time.TimeSteps: limits_time.step_out,
     limits_time.Hops: limits_time.hop,
     limits_bem.Resolved: limits_bem.resolve,
     limits_bem.Spheres: limits_bem.press_spheres,
-    limits_bem.Waves: limits_bem.press_waves,
+    limits_bem.WaveUnderLoad: limits_bem.press_waves,
 }
 HURST = 0.7
 
@@ -71,7 +71,7 @@ class Limits:
                 seed=self.seed,
             ),
             limits_mdr.Punches(
-                roughness=Roughness(hurst=HURST, waves=(1, self.cells // 4), seed=self.seed),
+                roughness=PunchRoughness(hurst=HURST, waves=(1, self.cells // 4), seed=self.seed),
                 cells=self.cells,
                 surfaces=self.surfaces,
                 profiles=self.profiles,
@@ -79,7 +79,7 @@ class Limits:
                 forces=(*force_levels((-2, 2), 2), 10**2.5),
             ),
             limits_bem.Resolved(
-                roughness=Roughness(hurst=HURST, waves=(1, 8), seed=self.seed),
+                roughness=PunchRoughness(hurst=HURST, waves=(1, 8), seed=self.seed),
                 cells=(12, 18, 24, 32, 48, 64, 96, 128),
                 finest=512,
                 surfaces=self.resolved,
@@ -94,7 +94,7 @@ class Limits:
                 finer=8,
                 heights=(0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 30.0, 100.0, 1e3),
             ),
-            limits_bem.Waves(
+            limits_bem.WaveUnderLoad(
                 cells=128,
                 loads=(0.5, 0.8, 0.9, 0.98, 0.995, 0.999, 1.0, 1.01, 1.1, 1.5),
                 huge=tuple(2 * 10.0**i for i in range(0, 17, 1)),
@@ -127,7 +127,7 @@ class Limits:
             ),
             limits_mdr.Coarser(seed=self.seed),
             limits_mdr.Asperities(
-                roughness=Roughness(hurst=HURST, waves=(1, 16), seed=self.seed),
+                roughness=PunchRoughness(hurst=HURST, waves=(1, 16), seed=self.seed),
                 profiles=self.profiles,
                 points=256,
                 finer=32,
@@ -143,7 +143,7 @@ class Limits:
                 waves=6,
                 seed=self.seed,
             ),
-            limits_time.Steps(
+            limits_time.TimeSteps(
                 verlet=(1.5, 1.9, 1.99, 2.01, 2.1, 2.5, 3.0),
                 euler=(0.004, 0.006, 0.009, 0.013, 0.018, 0.03, 0.1, 0.5, 1.5, 2.1),
                 kutta=(0.3, 0.6, 0.9, 1.1, 1.4, 2.0, 2.6, 2.9),

@@ -13,12 +13,12 @@ import mdr
 from validation.cases.limits.boundary_elements import distance, sphere
 from validation.cases.limits.sweep import heard
 from validation.engine.engine import Outcome
-from validation.simulation.rough_punch import Roughness
+from validation.simulation.rough_punch import PunchRoughness
 
 Row = dict[str, object]
 
 SCENES = ("sphere", "rough punch", "rough, periodic")
-SOLVERS: dict[str, Callable[..., bem3d.Contact]] = {"solve": bem3d.solve, "solve_plain": bem3d.solve_plain}
+SOLVERS: dict[str, Callable[..., bem3d.Contact]] = {"solve": bem3d.solve, "solve_plain": bem3d.solve_polonsky_keer}
 MEASURES = ("load", "stiffness", "pressure")
 TRUE = 1e-11
 """The residual of what stands for the truth."""
@@ -41,7 +41,7 @@ def put(scene: str, cells: int, seed: int) -> tuple[bem3d.HalfSpace, np.ndarray,
     if scene == "sphere":
         body = bem3d.HalfSpace(shape=(cells, cells), spacing=3 / cells, modulus=1.0)
         return body, sphere(cells, 3 / cells), {"approach": 1.0}
-    roughness = Roughness(hurst=0.7, waves=(1, 8), seed=seed)
+    roughness = PunchRoughness(hurst=0.7, waves=(1, 8), seed=seed)
     periodic = scene == "rough, periodic"
     body = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0, periodic=periodic)
     force = (1.5 if periodic else 0.3) * roughness.height

@@ -12,8 +12,8 @@ from validation.cases.limits.sweep import Limit, heard, swept
 from validation.engine.engine import Outcome, generator
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.rolling_strip import PowerLaws, Strip, fed, roll_strip, self_affine
-from validation.simulation.rough_punch import Profiles, Roughness, Surface, press_profiles, press_surface
-from validation.simulation.spring_tracks import FINE, STRIDES, Spacings, Track, coarsen
+from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface, press_profiles, press_surface
+from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, Spacings, coarsen
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance, response
 
 FloatArray = NDArray[np.float64]
@@ -131,7 +131,7 @@ LIMITS = (AREA, GAP, LEVEL, ANISOTROPY, LINEAR, FILTER_3D, SPACING, ASPERITY)
 class Punches:
     """Rough punches of Fig. 14.1, from few contacts to full contact, by both methods."""
 
-    roughness: Roughness
+    roughness: PunchRoughness
     cells: int
     surfaces: int
     profiles: int
@@ -198,7 +198,7 @@ class Coarser:
 class Asperities:
     """Rough profiles under very low forces, on so many points and on finer ones."""
 
-    roughness: Roughness
+    roughness: PunchRoughness
     profiles: int
     points: int
     finer: int
@@ -353,14 +353,14 @@ def rms_slope(spectrum: PowerLaws) -> float:
 
 def space_out(problem: Coarser) -> Outcome:
     """The last one-third octave on coarser springs; what is said is said as such a track is drawn."""
-    track = Track(rms=1e-3 * WHEEL.approach, seed=problem.seed, waves=9, per_wave=FINE)
+    track = RoughTrack(rms=1e-3 * WHEEL.approach, seed=problem.seed, waves=9, per_wave=FINE)
     level = coarsen(Spacings(track=track))["level"]
     error = [abs(decibel(one)) if one > 0 else math.inf for one in level]
     said = [heard(partial(_drawn_on, track, track.points // n))[1] for n in STRIDES]
     return swept("spacing", FINE / np.array(STRIDES), error, 4.0, said)
 
 
-def _drawn_on(track: Track, points: int) -> FloatArray:
+def _drawn_on(track: RoughTrack, points: int) -> FloatArray:
     q_min, q_max = 2 * np.pi / track.longest, 2 * np.pi / track.shortest
     spectrum = mdr.SelfAffine(hurst=track.hurst, q_min=q_min, q_max=q_max, rms=track.rms)
     return mdr.rough_profile(

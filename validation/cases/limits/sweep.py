@@ -159,5 +159,5 @@ def heard(call: Callable[[], T]) -> tuple[T | None, str]:
             answer = call()
         except REFUSALS as error:
             return None, f"{type(error).__name__}: {error}"
-    said = [w for w in caught if not issubclass(w.category, (mdr.UnitsWarning, bem3d.UnitsWarning))]
+    said = [w for w in caught if not issubclass(w.category, (mdr.SpringUnitsWarning, bem3d.UnitsWarning))]
     return answer, "; ".join(f"{w.category.__name__}: {w.message}" for w in said)

@@ -9,11 +9,11 @@ import numpy as np
 import mdr
 from validation.cases.limits.sweep import Limit, heard, swept
 from validation.engine.engine import Outcome
-from validation.simulation.contact_laws import Hertz
+from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
 from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, VELOCITY_VERLET, Integrator
 from validation.simulation.motion import simulate
-from validation.simulation.spring_tracks import LiftOff, Track, lift_off
+from validation.simulation.spring_tracks import LiftOff, RoughTrack, lift_off
 
 STEP = Limit(
     name="step",
@@ -71,7 +71,7 @@ LIMITS = (STEP, EULER, KUTTA, LIFT)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Steps:
+class TimeSteps:
     """Free linear vibration by three schemes, omega_eigen dt of each."""
 
     verlet: tuple[float, ...]
@@ -90,7 +90,7 @@ class Hops:
     seed: int
 
 
-def step_out(problem: Steps) -> Outcome:
+def step_out(problem: TimeSteps) -> Outcome:
     """Growth of a step, or the change of the energy in a turn; what is said as a motion is begun with that step."""
     verlet = _vibrated(VELOCITY_VERLET, problem.verlet, problem.turns)
     growth = np.maximum(verlet["growth"] - 1, 0.0)
@@ -114,7 +114,7 @@ def _vibrated(scheme: Integrator, steps: tuple[float, ...], turns: int) -> Outco
 
 def _begun(scheme: Integrator, steps: tuple[float, ...]) -> list[str]:
     """What is said of a step of each length: of one cell, of which the scheme may take more."""
-    law = Hertz(WHEEL)
+    law = HertzLaw(WHEEL)
     return [
         heard(
             partial(
@@ -134,7 +134,7 @@ def hop(problem: Hops) -> Outcome:
     """Part of the time in the air; imbalance: largest error of the balance of momentum, over F_N T."""
     airborne, imbalance, pulls, said = [], [], [], []
     for height in problem.heights:
-        track = Track(rms=height * WHEEL.approach, seed=problem.seed, waves=problem.waves)
+        track = RoughTrack(rms=height * WHEEL.approach, seed=problem.seed, waves=problem.waves)
         motion = LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=problem.wheels, rounds=1)
         found = lift_off(motion)
         # a linear contact in motion has its force from the filter, which is where a user is told
@@ -149,7 +149,7 @@ def hop(problem: Hops) -> Outcome:
     }
 
 
-def _filtered(track: Track) -> mdr.Rolling:
+def _filtered(track: RoughTrack) -> mdr.RollingTrack:
     """The linear force along the first of the tracks."""
     return mdr.roll(
         track.heights(1)[:, 0],

@@ -38,7 +38,7 @@ from validation.simulation.rough_punch import (
     MDR,
     METHODS,
     Profiles,
-    Roughness,
+    PunchRoughness,
     Surface,
     enough,
     force_levels,
@@ -86,9 +86,9 @@ class MdrLimits:
         """Levels of Fbar, ascending."""
         return force_levels(self.decades, self.per_decade)
 
-    def roughness(self, roll_off: int) -> Roughness:
+    def roughness(self, roll_off: int) -> PunchRoughness:
         """No wave longer than L / roll_off, none shorter than four cells."""
-        return Roughness(hurst=self.hurst, waves=(roll_off, self.cells // 4), height=self.height, seed=self.seed)
+        return PunchRoughness(hurst=self.hurst, waves=(roll_off, self.cells // 4), height=self.height, seed=self.seed)
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def run(case: MdrLimits, engine: Engine = SERIAL) -> MdrLimitsResult:
 
 
 @dataclass(frozen=True)
-class Samples:
+class RollOffSamples:
     """What was measured at one roll-off, resampled: by method and quantity; and by quantity, pairs of grids."""
 
     roll_off: int
@@ -231,7 +231,7 @@ def evidence(result: MdrLimitsResult) -> Evidence:
     )
 
 
-def _samples(result: MdrLimitsResult, roll_off: int) -> Samples:
+def _samples(result: MdrLimitsResult, roll_off: int) -> RollOffSamples:
     case = result.case
     outcomes = {BEM: result.bem[roll_off], MDR: result.mdr[roll_off]}
     by_method, grids = {}, {}
@@ -242,7 +242,7 @@ def _samples(result: MdrLimitsResult, roll_off: int) -> Samples:
             by_method[method, quantity] = sample(values, generator(case.seed, BOOTSTRAP, roll_off, i, j))
         coarse, fine = outcomes[BEM][quantity][: case.refined], result.refined[roll_off][quantity]
         grids[quantity] = pairs(coarse, fine, generator(case.seed, BOOTSTRAP, roll_off, i, 2))
-    return Samples(roll_off, by_method, grids)
+    return RollOffSamples(roll_off, by_method, grids)
 
 
 @dataclass(frozen=True)
@@ -272,7 +272,7 @@ def layer_on_half_space(cells: int) -> Layer:
     """k of kappa on so many cells a side, by conjugate gradients."""
     half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
     ones = np.ones(half_space.shape)
-    flat = bem3d.press_frozen(half_space, ones > 0).stiffness
+    flat = bem3d.solve_fixed_area(half_space, ones > 0).stiffness
     kappas, stiffness = np.geomspace(1e-3, 1e3, 37), []
     pressure = ones.ravel()
     for kappa in kappas:
@@ -298,7 +298,9 @@ def _interface(layer: Layer) -> Statistic:
     return lambda mean, deviation: layer.log_kappa(mean)
 
 
-def _proportional(case: MdrLimits, mine: Samples, layers: dict[str, Layer], method: str, first: float) -> Number | None:
+def _proportional(
+    case: MdrLimits, mine: RollOffSamples, layers: dict[str, Layer], method: str, first: float
+) -> Number | None:
     """d ln kappa / d ln F over a decade; None where the punch is as stiff as the flat one."""
     slope = combined(decade_slope(case.forces, first), _interface(layers[method]))
     found, grid = mine.by_method[method, "stiffness"].estimate(slope), 0.0
@@ -319,7 +321,7 @@ def _proportional(case: MdrLimits, mine: Samples, layers: dict[str, Layer], meth
     )
 
 
-def _curve(result: MdrLimitsResult, layers: dict[str, Layer], mine: Samples) -> list[Row]:
+def _curve(result: MdrLimitsResult, layers: dict[str, Layer], mine: RollOffSamples) -> list[Row]:
     """One row a force."""
     case, roll_off = result.case, mine.roll_off
     outcome = result.bem[roll_off]
@@ -349,7 +351,7 @@ def _interval(name: str, found: Estimate, unit: float = 1.0) -> Row:
     return {f"{name}{end}": math.exp(value) / unit for end, value in named}
 
 
-def _conclusions(result: MdrLimitsResult, samples: dict[int, Samples], numbers: list[Number]) -> list[str]:
+def _conclusions(result: MdrLimitsResult, samples: dict[int, RollOffSamples], numbers: list[Number]) -> list[str]:
     """In words, and at one force; and how proportional the stiffness is."""
     case = result.case
     level = nearest(case.forces, 0.1)

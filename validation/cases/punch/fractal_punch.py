@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.rough_punch import (
     Profiles,
-    Roughness,
+    PunchRoughness,
     Surface,
     force_levels,
     lost,
@@ -69,9 +69,9 @@ class FractalPunch:
         """Cells on a side, coarse to fine; the middle one is that of all surfaces."""
         return self.cells // 2, self.cells, 2 * self.cells
 
-    def roughness(self, hurst: float) -> Roughness:
+    def roughness(self, hurst: float) -> PunchRoughness:
         """The band is the same on every grid and in both methods."""
-        return Roughness(hurst=hurst, waves=(1, self.cells // 4), height=self.height, seed=self.seed)
+        return PunchRoughness(hurst=hurst, waves=(1, self.cells // 4), height=self.height, seed=self.seed)
 
     def surface(self, hurst: float, realisation: int, cells: int) -> Surface:
         """One of the solves: at all forces on the middle grid, at fewer on the others."""

@@ -36,7 +36,7 @@ OUT_OF_REACH = 100.0
 
 
 @dataclass(frozen=True)
-class Quantity:
+class DecadeQuantity:
     """A statistic over a decade of force, of one 1D model beside the boundary elements, and how near is near.
 
     over: the statistic, from the forces of the levels and the first force of the decade.
@@ -71,16 +71,16 @@ FIGURE = "3 %: the standard error of a deviation from the 500 profiles of the bo
 LEVEL = "5 %: 0.4 dB, less than a third-octave level resolves"
 DIGITS = "the published exponents have two digits"
 QUANTITIES = {
-    "relative deviation": Quantity(MDR, _deviation, THREE_PER_CENT, "dB", FIGURE),
-    "relative deviation, L_1D = 1.1523 L": Quantity(LONG, _deviation, THREE_PER_CENT, "dB", FIGURE),
-    "mean stiffness": Quantity(MDR, _mean, FIVE_PER_CENT, "dB", LEVEL),
-    "mean stiffness, L_1D = 1.1523 L": Quantity(LONG, _mean, FIVE_PER_CENT, "dB", LEVEL),
-    "exponent": Quantity(MDR, _exponent, 0.02, "-", DIGITS),
+    "relative deviation": DecadeQuantity(MDR, _deviation, THREE_PER_CENT, "dB", FIGURE),
+    "relative deviation, L_1D = 1.1523 L": DecadeQuantity(LONG, _deviation, THREE_PER_CENT, "dB", FIGURE),
+    "mean stiffness": DecadeQuantity(MDR, _mean, FIVE_PER_CENT, "dB", LEVEL),
+    "mean stiffness, L_1D = 1.1523 L": DecadeQuantity(LONG, _mean, FIVE_PER_CENT, "dB", LEVEL),
+    "exponent": DecadeQuantity(MDR, _exponent, 0.02, "-", DIGITS),
 }
 
 
 @dataclass(frozen=True)
-class Comparison:
+class DecadeComparison:
     """One quantity at one Hurst exponent in one decade of force, in natural logarithms, its three errors apart.
 
     hurst: None for the mean over all of them; first: force of the decade; springs, bem: with the error of the sample,
@@ -98,7 +98,7 @@ class Comparison:
     refined_springs: Estimate
 
     @property
-    def quantity(self) -> Quantity:
+    def quantity(self) -> DecadeQuantity:
         """What is compared."""
         return QUANTITIES[self.name]
 
@@ -141,7 +141,7 @@ class Comparison:
 
 
 @dataclass(frozen=True)
-class Samples:
+class EnsembleSamples:
     """The ensembles of one Hurst exponent, resampled: by method; and pairs of grids and of springs, coarse and fine."""
 
     methods: dict[str, Sample]
@@ -150,7 +150,7 @@ class Samples:
     springs: Sample
 
 
-def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> Samples:
+def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> EnsembleSamples:
     """All of one Hurst exponent, the h-th of the case."""
     realisations = (ensemble.bem, ensemble.mdr, ensemble.long)
     coarser, finer = ensemble.coarser["stiffness"], ensemble.finer["stiffness"]
@@ -159,7 +159,7 @@ def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> Samples:
     def draws(key: int) -> np.random.Generator:
         return generator(case.seed, BOOTSTRAP, h, key)
 
-    return Samples(
+    return EnsembleSamples(
         {
             method: sample(outcome["stiffness"], draws(key))
             for key, (method, outcome) in enumerate(zip((BEM, MDR, LONG), realisations, strict=True))
@@ -170,11 +170,11 @@ def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> Samples:
     )
 
 
-def compare(case: FractalPunch, hurst: float, samples: Samples, name: str, first: float) -> Comparison:
+def compare(case: FractalPunch, hurst: float, samples: EnsembleSamples, name: str, first: float) -> DecadeComparison:
     """One quantity, one Hurst exponent, one decade."""
     quantity = QUANTITIES[name]
     everywhere, refined = quantity.over(case.forces, first), quantity.over(case.refined_forces, first)
-    return Comparison(
+    return DecadeComparison(
         name,
         hurst,
         first,
@@ -186,9 +186,9 @@ def compare(case: FractalPunch, hurst: float, samples: Samples, name: str, first
     )
 
 
-def mean_over_hursts(comparisons: Sequence[Comparison]) -> Comparison:
+def mean_over_hursts(comparisons: Sequence[DecadeComparison]) -> DecadeComparison:
     """Of one quantity in one decade; the samples are independent of each other."""
-    return Comparison(
+    return DecadeComparison(
         comparisons[0].name,
         None,
         comparisons[0].first,
@@ -200,7 +200,7 @@ def mean_over_hursts(comparisons: Sequence[Comparison]) -> Comparison:
     )
 
 
-def data_row(comparison: Comparison) -> dict[str, object]:
+def data_row(comparison: DecadeComparison) -> dict[str, object]:
     """In the data: what stands behind a verdict; H is NaN for the mean over all."""
     number, quantity = comparison.number, comparison.quantity
     value = math.exp if quantity.unit == "dB" else float
@@ -221,7 +221,7 @@ def data_row(comparison: Comparison) -> dict[str, object]:
     }
 
 
-def matrix(case: FractalPunch, name: str, comparisons: Sequence[Comparison]) -> Table:
+def matrix(case: FractalPunch, name: str, comparisons: Sequence[DecadeComparison]) -> Table:
     """On the page: a row a Hurst exponent, a column a decade."""
     mine = [c for c in comparisons if c.name == name]
     hursts = list(dict.fromkeys("all" if c.hurst is None else f"{c.hurst:g}" for c in mine))
@@ -259,7 +259,7 @@ def decided_by(case: FractalPunch, number: Number) -> str:
     return f"{math.ceil(needed * case.surfaces)} surfaces, {math.ceil(needed * case.profiles)} profiles would tell"
 
 
-def summary(name: str, comparisons: Sequence[Comparison]) -> str:
+def summary(name: str, comparisons: Sequence[DecadeComparison]) -> str:
     """How many agree, differ, are open; the range; and what stands out when all Hurst exponents are taken together."""
     numbers = [n for c in comparisons if c.name == name and c.hurst is not None and (n := c.number) is not None]
     whole = [c for c in comparisons if c.name == name and c.hurst is None]

@@ -20,8 +20,8 @@ from validation.cases.punch.fractal_punch import Ensemble, FractalPunch, Fractal
 from validation.cases.punch.fractal_punch_decades import (
     LONG,
     QUANTITIES,
-    Comparison,
-    Samples,
+    DecadeComparison,
+    EnsembleSamples,
     compare,
     data_row,
     matrix,
@@ -81,7 +81,7 @@ def evidence(result: FractalPunchResult) -> Evidence:
     )
 
 
-def _comparisons(case: FractalPunch, samples: list[Samples]) -> list[Comparison]:
+def _comparisons(case: FractalPunch, samples: list[EnsembleSamples]) -> list[DecadeComparison]:
     """Of every quantity, one a Hurst exponent and a decade, and the means over the exponents."""
     comparisons = []
     for name in QUANTITIES:
@@ -180,7 +180,7 @@ def _bounded(result: FractalPunchResult, flat: float) -> Number:
     )
 
 
-def _resolved(result: FractalPunchResult, comparison: Comparison) -> bool:
+def _resolved(result: FractalPunchResult, comparison: DecadeComparison) -> bool:
     """A mean stiffness in a decade whose lightest contacts have cells enough at every Hurst exponent."""
     case = result.case
     level = nearest(case.forces, comparison.first)
@@ -201,7 +201,7 @@ def _no_factor_lost(numbers: list[Number]) -> Number:
     )
 
 
-def _claimed(comparisons: list[Comparison]) -> tuple[Number, ...]:
+def _claimed(comparisons: list[DecadeComparison]) -> tuple[Number, ...]:
     """The fluctuations, where they are farthest apart, beside what is claimed of rolling."""
     deviations = [n for c in comparisons if c.name == "relative deviation" and (n := c.number) is not None]
     if not deviations:
@@ -221,7 +221,7 @@ def _of(ensemble: Ensemble, method: str) -> Outcome:
     return {BEM: ensemble.bem, MDR: ensemble.mdr, LONG: ensemble.long}[method]
 
 
-def _curve(case: FractalPunch, ensemble: Ensemble, samples: Samples) -> list[Row]:
+def _curve(case: FractalPunch, ensemble: Ensemble, samples: EnsembleSamples) -> list[Row]:
     """One row a force: the statistics of both methods with their 95 % intervals, and the ratio of the deviations."""
     rows = []
     for level, force in enumerate(case.forces):
@@ -247,7 +247,7 @@ def _interval(name: str, found: Estimate, value: Callable[[float], float]) -> Ro
     return {f"{name}{end}": float(value(v)) for end, v in zip(("", " low", " high"), found.interval, strict=True)}
 
 
-def _grids(case: FractalPunch, ensemble: Ensemble, samples: Samples) -> list[Row]:
+def _grids(case: FractalPunch, ensemble: Ensemble, samples: EnsembleSamples) -> list[Row]:
     """One row a force of the refined surfaces: both statistics on three grids, and extrapolated."""
     rows = []
     half = len(case.refined_forces)
@@ -264,7 +264,7 @@ def _grids(case: FractalPunch, ensemble: Ensemble, samples: Samples) -> list[Row
     return rows
 
 
-def _laws(case: FractalPunch, comparisons: list[Comparison]) -> list[Number]:
+def _laws(case: FractalPunch, comparisons: list[DecadeComparison]) -> list[Number]:
     """Exponents beside 1 / (1 + H), where the law should hold best: off the last asperity and off saturation."""
     decades = [10.0**power for power in range(*case.decades)]
     first = min(decades, key=lambda force: abs(math.log(force / 0.01)))
@@ -272,7 +272,7 @@ def _laws(case: FractalPunch, comparisons: list[Comparison]) -> list[Number]:
     return [number for c in mine for number in (_law(c, BEM), _law(c, MDR))]
 
 
-def _law(comparison: Comparison, method: str) -> Number:
+def _law(comparison: DecadeComparison, method: str) -> Number:
     hurst, first = comparison.hurst or 0.0, comparison.first
     found, grid = (
         (comparison.extrapolated, comparison.left)

@@ -25,7 +25,7 @@ from validation.simulation.rough_punch import (
     BOOTSTRAP,
     METHODS,
     Profiles,
-    Roughness,
+    PunchRoughness,
     Surface,
     enough,
     force_levels,
@@ -74,10 +74,10 @@ class Normalisation:
         """Levels of Fbar, ascending."""
         return force_levels(self.decades, self.per_decade)
 
-    def roughness(self, hurst: float, variant: str) -> Roughness:
+    def roughness(self, hurst: float, variant: str) -> PunchRoughness:
         """Of one way to draw."""
         amplitudes, normalised = VARIANTS[variant]
-        return Roughness(
+        return PunchRoughness(
             hurst=hurst,
             waves=(1, self.cells // 4),
             height=self.height,

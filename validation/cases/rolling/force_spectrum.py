@@ -22,7 +22,7 @@ ROUGH = 0.3
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rolling:
+class ForceSpectrum:
     """A wheel at the approach d over self-affine roughness, contact radius a, q a from first to last.
 
     hurst; heights: h_rms / d, ascending; first, last: q a of the band; lowest: q a from which on there are bands;
@@ -94,7 +94,7 @@ class RollingResult:
     forces: of the first strip at each height, for a look; applications: of the operator at a position, on average.
     """
 
-    case: Rolling
+    case: ForceSpectrum
     bem: dict[float, Outcome]
     refined: dict[float, Outcome]
     mdr: dict[tuple[Feed, float], Outcome]
@@ -102,7 +102,7 @@ class RollingResult:
     unconverged: tuple[str, ...]
 
 
-def run(case: Rolling, engine: Engine = SERIAL) -> RollingResult:
+def run(case: ForceSpectrum, engine: Engine = SERIAL) -> RollingResult:
     """Roll all strips and tracks. Raises NotConvergedError where fewer than three strips at a height are whole."""
     groups = {
         (height, cells): [

@@ -21,7 +21,7 @@ from validation.analysis.statistics import (
     ratio_of_means,
     sample,
 )
-from validation.cases.rolling.force_spectrum import ROUGH, Rolling, RollingResult
+from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult
 from validation.engine.engine import Outcome, generator
 from validation.simulation.rolling_strip import BOOTSTRAP, HERTZ, Feed, fed
 from validation.theory import rolling as rolling_theory
@@ -160,7 +160,7 @@ def evidence(result: RollingResult) -> Evidence:
     )
 
 
-def _ranges(case: Rolling) -> dict[str, tuple[float, float]]:
+def _ranges(case: ForceSpectrum) -> dict[str, tuple[float, float]]:
     """Below the band, where springs have nothing; its long waves; its short ones."""
     middle = 4 * case.first
     return {
@@ -198,7 +198,7 @@ def _positive(level: FloatArray) -> FloatArray:
     return np.maximum(level, 1e-300)
 
 
-def exact_levels(case: Rolling) -> tuple[FloatArray, FloatArray]:
+def exact_levels(case: ForceSpectrum) -> tuple[FloatArray, FloatArray]:
     """int C_F dq of linear theory over each band at h = d, over the force of Hertz squared: in 1D, in 3D."""
     spectrum = case.spectrum
 
@@ -304,7 +304,7 @@ def _summary(result: RollingResult, mine: Height) -> Row:
     }
 
 
-def _levels(case: Rolling, mine: Height) -> list[Row]:
+def _levels(case: ForceSpectrum, mine: Height) -> list[Row]:
     """One row a band: levels over (h/d)^2 and F_Hertz^2 in dB; errors of the models; coherence."""
     of_bem, of_springs = coherence(mine.bem), coherence(mine.mdr["geike"])
     waves = mine.bands.counts(2 * np.pi / case.length * np.arange(1, int(case.length * case.springs / 2)))
@@ -375,7 +375,7 @@ def _forces(result: RollingResult) -> Table:
     return table_of("forces", rows)
 
 
-def _conclusions(case: Rolling, found: list[Height], numbers: list[Number]) -> list[str]:
+def _conclusions(case: ForceSpectrum, found: list[Height], numbers: list[Number]) -> list[str]:
     by_label = {number.label: number for number in numbers}
     ranges = list(_ranges(case))
     sentences = []
@@ -432,7 +432,7 @@ def _scatter(found: list[Height]) -> str:
     )
 
 
-def _louder(case: Rolling, numbers: list[Number], where: str) -> Number:
+def _louder(case: ForceSpectrum, numbers: list[Number], where: str) -> Number:
     """By how much Geike's spectrum is too loud along the track, beside the power law without ends."""
     height = case.heights[0]
     found = next(n for n in numbers if n.label == f"{LINEAR_1D} over bem3d, h/d = {height:g}, {where}")
@@ -467,7 +467,7 @@ def _lasting(found: list[Height]) -> str:
     )
 
 
-def _within(case: Rolling, found: list[Height]) -> Table:
+def _within(case: ForceSpectrum, found: list[Height]) -> Table:
     """In how many single one-third octaves each model lies within 1 and 3 dB of boundary elements."""
     rows: list[Row] = []
     for mine in found:
@@ -505,7 +505,7 @@ def _means(numbers: list[Number]) -> str:
     )
 
 
-def _captions(case: Rolling) -> dict[str, str]:
+def _captions(case: ForceSpectrum) -> dict[str, str]:
     return {
         "rolling-line": (
             f"Fig. 14.3 of the book, H = {case.hurst:g}: spectrum of the normal force over wavenumber. Line: (14.12); "

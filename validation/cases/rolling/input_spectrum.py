@@ -30,7 +30,7 @@ from validation.simulation.rolling_strip import (
     self_affine,
     strip_levels,
 )
-from validation.simulation.rough_punch import Roughness, Surface, enough, lost, press_surface, stacked
+from validation.simulation.rough_punch import PunchRoughness, Surface, enough, lost, press_surface, stacked
 from validation.theory import rolling as rolling_theory
 
 FloatArray = NDArray[np.float64]
@@ -93,9 +93,9 @@ class RollingInput:
         return (0.03, 0.1, 0.3)
 
     @property
-    def punch(self) -> Roughness:
+    def punch(self) -> PunchRoughness:
         """The punches of Fig. 14.1."""
-        return Roughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
+        return PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
 
     def within(self, spectrum: PowerLaws) -> NDArray[np.bool_]:
         """Bands that lie in that of a spectrum."""
@@ -104,7 +104,7 @@ class RollingInput:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Profiles:
+class PunchProfiles:
     """Profiles of the punches of Fig. 14.1, drawn from what a rule makes of their surfaces, pressed at all forces."""
 
     case: RollingInput
@@ -123,7 +123,7 @@ class RollingInputResult:
     unconverged: tuple[str, ...]
 
 
-def press_fed_profiles(profiles: Profiles) -> Outcome:
+def press_fed_profiles(profiles: PunchProfiles) -> Outcome:
     """k / (E* L) of each profile at each force; height: rms of the profiles over that of the surface."""
     case, punch = profiles.case, profiles.case.punch
     spectrum = PowerLaws(edges=(2 * math.pi, math.pi / 2 * case.punch_cells), exponents=(2 * punch.hurst + 2,))
@@ -150,7 +150,7 @@ def press_fed_profiles(profiles: Profiles) -> Outcome:
     forces = punch.height * np.array(case.forces)
     with warnings.catch_warnings():
         # the lightest loads stand on few springs
-        warnings.simplefilter("ignore", mdr.ResolutionWarning)
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         stiffness = [curve.at_force(forces).stiffness for curve in curves]
     return {"stiffness": np.array(stiffness), "height": np.array(part)}
 
@@ -203,7 +203,7 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
         for i in range(case.surfaces)
     ]
     pressed = engine.map(press_surface, surfaces)
-    fed_profiles = engine.map(press_fed_profiles, [Profiles(case=case, feed=feed) for feed in FEEDS])
+    fed_profiles = engine.map(press_fed_profiles, [PunchProfiles(case=case, feed=feed) for feed in FEEDS])
     enough([stacked(pressed)], lost(surfaces, pressed))
     return RollingInputResult(
         case,

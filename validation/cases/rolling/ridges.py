@@ -60,7 +60,7 @@ class Ridges:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rolled:
+class RidgesTrack:
     """One track, rolled by one method, at the prescribed approach or at the force that belongs to it."""
 
     case: Ridges
@@ -78,7 +78,7 @@ class RidgesResult:
     unconverged: tuple[str, ...]
 
 
-def roll_over(rolled: Rolled) -> Outcome:
+def roll_over(rolled: RidgesTrack) -> Outcome:
     """Response to each wave over 2 E* a, real and imaginary part, of the force, or of the approach under a force."""
     case = rolled.case
     points = round(case.length * rolled.cells)
@@ -95,7 +95,7 @@ def roll_over(rolled: Rolled) -> Outcome:
 
 def _rolled(
     method: str, height: FloatArray, spacing: float, tolerance: float, prescribed: dict[str, float]
-) -> bem3d.Rolling | mdr.Rolling:
+) -> bem3d.Rolling | mdr.RollingTrack:
     d, force = prescribed.get("approach"), prescribed.get("force")
     if method == BEM:
         width = 2 * math.ceil(1.45 / spacing)
@@ -124,9 +124,11 @@ def _rolled(
 
 def run(case: Ridges, engine: Engine = SERIAL) -> RidgesResult:
     """Roll by every method on every grid; on the coarsest grid of boundary elements under a force too."""
-    tracks = [Rolled(case=case, method=BEM, cells=n) for n in case.cells]
-    tracks.append(Rolled(case=case, method=BEM, cells=case.cells[0], prescribed="force"))
-    tracks += [Rolled(case=case, method=method, cells=n) for method in (FILTER, FULL, SPRINGS) for n in case.springs]
+    tracks = [RidgesTrack(case=case, method=BEM, cells=n) for n in case.cells]
+    tracks.append(RidgesTrack(case=case, method=BEM, cells=case.cells[0], prescribed="force"))
+    tracks += [
+        RidgesTrack(case=case, method=method, cells=n) for method in (FILTER, FULL, SPRINGS) for n in case.springs
+    ]
     outcomes = engine.map(roll_over, tracks)
     responses = {
         (t.method, t.cells, t.prescribed): o["response"][0] + 1j * o["response"][1]

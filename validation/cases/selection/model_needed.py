@@ -5,13 +5,13 @@ from collections.abc import Callable, Sequence
 from itertools import groupby
 from typing import Any
 
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection.compare import rungs_of
 from validation.selection.hierarchy import needed
-from validation.simulation.rough_punch import Roughness as Band
+from validation.simulation.rough_punch import PunchRoughness as Band
 
 TOLERANCE = 0.1
 TURN = 2 * math.pi
@@ -37,13 +37,13 @@ def along(name: str, scenes: Sequence[tuple[float, Scene]], want: str) -> str:
 
 def sphere(case: Any) -> str:
     """A smooth one."""
-    scene = PressedScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
+    scene = IndentationScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
     return rung_of(scene, "stiffness")
 
 
 def square_punch(case: Any) -> str:
     """A smooth one."""
-    scene = PressedScene(name="punch", shape="punch", size=case.side, load=1.0, modulus=case.modulus)
+    scene = IndentationScene(name="punch", shape="punch", size=case.side, load=1.0, modulus=case.modulus)
     return rung_of(scene, "stiffness")
 
 
@@ -62,7 +62,9 @@ def _punches(band: Band, forces: Sequence[float]) -> str:
     scenes = [
         (
             force,
-            PressedScene(name="punch", shape="punch", size=1.0, load=force * band.height, modulus=1.0, ground=ground),
+            IndentationScene(
+                name="punch", shape="punch", size=1.0, load=force * band.height, modulus=1.0, ground=ground
+            ),
         )
         for force in forces
     ]

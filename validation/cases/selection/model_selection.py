@@ -11,11 +11,11 @@ from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
 from validation.cases.selection.random_scenes import KINDS, RANGES, WANTED, random_scene
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.selection import indentation_models as rungs_pressed
 from validation.selection import rolling_models as rungs_rolling
 from validation.selection.compare import rungs_of
-from validation.selection.hierarchy import BOUNDARY_ELEMENTS, Rung, answered, climb, distance
+from validation.selection.hierarchy import BOUNDARY_ELEMENTS, ContactModel, answered, distance, select_model
 
 GOAL_COVERED, GOAL_SAVED = 0.95, 50.0
 OTHER_SEED = 1_000_003
@@ -44,18 +44,18 @@ class Ladder:
     seed: int = 14
 
     @property
-    def trials(self) -> list["Trial"]:
+    def trials(self) -> list["CalibrationTrial"]:
         """All of them; what takes longest first."""
         counts = dict(zip(KINDS, (self.punches, self.spheres, self.rolling, self.wheels), strict=True))
         return [
-            Trial(kind=kind, number=number, tolerances=self.tolerances, seed=self.seed)
+            CalibrationTrial(kind=kind, number=number, tolerances=self.tolerances, seed=self.seed)
             for kind in reversed(KINDS)
             for number in range(counts[kind])
         ]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Trial:
+class CalibrationTrial:
     """One random scene, refereed once and climbed at each tolerance."""
 
     kind: str
@@ -88,7 +88,7 @@ def run(case: Ladder, engine: Engine = SERIAL) -> LadderResult:
     return LadderResult(case, outcomes, lost)
 
 
-def hold_to_account(trial: Trial) -> Outcome:
+def hold_to_account(trial: CalibrationTrial) -> Outcome:
     """Fine boundary elements as referee, and the ladder beside them.
 
     truth: error that the referee itself leaves; rung: index of the rung that was enough, -1 for none; claimed, true:
@@ -105,23 +105,23 @@ def hold_to_account(trial: Trial) -> Outcome:
     rows = np.array([_climbed(trial, tolerance, referee.value, taken) for tolerance in trial.tolerances])
     rungs = rungs_of(scene, trial.want, REFEREE, trial.seed)
     every = np.array([_asked(rungs, name, referee.value) for name in RUNGS])
-    punch = isinstance(scene, PressedScene) and scene.shape == "punch"
+    punch = isinstance(scene, IndentationScene) and scene.shape == "punch"
     return {
         "truth": np.array(referee.error if not referee.failed else math.nan),
         **dict(zip(("rung", "claimed", "true", "spent", "fine", "settled"), rows.T, strict=True)),
         "every claimed": every[:, 0],
         "every true": every[:, 1],
         "height": np.array(math.nan if punch else scene.roughness_ratio),
-        "load": np.array(scene.reduced_load if isinstance(scene, PressedScene) and punch else math.nan),
+        "load": np.array(scene.reduced_load if isinstance(scene, IndentationScene) and punch else math.nan),
         "failed": np.array(float(bool(referee.failed))),
     }
 
 
-def _climbed(trial: Trial, tolerance: float, truth: np.ndarray, taken: float) -> tuple[float, ...]:
+def _climbed(trial: CalibrationTrial, tolerance: float, truth: np.ndarray, taken: float) -> tuple[float, ...]:
     """taken: what the referee did over what it expected."""
     scene = random_scene(trial.kind, trial.number, trial.seed)
     rungs = rungs_of(scene, trial.want, tolerance, trial.seed)
-    climbed = climb(rungs, tolerance)
+    climbed = select_model(rungs, tolerance)
     best, fine = climbed.best, rungs[-1].cost().seconds * taken
     if best is None or best.answer is None:
         return -1.0, math.nan, math.nan, climbed.spent, fine, 0.0
@@ -130,7 +130,7 @@ def _climbed(trial: Trial, tolerance: float, truth: np.ndarray, taken: float) ->
     return float(index), best.answer.error, true, climbed.spent, fine, float(climbed.met)
 
 
-def _rung_of(rung: Rung, rungs: Sequence[Rung]) -> str:
+def _rung_of(rung: ContactModel, rungs: Sequence[ContactModel]) -> str:
     """Which of RUNGS it is. Raises ValueError for a model that is none of them: its claims would not be tested."""
     name = (FINE if rung is rungs[-1] else COARSE) if rung.model == BOUNDARY_ELEMENTS else rung.model
     if name not in RUNGS:
@@ -138,7 +138,7 @@ def _rung_of(rung: Rung, rungs: Sequence[Rung]) -> str:
     return name
 
 
-def _asked(rungs: Sequence[Rung], name: str, truth: np.ndarray) -> tuple[float, float]:
+def _asked(rungs: Sequence[ContactModel], name: str, truth: np.ndarray) -> tuple[float, float]:
     """Claimed and true error of a rung below boundary elements; NaN where the scene has none, or it claims nothing."""
     rung = next((rung for rung in rungs if _rung_of(rung, rungs) == name), None)
     if name not in CHEAP or rung is None or not rung.claim().in_range:

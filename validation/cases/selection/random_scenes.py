@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from validation.engine.engine import generator
-from validation.scenes.indentation import PressedScene
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
@@ -41,7 +41,7 @@ def random_scene(kind: str, number: int, seed: int) -> Scene:
         rms=height, hurst=rng.uniform(0.3, 1.0), longest=longest, shortest=longest / 10 ** rng.uniform(0.5, 1.0)
     )
     if kind == "sphere":
-        return PressedScene(
+        return IndentationScene(
             name=f"sphere {number}", shape="sphere", size=radius, load=load, modulus=modulus, ground=ground
         )
     mass = speed = None
@@ -55,11 +55,11 @@ def random_scene(kind: str, number: int, seed: int) -> Scene:
     )
 
 
-def _punch(rng: np.random.Generator, modulus: float, name: str) -> PressedScene:
+def _punch(rng: np.random.Generator, modulus: float, name: str) -> IndentationScene:
     side = 10 ** rng.uniform(-4, -1)
     first, last = int(rng.choice([1, 1, 1, 2, 3])), int(rng.choice([8, 12, 16]))
     height = side * 10 ** rng.uniform(-5, -3)
-    return PressedScene(
+    return IndentationScene(
         name=name,
         shape="punch",
         size=side,

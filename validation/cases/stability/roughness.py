@@ -11,7 +11,7 @@ from validation.cases.stability.stability import Row, WheelStabilityResult
 from validation.engine.engine import Outcome
 from validation.simulation.free_vibration import TENTHS, WHEEL
 from validation.simulation.integrators import EXPLICIT_EULER, VELOCITY_VERLET
-from validation.simulation.spring_tracks import FINE, HEIGHT, STRIDES, LiftOff, Rounds, Track
+from validation.simulation.spring_tracks import FINE, HEIGHT, STRIDES, LiftOff, RoughTrack, Rounds
 
 FloatArray = NDArray[np.float64]
 
@@ -63,7 +63,7 @@ def _growth(what: str, rounds: int, tenths: FloatArray, theory: float, source: s
     ratios = tenths[-1] / tenths[0]
     mean, half = _log_mean(ratios)
     amplitude = (Rounds.lift + HEIGHT / WHEEL.approach) * math.exp(theory / 2)
-    problem = Rounds(scheme="", track=Track(rms=HEIGHT, seed=0), wheels=1, rounds=rounds)
+    problem = Rounds(scheme="", track=RoughTrack(rms=HEIGHT, seed=0), wheels=1, rounds=rounds)
     turns = rounds / TENTHS * problem.track.points * problem.turn / (2 * math.pi)
     return Number(
         label=f"{what}, last tenth of {rounds} rounds over the first, log",
@@ -79,7 +79,7 @@ def _growth(what: str, rounds: int, tenths: FloatArray, theory: float, source: s
 
 def _gain(rounds: float) -> float:
     """log of the energy by which explicit Euler multiplies that of a free vibration in so many rounds."""
-    problem = Rounds(scheme=EXPLICIT_EULER.name, track=Track(rms=HEIGHT, seed=0), wheels=1, rounds=0)
+    problem = Rounds(scheme=EXPLICIT_EULER.name, track=RoughTrack(rms=HEIGHT, seed=0), wheels=1, rounds=0)
     return rounds * problem.track.points * math.log1p(problem.turn**2)
 
 
@@ -180,7 +180,7 @@ def _lift_row(problem: LiftOff, found: Outcome) -> Row:
 
 def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
     """What must hold in the air as on the ground, and from where on wheels lift off."""
-    steps = result.case.lift_rounds * Track(rms=HEIGHT, seed=0).points
+    steps = result.case.lift_rounds * RoughTrack(rms=HEIGHT, seed=0).points
     highest = float(table["highest force [F_N]"].max())
     return [
         Number(

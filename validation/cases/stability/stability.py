@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.contact_laws import Hertz
+from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import (
     SCHEMES,
     WHEEL,
@@ -21,9 +21,9 @@ from validation.simulation.spring_tracks import (
     FINE,
     HEIGHT,
     LiftOff,
+    RoughTrack,
     Rounds,
     Spacings,
-    Track,
     coarsen,
     go_round,
     lift_off,
@@ -105,13 +105,13 @@ def _long(case: WheelStability) -> dict[str, Endurance]:
 
 
 def _rounds(case: WheelStability) -> dict[str, Rounds]:
-    track = Track(rms=HEIGHT, seed=case.seed)
+    track = RoughTrack(rms=HEIGHT, seed=case.seed)
     return {name: Rounds(scheme=name, track=track, wheels=case.wheels, rounds=case.rounds) for name in COMPARED}
 
 
 def _lift(case: WheelStability) -> list[LiftOff]:
     def rolled(sweep: str, load: float, rms: float) -> LiftOff:
-        track = Track(rms=rms, seed=case.seed)
+        track = RoughTrack(rms=rms, seed=case.seed)
         return LiftOff(sweep=sweep, load=load, track=track, wheels=case.wheels, rounds=case.lift_rounds)
 
     heights = [rolled("height", WHEEL.load, height * WHEEL.approach) for height in case.heights]
@@ -120,7 +120,7 @@ def _lift(case: WheelStability) -> list[LiftOff]:
 
 def _spacing(case: WheelStability) -> list[Spacings]:
     return [
-        Spacings(track=Track(rms=h * WHEEL.approach, seed=case.seed, realisation=i, waves=9, per_wave=FINE))
+        Spacings(track=RoughTrack(rms=h * WHEEL.approach, seed=case.seed, realisation=i, waves=9, per_wave=FINE))
         for h in case.spacing_heights
         for i in range(case.spacing_tracks)
     ]
@@ -128,7 +128,7 @@ def _spacing(case: WheelStability) -> list[Spacings]:
 
 def refusals() -> list[Row]:
     """What is refused, and in which words."""
-    law, rows = Hertz(WHEEL), []
+    law, rows = HertzLaw(WHEEL), []
     for scheme in INTEGRATORS:
         step = 1.001 * max(scheme.limit, 2.0) / WHEEL.eigenfrequency / scheme.cells
 
@@ -136,7 +136,7 @@ def refusals() -> list[Row]:
             return simulate(WHEEL, law, time_step=step, steps=1, integrator=scheme)
 
         rows.append(_refusal(f"simulate, {scheme.name}, a step just past its limit", past))
-    coarse = Track(rms=HEIGHT, seed=0, per_wave=1)
+    coarse = RoughTrack(rms=HEIGHT, seed=0, per_wave=1)
     return [*rows, _refusal("rough_profile, one point to the shortest wave", lambda: coarse.heights(1))]
 
 

@@ -8,7 +8,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
 from validation.scenes.roughness import Roughness
-from validation.simulation.wheel_on_springs import Rides, Track, roll_wheels
+from validation.simulation.wheel_on_springs import Track, WheelEnsemble, roll_wheels
 
 TABLE = read_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
@@ -42,7 +42,7 @@ class WheelDistance:
     groups: int = 10
     seed: int = 147
 
-    def distances(self) -> list[Rides]:
+    def distances(self) -> list[WheelEnsemble]:
         """Open tracks, each twice as long as the one before."""
         rides = []
         for i in range(self.doublings + 1):
@@ -51,10 +51,10 @@ class WheelDistance:
             scene = replace(self.scene, distance=self.turns * turn * 2**i)
             count = max(self.fewest, min(self.wheels, round(self.wheels * 2 ** (self.doublings / 2 - i))))
             count -= count % self.groups
-            rides.append(Rides(scene=scene, count=count, groups=self.groups, seed=self.seed))
+            rides.append(WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed))
         return rides
 
-    def ends(self) -> dict[str, Rides]:
+    def ends(self) -> dict[str, WheelEnsemble]:
         """Every way to end a track."""
         return {
             "springs, open": self.ending(SPRINGS, "open", self.causes),
@@ -64,9 +64,9 @@ class WheelDistance:
             "linear, repeating": self.ending(LINEAR, "steady", self.causes),
         }
 
-    def ending(self, law: str, track: Track, count: int, height: float = 1.0) -> Rides:
+    def ending(self, law: str, track: Track, count: int, height: float = 1.0) -> WheelEnsemble:
         """One of these, at a height."""
-        return Rides(
+        return WheelEnsemble(
             scene=scaled(self.scene, height),
             count=count,
             groups=self.groups,
@@ -75,7 +75,7 @@ class WheelDistance:
             seed=self.seed,
         )
 
-    def sweep(self) -> dict[tuple[str, float], Rides]:
+    def sweep(self) -> dict[tuple[str, float], WheelEnsemble]:
         """Open springs, repeating springs and the open linear contact at each height."""
         kinds: tuple[tuple[str, Track], ...] = ((SPRINGS, "open"), (SPRINGS, "steady"), (LINEAR, "open"))
         return {
@@ -84,7 +84,7 @@ class WheelDistance:
             for height in self.heights
         }
 
-    def ended(self) -> dict[tuple[str, float], Rides]:
+    def ended(self) -> dict[tuple[str, float], WheelEnsemble]:
         """Open tracks of springs and of the linear contact that end in several phases of the resonance."""
         turn = 2 * math.pi * self.scene.speed / self.scene.eigenfrequency
         whole = max(round(self.scene.length / turn), 1)
@@ -96,11 +96,13 @@ class WheelDistance:
             for phase in self.phases
         }
 
-    def vibrations(self) -> dict[float, Rides]:
+    def vibrations(self) -> dict[float, WheelEnsemble]:
         """Wheels that begin so much deeper than in equilibrium."""
         scene = replace(self.scene, distance=2 * self.scene.distance)
         return {
-            release: Rides(scene=scene, count=self.released, groups=self.released, release=release, seed=self.seed)
+            release: WheelEnsemble(
+                scene=scene, count=self.released, groups=self.released, release=release, seed=self.seed
+            )
             for release in self.releases
         }
 

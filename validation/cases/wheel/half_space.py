@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
-from validation.simulation.wheel_on_half_space import Strip, roll_strip
-from validation.simulation.wheel_on_springs import Feed, Rides, roll_wheels
+from validation.simulation.wheel_on_half_space import WheelStrip, roll_strip
+from validation.simulation.wheel_on_springs import Feed, WheelEnsemble, roll_wheels
 
 TABLE = read_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
@@ -43,9 +43,9 @@ class Wheel3D:
     batch: int = 100
     seed: int = 148
 
-    def strip(self, realisation: int, cells: int, tolerance: float, turns: int) -> Strip:
+    def strip(self, realisation: int, cells: int, tolerance: float, turns: int) -> WheelStrip:
         """One wheel on boundary elements."""
-        return Strip(
+        return WheelStrip(
             scene=self.scene,
             realisation=realisation,
             turns=turns,
@@ -56,7 +56,7 @@ class Wheel3D:
             seed=self.seed,
         )
 
-    def strips_of(self) -> dict[str, list[Strip]]:
+    def strips_of(self) -> dict[str, list[WheelStrip]]:
         """The ensemble, some of it on a coarser grid, and a short strip at two tolerances."""
         return {
             FINEST: [self.strip(i, self.cells, self.tolerance, self.turns) for i in range(self.strips)],
@@ -65,14 +65,14 @@ class Wheel3D:
             TIGHT: [self.strip(0, self.cells, self.tolerance / ANEW, self.short)],
         }
 
-    def rides(self, feed: Feed) -> list[Rides]:
+    def rides(self, feed: Feed) -> list[WheelEnsemble]:
         """Springs in the motion that repeats itself, on tracks as long as the strips."""
         along = self.strip(0, self.cells, self.tolerance, self.turns)
         scene = replace(self.scene, distance=along.shape[0] * along.spacing)
         batches = max(self.wheels // self.batch, 1)
         count = self.wheels // batches
         return [
-            Rides(
+            WheelEnsemble(
                 scene=scene,
                 first=i * count,
                 count=count,

@@ -14,9 +14,9 @@ from mdr import SelfAffine
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
-from validation.simulation.contact_laws import BoundaryElements, Springs
+from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
-from validation.simulation.wheel_on_springs import Rides, roll_wheels
+from validation.simulation.wheel_on_springs import WheelEnsemble, roll_wheels
 
 FloatArray = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ STRIP = 3
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wheel:
+class WheelSpectrum:
     """An ensemble of wheels of a scene on springs, and the same with one parameter changed at a time.
 
     scene; realisations: of the scene itself; varied: of each variation; groups: into which both are divided for error
@@ -51,12 +51,15 @@ class Wheel:
             raise ValueError(f"name must be another than those of variations, {', '.join(varied)}, got that")
         return {self.scene.name: self.scene, **varied}
 
-    def rides(self, scene: WheelScene, realisations: int) -> list[Rides]:
+    def rides(self, scene: WheelScene, realisations: int) -> list[WheelEnsemble]:
         """Batches of equal size, each of whole groups: a few wheels more where that asks for them."""
         batches = math.ceil(realisations / self.batch)
         groups = max(self.groups // batches, 1)
         count = groups * math.ceil(realisations / batches / groups)
-        return [Rides(scene=scene, first=i * count, count=count, groups=groups, seed=self.seed) for i in range(batches)]
+        return [
+            WheelEnsemble(scene=scene, first=i * count, count=count, groups=groups, seed=self.seed)
+            for i in range(batches)
+        ]
 
     def of(self, name: str) -> int:
         """Realisations of a variation."""
@@ -77,12 +80,12 @@ class Still:
 class WheelResult:
     """Batches of each variation, and the contact of one wheel in one and in three dimensions."""
 
-    case: Wheel
+    case: WheelSpectrum
     batches: Mapping[str, list[Outcome]]
     still: Outcome
 
 
-def run(case: Wheel, engine: Engine = SERIAL) -> WheelResult:
+def run(case: WheelSpectrum, engine: Engine = SERIAL) -> WheelResult:
     """Roll all wheels of all variations."""
     if case.scene.rail is None and case.scene.wheel is None:
         raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
@@ -126,9 +129,11 @@ def picture(still: Still) -> Outcome:
     """
     scene, wheel = still.scene, still.scene.body
     a, d = scene.contact_radius, scene.approach
-    rides = Rides(scene=scene, seed=still.seed)
+    rides = WheelEnsemble(scene=scene, seed=still.seed)
     heights = rides.heights()
-    motion = simulate(wheel, Springs(wheel, heights, scene.spacing), time_step=scene.time_step, steps=still.steps * 4)
+    motion = simulate(
+        wheel, SpringsLaw(wheel, heights, scene.spacing), time_step=scene.time_step, steps=still.steps * 4
+    )
     j = np.arange(-round(1.4 * scene.springs), round(1.4 * scene.springs) + 1)
     profile = (j * scene.spacing) ** 2 / scene.radius - motion.approach[0]
     height = heights[:, 0].take(j + 4 * still.steps, mode="wrap")
@@ -162,6 +167,6 @@ def _strip_contact(still: Still) -> bem3d.RollingContact:
                 strip += bem3d.rough_surface(
                     carried, shape=strip.shape, spacing=spacing, rng=generator(still.seed, STRIP, i)
                 )
-    law = BoundaryElements(wheel, [strip], spacing)
+    law = BoundaryElementsLaw(wheel, [strip], spacing)
     simulate(wheel, law, time_step=spacing / scene.speed, steps=still.steps)
     return law.contacts[0]

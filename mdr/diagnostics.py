@@ -6,30 +6,30 @@ import warnings
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.border import FloatArray
+from mdr.checks import FloatArray
 
 FEWEST_SPRINGS = 16
 FEWEST_SPRINGS_A_WAVE = 4.0
 LARGEST_PART = 0.1
 
 
-class ContactWarning(UserWarning):
+class SpringContactWarning(UserWarning):
     """A problem was answered as it was put, but it may not be the one that was meant."""
 
 
-class ResolutionWarning(ContactWarning):
+class SpringResolutionWarning(SpringContactWarning):
     """Too few springs: in the contact, or to the shortest wave."""
 
 
-class LinearityWarning(ContactWarning):
+class LinearityWarning(SpringContactWarning):
     """A contact that keeps its length, under roughness that would change it."""
 
 
-class UnitsWarning(ContactWarning):
+class SpringUnitsWarning(SpringContactWarning):
     """A load that a body of these units would hardly bear, as where a modulus in GPa is taken as one in Pa."""
 
 
-Doubt = tuple[type[ContactWarning], str]
+Doubt = tuple[type[SpringContactWarning], str]
 
 
 def doubts_of_load(pressed: NDArray[np.integer], springs: int) -> tuple[Doubt, ...]:
@@ -47,7 +47,7 @@ def doubts_of_load(pressed: NDArray[np.integer], springs: int) -> tuple[Doubt, .
     error = "the answer is that of the spacing, not of the profile" if fewest == 1 else f"k may be {1 / fewest:.0%} off"
     return (
         (
-            ResolutionWarning,
+            SpringResolutionWarning,
             f"only {fewest} spring{'s' * (fewest != 1)} in contact{where}: {error}; take more springs "
             f"({FEWEST_SPRINGS} or more in contact are not warned of)",
         ),
@@ -60,7 +60,7 @@ def doubts_of_wheel(springs: float) -> tuple[Doubt, ...]:
         return ()
     return (
         (
-            ResolutionWarning,
+            SpringResolutionWarning,
             f"the contact of the smooth wheel has only {springs:.2g} springs: take more "
             f"({FEWEST_SPRINGS} or more are not warned of)",
         ),
@@ -72,7 +72,9 @@ def doubts_of_units(*, approach: float, radius: float) -> tuple[Doubt, ...]:
     if approach <= radius:
         return ()
     part = math.sqrt(approach) / math.sqrt(radius)
-    return ((UnitsWarning, f"the radius of contact is {part:.3g} times that of the sphere: are the units right?"),)
+    return (
+        (SpringUnitsWarning, f"the radius of contact is {part:.3g} times that of the sphere: are the units right?"),
+    )
 
 
 def doubts_of_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[Doubt, ...]:
@@ -86,7 +88,7 @@ def doubts_of_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[
         return ()
     return (
         (
-            ResolutionWarning,
+            SpringResolutionWarning,
             f"the shortest wave of the spectrum has {springs:.2g} springs, fewer than {FEWEST_SPRINGS_A_WAVE:.0f}: "
             "lower q_max or take more points",
         ),

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.border import FloatArray
-from mdr.near import Near
-from mdr.track import Track
+from mdr.candidate_springs import Near
+from mdr.checks import FloatArray
+from mdr.spring_track import SpringTrack
 
 MOST_NUMBERS = 2**21
 """Springs times positions that are sorted at once."""
@@ -22,7 +22,7 @@ class Borne:
     looked: FloatArray | float
 
 
-def by_sorting(track: Track, block: slice, wanted: float, d: float) -> Borne:
+def by_sorting(track: SpringTrack, block: slice, wanted: float, d: float) -> Borne:
     """Approaches at which sum_j max(d - x_j^2 / R + h_j, 0) is as wanted, over a block of positions.
 
     The springs in contact are the highest n; the next one joins at the force sum_j (z_j - z_{n+1}), z = h - x^2 / R,
@@ -48,7 +48,7 @@ def by_sorting(track: Track, block: slice, wanted: float, d: float) -> Borne:
     return Borne(overlap - highest[:, 0], pressed.astype(np.float64), np.full(positions, float(near.columns)))
 
 
-def _deepest(track: Track, block: slice, wanted: float, d: float) -> FloatArray:
+def _deepest(track: SpringTrack, block: slice, wanted: float, d: float) -> FloatArray:
     """Approaches that are deep enough: as the highest spring would have it alone, or the nearest, all in contact."""
     near = Near(track, block, -float(track.height[block].min()), most=track.points // 2)
     level = _levels(near)

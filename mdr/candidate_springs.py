@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mdr.border import FloatArray
-from mdr.track import Track
+from mdr.checks import FloatArray
+from mdr.spring_track import SpringTrack
 
 WORTH = 0.5
 """Springs that stand out are looked at by themselves where that leaves so little of the work, or less."""
@@ -20,7 +20,7 @@ class Near:
     lowest, highest: of all springs so near that the highest of the track could touch there.
     """
 
-    def __init__(self, track: Track, block: slice, approach: float, *, most: int | None = None):
+    def __init__(self, track: SpringTrack, block: slice, approach: float, *, most: int | None = None):
         """For approaches up to this one; most: springs to each side that count, all by default."""
         self.track, self.block = track, block
         wide = max(track.reach(approach + float(track.height.max())), 0)

@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 
-from bem3d.border import FloatArray
+from bem3d.checks import FloatArray
 
 FEWEST_CELLS = 32
 FEWEST_CELLS_TO_JUDGE = 6

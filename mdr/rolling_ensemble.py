@@ -5,10 +5,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, count, doubles, finite_array, held, positive
-from mdr.doubts import doubts_of_units, doubts_of_wheel, warn
+from mdr.checks import FloatArray, count, doubles, finite_array, held, positive
+from mdr.diagnostics import doubts_of_units, doubts_of_wheel, warn
 from mdr.rolling import smooth_approach
-from mdr.track import MOST_SPRINGS
+from mdr.spring_track import MOST_SPRINGS
 
 BLOCK = 512
 """Places at a time: few enough to stay in the cache, and to see little of the range of the heights."""
@@ -21,7 +21,7 @@ SLACK = 0.02
 MOST_STEPS = 200
 
 
-class Wheels:
+class RollingEnsemble:
     """The contact of rigid wheels of profile x^2 / R with one-sided springs, one periodic track a wheel.
 
     F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0), for each wheel over the i-th spring of its track.

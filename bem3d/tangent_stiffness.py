@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bem3d.border import BoolArray, FloatArray, count, field, fraction
+from bem3d.checks import BoolArray, FloatArray, count, field, fraction
 from bem3d.convergence import ConvergenceError
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly
@@ -12,7 +12,7 @@ from bem3d.window import Candidates, dot, smallest_box
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class FrozenContact(ReadOnly):
+class FixedContactArea(ReadOnly):
     """Pressure under a unit approach of a fixed contact set [Pa/m], its stiffness [N/m] and how it was reached.
 
     history: relative residual |1 - K p| / |1| over the contact, before and after each iteration.
@@ -35,7 +35,7 @@ class FrozenContact(ReadOnly):
         return len(self.history) - 1
 
 
-def press_frozen(
+def solve_fixed_area(
     half_space: HalfSpace,
     contact: BoolArray,
     *,
@@ -43,7 +43,7 @@ def press_frozen(
     tolerance: float = 1e-6,
     max_iterations: int = 500,
     raise_on_failure: bool = True,
-) -> FrozenContact:
+) -> FixedContactArea:
     """Press a fixed set of cells by a unit approach: K p = 1 on the contact, p = 0 elsewhere; k = dF/dd.
 
     For the discrete frictionless problem this is the incremental stiffness exactly, as long as no cell is about to
@@ -67,7 +67,7 @@ def press_frozen(
     if start is not None:
         start = field("start", start, half_space.shape)
     if not contact.any() or (half_space.periodic and contact.all()):
-        return FrozenContact(
+        return FixedContactArea(
             pressure=np.zeros(half_space.shape),
             stiffness=np.inf if contact.any() else 0.0,
             history=(0.0,),
@@ -87,7 +87,7 @@ def press_frozen(
 
 def _conjugate_gradients(
     half_space: HalfSpace, contact: BoolArray, start: FloatArray | None, tolerance: float, max_iterations: int
-) -> FrozenContact:
+) -> FixedContactArea:
     """Preconditioned by the approximate inverse, on vectors over the cells of the contact."""
     box = smallest_box(half_space, contact)
     inside = contact[box]
@@ -112,7 +112,7 @@ def _conjugate_gradients(
         history.append(_length(remainder))
     whole = np.zeros(half_space.shape)
     whole[box] = cells.spread(pressure)
-    return FrozenContact(
+    return FixedContactArea(
         pressure=whole,
         stiffness=float(pressure.sum() + dot(pressure, remainder)) * half_space.cell_area,
         history=tuple(history),

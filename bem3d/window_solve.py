@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bem3d.border import BoolArray, FloatArray
+from bem3d.checks import BoolArray, FloatArray
 from bem3d.contact import Status, residual
 from bem3d.problem import Problem
 from bem3d.projected_cg import Load, projected_cg
@@ -20,7 +20,7 @@ PATIENCE = 100
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class InitialGuess:
     """A pressure to begin with, shape of the half-space, and the overlap that comes with it, if known.
 
     error: the residual that a start of this kind had on the next coarser grid.
@@ -32,7 +32,7 @@ class Start:
 
 
 @dataclass(eq=False)
-class Attempt:
+class IterationState:
     """A pressure on the whole grid, the overlap it has, and what has led there."""
 
     pressure: FloatArray
@@ -52,13 +52,13 @@ class Attempt:
             self.status = Status.ITERATION_LIMIT
 
 
-def press(problem: Problem, start: Start, tolerance: float, max_iterations: int) -> Attempt:
+def solve_on_window(problem: Problem, start: InitialGuess, tolerance: float, max_iterations: int) -> IterationState:
     """Solve on the smallest window that can hold the contact, and on a larger one where that proves too small.
 
     In free space a cell can only touch where the undeformed bodies overlap, since u >= 0 for p >= 0.
     """
     gap, s = problem.gap - problem.first_touch, problem.depth
-    attempt = Attempt(start.pressure, s or start.overlap or math.inf)
+    attempt = IterationState(start.pressure, s or start.overlap or math.inf)
     reach = attempt.overlap if s is not None else REACH * attempt.overlap
     while True:
         attempt.status = None
@@ -69,7 +69,7 @@ def press(problem: Problem, start: Start, tolerance: float, max_iterations: int)
 
 
 def _press_window(
-    problem: Problem, gap: FloatArray, within: BoolArray, attempt: Attempt, tolerance: float, max_iterations: int
+    problem: Problem, gap: FloatArray, within: BoolArray, attempt: IterationState, tolerance: float, max_iterations: int
 ) -> None:
     """Iterate on candidate cells until a fresh application confirms the residual on all cells of the window."""
     box = smallest_box(problem.half_space, within | (attempt.pressure > 0))
@@ -103,7 +103,7 @@ def _iterate(
     pressure: FloatArray,
     separation: FloatArray,
     load: Load,
-    attempt: Attempt,
+    attempt: IterationState,
     tolerance: float,
     max_iterations: int,
 ) -> FloatArray:

@@ -5,14 +5,14 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.border import FloatArray, finite_array, positive, stiffness_of_springs
-from mdr.doubts import Doubt, doubts_of_units, doubts_of_wheel
+from mdr.checks import FloatArray, finite_array, positive, stiffness_of_springs
+from mdr.diagnostics import Doubt, doubts_of_units, doubts_of_wheel
 
 MOST_SPRINGS = 2**28
 """To each side of a wheel: more would take gigabytes and hours."""
 
 
-class Track:
+class SpringTrack:
     """Heights of the springs along the track, and the wheel."""
 
     def __init__(self, height: ArrayLike, spacing: float, radius: float, modulus: float):

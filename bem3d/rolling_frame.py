@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from bem3d.border import BoolArray, FloatArray, IndexArray, grid_spacing, positive, strip
-from bem3d.doubts import Doubt, doubts_of_sphere, doubts_of_units
+from bem3d.checks import BoolArray, FloatArray, IndexArray, grid_spacing, positive, strip
+from bem3d.diagnostics import Doubt, doubts_of_sphere, doubts_of_units
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 from bem3d.window import Box, fast_side
