@@ -29,32 +29,28 @@ test: $(READY)  ## all tests
 thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
 
-# reports and cases execute the methods without looking at them: they do not count here
-AT_WORK := architecture claims command_line endings ensemble error_bars evidence figure_lines flags fractal_punch \
-	input_files ladder limits materials measured_heights planted_faults precision printed race readme \
-	report_folder rolling_cases rough_punches rules_by_loops scene_files selection steadiness wheel_cases \
-	wheel_spectra wheel_stability
+# who looks at the methods; reports and cases execute them without looking
+METHODS := tests/mdr tests/bem3d tests/theory tests/simulation tests/test_bad_input.py tests/test_read_only_results.py
 # who looks at what makes verdicts and claims
-GUARDS := claims ensemble error_bars evidence flags fractal_punch ladder precision printed rolling_theory rules_by_loops \
-	selection wheel_spectra
+GUARDS := tests/analysis tests/theory tests/selection tests/benchmarks tests/cases tests/engine tests/report
 
 coverage: $(STRENGTH)  ## every branch of mdr and bem3d, by the tests of these alone; fails where one is missed
 	$(RUN) pytest -n auto --cov --cov-context=test --junitxml=$(RECORD) \
-		$(AT_WORK:%=--ignore=tests/test_%.py) $(ARGS)
+		$(METHODS) $(ARGS)
 
 verdicts: $(STRENGTH)  ## which test of verdicts and claims has executed which line of them
-	COVERAGE_FILE=.coverage-verdicts $(RUN) pytest -n auto -p tests.fixture_times --cov --cov-context=test \
-		--cov-config=tests/verdicts.coveragerc --cov-report= --junitxml=$(RECORD_OF_VERDICTS) \
-		$(GUARDS:%=tests/test_%.py) $(ARGS)
+	COVERAGE_FILE=.coverage-verdicts $(RUN) pytest -n auto -p tests.mutation.fixture_times --cov --cov-context=test \
+		--cov-config=tests/mutation/verdicts.coveragerc --cov-report= --junitxml=$(RECORD_OF_VERDICTS) \
+		$(GUARDS) $(ARGS)
 
 # small changes and who notices: in mdr, bem3d, closed forms; ARGS="--sample 300"; in verdicts: ARGS="--of verdicts"
 mutation: $(RECORD) $(RECORD_OF_VERDICTS)
-	$(RUN) tests.mutation $(ARGS)
+	$(RUN) tests.mutation.runner $(ARGS)
 
-$(RECORD): $(STRENGTH) $(wildcard mdr/*.py bem3d/*.py validation/theory/closed_forms.py tests/*.py)
+$(RECORD): $(STRENGTH) $(wildcard mdr/*.py bem3d/*.py validation/theory/closed_forms.py tests/*.py tests/*/*.py)
 	$(MAKE) coverage ARGS=
 
-$(RECORD_OF_VERDICTS): $(STRENGTH) $(wildcard validation/*.py tests/*.py)
+$(RECORD_OF_VERDICTS): $(STRENGTH) $(wildcard validation/*/*.py validation/*/*/*.py tests/*.py tests/*/*.py)
 	$(MAKE) verdicts ARGS=
 
 lint: $(READY)

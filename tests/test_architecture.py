@@ -154,15 +154,11 @@ def named_paths():
     """What pyproject.toml, the Makefile and the mutation tests name."""
     project, made, mutation, verdicts = (
         (ROOT / name).read_text()
-        for name in ("pyproject.toml", "Makefile", "tests/mutation.py", "tests/verdicts.coveragerc")
+        for name in ("pyproject.toml", "Makefile", "tests/mutation/runner.py", "tests/mutation/verdicts.coveragerc")
     )
     text = made + project + mutation + verdicts
-    paths = re.findall(r"(?<![\w/])(?:mdr|bem3d|validation|tests)/[\w*/]*(?:\*|\.py)", text)
-    tests = " ".join(re.findall(r"^(?:AT_WORK|GUARDS) := ((?:.*\\\n)*.*)", made, flags=re.MULTILINE))
-    return {
-        *paths,
-        *(f"tests/test_{name}.py" for name in re.findall(r"\w+", tests)),
-    }
+    folders = " ".join(re.findall(r"^(?:METHODS|GUARDS) := (.*)", made, flags=re.MULTILINE)).split()
+    return {*re.findall(r"(?<![\w/])(?:mdr|bem3d|validation|tests)/[\w*/]*(?:\*|\.py)", text), *folders}
 
 
 @pytest.mark.parametrize("path", sorted(named_paths()))

@@ -88,8 +88,10 @@ def test_a_start_for_the_frozen_contact():
 def test_contacts_come_one_by_one(monkeypatch):
     """Nothing is solved before it is asked for; what is wrong with the input is said at once."""
     solved = []
-    press = bem3d.window_solve.solve_on_window
-    monkeypatch.setattr(bem3d.solver, "solve_on_window", lambda problem, *more: solved.append(problem) or solve_on_window(problem, *more))
+    solve = bem3d.window_solve.solve_on_window
+    monkeypatch.setattr(
+        bem3d.solver, "solve_on_window", lambda problem, *more: solved.append(problem) or solve(problem, *more)
+    )
     path = bem3d.indent(BODY, GAP, forces=[1.0, 2.0, 3.0])
     assert not solved
     next(path)

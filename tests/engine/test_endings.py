@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.test_ensemble import ENVIRONMENT, ROOT
+from tests.engine.test_engine import ENVIRONMENT, ROOT
 from validation import __main__ as command
 from validation.benchmarks.isolation import own_process
 from validation.engine.engine import Engine, WorkerLostError
@@ -95,7 +95,7 @@ RUN = """
 import signal
 import sys
 from pathlib import Path
-from tests import test_endings
+from tests.engine import test_endings
 from validation import __main__ as command
 from validation.report.contents import CASES
 solve, folder, workers = sys.argv[1:]

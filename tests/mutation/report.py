@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from scipy import stats
 
-from tests.mutants import Mutant
+from tests.mutation.mutants import Mutant
 
 Reasons = dict[str, dict[str, str]]
 """Of survivors, by file and by what they are called."""
@@ -62,7 +62,8 @@ def _introduction(survey: Survey, reasons: Reasons) -> list[str]:
         "# Mutants",
         "",
         "Written by `make mutation`. A mutant is the code with one small change: an operator, a comparison, a number,",
-        "a condition, a value that is returned, a call or an assignment left out (`tests/mutants.py`). It is killed",
+        "a condition, a value that is returned, a call or an assignment left out",
+        "(`tests/mutation/mutants.py`). It is killed",
         f"where a test fails, and met by tests of {survey.seconds:g} s in all: the quickest that execute its lines.",
         "",
         f"**{which}; {gone} of them were killed or timed out: {gone / tried:.1%}{interval}.**",

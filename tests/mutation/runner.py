@@ -30,14 +30,14 @@ from xml.etree import ElementTree
 import coverage
 import pytest
 
-from tests.mutants import Mutant, mutants_of, mutated
-from tests.mutation_report import Outcome, Survey, Trial, table
+from tests.mutation.mutants import Mutant, mutants_of, mutated
+from tests.mutation.report import Outcome, Survey, Trial, table
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 PROJECT = ("mdr", "bem3d", "validation", "tests")
 KILLERS = ROOT / ".mutation-killers.json"
 """Who has killed which mutant before: it is asked first the next time."""
-REASONS = ROOT / "tests" / "survivors.toml"
+REASONS = ROOT / "tests" / "mutation" / "survivors.toml"
 MEMORY = 8 * 2**30
 """Of a mutant, in bytes of address space."""
 SETTINGS = {"HYPOTHESIS_PROFILE": "mutation", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "OPENBLAS_NUM_THREADS": "1"}
@@ -75,14 +75,14 @@ FIELDS = {
         "coverage",
         ROOT / ".coverage",
         ROOT / ".coverage-times.xml",
-        ROOT / "tests" / "MUTATIONS.md",
+        ROOT / "tests" / "mutation" / "MUTATIONS.md",
     ),
     "verdicts": Field(
         VERDICTS,
         "verdicts",
         ROOT / ".coverage-verdicts",
         ROOT / ".coverage-verdicts-times.xml",
-        ROOT / "tests" / "MUTATIONS_OF_VERDICTS.md",
+        ROOT / "tests" / "mutation" / "MUTATIONS_OF_VERDICTS.md",
     ),
 }
 
@@ -273,7 +273,7 @@ def _name(mutant: Mutant) -> str:
 
 def parsed(arguments: list[str]) -> argparse.Namespace:
     """The command line."""
-    parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m tests.mutation.runner", description=__doc__)
     parser.add_argument("--of", choices=list(FIELDS), default="methods", help="what is surveyed (default: methods)")
     parser.add_argument("--sample", type=int, help="so many mutants, drawn at random; all where it is not given")
     parser.add_argument("--seed", type=int, default=0, help="of the sample")

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.test_command_line import SMALL
+from tests.report.test_command_line import SMALL
 from validation.__main__ import main
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import read_scene

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.test_ensemble import ENVIRONMENT, ROOT
+from tests.engine.test_engine import ENVIRONMENT, ROOT
 from validation import __main__ as command
 from validation.cases.exact import geike, hertz
 from validation.engine import files

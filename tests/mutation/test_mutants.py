@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutants import mutants_of, mutated
+from tests.mutation.mutants import mutants_of, mutated
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 SOURCE = '''"""A module of 3 lines."""
 from math import pi

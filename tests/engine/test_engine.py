@@ -25,7 +25,7 @@ from validation.engine import progress, stored
 from validation.engine.engine import Engine, generator
 from validation.simulation.rough_punch import press_surface
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 # workers of their own find this file as the tests do
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
 
@@ -310,7 +310,7 @@ def contents(folder):
 RUN = """
 import sys
 from pathlib import Path
-from tests.test_ensemble import Slow, gated
+from tests.engine.test_engine import Slow, gated
 from validation.engine.engine import Engine
 problems = [Slow(i, sys.argv[2]) for i in range(12)]
 Engine(workers=2, store=Path(sys.argv[1])).map(gated, problems)

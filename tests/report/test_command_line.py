@@ -33,7 +33,7 @@ from validation.engine.engine import SERIAL, Engine
 from validation.report.contents import CASES
 from validation.simulation.rough_punch import press_surface
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 SMALL = {
     "hertz": hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2),
     "geike": geike.Geike(cells=128, surfaces=2, longest=4),

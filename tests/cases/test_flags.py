@@ -34,7 +34,7 @@ from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.rolling_strip import self_affine
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 
 # --- solves: what is cut short has no value, and is counted ---

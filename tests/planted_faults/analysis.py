@@ -1,0 +1,184 @@
+"""Faults planted in what `tests/analysis` looks at: where, what is wrong there, and the test that must catch it."""
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+from scipy import stats
+
+from tests.analysis import test_error_bars, test_evidence, test_rules_by_loops
+from tests.analysis import test_spectra as test_wheel_spectra
+from validation.analysis import records, spectra, statistics
+from validation.analysis import spectral_features as regions
+from validation.analysis.evidence import Number
+from validation.cases.punch import fractal_punch_decades
+from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+
+
+def each_level_for_itself(realisations, rng):
+    """Resamples drawn anew at every level."""
+    alone = [statistics.sample(realisations[:, [level]], rng) for level in range(realisations.shape[1])]
+    return statistics.Sample(
+        *(np.concatenate([getattr(one, name) for one in alone], axis=1) for name in ("moments", "resampled")),
+        size=len(realisations),
+    )
+
+
+def dt_for_its_square(series, *, time_step, window="none"):
+    """(14.17) with dt / T."""
+    record = spectra_of_records(series, time_step=time_step, window=window)
+    return records.Record(record.omega, record.density / time_step)
+
+
+def one_sided_record(series, *, time_step, window="none"):
+    record = spectra_of_records(series, time_step=time_step, window=window)
+    return records.Record(record.omega, 2 * record.density)
+
+
+def hann_as_it_is(series, *, time_step, window="none"):
+    """Hann's window without its mean square, 3 / 8."""
+    record = spectra_of_records(series, time_step=time_step, window=window)
+    return records.Record(record.omega, record.density * (3 / 8 if window == "hann" else 1))
+
+
+def half_a_line_on(omega, hann, below):
+    return peak(omega, hann, below) + omega[0] / 2
+
+
+def slope_of_what_is_steep(omega, density, first, last, period):
+    centres, means = regions.levelled(omega, density, first, last, period, 0.0)
+    return float(np.polyfit(np.log(centres), np.log(means), 1)[0])
+
+
+def of_one_tail(estimate):
+    """The quantile of 90 %."""
+    return float(stats.t.ppf(0.95, estimate.samples - 1)) * estimate.error
+
+
+def two_standard_errors(estimate):
+    return 2 * estimate.error
+
+
+def ends_apart(estimate):
+    """All of the interval for its half."""
+    return 2 * half_of_the_interval(estimate)
+
+
+def scatter_of_the_sample_itself(drawn, statistic):
+    """The bootstrap's own standard error, (n - 1) / n of the variance."""
+    found = estimated(drawn, statistic)
+    return dataclasses.replace(found, error=found.error * math.sqrt((found.samples - 1) / found.samples))
+
+
+def of_all_samples(estimates):
+    """n k - 1 degrees of freedom for (n - 1) k."""
+    found = statistics.mean_of(estimates)
+    return dataclasses.replace(found, samples=sum(estimate.samples for estimate in estimates))
+
+
+def half_of_the_way(coarse, finer):
+    """What halving the cells changes, for what all halvings do."""
+    value, left = statistics.extrapolated(coarse, finer)
+    return dataclasses.replace(value, value=coarse.value + finer.value), left
+
+
+def fine_before_coarse(coarse, fine, rng):
+    return statistics.pairs(fine, coarse, rng)
+
+
+def sample_for_grid(*, grid, sample, **settings):
+    return Number(grid=sample, sample=grid, **settings)
+
+
+def both_edges(bands, q, values):
+    inside = (q[:, np.newaxis] >= bands.edges[:-1]) & (q[:, np.newaxis] <= bands.edges[1:])
+    return values @ inside.astype(complex)
+
+
+half_of_the_interval = statistics.Estimate.half_width.fget
+estimated = statistics.Sample.estimate
+spectra_of_records = records.spectra
+peak = regions.peak
+
+
+FAULTS = {
+    "a third of the interval, seen by its coverage": (
+        (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
+        functools.partial(
+            test_evidence.test_intervals_cover_the_truth,
+            60,
+            statistics.log_relative_deviation,
+            test_evidence.one_level,
+            "normal",
+        ),
+    ),
+    "every level resampled for itself": (
+        (test_evidence, "sample", each_level_for_itself),
+        test_evidence.test_levels_of_a_realisation_are_resampled_together,
+    ),
+    "dt for dt^2 in (14.17)": (
+        (records, "spectra", dt_for_its_square),
+        functools.partial(test_wheel_spectra.test_spectra_by_slow_sums, 31, "none"),
+    ),
+    "dt for dt^2 in (14.17), seen by Parseval": (
+        (records, "spectra", dt_for_its_square),
+        test_wheel_spectra.test_parseval_without_window,
+    ),
+    "one-sided spectrum of a record": (
+        (records, "spectra", one_sided_record),
+        test_wheel_spectra.test_parseval_without_window,
+    ),
+    "Hann without its mean square": (
+        (records, "spectra", hann_as_it_is),
+        functools.partial(test_wheel_spectra.test_parseval_of_hann_in_expectation, 24),
+    ),
+    "half a line on in the peak": (
+        (regions, "peak", half_a_line_on),
+        functools.partial(test_wheel_spectra.test_peak_of_a_tone_between_lines, 30.5),
+    ),
+    "slope of bands that are not levelled": (
+        (regions, "slope", slope_of_what_is_steep),
+        functools.partial(test_wheel_spectra.test_slope_under_an_oscillation, 0.7),
+    ),
+    "one tail of Student's t": (
+        (statistics.Estimate, "half_width", property(of_one_tail)),
+        functools.partial(test_error_bars.test_the_interval_of_a_mean_is_students, 2),
+    ),
+    "two standard errors of a sample of three": (
+        (statistics.Estimate, "half_width", property(two_standard_errors)),
+        functools.partial(test_error_bars.test_variance_and_mean_of_the_rolling_force_cover_their_truth, 3),
+    ),
+    "a whole interval for its half": (
+        (statistics.Estimate, "half_width", property(ends_apart)),
+        functools.partial(test_error_bars.test_the_interval_of_a_mean_is_students, 3),
+    ),
+    "a bootstrap that forgets n - 1": (
+        (statistics.Sample, "estimate", scatter_of_the_sample_itself),
+        functools.partial(test_error_bars.test_the_bootstrap_has_the_standard_error_of_a_mean, 3),
+    ),
+    "a degree of freedom for each mean too many": (
+        (test_error_bars, "mean_of", of_all_samples),
+        functools.partial(test_error_bars.test_the_interval_of_a_mean_of_estimates, (1.0, 0.05, 0.05)),
+    ),
+    "half of the way to cells of no size": (
+        (test_error_bars, "extrapolated", half_of_the_way),
+        test_error_bars.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
+    ),
+    "the finer grid taken for the coarser": (
+        (fractal_punch_decades, "pairs", fine_before_coarse),
+        test_error_bars.test_grids_are_paired_with_their_neighbours,
+    ),
+    "sample and grid exchanged": (
+        (fractal_punch_decades, "Number", sample_for_grid),
+        test_error_bars.test_the_grid_interval_of_fig_14_1,
+    ),
+    "decibels of an amplitude for those of a power, in rolling": (
+        (rolling_evidence, "POWER", statistics.DECIBEL),
+        test_error_bars.test_levels_of_rolling_are_powers_in_decibels,
+    ),
+    "a line at the upper edge of a band counted in it": (
+        (spectra.Bands, "sums", both_edges),
+        test_rules_by_loops.test_a_band_holds_its_lower_edge_and_not_its_upper,
+    ),
+}

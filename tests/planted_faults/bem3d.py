@@ -1,0 +1,201 @@
+"""Faults planted in what `tests/bem3d` looks at: where, what is wrong there, and the test that must catch it."""
+
+import dataclasses
+import functools
+import math
+
+import numpy as np
+
+import bem3d
+from bem3d import contact, halfspace, kernel, projected_cg, tangent_stiffness, window, window_solve
+from bem3d import rolling as wheel_on_strip
+from bem3d.rolling_frame import Frame, Track
+from tests.bem3d import (
+    test_accepted_solves,
+    test_contact_properties,
+    test_convergence_rates,
+    test_load_paths,
+    test_operator_against_dense_twin,
+    test_rolling_contact,
+    test_windows_and_starts,
+)
+from tests.bem3d import test_warnings as test_doubts
+from tests.planted_faults.wrong import E_FOR_E_STAR, scaled
+from validation.theory import closed_forms
+from validation.theory import rolling as rolling_theory
+
+
+def shifted_table(cells, aspect):
+    x, y = np.arange(cells[0])[:, np.newaxis], aspect * np.arange(cells[1])
+    return kernel.love(x + 0.5, y, 1.0, aspect)
+
+
+def one_sided_corner(x, y):
+    return kernel._half(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+
+
+def forgiving_residual(pressure, w, overlap):
+    return 1e-6 * contact.residual(pressure, w, overlap)
+
+
+def blind_to_penetration(pressure, w, overlap):
+    return contact.residual(pressure, np.maximum(w, 0.0), overlap)
+
+
+def grown_contact(half_space, cells, **settings):
+    wider = cells | np.roll(cells, 1, axis=0)
+    return tangent_stiffness.solve_fixed_area(half_space, wider, **settings)
+
+
+def half_a_window(half_space, marked):
+    """The middle of the box that holds all cells which may touch."""
+    return tuple(
+        slice(side.start + (side.stop - side.start) // 4, side.stop - (side.stop - side.start) // 4)
+        for side in window.smallest_box(half_space, marked)
+    )
+
+
+def sum_of_the_pressure(half_space, cells, **settings):
+    """k = sum(p) dx dy, whose error is the residual and not its square."""
+    result = tangent_stiffness.solve_fixed_area(half_space, cells, **settings)
+    return dataclasses.replace(result, stiffness=float(result.pressure.sum()) * half_space.cell_area)
+
+
+def four_times_the_force(frame, pressure):
+    force, centre, variance = moments(frame, pressure)
+    return 4 * force, centre, variance
+
+
+def half_a_cell_ahead(track, rows):
+    return (np.asarray(rows) + 0.5) * track.steps[0]
+
+
+def half_a_cell_aside(track, columns):
+    return (np.asarray(columns) - track.height.shape[1] / 2) * track.steps[1]
+
+
+def at_ten_times_the_tolerance(attempt, residual, tolerance, max_iterations):
+    judged(attempt, residual, 10 * tolerance, max_iterations)
+
+
+def whoever_has_ended(contact):
+    return contact.status in ("converged", "iteration limit")
+
+
+judged = window_solve.IterationState.judge
+moments = Frame._moments
+
+
+FAULTS = {
+    "E for E* in boundary elements": (
+        (kernel, "free_space_symbol", scaled(kernel.free_space_symbol, E_FOR_E_STAR)),
+        test_convergence_rates.test_sphere_force_at_second_order,
+    ),
+    "1.1419 for 1.1523 under the square punch": (
+        (closed_forms, "SQUARE_PUNCH", 1.012 * 2 / math.sqrt(math.pi)),
+        test_convergence_rates.test_square_punch_at_first_order,
+    ),
+    "pi lost in the pressure that closes a wave": (
+        (closed_forms, "westergaard_full_pressure", scaled(closed_forms.westergaard_full_pressure, 1 / np.pi)),
+        test_convergence_rates.test_wave_pressure_at_first_order,
+    ),
+    "factor 2 lost in the periodic symbol": (
+        (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
+        test_convergence_rates.test_wave_pressure_at_first_order,
+    ),
+    "factor 2 lost in the periodic symbol, against the dense twin": (
+        (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    "no padding": (
+        (halfspace, "_doubled", lambda points: points + points % 2),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
+    "padding two points short": (
+        (halfspace, "_doubled", lambda points: max(points + points % 2, 2 * points - 4)),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    "no padding, seen in a contact": (
+        (halfspace, "_doubled", lambda points: points + points % 2),
+        test_convergence_rates.test_a_wider_grid_changes_nothing,
+    ),
+    "kernel shifted by half a cell": (
+        (kernel, "love_table", shifted_table),
+        test_operator_against_dense_twin.test_displacement,
+    ),
+    "half of the corner function": (
+        (kernel, "corner", one_sided_corner),
+        test_operator_against_dense_twin.test_love_against_quadrature,
+    ),
+    "stiffness of a contact grown by a cell": (
+        (contact, "solve_fixed_area", grown_contact),
+        test_contact_properties.test_stiffness_is_that_of_the_dense_contact,
+    ),
+    "a residual that forgives": (
+        ((window_solve, projected_cg), "residual", forgiving_residual),
+        test_convergence_rates.test_a_wider_grid_changes_nothing,
+    ),
+    "a residual blind to penetration": (
+        ((window_solve, projected_cg), "residual", blind_to_penetration),
+        test_contact_properties.test_complementarity,
+    ),
+    "a window that cuts cells off": (
+        (window_solve, "smallest_box", half_a_window),
+        functools.partial(
+            test_windows_and_starts.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0
+        ),
+    ),
+    "stiffness to first order in the residual": (
+        (bem3d, "solve_fixed_area", sum_of_the_pressure),
+        test_load_paths.test_error_of_the_stiffness_is_the_residual_squared,
+    ),
+    "factor 2 lost in linear theory, seen by boundary elements": (
+        (test_rolling_contact, "response", scaled(rolling_theory.response, 0.5)),
+        functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
+    ),
+    "x^2 / R under the sphere": (
+        (Track, "sphere", scaled(Track.sphere, 2.0)),
+        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+    ),
+    "the wheel half a cell ahead": (
+        (Track, "along", half_a_cell_ahead),
+        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+    ),
+    "the wheel half a cell aside": (
+        (Track, "across", half_a_cell_aside),
+        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+    ),
+    "a frame that is trusted": (
+        (Frame, "outside", lambda *_: None),
+        functools.partial(
+            test_rolling_contact.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0
+        ),
+    ),
+    "a bound four times as large": (
+        (Frame, "_moments", four_times_the_force),
+        test_rolling_contact.test_cells_that_a_frame_rules_out_are_open,
+    ),
+    "a residual of rolling that is not looked at": (
+        (wheel_on_strip, "residual", lambda *_: 0.0),
+        functools.partial(
+            test_rolling_contact.test_pressures_solve_the_contact_on_all_of_the_strip, "as rough as deep"
+        ),
+    ),
+    "a modulus in gigapascals that nobody asks about": (
+        (contact, "doubts_of_units", lambda **_: ()),
+        test_doubts.test_a_modulus_in_gigapascals_is_asked_about,
+    ),
+    "accepted at ten times its tolerance": (
+        (window_solve.IterationState, "judge", at_ten_times_the_tolerance),
+        functools.partial(test_accepted_solves.test_the_tolerance_is_the_one_that_was_asked_for, 9.9e-4, None),
+    ),
+    "accepted at ten times its tolerance, seen by a solve": (
+        (window_solve.IterationState, "judge", at_ten_times_the_tolerance),
+        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+    ),
+    "the iteration limit taken for convergence": (
+        (contact.Contact, "converged", property(whoever_has_ended)),
+        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+    ),
+}

@@ -1,0 +1,66 @@
+"""Faults planted in what `tests/benchmarks` looks at: where, what is wrong there, and the test that must catch it."""
+
+import dataclasses
+import functools
+
+import numpy as np
+
+from tests.benchmarks import test_work_precision as test_precision
+from tests.planted_faults.wrong import scaled
+from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
+from validation.benchmarks.work_precision import errors as precision_error
+from validation.benchmarks.work_precision import measurement as precision
+
+
+def as_if_alone(quantity, mine, reference):
+    """Paired realisations taken for independent ones."""
+    return precision_error.error(quantity, dataclasses.replace(mine, paired=False), reference)
+
+
+def at_first_order(answer, quantity, rows):
+    return log_of_answer(answer, dataclasses.replace(quantity, order=1.0), rows)
+
+
+def without_its_logarithm(*, mean_pressure, amplitude, wavelength, modulus):
+    """d = h s."""
+    return amplitude * mean_pressure * wavelength / (np.pi * modulus * amplitude)
+
+
+def in_continuous_time(wheel, omega, time_step):
+    """omega for the 2 sin(omega dt / 2) / dt of leapfrog."""
+    return -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)
+
+
+log_of_answer = precision_error.MethodAnswers.log
+
+
+FAULTS = {
+    "nothing left open by a reference": (
+        (test_precision.Point, "rank", property(lambda point: point.error + point.half_width)),
+        test_precision.test_the_front_is_what_nothing_beats_and_ends_in_the_band,
+    ),
+    "errors ranked without their intervals": (
+        (test_precision.Point, "rank", property(lambda point: max(point.error, point.band))),
+        test_precision.test_errors_are_ranked_by_their_upper_ends,
+    ),
+    "the same surfaces taken for others": (
+        (test_precision, "error", as_if_alone),
+        test_precision.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
+    ),
+    "first order for second in an extrapolation": (
+        (precision_error.MethodAnswers, "log", at_first_order),
+        functools.partial(test_precision.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
+    ),
+    "decibels of an amplitude for those of a power": (
+        (precision.Quantity, "distance", scaled(precision.Quantity.distance, 2.0)),
+        test_precision.test_levels_differ_by_the_root_mean_square_of_decibels,
+    ),
+    "an approach under a wave without its logarithm": (
+        (test_precision, "westergaard_approach", without_its_logarithm),
+        test_precision.test_the_approach_under_a_wave_is_the_sum_of_its_compliances,
+    ),
+    "a filtered acceleration in continuous time": (
+        (precision_wheel, "transfer", in_continuous_time),
+        test_precision.test_the_filtered_acceleration_is_the_motion_that_repeats_itself,
+    ),
+}

@@ -1,0 +1,182 @@
+"""Faults planted in what `tests/cases` looks at: where, what is wrong there, and the test that must catch it."""
+
+import dataclasses
+import functools
+import types
+
+import numpy as np
+
+import bem3d
+import mdr
+from bem3d import kernel
+from tests.cases import test_flags, test_fractal_punch, test_limits, test_wheel_cases, test_wheel_stability
+from tests.planted_faults.wrong import scaled
+from validation.analysis import statistics
+from validation.analysis.evidence import Verdict
+from validation.cases.limits import springs as limits_mdr
+from validation.cases.limits import sweep as limits
+from validation.cases.punch import fractal_punch, fractal_punch_decades
+from validation.cases.selection import model_selection as ladder_on_trial
+from validation.engine import engine as ensemble
+from validation.scenes import dynamic_wheel as wheel_scene
+from validation.simulation import free_vibration, integrators, rough_punch
+from validation.simulation import spring_tracks as rough_springs
+from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.rough_punch import PunchRoughness
+from validation.theory import rolling as rolling_theory
+from validation.theory import wheel as wheel_theory
+
+
+def in_the_case(attribute, wrong):
+    """A fault that only the fractal punch sees: its own view of a module, with one name changed."""
+    view = types.SimpleNamespace(**{name: getattr(attribute, name) for name in attribute.__all__})
+    for name, value in wrong.items():
+        setattr(view, name, value)
+    return view
+
+
+def half_of_the_force(half_space, gap, *, forces, **settings):
+    return bem3d.indent(half_space, gap, forces=[force / 2 for force in forces], **settings)
+
+
+def upside_down(half_space, gap, **settings):
+    return bem3d.indent(half_space, -gap, **settings)
+
+
+def twice_the_same(entropy, *key):
+    return ensemble.generator(entropy, *key[:-1], key[-1] // 2)
+
+
+def half_of_the_limit(scheme, x):
+    return amplification(scheme, 2 * np.asarray(x))
+
+
+def of_a_continuum(track, stride):
+    """Springs however coarse taken for the finest."""
+    return linear_response(track, 1)
+
+
+class LineForGeike(mdr.SelfAffine):
+    c1d = mdr.SelfAffine.line
+
+
+def line_for_geike(roughness):
+    first, last = roughness.waves
+    return LineForGeike(hurst=roughness.hurst, q_min=2 * np.pi * first, q_max=2 * np.pi * last, rms=roughness.height)
+
+
+def gap_of_the_rigid_surface(surface):
+    """The mean gap as if the half-space did not yield."""
+    outcome = rough_punch.press_surface(surface)
+    return {**outcome, "gap": -outcome["approach"]}
+
+
+def half_of_the_circumference(scene):
+    """pi R / dx."""
+    return round(np.pi * scene.radius / scene.spacing)
+
+
+def always_open(rides):
+    """Places of an open track, whatever the track."""
+    return places_of(dataclasses.replace(rides, track="open"))
+
+
+def by_geike(rides):
+    return heights_of(dataclasses.replace(rides, feed="geike"))
+
+
+def without_resonance(omega, *, eigenfrequency, mass):
+    """a = dF / M."""
+    return np.full(np.shape(omega), mass**-2.0)
+
+
+places_of = wheel_ensemble.WheelEnsemble.places.fget
+heights_of = wheel_ensemble.WheelEnsemble.heights
+amplification = free_vibration.amplification
+linear_response = rough_springs.linear_response
+
+
+FAULTS = {
+    "line trace for Geike in Fig. 14.1": (
+        (PunchRoughness, "spectrum", property(line_for_geike)),
+        functools.partial(test_fractal_punch.test_profiles_are_those_of_geikes_spectrum, 1.0),
+    ),
+    "half of the force in Fig. 14.1": (
+        (rough_punch, "bem3d", in_the_case(bem3d, {"indent": half_of_the_force})),
+        test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
+    ),
+    "surfaces pressed upside down": (
+        (rough_punch, "bem3d", in_the_case(bem3d, {"indent": upside_down})),
+        test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
+    ),
+    "every profile drawn twice": (
+        (rough_punch, "generator", twice_the_same),
+        test_fractal_punch.test_no_realisation_is_counted_twice,
+    ),
+    "no grid error": (
+        (fractal_punch_decades.DecadeComparison, "left", 0.0),
+        test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
+    ),
+    "no extrapolation": (
+        (fractal_punch_decades.DecadeComparison, "correction", 0.0),
+        test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
+    ),
+    "a third of the interval": (
+        (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
+        functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.15, 60, Verdict.UNDECIDED),
+    ),
+    "mean gap of a half-space that does not yield": (
+        (test_fractal_punch, "press_surface", gap_of_the_rigid_surface),
+        test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
+    ),
+    "half of the longest step": (
+        (free_vibration, "amplification", half_of_the_limit),
+        functools.partial(test_wheel_stability.test_limits_are_those_of_the_eigenvalue, integrators.VELOCITY_VERLET),
+    ),
+    "coarse springs taken for a continuum": (
+        (rough_springs, "linear_response", of_a_continuum),
+        functools.partial(test_wheel_stability.test_linear_spacing_holds_for_other_tracks, 0),
+    ),
+    "a wheel of half of its circumference": (
+        (wheel_scene.WheelScene, "circumference_points", property(half_of_the_circumference)),
+        test_wheel_cases.test_the_roughness_of_a_wheel_repeats_after_its_circumference,
+    ),
+    "a closed track taken as open": (
+        (wheel_ensemble.WheelEnsemble, "places", property(always_open)),
+        functools.partial(
+            test_wheel_cases.test_closed_tracks_hold_whole_turns_and_steady_ones_a_half_more, "steady", 0.5, 0.16
+        ),
+    ),
+    "Geike for the rolling feed of springs": (
+        (wheel_ensemble.WheelEnsemble, "heights", by_geike),
+        test_wheel_cases.test_rolling_feed_has_long_waves_and_geike_has_none,
+    ),
+    "no resonator in the linear spectrum": (
+        (wheel_theory, "acceleration_over_force", without_resonance),
+        test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+    ),
+    "factor 2 pi lost over frequency, seen in an ensemble": (
+        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
+        test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+    ),
+    "a limit read on its good side": (
+        (limits.Sweep, "beyond", limits.Sweep.within),
+        functools.partial(test_limits.test_crossings_of_a_power_law, "above"),
+    ),
+    "factor 4 lost over a stretched surface": (
+        (limits_mdr, "response", scaled(rolling_theory.response, 0.5)),
+        test_limits.test_a_stretched_surface_by_another_quadrature,
+    ),
+    "factor 2 lost in the periodic symbol, seen by images": (
+        (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
+        test_limits.test_images_err_as_the_lattice_sum_says,
+    ),
+    "what is lost is not told": (
+        (fractal_punch, "lost", lambda *_: ()),
+        functools.partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
+    ),
+    "the referee's surfaces those of who is tested": (
+        (ladder_on_trial, "OTHER_SEED", 0),
+        test_flags.test_the_referee_of_the_ladder_has_surfaces_of_its_own,
+    ),
+}

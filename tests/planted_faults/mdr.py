@@ -1,0 +1,235 @@
+"""Faults planted in what `tests/mdr` looks at: where, what is wrong there, and the test that must catch it."""
+
+import functools
+import math
+import types
+
+import numpy as np
+
+import bem3d
+import mdr
+from bem3d import surface
+from mdr import foundation
+from mdr import profile as profile_module
+from mdr import rolling as wheel_on_springs
+from mdr import rolling_ensemble as wheels_in_step
+from mdr.approach_by_sorting import Borne, by_sorting
+from mdr.candidate_springs import Near
+from mdr.diagnostics import doubts_of_linearity
+from tests.mdr import test_drawn_roughness, test_geike_mapping, test_rolling_springs, test_springs_against_brute_force
+from tests.mdr import test_rolling_ensemble as test_wheels_on_springs
+from tests.mdr import test_spring_warnings as test_doubts_of_springs
+from tests.planted_faults.wrong import E_FOR_E_STAR, POISSON, force_in_step, one_sided_spectrum, scaled
+from validation.analysis import spectra
+from validation.theory import closed_forms
+from validation.theory import rolling as rolling_theory
+
+
+def half_a_circle(modes, own_mirror, amplitudes, rng):
+    return np.where(own_mirror, 1.0, np.exp(1j * np.pi * rng.random(modes)))
+
+
+def on_the_highest_spring_alone(track, block, wanted, d):
+    """Only the approach is wrong where more than one touches."""
+    borne = by_sorting(track, block, wanted, d)
+    return Borne(borne.approach + wanted * (1 - 1 / borne.pressed), borne.pressed, borne.looked)
+
+
+def softer_curve(height, *, length, modulus):
+    return load_curve(height, length=length, modulus=modulus * (1 - POISSON**2))
+
+
+def stretched_curve(height, *, length, modulus):
+    return load_curve(height, length=1.1523 * length, modulus=modulus)
+
+
+def half_of_the_parabola(x, *, radius):
+    return np.asarray(x) ** 2 / (2 * radius)
+
+
+def level_of_the_rolling_force(hurst):
+    """Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)), the ratio of force spectra, for that of heights."""
+    return math.gamma(hurst + 1.5) / (math.sqrt(math.pi) * math.gamma(hurst + 2))
+
+
+def printed_formula(c1d, q, nyquist):
+    """(14.9) as printed: sqrt(2 pi / L) C_1D, which has the wrong unit."""
+    return resolved(c1d, q, nyquist) ** 2
+
+
+load_curve = foundation.load_curve
+resolved = profile_module._resolved
+
+
+def in_numpy(wrong):
+    """numpy with some names changed."""
+    return types.SimpleNamespace(**{**vars(np), **wrong})
+
+
+def half_the_contact(track, level):
+    """Springs within a / 2: a for 2a."""
+    return reach(track, level) // 2
+
+
+def springs_that_pull(track, approach):
+    """All springs under the smooth wheel, in tension too."""
+    return wheel_on_springs._full(track, float(approach[0]), None)
+
+
+def springs_that_pull_at_the_edge(values, least):
+    return values
+
+
+def profile_half_a_cell_ahead(wheels, springs):
+    x = (np.arange(springs.start, springs.stop) + 0.5) * wheels.spacing
+    return np.rint((x**2 / wheels.radius)[:, np.newaxis] / wheels.quantum)
+
+
+def springs_that_pull_in_step(values, least, out=None):
+    return values
+
+
+def a_place_late(wheels, place, approach):
+    return force_in_step(wheels, place + 1, approach)
+
+
+def not_rounded(values):
+    """numpy's rint, as if there were no quantum."""
+    return np.asarray(values, dtype=np.float64)
+
+
+def ends_that_move_twice_as_far(height, change, **contact):
+    return doubts_of_linearity(height, change / 2, **contact)
+
+
+reach = wheel_on_springs.SpringTrack.reach
+
+
+FAULTS = {
+    "E for E* in springs": (
+        (mdr, "load_curve", softer_curve),
+        test_springs_against_brute_force.test_force_and_stiffness_at_an_approach,
+    ),
+    "level of the rolling force for that of the line trace": (
+        (closed_forms, "line_trace_ratio", level_of_the_rolling_force),
+        test_geike_mapping.test_line_trace_of_a_wide_power_law,
+    ),
+    "surface shifted by half a cell": (
+        (surface, "_half_a_cell", lambda mode, points: np.ones(mode.shape)),
+        test_drawn_roughness.test_a_finer_grid_draws_the_same_roughness,
+    ),
+    "spectrum of a surface without its mirror images": (
+        (surface, "_hermitian", lambda wave, amplitudes: wave),
+        test_drawn_roughness.test_surface_moments_are_the_sums_over_its_waves,
+    ),
+    "one-sided spectrum taken for two-sided": (
+        (bem3d, "rough_surface", scaled(bem3d.rough_surface, np.sqrt(2))),
+        test_drawn_roughness.test_surface_moments_are_the_sums_over_its_waves,
+    ),
+    "(14.9) as printed": (
+        (profile_module, "_resolved", printed_formula),
+        test_drawn_roughness.test_profile_moments_are_the_sums_over_its_waves,
+    ),
+    "line trace for Geike": (
+        (mdr.SelfAffine, "c1d", mdr.SelfAffine.line),
+        functools.partial(test_geike_mapping.test_moments_of_power_laws_are_kept, n=2),
+    ),
+    "q C_2D for Geike": (
+        (mdr, "geike", scaled(mdr.geike, 1 / np.pi)),
+        functools.partial(test_geike_mapping.test_moments_of_arbitrary_spectra_are_kept, n=0),
+    ),
+    "2 pi q C_2D for Geike": (
+        (mdr, "geike", scaled(mdr.geike, 2.0)),
+        functools.partial(test_geike_mapping.test_moments_of_arbitrary_spectra_are_kept, n=0),
+    ),
+    "x^2 / 2R in one dimension": (
+        (mdr, "sphere_profile", half_of_the_parabola),
+        functools.partial(
+            test_springs_against_brute_force.test_springs_under_a_parabola_tend_to_the_sphere_at_second_order, 0.1
+        ),
+    ),
+    "1.1523 L for L": (
+        (mdr, "load_curve", stretched_curve),
+        test_springs_against_brute_force.test_force_and_stiffness_at_an_approach,
+    ),
+    "phases on half of the circle": (
+        (profile_module, "_random_waves", half_a_circle),
+        test_drawn_roughness.test_profiles_look_the_same_up_and_down,
+    ),
+    "factor 4 lost in (14.12)": (
+        (rolling_theory, "response", scaled(rolling_theory.response, 0.5)),
+        test_rolling_springs.test_spectrum_of_the_linear_force_is_14_12,
+    ),
+    "a for 2a under the wheel": (
+        (wheel_on_springs.SpringTrack, "reach", half_the_contact),
+        test_rolling_springs.test_full_contact_tends_to_the_filter_at_second_order,
+    ),
+    "x^2 / 2R under the wheel": (
+        (wheel_on_springs.SpringTrack, "wheel", scaled(wheel_on_springs.SpringTrack.wheel, 0.5)),
+        test_rolling_springs.test_force_is_the_sum_over_all_springs,
+    ),
+    "springs that pull under the smooth wheel": (
+        (wheel_on_springs, "_one_sided", springs_that_pull),
+        test_rolling_springs.test_one_sided_force_leaves_the_linear_one_at_second_order,
+    ),
+    "springs that pull wherever they are in doubt": (
+        (wheel_on_springs, "np", in_numpy({"maximum": springs_that_pull_at_the_edge})),
+        test_rolling_springs.test_force_is_the_sum_over_all_springs,
+    ),
+    "one-sided spectrum of the force": (
+        (spectra.Waves, "spectrum", property(one_sided_spectrum)),
+        test_rolling_springs.test_variance_of_the_force_is_that_of_its_spectrum,
+    ),
+    "x^2 / 2R under many wheels": (
+        (mdr.RollingEnsemble, "_profile", scaled(mdr.RollingEnsemble._profile, 0.5)),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
+    ),
+    "many wheels half a cell ahead": (
+        (mdr.RollingEnsemble, "_profile", profile_half_a_cell_ahead),
+        test_wheels_on_springs.test_a_wheel_of_equal_springs_rolls_the_same_in_either_direction,
+    ),
+    "many wheels a cell ahead": (
+        (mdr.RollingEnsemble, "force", a_place_late),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
+    ),
+    "springs that pull under many wheels": (
+        (wheels_in_step, "np", in_numpy({"maximum": springs_that_pull_in_step})),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 30.0, 0.1),
+    ),
+    "springs that pull on a wheel in the air": (
+        (wheels_in_step, "np", in_numpy({"maximum": springs_that_pull_in_step})),
+        functools.partial(test_wheels_on_springs.test_far_above_the_track_there_is_no_force, -50.0),
+    ),
+    "E for E* under many wheels": (
+        (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),
+        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
+    ),
+    "sums that round": (
+        (wheels_in_step, "np", in_numpy({"rint": not_rounded})),
+        test_wheels_on_springs.test_a_wheel_feels_the_same_force_to_the_last_bit_whoever_rolls_beside_it,
+    ),
+    "springs that say nothing of short waves": (
+        (profile_module, "doubts_of_waves", lambda *_: ()),
+        functools.partial(test_doubts_of_springs.test_short_waves, 25, True),
+    ),
+    "few springs that say nothing": (
+        (foundation, "doubts_of_load", lambda *_: ()),
+        functools.partial(test_doubts_of_springs.test_few_springs_in_contact, 4, True),
+    ),
+    "ends of a linear contact that move twice as far": (
+        (wheel_on_springs, "doubts_of_linearity", ends_that_move_twice_as_far),
+        functools.partial(test_doubts_of_springs.test_the_ends_of_a_linear_contact_move_as_is_said, "linear", None),
+    ),
+    "a spike that nobody rolls over": (
+        (Near, "beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)),
+        test_rolling_springs.test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness,
+    ),
+    "a light wheel on its highest spring alone": (
+        (wheel_on_springs, "by_sorting", on_the_highest_spring_alone),
+        functools.partial(test_rolling_springs.test_a_light_wheel_over_a_spike, 0.1),
+    ),
+    "a contact wider than its sphere that nobody asks about": (
+        (foundation, "doubts_of_units", lambda **_: ()),
+        functools.partial(test_doubts_of_springs.test_units_of_a_sphere_are_asked_about, 1.0, 1.21, 1),
+    ),
+}

@@ -1,0 +1,63 @@
+"""Faults planted in what `tests/scenes` looks at: where, what is wrong there, and the test that must catch it."""
+
+import functools
+import math
+
+import numpy as np
+
+from tests.planted_faults.wrong import scaled, with_math
+from tests.scenes import test_materials, test_measured_heights, test_steadiness
+from validation.scenes import material, measured, roughness, steadiness
+from validation.theory import rolling as rolling_theory
+
+measured_spectrum = measured._spectrum
+
+
+def behind_the_mask(height):
+    return np.asarray(height, dtype=np.float64)
+
+
+slope_in_one_direction = roughness.Roughness.slope_along.fget
+
+
+def half_of_the_level(height, spacing):
+    edges, level = measured_spectrum(height, spacing)
+    return edges, tuple(value / 2 for value in level)
+
+
+FAULTS = {
+    "measured heights over half of their mean square": (
+        (measured, "_spectrum", half_of_the_level),
+        test_measured_heights.test_the_spectrum_has_the_height,
+    ),
+    "heights behind a mask": (
+        (measured, "_numbers", behind_the_mask),
+        test_measured_heights.test_points_without_data_are_refused,
+    ),
+    "a surface in micrometres taken for one in metres": (
+        (measured, "_metres", lambda surface: 1.0),
+        functools.partial(
+            test_measured_heights.test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes, {"unit": "um"}
+        ),
+    ),
+    "the other body taken for a rigid one": (
+        (material.Material, "modulus", property(lambda both: both._body.against_rigid)),
+        test_materials.test_two_bodies_share_the_compliance,
+    ),
+    "the slope of the gradient for that along the track": (
+        (roughness.Roughness, "slope_along", property(lambda rough: math.sqrt(2) * slope_in_one_direction(rough))),
+        test_materials.test_slopes_are_those_of_the_spectrum,
+    ),
+    "half of the force that throws a wheel": (
+        (steadiness, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
+        functools.partial(test_steadiness.test_the_force_on_the_way_against_a_plain_sum, 9.0),
+    ),
+    "a flight that nobody foretells": (
+        (steadiness, "MOST_FORCE", math.inf),
+        functools.partial(test_steadiness.test_flight_is_foretold, 0.33, 30e-3, "by linear theory"),
+    ),
+    "the rougher of wheel and rail for both": (
+        (steadiness, "math", with_math(hypot=lambda *heights: max(heights))),
+        test_steadiness.test_rail_and_wheel_are_rough_together,
+    ),
+}

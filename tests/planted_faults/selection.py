@@ -1,0 +1,214 @@
+"""Faults planted in what `tests/selection` looks at: where, what is wrong there, and the test that must catch it."""
+
+import functools
+import math
+import types
+
+import numpy as np
+
+import bem3d
+import mdr
+from tests.planted_faults.wrong import scaled, with_math
+from tests.selection import test_claims, test_selection
+from tests.selection import test_model_hierarchy as test_ladder
+from validation.benchmarks.work_precision import errors as precision_error
+from validation.engine import engine as ensemble
+from validation.selection import compare
+from validation.selection import hierarchy as ladder_of_models
+from validation.selection import indentation_models as rungs_pressed
+from validation.selection import indentation_on_grids as rungs_pressed_grids
+from validation.selection import rolling_models as rungs_rolling
+from validation.simulation import indentation as pressed_heights
+from validation.simulation import rolling_levels as rolled
+from validation.simulation import rolling_quantity as rolling_question
+from validation.theory import closed_forms
+from validation.theory import rolling as rolling_theory
+
+
+def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
+    geike = functools.partial(mdr.geike, c2d=c2d)
+    return rolling_theory.force_spectrum_1d(q, geike, contact_radius=contact_radius, modulus=modulus)
+
+
+def without_a_resonator(question, q):
+    return np.ones_like(q) / question.scene.body.mass
+
+
+def one_standard_error(ratios):
+    return float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
+
+
+drawn_on_a_grid = pressed_heights._drawn
+
+
+def at_points(heights, grid):
+    along, across = ((np.arange(n) - (n - 1) / 2) * grid.spacing for n in (grid.along // 2, grid.across))
+    return heights.at(along, across)
+
+
+def other_waves_on_every_grid(ground, shortest, cells, side, rng):
+    return drawn_on_a_grid(ground, shortest, cells, side, np.random.default_rng(cells))
+
+
+def the_last_change_alone(earlier, last):
+    return abs(float(last.mean())) + ladder_of_models.mean_error(last[:, np.newaxis])
+
+
+def without_the_noise_of_its_series(earlier, last):
+    before, after = (abs(float(change.mean())) for change in (earlier, last))
+    ratio = min(after / before, ladder_of_models.SLOWEST)
+    return after * max(1.0, ratio / (1 - ratio)) + ladder_of_models.mean_error(last[:, np.newaxis])
+
+
+def mean_over_bands(ratios):
+    return float(np.mean([ladder_of_models.mean_error(band[:, np.newaxis]) for band in ratios.T]))
+
+
+def the_same_every_time(entropy, *key):
+    return ensemble.generator(entropy, *key[:-1], 0)
+
+
+def of_unit_modulus(**settings):
+    return bem3d.HalfSpace(**{**settings, "modulus": 1.0})
+
+
+pressed_on_a_grid = rungs_pressed_grids.IndentationOnGrid._pressed
+
+
+def another_surface_on_coarser_grids(rung, realisation, cells):
+    return pressed_on_a_grid(rung, realisation + (cells != rung.cells), cells)
+
+
+def another_strip_beside(rung, realisation, cells):
+    other = realisation + (cells == rung.beside)
+    return rungs_rolling.on_boundary_elements(rung.question, cells, other, rung.seed)
+
+
+def geike_for_what_rolls(ground, contact_radius):
+    return functools.partial(mdr.geike, c2d=ground.c2d)
+
+
+FAULTS = {
+    "Geike for the half-space under a wheel": (
+        (rolling_question, "force_spectrum_3d", by_the_filter_of_one_dimension),
+        test_ladder.test_the_expected_levels_are_integrals_of_the_spectrum,
+    ),
+    "a factor 2 lost in the variance of the force": (
+        (rolling_question, "force_variance", scaled(rolling_theory.force_variance, 0.5)),
+        test_ladder.test_one_dimension_has_the_variance_of_the_force_and_not_its_levels,
+    ),
+    "no resonator between force and acceleration": (
+        (rolling_question.RollingQuantity, "transfer", without_a_resonator),
+        test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
+    ),
+    "one standard error for a 95 % interval": (
+        (ladder_of_models, "mean_error", one_standard_error),
+        test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
+    ),
+    "twice the separation of a rough face": (
+        (closed_forms, "INTERFACE", 0.96),
+        functools.partial(test_ladder.test_the_law_of_interfaces_holds_as_it_claims, 1.0),
+    ),
+    "one panel of a quadrature over decades": (
+        (rolling_question, "PANEL", 1e9),
+        functools.partial(test_ladder.test_the_whole_is_the_root_of_the_sum_of_its_bands, False),
+    ),
+    "measured heights at points, not over cells": (
+        (rolled, "_resampled", at_points),
+        test_ladder.test_short_waves_of_a_measured_track_are_no_longer_ones,
+    ),
+    "other waves on every grid of the ladder": (
+        (pressed_heights, "_drawn", other_waves_on_every_grid),
+        test_ladder.test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed,
+    ),
+    "an answer that stands on one cell": (
+        (rungs_pressed_grids, "too_few", lambda *_: ""),
+        test_claims.test_few_springs_and_few_cells_are_no_answer,
+    ),
+    "grids that do not converge with the error bar of those that do": (
+        (test_claims, "grid_error", the_last_change_alone),
+        test_claims.test_grids_that_do_not_converge_have_no_error_bar,
+    ),
+    "the error of a grid without that of its sample": (
+        (ladder_of_models, "mean_error", lambda _: 0.0),
+        test_claims.test_grids_that_do_not_converge_have_no_error_bar,
+    ),
+    "a table of errors held constant beyond its end": (
+        (rungs_pressed, "outside", lambda *_: ""),
+        functools.partial(test_claims.test_light_loads_have_no_answer_unless_it_is_that_of_the_summits, 1e-5, 8),
+    ),
+    "a linear filter for waves shorter than the contact": (
+        (rungs_rolling, "outside", lambda *_: ""),
+        functools.partial(
+            test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15
+        ),
+    ),
+    "an error that luck has made small, and its interval": (
+        (precision_error, "math", types.SimpleNamespace(**{**vars(math), "copysign": lambda *_: 1.0})),
+        functools.partial(
+            test_selection.test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much, test_selection.K, True
+        ),
+    ),
+    "a series of grids without the noise of its last change": (
+        (test_claims, "grid_error", without_the_noise_of_its_series),
+        functools.partial(test_claims.test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample, 0.75, 3.0),
+    ),
+    "quiet bands in the error of loud ones": (
+        (test_claims, "mean_error", mean_over_bands),
+        test_claims.test_the_error_over_bands_is_their_root_mean_square,
+    ),
+    "coarser grids on other surfaces": (
+        (rungs_pressed_grids.IndentationOnGrid, "_pressed", another_surface_on_coarser_grids),
+        test_claims.test_grids_are_compared_on_the_same_surfaces,
+    ),
+    "one surface for all": (
+        (pressed_heights, "generator", the_same_every_time),
+        test_claims.test_realisations_are_others,
+    ),
+    "one strip and one track for all": (
+        (rolled, "generator", the_same_every_time),
+        test_claims.test_realisations_are_others,
+    ),
+    "a half-space of unit modulus": (
+        (rungs_pressed_grids, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})),
+        functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
+    ),
+    "one measured face for the mean of all": (
+        (rungs_pressed, "SCATTER", 0.0),
+        test_claims.test_one_measured_face_is_not_the_mean_of_all,
+    ),
+    "a sphere cut off at its smooth approach": (
+        (pressed_heights, "DEEPEST", 0.0),
+        test_claims.test_the_side_of_a_sphere_holds_what_it_may_touch,
+    ),
+    "one cell in contact of a light punch": (
+        (pressed_heights, "CONTACT", 1),
+        test_claims.test_grids_are_as_fine_in_any_unit,
+    ),
+    "the rule of the rms for levels in bands": (
+        (rungs_rolling, "LINEAR_BANDS", rungs_rolling.LINEAR_RMS),
+        functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
+    ),
+    "what the finer of two grids leaves, for the coarser": (
+        (rungs_rolling, "OF_COARSE", rungs_rolling.OF_FINE),
+        functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
+    ),
+    "a grid beside another on another strip": (
+        (rungs_rolling.RollingOnGrid, "_rolled", another_strip_beside),
+        functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
+    ),
+    "Geike's spectrum for springs that roll": (
+        (rolled, "rolling_feed", geike_for_what_rolls),
+        functools.partial(
+            test_claims.test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands, "force-spectrum"
+        ),
+    ),
+    "decibels of a power for those of a level": (
+        (compare, "math", with_math(log10=lambda value: math.log10(value) / 2)),
+        functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
+    ),
+    "radians in a second told as hertz": (
+        (compare, "math", with_math(pi=0.5)),
+        functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
+    ),
+}

@@ -1,0 +1,182 @@
+"""Faults planted in what `tests/simulation` looks at: where, what is wrong there, and the test that must catch it."""
+
+import dataclasses
+import functools
+import types
+
+import numpy as np
+
+import mdr
+from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
+from tests.simulation import test_rough_punches, test_wheel_motion
+from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.simulation import contact_laws, integrators
+from validation.simulation import motion as wheel_in_motion
+from validation.simulation.rough_punch import PunchRoughness
+from validation.theory import wheel as wheel_theory
+
+
+def without_load(wheel, law, **settings):
+    """M z'' = F."""
+    weightless = types.SimpleNamespace(load=0.0, mass=wheel.mass, eigenfrequency=wheel.eigenfrequency)
+    return wheel_in_motion.simulate(weightless, law, **settings)
+
+
+def by_another(march):
+    """What `simulate` does where no scheme is asked for."""
+    return {**wheel_in_motion.simulate.__kwdefaults__, "integrator": march}
+
+
+def half_a_step(scheme):
+    """Forces at the right cells, steps of half their length."""
+    return dataclasses.replace(scheme, march=lambda f, y, v, dt: scheme.march(f, y, v, dt / 2))
+
+
+def old_force_in_the_velocity(f, y, v, dt):
+    """Velocity Verlet whose velocity has the force of the beginning alone: d is of first order then."""
+    place = 0
+    while True:
+        a = f(place, y)
+        yield y, v, a
+        y, v, place = y + dt * v + dt**2 / 2 * a, v + dt * a, place + 1
+
+
+def inverted(omega, *, eigenfrequency, mass):
+    """omega / omega_0 for omega_0 / omega."""
+    return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
+
+
+def held_at_the_edge(energy):
+    """A wheel that does not lift off."""
+    return 0.0 if energy >= 0 else other_turning_point(energy)
+
+
+def without_a_jump(motion):
+    return motion.onward - motion.onward
+
+
+def one_copy(wheel, law, **settings):
+    """Shooting that rolls and does not correct."""
+    start = settings.pop("start")
+    for name in ("rounds", "tolerance"):
+        settings.pop(name, None)
+    motion = wheel_in_motion.simulate(wheel, law(1), **settings, approach=start[0], velocity=start[1])
+    return motion.approach, motion.velocity, np.zeros(start[0].shape)
+
+
+def softer_steady(law, time_step):
+    """omega for the 2 sin(omega dt / 2) / dt of leapfrog."""
+    frequency = 2 * np.pi * np.fft.rfftfreq(len(law.change), time_step)[:, np.newaxis]
+    waves = np.fft.rfft(law.change, axis=0) / (law.wheel.stiffness - law.wheel.mass * frequency**2)
+    d = -np.fft.irfft(waves, len(law.change), axis=0)
+    return law.wheel.approach + d[0], (d[1] - d[-1]) / (2 * time_step)
+
+
+other_turning_point = wheel_theory._other_turning_point
+
+
+FAULTS = {
+    "rms of the ensemble for that of each": (
+        (PunchRoughness, "_normalised", lambda roughness, height: height),
+        functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
+    ),
+    "rms of each for that of the ensemble": (
+        (PunchRoughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()),
+        functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
+    ),
+    "interface and half-space in series": (
+        (mdr_limits.Layer, "log_kappa", lambda layer, stiffness: -np.log(1 / stiffness - 1 / layer.flat)),
+        functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
+    ),
+    "the punch taken for its interface": (
+        (mdr_limits.Layer, "log_kappa", lambda layer, stiffness: np.log(stiffness)),
+        functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
+    ),
+    "E for E* in the force, not in the approach at rest": (
+        (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),
+        test_wheel_motion.test_at_rest_the_wheel_bears_its_load,
+    ),
+    "load forgotten in the equation of motion": (
+        (test_wheel_motion, "simulate", without_load),
+        functools.partial(
+            test_wheel_motion.test_on_a_smooth_track_a_wheel_stays_at_rest,
+            contact_laws.HertzLaw(test_wheel_motion.WHEEL, 2),
+            4 * test_wheel_motion.ULP,
+        ),
+    ),
+    "explicit Euler where nothing is asked for": (
+        (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.EXPLICIT_EULER)),
+        functools.partial(test_wheel_motion.test_time_reversal, 0.05, 0.0),
+    ),
+    "symplectic Euler where nothing is asked for": (
+        (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.SYMPLECTIC_EULER)),
+        functools.partial(test_wheel_motion.test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog, 0.3),
+    ),
+    "the step of a cell for that of two in Runge and Kutta": (
+        (
+            test_wheel_motion,
+            "SCHEMES",
+            {**test_wheel_motion.SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
+        ),
+        functools.partial(test_wheel_motion.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
+    ),
+    "velocity Verlet with the force of the beginning alone": (
+        (
+            test_wheel_motion,
+            "SCHEMES",
+            {
+                **test_wheel_motion.SCHEMES,
+                "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
+            },
+        ),
+        functools.partial(test_wheel_motion.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
+    ),
+    "factor 4 lost in the leakage": (
+        (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
+        functools.partial(test_wheel_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
+    ),
+    "factor 4 lost in the leakage, seen in a motion": (
+        (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
+        test_wheel_motion.test_a_motion_that_repeats_itself_does_not_leak,
+    ),
+    "a period a thousandth too long": (
+        (wheel_theory, "hertz_period", scaled(wheel_theory.hertz_period, 1.001)),
+        functools.partial(test_wheel_motion.test_period_of_free_vibration_by_small_steps, 1.5),
+    ),
+    "a period without lift-off": (
+        (wheel_theory, "_other_turning_point", held_at_the_edge),
+        functools.partial(test_wheel_motion.test_period_of_free_vibration_by_small_steps, 2.2),
+    ),
+    "omega / omega_0 for omega_0 / omega": (
+        (wheel_theory, "acceleration_over_force", inverted),
+        test_wheel_motion.test_acceleration_over_force_is_that_of_a_steady_motion,
+    ),
+    "factor 2 pi lost over frequency": (
+        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
+        functools.partial(test_wheel_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
+    ),
+    "one-sided spectrum over frequency": (
+        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 2.0)),
+        functools.partial(test_wheel_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
+    ),
+    "a jump that is not there": (
+        (wheel_in_motion.Motion, "jump", property(without_a_jump)),
+        functools.partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
+    ),
+    "shooting without a correction": (
+        (test_wheel_motion, "repeating", one_copy),
+        test_wheel_motion.test_the_linear_motion_that_repeats_itself_is_the_steady_one,
+    ),
+    "a steady motion in continuous time": (
+        (contact_laws.Linear, "steady", softer_steady),
+        functools.partial(
+            test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1
+        ),
+    ),
+    "factor 2 lost in linear theory, seen by boundary elements in the loop": (
+        (test_wheel_motion, "linear_force", scaled(test_wheel_motion.linear_force, 0.5)),
+        functools.partial(
+            test_wheel_motion.test_boundary_elements_in_the_loop_follow_linear_theory_in_three_dimensions, 6
+        ),
+    ),
+}

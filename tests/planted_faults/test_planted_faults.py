@@ -1,0 +1,59 @@
+"""Negative controls: each fault is planted on purpose, and the named test must catch it."""
+
+import inspect
+import sys
+from collections.abc import Iterator
+
+import pytest
+
+from tests.planted_faults import (
+    analysis,
+    bem3d,
+    benchmarks,
+    cases,
+    engine,
+    house,
+    mdr,
+    report,
+    scenes,
+    selection,
+    simulation,
+    theory,
+)
+
+ROOMS = (analysis, bem3d, benchmarks, cases, engine, house, mdr, report, scenes, selection, simulation, theory)
+FAULTS = {fault: planted for room in ROOMS for fault, planted in room.FAULTS.items()}
+
+
+def parametrized(test) -> Iterator[tuple[list[str], list[tuple]]]:
+    """Names of arguments, and the rows of values with which pytest runs a test, mark by mark."""
+    for mark in getattr(test, "pytestmark", ()):
+        if mark.name == "parametrize":
+            names, rows = mark.args
+            names = names.replace(" ", "").split(",") if isinstance(names, str) else list(names)
+            yield names, [tuple(row) if len(names) > 1 else (row,) for row in rows]
+
+
+def is_in_the_suite(named_test):
+    """Whether pytest runs a named test, with these arguments and without a fault: there it must pass."""
+    test = getattr(named_test, "func", named_test)
+    given = inspect.signature(test).bind(*getattr(named_test, "args", ()), **getattr(named_test, "keywords", {}))
+    left = dict(given.arguments)
+    for names, rows in parametrized(test):
+        values = tuple(left.pop(name) for name in names)
+        if values not in rows:
+            return False
+    return not left and getattr(sys.modules[test.__module__], test.__name__) is test
+
+
+def test_named_tests_are_those_of_the_suite():
+    assert [fault for fault, (_, named_test) in FAULTS.items() if not is_in_the_suite(named_test)] == []
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_named_test_catches(fault, monkeypatch):
+    (places, name, wrong), named_test = FAULTS[fault]
+    for place in places if isinstance(places, tuple) else (places,):
+        monkeypatch.setattr(place, name, wrong)
+    with pytest.raises(AssertionError):
+        named_test()

@@ -1,0 +1,69 @@
+"""Faults planted in what `tests/theory` looks at: where, what is wrong there, and the test that must catch it."""
+
+import functools
+import importlib
+import math
+
+import numpy as np
+
+import mdr
+from tests.planted_faults.wrong import one_sided_spectrum, scaled
+from tests.theory import test_closed_forms, test_rolling_theory
+from validation.analysis import spectra
+from validation.theory import closed_forms
+from validation.theory import rolling as rolling_theory
+
+
+def half_of_the_slope(pressure, *, gradient):
+    """erf(p / (E* h')), without the root of two."""
+    return math.erf(pressure / gradient)
+
+
+def geike_for_rolling(q, c2d, edges, flat):
+    return float(np.pi * q * c2d(np.array(q)))
+
+
+def line_for_rolling(q, c2d, edges, flat):
+    return float(rolling_theory.section(q, c2d, edges=edges))
+
+
+# the function of this name hides the module in the package
+feed = importlib.import_module("mdr.rolling_spectrum")
+
+
+FAULTS = {
+    "2/3 for 4/3 in the force of Hertz": (
+        (closed_forms, "hertz_force", scaled(closed_forms.hertz_force, 0.5)),
+        test_closed_forms.test_hertz_pressure_integrates_to_the_force,
+    ),
+    "a for 2a in the stiffness of Hertz": (
+        (closed_forms, "circular_punch_stiffness", scaled(closed_forms.circular_punch_stiffness, 0.5)),
+        test_closed_forms.test_hertz_stiffness_is_that_of_the_punch_of_its_radius,
+    ),
+    "Persson without the root of two": (
+        (closed_forms, "persson_contact_fraction", half_of_the_slope),
+        test_closed_forms.test_persson,
+    ),
+    "Geike for the line trace in rolling": (
+        (mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
+        functools.partial(test_rolling_theory.test_small_wheels_are_fed_the_line_trace, 0.7),
+    ),
+    "springs that roll fed by Geike": (
+        (feed, "_across", geike_for_rolling),
+        functools.partial(
+            test_rolling_theory.test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space, 0.7, 1.0
+        ),
+    ),
+    "springs that roll fed by the line trace": (
+        (feed, "_across", line_for_rolling),
+        functools.partial(test_rolling_theory.test_large_wheels_are_fed_less_than_geike, 0.7),
+    ),
+    "factor 4 lost in the spectrum of the half-space": (
+        (rolling_theory, "response", scaled(rolling_theory.response, 0.5)),
+        functools.partial(test_rolling_theory.test_force_spectrum_by_adaptive_quadrature, 0.7, 1.7),
+    ),
+    "one-sided spectrum of a track": (
+        (spectra.Waves, "spectrum", property(one_sided_spectrum)),
+        test_rolling_theory.test_spectra_of_profiles_are_the_ones_they_are_drawn_from,
+    ),
+}
