@@ -25,7 +25,7 @@ sizes = st.floats(0, 1e3)
 
 
 def number(**changes):
-    given = {"label": "x", "value": 1.0, "reference": 1.0, "source": "s", "tolerance": 0.1, "reason": "r", **changes}
+    given = {"quantity": "x", "value": 1.0, "reference": 1.0, "source": "s", "tolerance": 0.1, "reason": "r", **changes}
     return Number(**given)
 
 

@@ -621,5 +621,5 @@ def test_report_times_last_of_all_and_before_the_race(installed, tmp_path, monke
 
 
 def test_a_seed_is_that_of_all_roughness():
-    case = TIMED["precision"].case("quick", 7)
+    case = TIMED["precision"].settings("quick", 7)
     assert [scene.seed for scene in case.scenes()[3:]] == [7, 7, 7]

@@ -344,7 +344,7 @@ def test_a_method_that_fails_on_the_clock_is_not_converged_and_a_refusal_is_an_a
 def number(verdict, role=Role.CRITERION):
     value, sample = {"agree": (1.0, 0.0), "differ": (3.0, 0.0), "undecided": (1.0, 1.0)}[verdict]
     return Number(
-        label=f"a {verdict} {role}",
+        quantity=f"a {verdict} {role}",
         value=value,
         reference=1.0,
         source="s",

@@ -391,7 +391,7 @@ def test_lines_of_one_parameter_at_a_time():
 def test_lines_of_fig_14_5():
     distances = Made({"distance [m]": np.repeat([0.1, 0.2], 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 2})
     breaks = Made({"distance [m]": [0.1, 0.2], "duration [s]": np.array([1.0, 2.0]), "break [rad/s]": [1.5, 2.5]})
-    law = Number(label="break against duration", value=0.4, reference=0.4, source="s", tolerance=0.1, reason="r")
+    law = Number(quantity="break against duration", value=0.4, reference=0.4, source="s", tolerance=0.1, reason="r")
     spectra, found = wheel_distance.draw(made((law,), distances=distances, breaks=breaks)).axes
     for name in (0.1, 0.2):
         mine = distances.where(**{"distance [m]": name})

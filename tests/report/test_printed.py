@@ -50,7 +50,7 @@ widths = st.floats(1e-6, 1e4)
 
 def number(value=1.0, **changes):
     settings = {"reference": 1.0, "source": "s", "tolerance": 0.1, "reason": "r", "unit": "dB", **changes}
-    return Number(**{"label": "x", "value": value, **settings})
+    return Number(**{"quantity": "x", "value": value, **settings})
 
 
 class Rows(HTMLParser):
@@ -96,9 +96,9 @@ def page_of(numbers, shown=(), **settings):
 
 
 NUMBERS = [
-    number(1.234567, reference=1.2, tolerance=0.5, grid=0.0123, sample=0.0456, label="agrees"),
-    number(-3.5, reference=2.5, tolerance=0.25, grid=0.031, label="differs", unit="rad/s"),
-    number(7.25, reference=7.0, tolerance=0.5, sample=0.9, label="open", unit="-", role=Role.FINDING),
+    number(1.234567, reference=1.2, tolerance=0.5, grid=0.0123, sample=0.0456, quantity="agrees"),
+    number(-3.5, reference=2.5, tolerance=0.25, grid=0.031, quantity="differs", unit="rad/s"),
+    number(7.25, reference=7.0, tolerance=0.5, sample=0.9, quantity="open", unit="-", role=Role.FINDING),
 ]
 
 
@@ -338,7 +338,7 @@ def test_rolling_prints_the_numbers_it_is_given():
     n = number(-1.26, tolerance=1.0, reference=0.0, sample=0.3, grid=0.22)
     assert rolling_evidence._signed(n) == "-1.3 ± 0.5 dB (undecided)"
     labels = [f"variance of the force over that of linear theory, h/d = 0.1: {m}" for m in ("bem3d", "springs")]
-    mine = [number(v, label=label, sample=0.0123) for v, label in zip((0.7777, 1.05), labels, strict=True)]
+    mine = [number(v, quantity=label, sample=0.0123) for v, label in zip((0.7777, 1.05), labels, strict=True)]
     assert rolling_evidence._variances(mine) == (
         "Variance of the force over that of linear theory, by h/d: 0.1: bem3d 0.778 ± 0.012 (differ); "
         "0.1: springs 1.050 ± 0.012 (agree)."
@@ -346,11 +346,11 @@ def test_rolling_prints_the_numbers_it_is_given():
     means = [
         number(
             0.5432,
-            label="mean force over that of Hertz, h/d = 0.3: springs beside bem3d",
+            quantity="mean force over that of Hertz, h/d = 0.3: springs beside bem3d",
             reference=0.9,
             tolerance=0.02,
         ),
-        number(1.001, label="mean force over that of Hertz, h/d = 0.1: springs beside bem3d", tolerance=0.02),
+        number(1.001, quantity="mean force over that of Hertz, h/d = 0.1: springs beside bem3d", tolerance=0.02),
     ]
     text = rolling_evidence._means(means)
     assert "0.3: 0.543 and 0.900 (differ); 0.1: 1.001 and 1.000 (agree)" in text
@@ -359,7 +359,7 @@ def test_rolling_prints_the_numbers_it_is_given():
 
 def test_rolling_holds_up_to_the_last_height_that_agrees():
     def labelled(value, height):
-        return number(value, reference=0.0, tolerance=1.0, label=f"springs over bem3d, h/d = {height:g}, low")
+        return number(value, reference=0.0, tolerance=1.0, quantity=f"springs over bem3d, h/d = {height:g}, low")
 
     heights = [SimpleNamespace(height=h) for h in (0.1, 0.3, 1.0)]
     found = {n.label: n for n in (labelled(0.5, 0.1), labelled(2.5, 0.3), labelled(0.1, 1.0))}
@@ -385,7 +385,7 @@ def test_the_interface_prints_the_numbers_it_is_given():
 
 
 def test_limits_print_the_numbers_they_are_given():
-    n = number(0.123, label="solve, sphere: iterations ~ cells on a side to the power of", sample=0.0456)
+    n = number(0.123, quantity="solve, sphere: iterations ~ cells on a side to the power of", sample=0.0456)
     assert limits_evidence._of_iterations([n]).endswith("to the power of: solve, sphere 0.12 ± 0.05.")
     residuals = table_of(
         "residual",
@@ -435,14 +435,14 @@ def test_the_table_of_breaks_prints_its_intervals():
 
 def feature(value, scene="the scene", name="peak"):
     label = f"{scene}: {wheel_evidence.NAMES[name]}"
-    return number(value, label=label, reference=1.0, tolerance=0.2, sample=0.05, unit="rad/s", role=Role.FINDING)
+    return number(value, quantity=label, reference=1.0, tolerance=0.2, sample=0.05, unit="rad/s", role=Role.FINDING)
 
 
 def test_fig_14_4_prints_the_numbers_it_is_given():
     """Each in the sentence of its own feature; what theory has not is said so; what is not there is not told."""
     names = ("peak", "jump", "slope", "period", "floor over predicted", "break over predicted")
     mine = {name: feature(1.0 + 0.01 * i, name=name) for i, name in enumerate(names)}
-    level = number(0.1234, label="level", reference=0.0, tolerance=0.5, sample=0.02)
+    level = number(0.1234, quantity="level", reference=0.0, tolerance=0.5, sample=0.02)
     sentences = wheel_evidence._conclusions({"the scene": mine}, "the scene", level)
     starts = ("Region 1", "Region 3 begins", "Its slope", "Its oscillation", "Its level", "Region 4", "The break")
     of = ("peak", "jump", "slope", "period", None, "floor over predicted", "break over predicted")
@@ -472,10 +472,10 @@ def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given(monkeypatc
     strips = [{"applications": np.array(a), "failed": np.array(f)} for a, f in ((10.0, 0.0), (13.0, 0.0), (99.0, 1.0))]
     found = SimpleNamespace(result=SimpleNamespace(strips={wheel_3d.FINEST: strips}))
     numbers = [
-        number(0.31, label="linear, 3D over bem3d, region 2", reference=0.0, tolerance=1.0, grid=0.1, sample=0.1),
-        number(-23.4, label="springs, Geike over bem3d, region 2", reference=0.0, tolerance=1.0, sample=0.3),
-        number(5.55, label="linear, 3D over bem3d, region 3", reference=0.0, tolerance=1.0, sample=0.1),
-        number(-4.44, label="region 3 by boundary elements: slope", reference=-4.4, sample=0.01, unit="-"),
+        number(0.31, quantity="linear, 3D over bem3d, region 2", reference=0.0, tolerance=1.0, grid=0.1, sample=0.1),
+        number(-23.4, quantity="springs, Geike over bem3d, region 2", reference=0.0, tolerance=1.0, sample=0.3),
+        number(5.55, quantity="linear, 3D over bem3d, region 3", reference=0.0, tolerance=1.0, sample=0.1),
+        number(-4.44, quantity="region 3 by boundary elements: slope", reference=-4.4, sample=0.01, unit="-"),
     ]
     second, third, slope, plateau, cost, *_ = wheel_3d_evidence._conclusions(found, numbers)
     assert "region 2: linear, 3D +0.3 ± 0.2 dB (agree); springs, Geike -23.4 ± 0.3 dB (differ)." in second
@@ -498,10 +498,10 @@ def test_fig_14_5_prints_the_numbers_it_is_given():
         ends={wheel_distance_evidence.OPEN: spectrum_of(1.0)},
         ended={(wheel_distance.LINEAR, phase): spectrum_of(level) for phase, level in phases.items()},
     )
-    law = number(0.417, reference=0.4167, label="break against duration", unit="-")
+    law = number(0.417, reference=0.4167, quantity="break against duration", unit="-")
 
     def ratio(label, value):
-        return number(value, label=label, reference=0.0, tolerance=1.0, sample=0.1)
+        return number(value, quantity=label, reference=0.0, tolerance=1.0, sample=0.1)
 
     numbers = [
         ratio("region 4: springs, open, Hann's window, over", -31.3),
@@ -509,12 +509,12 @@ def test_fig_14_5_prints_the_numbers_it_is_given():
         ratio("region 4: linear, open, over", 0.2),
         ratio("region 2: linear, open, over", -10.0),
         ratio("region 2: springs, repeating, over", -20.0),
-        number(0.95, label="floor over J², 0.1 m", reference=1.0),
-        number(1.034, label="floor over J², 0.2 m", reference=1.0),
-        number(1.05, label="rms jump", reference=1.0, sample=0.02),
-        number(0.97, label="peak over ω_eigen, released 0.4 d below equilibrium", reference=0.971, unit="-"),
-        number(1.52, label="mean square acceleration", reference=1.5, sample=0.03),
-        number(3.87, label="region 2, springs, steady: d ln A / d ln h₀", reference=4.0, tolerance=0.3, sample=0.05),
+        number(0.95, quantity="floor over J², 0.1 m", reference=1.0),
+        number(1.034, quantity="floor over J², 0.2 m", reference=1.0),
+        number(1.05, quantity="rms jump", reference=1.0, sample=0.02),
+        number(0.97, quantity="peak over ω_eigen, released 0.4 d below equilibrium", reference=0.971, unit="-"),
+        number(1.52, quantity="mean square acceleration", reference=1.5, sample=0.03),
+        number(3.87, quantity="region 2, springs, steady: d ln A / d ln h₀", reference=4.0, tolerance=0.3, sample=0.05),
     ]
     text = wheel_distance_evidence._conclusions(result, law, numbers)
     told = [

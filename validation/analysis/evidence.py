@@ -1,7 +1,7 @@
 """Evidence: numbers with a reference, a tolerance, an error bar and a verdict; tables behind figures; conclusions."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -24,15 +24,23 @@ class Role(StrEnum):
     FINDING = "finding"
 
 
+Place = str | float | tuple[float, float]
+"""A region by its name, a parameter by its value, or a range of it by both ends."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Number:
     """One number beside its reference.
 
-    value, reference, tolerance: in the same unit; grid, sample: half-widths of the 95 % intervals that the grid and
-    the number of realisations leave open, in the same unit. What is left of value - reference is the model's.
+    quantity: what was measured; model: by which model, and over which, empty where there is one alone; where: the
+    conditions, by name; these three are its key. value, reference, tolerance: in the same unit; grid, sample:
+    half-widths of the 95 % intervals that the grid and the number of realisations leave open, in the same unit. What is
+    left of value - reference is the model's.
     """
 
-    label: str
+    quantity: str
+    model: str = ""
+    where: Mapping[str, Place] = field(default_factory=dict)
     value: float
     reference: float
     source: str
@@ -50,6 +58,20 @@ class Number:
         for name in ("tolerance", "grid", "sample"):
             if getattr(self, name) < 0:
                 raise ValueError(f"{name} of {self.label!r} must not be negative, got {getattr(self, name)}")
+
+    @property
+    def label(self) -> str:
+        """Its key as a person reads it: "springs over bem3d: level, h/d = 0.1, low band"."""
+        what = f"{self.model}: {self.quantity}" if self.model else self.quantity
+        return ", ".join([what, *(_placed(name, value) for name, value in self.where.items())])
+
+    def matches(self, quantity: str | None = None, model: str | None = None, **where: Place) -> bool:
+        """Whether its key has these parts. Names of conditions with other letters: `matches(**{"h/d": 0.1})`."""
+        return (
+            quantity in (None, self.quantity)
+            and model in (None, self.model)
+            and all(name in self.where and self.where[name] == value for name, value in where.items())
+        )
 
     @property
     def difference(self) -> float:
@@ -90,6 +112,43 @@ class Number:
     def met(self) -> bool:
         """False for a criterion that does not agree."""
         return self.role is Role.FINDING or self.verdict is Verdict.AGREE
+
+
+def numbers_with(
+    numbers: Iterable[Number], quantity: str | None = None, model: str | None = None, **where: Place
+) -> list[Number]:
+    """Those whose key has these parts, in their order."""
+    return [number for number in numbers if number.matches(quantity, model, **where)]
+
+
+def number_with(
+    numbers: Iterable[Number], quantity: str | None = None, model: str | None = None, **where: Place
+) -> Number:
+    """The one number whose key has these parts. Raises LookupError where there is none, or more than one."""
+    found = numbers_with(numbers, quantity, model, **where)
+    if len(found) != 1:
+        raise LookupError(f"one number must have quantity {quantity!r}, model {model!r}, {where}, got {len(found)}")
+    return found[0]
+
+
+def _placed(name: str, value: Place) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, tuple):
+        return f"{name} = {value[0]:g} to {value[1]:g}"
+    return f"{name} = {value:g}"
+
+
+@dataclass(frozen=True)
+class VerdictCell:
+    """A cell of a table on the page: a text, the verdict that belongs to it, and what may follow."""
+
+    text: str
+    verdict: Verdict
+    after: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.text}: {self.verdict}" + (f"; {self.after}" if self.after else "")
 
 
 @dataclass(frozen=True)
@@ -133,6 +192,11 @@ class Evidence:
     captions: Mapping[str, str]
     unconverged: tuple[str, ...] = field(default=())
     shown: tuple[Table, ...] = ()
+
+    def __post_init__(self) -> None:
+        labels = [number.label for number in self.numbers]
+        if twice := {label for label in labels if labels.count(label) > 1}:
+            raise ValueError(f"numbers of {self.title!r} must have a key of their own, got twice: {sorted(twice)}")
 
     def table(self, name: str) -> Table:
         """The table of that name."""

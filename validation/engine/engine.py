@@ -6,7 +6,7 @@ import importlib.util
 import json
 import logging
 import re
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
@@ -23,6 +23,7 @@ from validation.engine.progress import Progress
 
 Outcome = stored.Outcome
 P = TypeVar("P")
+K = TypeVar("K")
 
 NUMERICS = ("mdr", "bem3d", "validation")
 ON_PAPER = "report"
@@ -96,6 +97,11 @@ class Engine:
                     known[i] = outcome
                     progress.step(_failed(outcome))
         return [known[i] for i in range(len(problems))]
+
+    def map_groups(self, solve: Callable[[P], Outcome], groups: Mapping[K, Sequence[P]]) -> dict[K, list[Outcome]]:
+        """`map` over the problems of all groups at once: the outcomes of each group, by its key."""
+        outcomes = iter(self.map(solve, [problem for group in groups.values() for problem in group]))
+        return {key: [next(outcomes) for _ in group] for key, group in groups.items()}
 
     @contextmanager
     def timed(self) -> Iterator["Engine"]:

@@ -11,11 +11,12 @@ from urllib.parse import quote
 import jinja2
 from markupsafe import Markup, escape
 
-from validation.analysis.evidence import Evidence, Number, Role, Verdict
+from validation.analysis.case import Case, Chapter, Profile
+from validation.analysis.evidence import Evidence, Number, Role, Verdict, VerdictCell
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
-from validation.report.contents import CASES, CHAPTERS, TIMED, Entry, Profile
-from validation.report.figures import DRAW
+from validation.report.contents import ALL, TIMED
+from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
 from validation.report.style import drawn, pdf, svg
@@ -32,7 +33,7 @@ class Section:
     """One case in the report: which rung of the ladder it needs, its settings, its evidence or why there is none."""
 
     name: str
-    entry: Entry
+    entry: Case
     needed: str
     settings: dict[str, object]
     evidence: Evidence | None
@@ -112,7 +113,7 @@ def _files(
         if section.evidence is None:
             continue
         for name in section.evidence.captions:
-            figure = drawn(DRAW[name], section.evidence, profile)
+            figure = drawn(drawing(name), section.evidence, profile)
             pictures[name] = files[f"figures/{name}.svg"] = svg(figure)
             files[f"figures/{name}.pdf"] = pdf(figure)
         for table in section.evidence.tables:
@@ -130,14 +131,14 @@ def _files(
 
 
 def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | None, engine: Engine) -> Section:
-    entry = TIMED[name] if name in TIMED else CASES[name]
-    case = entry.case(profile, seed, scene)
+    entry = ALL[name]
+    case = entry.settings(profile, seed, scene)
     try:
         with as_not_converged():
             evidence = entry.evidence(entry.run(case, engine))
     except NotConvergedError as error:
-        return Section(name, entry, entry.needs(case), asdict(case), None, (str(error), *error.lost))
-    return Section(name, entry, entry.needs(case), asdict(case), evidence)
+        return Section(name, entry, entry.model_needed(case), asdict(case), None, (str(error), *error.lost))
+    return Section(name, entry, entry.model_needed(case), asdict(case), evidence)
 
 
 def _results(sections: Sequence[Section], profile: Profile) -> dict[str, object]:
@@ -152,6 +153,7 @@ def _case_results(section: Section) -> dict[str, object]:
         "settings": section.settings,
         "numbers": [
             {
+                "label": number.label,
                 **asdict(number),
                 "difference": number.difference,
                 "verdict": number.verdict,
@@ -190,11 +192,12 @@ def _badge(verdict: str, count: str = "", *, unsteady: bool = False) -> Markup:
 
 
 def _badged(cell: object, *, unsteady: bool = False) -> Markup:
-    """Text of a table with its verdict, if it has one, as it looks elsewhere on the page."""
-    text = escape(f"{cell:.4g}" if isinstance(cell, float) else str(cell))
-    for verdict in SYMBOL:
-        text = text.replace(f": {verdict}", Markup("<br>") + _badge(verdict, unsteady=unsteady))
-    return text
+    """A cell of a table: a verdict looks as it does elsewhere on the page."""
+    if not isinstance(cell, VerdictCell):
+        return escape(f"{cell:.4g}" if isinstance(cell, float) else str(cell))
+    badge = _badge(cell.verdict, unsteady=unsteady)
+    after = f"; {cell.after}" if cell.after else ""
+    return Markup("{}<br>{}{}").format(cell.text, badge, after)
 
 
 def _address(picture: bytes) -> str:
@@ -224,7 +227,7 @@ def _page(
     environment.filters["small"] = lambda value: f"{value:.2g}"
     page = environment.get_template("page.html").render(
         sections=sections,
-        chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in CHAPTERS],
+        chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in Chapter],
         profile=profile,
         pictures={name: _address(picture) for name, picture in pictures.items()},
         about=about,

@@ -2,9 +2,12 @@
 
 import numpy as np
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.benchmarks.peers import CONTESTANTS
-from validation.benchmarks.solvers.case import FINISHED, Heat, RaceResult
+from validation.benchmarks.solvers.case import FINISHED, Errand, Heat, Race, RaceResult, run
+from validation.benchmarks.solvers.dynamic_wheel import SteppingThroughput
+from validation.benchmarks.solvers.rolling import RollingThroughput
 from validation.engine.engine import Outcome
 
 # the residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells
@@ -159,7 +162,7 @@ def _agreement(result: RaceResult) -> list[Number]:
         for column, (what, tolerance, reason) in enumerate(AGREEMENT):
             numbers.append(
                 Number(
-                    label=f"{what}: {contestant.name} beside bem3d.solve, largest of {len(done)} problems",
+                    quantity=f"{what}: {contestant.name} beside bem3d.solve, largest of {len(done)} problems",
                     value=float(np.max([row[column] for row in done])),
                     reference=0.0,
                     source="the same discrete problem has one solution",
@@ -284,3 +287,26 @@ def _mean(ratios: np.ndarray) -> float:
 
 def _exponent(n: np.ndarray, y: np.ndarray) -> float:
     return float(np.polyfit(np.log(n), np.log(y), 1)[0])
+
+
+CASE = Case(
+    name="race",
+    chapter=Chapter.SPEED,
+    place=2,
+    claim="Our solver is the fastest at the same residual.",
+    answers="The race: our solver beside the peers that are installed, same problems, same residual",
+    quick=Race(),
+    full=Race(
+        cells=(256, 512, 1024),
+        scaling=(128, 256, 512, 1024, 2048, 4096),
+        errand=Errand(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
+        rolling=RollingThroughput(cells=(8, 16, 32), finest=64, positions=1600),
+        wheel=SteppingThroughput(
+            springs=(12, 25, 50, 100, 200, 400), heights=(0.01, 0.1, 0.3, 1.0), steps=8000, bem_steps=1600
+        ),
+    ),
+    run=run,
+    evidence=evidence,
+    needs="–",
+    timed=True,
+)

@@ -6,9 +6,12 @@ from functools import cached_property
 
 import numpy as np
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
-from validation.benchmarks.work_precision.case import PrecisionResult
+from validation.benchmarks.work_precision.case import Precision, PrecisionResult, run
+from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
 from validation.benchmarks.work_precision.errors import points
+from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
 from validation.benchmarks.work_precision.measurement import (
     BEM,
     CLOSED,
@@ -32,6 +35,8 @@ from validation.benchmarks.work_precision.pareto import (
     why_nobody,
     without_luck,
 )
+from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.benchmarks.work_precision.rough_punch import Fractal
 
 MODELS = (CLOSED, FILTER_1D, MDR, FED)
 """Whose error no setting of a knob brings to zero, where the surface is rough."""
@@ -220,7 +225,7 @@ def _orders(charts: Charts) -> list[Number]:
         if len(points) > 2:
             found.append(
                 Number(
-                    label=f"{scene}, {quantity}, {line}: order of the error",
+                    quantity=f"{scene}, {quantity}, {line}: order of the error",
                     value=_order(points),
                     reference=order,
                     source="error model",
@@ -246,7 +251,7 @@ def _equal(charts: Charts) -> list[Number]:
         if pairs:
             found.append(
                 Number(
-                    label=f"{scene}, {quantity}: plain over fast boundary elements, farthest of {len(pairs)} grids",
+                    quantity=f"{scene}, {quantity}: plain over fast boundary elements, farthest of {len(pairs)} grids",
                     value=max((plain / other for plain, other in pairs), key=lambda ratio: abs(ratio - 1)),
                     reference=1.0,
                     source="the same discrete problem has one solution",
@@ -271,7 +276,7 @@ def _models(charts: Charts) -> list[Number]:
             decibel = last.unit == "dB"
             found.append(
                 Number(
-                    label=f"{last.scene}, {last.quantity}: error of {line} with {last.setting}",
+                    quantity=f"{last.scene}, {last.quantity}: error of {line} with {last.setting}",
                     value=last.error if decibel else 100 * last.error,
                     reference=0.0,
                     source="boundary elements, extrapolated",
@@ -284,3 +289,41 @@ def _models(charts: Charts) -> list[Number]:
                 )
             )
     return found
+
+
+CASE = Case(
+    name="precision",
+    chapter=Chapter.SPEED,
+    place=1,
+    claim="Springs are the cheapest up to some error, boundary elements beyond; scene by scene the chart says which.",
+    answers="Speed against accuracy: error against cost of every method, who is the cheapest within which error",
+    quick=Precision(),
+    full=Precision(
+        sphere=SphereProblem(
+            cells=(4, 8, 16, 32, 64),
+            plain=(4, 8, 16, 32),
+            peers=(4, 8, 16, 32),
+            springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
+        ),
+        punch=PunchProblem(cells=(8, 16, 32, 64, 128, 256), plain=(8, 16, 32, 64), peers=(8, 16), fixed=64),
+        wave=WaveProblem(
+            cells=(16, 32, 64, 128, 256, 512, 1024), plain=(16, 64, 256, 1024), peers=(16, 64, 256, 1024), fixed=256
+        ),
+        fractal=Fractal(
+            surfaces=100,
+            profiles=500,
+            cells=(24, 32, 64, 128, 256),
+            plain=(32, 64, 128),
+            springs=(24, 32, 64, 128, 256, 512, 1024),
+            fixed=128,
+        ),
+        rolling=RollingProblem(length=32, strips=8, tracks=60, cells=(3, 4, 6, 8, 12, 16, 32), plain=(4, 6), fixed=12),
+        wheel=WheelProblem(strips=8, wheels=60, cells=(6, 9, 12, 15, 30), springs=(12, 25, 50, 100), fixed=12),
+        slow=1.0,
+        enough=0.2,
+    ),
+    run=run,
+    evidence=evidence,
+    needs="scene by scene",
+    timed=True,
+)

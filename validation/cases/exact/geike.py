@@ -10,6 +10,7 @@ from scipy import integrate
 
 import bem3d
 import mdr
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, claim
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.theory import closed_forms
@@ -165,7 +166,7 @@ def _of_spectra(geike: dict[int, float], line: dict[int, float]) -> list[Number]
     """What both rules keep of the surface's moments."""
     of_geike = [
         Number(
-            label=f"spectra: {KEPT[n]} of Geike's 1D spectrum over that of the surface",
+            quantity=f"spectra: {KEPT[n]} of Geike's 1D spectrum over that of the surface",
             value=geike[n],
             reference=1.0,
             source="(10.12)",
@@ -176,7 +177,7 @@ def _of_spectra(geike: dict[int, float], line: dict[int, float]) -> list[Number]
     ]
     of_line = [
         Number(
-            label=f"spectra: {KEPT[n]} of the line trace over that of the surface",
+            quantity=f"spectra: {KEPT[n]} of the line trace over that of the surface",
             value=line[n],
             reference=_mean_power_of_cosine(n),
             source="mean of |cos|^n over directions",
@@ -194,7 +195,7 @@ def _of_draws(
     """Moments measured on draws against the sum over their waves, and that sum against the integral it stands for."""
     measured = [
         Number(
-            label=f"drawn {kind}: {KEPT[n]} over the sum over the waves of the period",
+            quantity=f"drawn {kind}: {KEPT[n]} over the sum over the waves of the period",
             value=float(np.mean([o[MEASURED[n]] for o in outcomes])) / over_waves[n],
             reference=1.0,
             source="(14.8), (14.9)",
@@ -205,7 +206,7 @@ def _of_draws(
     ]
     lattice = [
         Number(
-            label=f"{kind}: {KEPT[n]}, sum over the waves of the period over the integral of the spectrum",
+            quantity=f"{kind}: {KEPT[n]}, sum over the waves of the period over the integral of the spectrum",
             value=over_waves[n] / isotropic[n],
             reference=1.0,
             source="integral",
@@ -226,7 +227,7 @@ def _of_lines(result: GeikeResult, lines: Mapping[str, Sequence[float]]) -> list
     band = geike > 0
     return [
         Number(
-            label="drawn profiles: largest relative deviation of the measured spectrum in the band",
+            quantity="drawn profiles: largest relative deviation of the measured spectrum in the band",
             value=float(np.max(np.abs(profile[band] / geike[band] - 1))),
             reference=0.0,
             source="(14.9)",
@@ -234,7 +235,7 @@ def _of_lines(result: GeikeResult, lines: Mapping[str, Sequence[float]]) -> list
             reason="fixed amplitudes: exact but for the rounding of transforms, relative to the largest wave",
         ),
         Number(
-            label="lines cut from drawn surfaces: measured spectrum over the line trace, mid band",
+            quantity="lines cut from drawn surfaces: measured spectrum over the line trace, mid band",
             value=_mid_band(case, lines, "line trace [m^3]"),
             reference=1.0,
             source="SelfAffine.line",
@@ -243,7 +244,7 @@ def _of_lines(result: GeikeResult, lines: Mapping[str, Sequence[float]]) -> list
             "far up the band, where little is left",
         ),
         Number(
-            label="lines cut from drawn surfaces: measured spectrum over Geike's, mid band",
+            quantity="lines cut from drawn surfaces: measured spectrum over Geike's, mid band",
             value=_mid_band(case, lines, "geike [m^3]"),
             reference=1.0,
             source="(10.12)",
@@ -252,7 +253,7 @@ def _of_lines(result: GeikeResult, lines: Mapping[str, Sequence[float]]) -> list
             role=Role.FINDING,
         ),
         Number(
-            label="lines cut from drawn surfaces: mean square slope over that of the surface",
+            quantity="lines cut from drawn surfaces: mean square slope over that of the surface",
             value=float(np.mean([o["line_gradient"] / o["gradient"] for o in result.surfaces])),
             reference=0.5,
             source="isotropy",
@@ -320,3 +321,17 @@ def _integral(f: mdr.checks.Spectrum, low: float, high: float) -> float:
     """Adaptive quadrature, relative error 1e-10."""
     value, _ = integrate.quad(f, low, high, epsabs=0.0, epsrel=1e-11, limit=400)
     return float(value)
+
+
+CASE = Case(
+    name="geike",
+    chapter=Chapter.EXACT,
+    place=4,
+    claim="Geike's rule keeps height and slope; it is no cut along a line.",
+    answers="Geike's rule (10.12): what it keeps, and why it is not the spectrum of a line",
+    quick=Geike(),
+    full=Geike(cells=1024, surfaces=12),
+    run=run,
+    evidence=evidence,
+    needs="closed form: spectra alone",
+)

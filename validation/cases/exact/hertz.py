@@ -7,8 +7,10 @@ import numpy as np
 
 import bem3d
 import mdr
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Table, claim, columns
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.selection import model_needed
 from validation.theory import closed_forms
 
 SCATTER = {
@@ -140,7 +142,7 @@ def evidence(result: HertzResult) -> Evidence:
     numbers = [*_against_hertz(case, "bem3d", result.bem), *_against_hertz(case, "mdr", result.mdr)]
     numbers += [
         Number(
-            label="bem3d: pressure, relative L2 error",
+            quantity="bem3d: pressure, relative L2 error",
             value=float(result.bem[-1]["pressure_error"]),
             reference=0.0,
             source="Hertz",
@@ -148,7 +150,7 @@ def evidence(result: HertzResult) -> Evidence:
             reason="first order in the cell size: the root at the edge of the contact, cell by cell",
         ),
         Number(
-            label="mdr over bem3d: force at the given approach",
+            quantity="mdr over bem3d: force at the given approach",
             value=float(result.mdr[-1]["force"] / result.bem[-1]["force"]),
             reference=1.0,
             source="the other method",
@@ -199,7 +201,7 @@ def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Nu
     stiffness = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
     return [
         Number(
-            label=f"{method}: force at the given approach, over Hertz",
+            quantity=f"{method}: force at the given approach, over Hertz",
             value=float(last["force"]) / case.force,
             reference=1.0,
             source="Hertz",
@@ -207,7 +209,7 @@ def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Nu
             reason=why,
         ),
         Number(
-            label=f"{method}: approach at the given force, over Hertz",
+            quantity=f"{method}: approach at the given force, over Hertz",
             value=float(last["approach_at_force"]) / case.approach,
             reference=1.0,
             source="Hertz",
@@ -215,7 +217,7 @@ def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Nu
             reason="two thirds of the tolerance of the force, since d ~ F^(2/3)",
         ),
         Number(
-            label=f"{method}: contact radius over Hertz",
+            quantity=f"{method}: contact radius over Hertz",
             value=float(last["radius"]) / case.contact_radius,
             reference=1.0,
             source="Hertz",
@@ -223,7 +225,7 @@ def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Nu
             reason="one cell in the radius",
         ),
         Number(
-            label=f"{method}: stiffness over 2 E* a",
+            quantity=f"{method}: stiffness over 2 E* a",
             value=float(last["stiffness"]) / stiffness,
             reference=1.0,
             source="Boussinesq",
@@ -231,7 +233,7 @@ def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Nu
             reason="k follows the radius of the discrete contact: one cell in the radius",
         ),
         Number(
-            label=f"{method}: order of the force error in the cell size",
+            quantity=f"{method}: order of the force error in the cell size",
             value=_order(n, np.array([float(o["force"]) for o in outcomes]) / case.force - 1),
             reference=2.0,
             source="error model",
@@ -290,3 +292,17 @@ def _refinement_table(result: HertzResult) -> Table:
             "bem3d pressure error": [float(o["pressure_error"]) for o in result.bem],
         },
     )
+
+
+CASE = Case(
+    name="hertz",
+    chapter=Chapter.EXACT,
+    place=1,
+    claim="Both methods give the contact of Hertz.",
+    answers="Smooth sphere: both methods against Hertz",
+    quick=Hertz(),
+    full=Hertz(cells_per_radius=(8, 16, 32, 64, 128)),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.sphere,
+)

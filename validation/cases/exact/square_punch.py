@@ -6,8 +6,10 @@ import numpy as np
 
 import bem3d
 import mdr
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, columns
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.selection import model_needed
 from validation.theory import closed_forms
 
 
@@ -84,7 +86,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
     steps = np.abs(np.diff(square))
     numbers = (
         Number(
-            label="bem3d: square punch, k / (E* L), extrapolated",
+            quantity="bem3d: square punch, k / (E* L), extrapolated",
             value=limit,
             reference=exact,
             source="capacitance of the square, numerical",
@@ -93,7 +95,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
             reason="five units of the last digit of the reference, 1.1523",
         ),
         Number(
-            label="bem3d: square punch, order in the cell size",
+            quantity="bem3d: square punch, order in the cell size",
             value=float(np.log2(steps[-2] / steps[-1])),
             reference=1.0,
             source="error model",
@@ -101,7 +103,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
             reason="the pressure is singular at the edge: first order; the next term, of order 1.5, bends it",
         ),
         Number(
-            label="bem3d: circular punch, k / (2 E* a)",
+            quantity="bem3d: circular punch, k / (2 E* a)",
             value=circle[-1],
             reference=1.0,
             source="Boussinesq",
@@ -111,7 +113,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
         _length("L", short, exact),
         _length("1.1523 L", long, exact),
         Number(
-            label="often quoted 1.012 * 2 / sqrt(pi), beside the extrapolated bem3d",
+            quantity="often quoted 1.012 * 2 / sqrt(pi), beside the extrapolated bem3d",
             value=1.012 * 2 / np.sqrt(np.pi),
             reference=limit,
             source="bem3d",
@@ -165,7 +167,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
 
 def _length(name: str, stiffness: float, exact: float) -> Number:
     return Number(
-        label=f"mdr: full contact with L_1D = {name}, k / (E* L)",
+        quantity=f"mdr: full contact with L_1D = {name}, k / (E* L)",
         value=stiffness,
         reference=exact,
         source="capacitance of the square, numerical",
@@ -178,3 +180,17 @@ def _length(name: str, stiffness: float, exact: float) -> Number:
 def _extrapolated(stiffness: np.ndarray) -> float:
     """Limit of a first-order sequence on doubled grids, from its last two members (Richardson)."""
     return float(2 * stiffness[-1] - stiffness[-2])
+
+
+CASE = Case(
+    name="square_punch",
+    chapter=Chapter.EXACT,
+    place=2,
+    claim="Every load curve ends at the stiffness of the flat punch.",
+    answers="Flat punches: the stiffness at which every load curve ends, and the length of the 1D model",
+    quick=SquarePunch(),
+    full=SquarePunch(cells=(16, 32, 64, 128, 256)),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.square_punch,
+)

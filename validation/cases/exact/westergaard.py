@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import bem3d
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Table, claim, columns
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.theory import closed_forms
@@ -101,7 +102,7 @@ def evidence(result: WestergaardResult) -> Evidence:
     order = float(-np.polynomial.polynomial.polyfit(np.log(n), np.log(error[half]), 1)[1])
     numbers += [
         Number(
-            label="bem3d: pressure at 0.5 p*, relative L2 error, edges between cells",
+            quantity="bem3d: pressure at 0.5 p*, relative L2 error, edges between cells",
             value=float(error[half, -1]),
             reference=0.0,
             source="Westergaard",
@@ -109,7 +110,7 @@ def evidence(result: WestergaardResult) -> Evidence:
             reason="target of this suite, 7e-4 on 512 cells, carried to other grids at first order",
         ),
         Number(
-            label="bem3d: order of the pressure error in the cell size, at 0.5 p*",
+            quantity="bem3d: order of the pressure error in the cell size, at 0.5 p*",
             value=order,
             reference=1.0,
             source="error model",
@@ -162,7 +163,7 @@ def _at_load(case: Westergaard, load: float, error: float, half_width: float) ->
     at_edge = closed_forms.westergaard_pressure(a - dx, mean_pressure=mean, **scene)
     return (
         Number(
-            label=f"bem3d: pressure at {load:g} p*, relative L2 error",
+            quantity=f"bem3d: pressure at {load:g} p*, relative L2 error",
             value=error,
             reference=0.0,
             source="Westergaard",
@@ -170,7 +171,7 @@ def _at_load(case: Westergaard, load: float, error: float, half_width: float) ->
             reason="no more than the two edge cells wrong by the pressure one cell inside the edge",
         ),
         Number(
-            label=f"bem3d: half-width of the contact at {load:g} p*, over Westergaard",
+            quantity=f"bem3d: half-width of the contact at {load:g} p*, over Westergaard",
             value=half_width / a,
             reference=1.0,
             source="Westergaard",
@@ -208,3 +209,17 @@ def _refinement_table(result: WestergaardResult, error: np.ndarray) -> Table:
             }
         ),
     )
+
+
+CASE = Case(
+    name="westergaard",
+    chapter=Chapter.EXACT,
+    place=3,
+    claim="The periodic half-space gives Westergaard's contact.",
+    answers="Periodic wave: the periodic half-space against Westergaard",
+    quick=Westergaard(),
+    full=Westergaard(cells=(64, 128, 256, 512, 1024)),
+    run=run,
+    evidence=evidence,
+    needs="closed form",
+)

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import stats
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, claim, table_of
 from validation.cases.limits import boundary_elements as limits_bem
-from validation.cases.limits.limits import LimitsResult
+from validation.cases.limits.limits import Limits, LimitsResult, run
 from validation.cases.limits.solver import MEASURES, SCENES, SOLVERS
 from validation.cases.limits.sweep import Sweep
 
@@ -72,7 +73,7 @@ def _border(sweep: Sweep) -> Number:
         fails = bool(sweep.error[0 if sign > 0 else -1] > limit.tolerance)
         crossing = float(sweep.knob[0 if fails == (sign > 0) else -1]), 0.0
     return Number(
-        label=f"{limit.method}, {limit.title}: where it fails over where it must, octaves of {limit.knob}",
+        quantity=f"{limit.method}, {limit.title}: where it fails over where it must, octaves of {limit.knob}",
         value=sign * math.log2(crossing[0] / sweep.border),
         reference=0.0,
         source=limit.condition,
@@ -86,7 +87,8 @@ def _border(sweep: Sweep) -> Number:
 def _told(sweep: Sweep) -> Number:
     limit = sweep.limit
     return Number(
-        label=f"{limit.method}, {limit.title}: told beyond the border and left in peace on the good side, part of both",
+        quantity=f"{limit.method}, {limit.title}: told beyond the border and left in peace on "
+        f"the good side, part of both",
         value=sweep.told,
         reference=1.0,
         source="the software speaks where it fails, and only there",
@@ -99,7 +101,7 @@ def _told(sweep: Sweep) -> Number:
 def _survived(result: LimitsResult) -> Number:
     imbalance = float(np.max(result.more["imbalance"]))
     return Number(
-        label="lift-off: F T - F_N T = M (v_0 - v_end), largest difference over F_N T",
+        quantity="lift-off: F T - F_N T = M (v_0 - v_end), largest difference over F_N T",
         value=imbalance,
         reference=0.0,
         source="momentum, on the ground and in the air",
@@ -115,7 +117,7 @@ def _exponent(iterations: Table, scene: str, solver: str) -> Number:
     degrees = rows["cells"].size - 2
     reference, source = EXPECTED[solver]
     return Number(
-        label=f"{solver}, {scene}: iterations ~ cells on a side to the power of",
+        quantity=f"{solver}, {scene}: iterations ~ cells on a side to the power of",
         value=float(line.slope),
         reference=reference,
         source=source,
@@ -130,7 +132,7 @@ def _exponent(iterations: Table, scene: str, solver: str) -> Number:
 def _honest(residuals: Table, measure: str) -> Number:
     """The largest error over its residual."""
     return Number(
-        label=f"error of the {measure} <= c residual: c",
+        quantity=f"error of the {measure} <= c residual: c",
         value=float(_ratios(residuals, measure).max()),
         reference=0.0,
         source="an honest estimate: the error is no more than the residual says",
@@ -328,3 +330,28 @@ def _captions() -> dict[str, str]:
             "residual."
         ),
     }
+
+
+CASE = Case(
+    name="limits",
+    chapter=Chapter.LIMITS,
+    place=2,
+    claim="Each limit of each method is predicted, and the software tells who crosses it.",
+    answers="Where each method fails: every limit swept through, the border predicted, and what the software says",
+    quick=Limits(),
+    full=Limits(
+        cells=128,
+        surfaces=12,
+        profiles=400,
+        length=64.0,
+        strip_cells=12,
+        track=1024.0,
+        resolved=6,
+        grids=(32, 64, 128, 256, 512),
+        judged=128,
+        wheels=8,
+    ),
+    run=run,
+    evidence=evidence,
+    needs="none: all of them at their limits",
+)

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.sparse.linalg import LinearOperator, cg
 
 import bem3d
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Verdict, table_of
 from validation.analysis.statistics import (
     DECIBEL,
@@ -31,6 +32,7 @@ from validation.analysis.statistics import (
 )
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.selection import model_needed
 from validation.simulation.rough_punch import (
     BEM,
     BOOTSTRAP,
@@ -164,7 +166,7 @@ class RollOffSamples:
         bem, grid = self.extrapolated(quantity, statistic)
         apart = self.by_method[MDR, quantity].estimate(statistic).minus(bem)
         return Number(
-            label=f"{label}: mdr over bem3d",
+            quantity=f"{label}: mdr over bem3d",
             value=DECIBEL * apart.value,
             reference=0.0,
             source="bem3d, extrapolated",
@@ -309,7 +311,8 @@ def _proportional(
     if not np.isfinite([found.value, found.error, grid]).all():
         return None
     return Number(
-        label=f"exponent of the interface, q_r L / 2π = {mine.roll_off}, Fbar = {first:g} to {10 * first:g}: {method}",
+        quantity=f"exponent of the interface, q_r L / 2π = {mine.roll_off}, Fbar = {first:g} to "
+        f"{10 * first:g}: {method}",
         value=found.value,
         reference=1.0,
         source="stiffness proportional to load: Pastewka et al. (2013), for q_r L / 2π >> 1",
@@ -398,3 +401,19 @@ def _with_interval(found: Estimate, grid: float, unit: float) -> str:
     half = found.half_width + grid
     middle, low, high = (math.exp(value) / unit for value in (found.value, found.value - half, found.value + half))
     return f"{middle:.3g} ({low:.2g} to {high:.2g})"
+
+
+CASE = Case(
+    name="mdr_limits",
+    chapter=Chapter.PRESSED,
+    place=3,
+    claim="One dimension has neither the true area nor the gap, nor the stiffness of roughness with a roll-off.",
+    answers="Where MDR must fail: true contact area, mean gap, stiffness with a roll-off",
+    quick=MdrLimits(),
+    full=MdrLimits(
+        roll_offs=(1, 8, 16), cells=256, surfaces=30, refined=8, profiles=500, decades=(-3, 1), per_decade=3
+    ),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.rolled_off,
+)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from validation.analysis.evidence import Number, Role, Table, Verdict
+from validation.analysis.evidence import Number, Role, Table, Verdict, VerdictCell
 from validation.analysis.statistics import (
     DECIBEL,
     FIVE_PER_CENT,
@@ -127,7 +127,7 @@ class DecadeComparison:
         of = "mean over H" if self.hurst is None else f"H = {self.hurst:g}"
         methods = "mdr over bem3d" if quantity.unit == "dB" else "mdr less bem3d"
         return Number(
-            label=f"{self.name} at {of}, Fbar = {self.first:g} to {10 * self.first:g}: {methods}",
+            quantity=f"{self.name} at {of}, Fbar = {self.first:g} to {10 * self.first:g}: {methods}",
             value=quantity.scale * apart.value,
             reference=0.0,
             source="bem3d, extrapolated",
@@ -232,12 +232,12 @@ def matrix(case: FractalPunch, name: str, comparisons: Sequence[DecadeComparison
     return Table(f"{name}: {what}, with the 95 % interval of sample and grid", {"H": hursts, **decades})
 
 
-def _verdict(case: FractalPunch, number: Number | None) -> str:
+def _verdict(case: FractalPunch, number: Number | None) -> str | VerdictCell:
     """The difference in per cent, or as it stands, with its whole interval; what would decide it."""
     if number is None:
         return "no value"
-    text = f"{_interval(number)}: {number.verdict}"
-    return text + (f"; {decided_by(case, number)}" if number.verdict is Verdict.UNDECIDED else "")
+    after = decided_by(case, number) if number.verdict is Verdict.UNDECIDED else ""
+    return VerdictCell(_interval(number), number.verdict, after)
 
 
 def _interval(number: Number) -> str:

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
+from validation.analysis.case import Case, Chapter
+from validation.analysis.evidence import Evidence, Number, Role, Table, VerdictCell, table_of
 from validation.analysis.statistics import (
     Estimate,
     at,
@@ -16,7 +17,7 @@ from validation.analysis.statistics import (
     log_relative_deviation,
     nearest,
 )
-from validation.cases.punch.fractal_punch import Ensemble, FractalPunch, FractalPunchResult
+from validation.cases.punch.fractal_punch import Ensemble, FractalPunch, FractalPunchResult, run
 from validation.cases.punch.fractal_punch_decades import (
     LONG,
     QUANTITIES,
@@ -30,6 +31,7 @@ from validation.cases.punch.fractal_punch_decades import (
     summary,
 )
 from validation.engine.engine import Outcome
+from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, enough
 from validation.theory import closed_forms
 
@@ -155,7 +157,7 @@ def _convex(result: FractalPunchResult, method: str) -> Number:
         stiffness = outcome["stiffness"]
         excess += [float(np.nanmax(stiffness[:, :-1] / slope)) - 1, float(np.nanmax(slope / stiffness[:, 1:])) - 1]
     return Number(
-        label=f"{method}: slope of the load curve outside the stiffnesses at its two ends, largest excess",
+        quantity=f"{method}: slope of the load curve outside the stiffnesses at its two ends, largest excess",
         value=max(excess),
         reference=0.0,
         source="F(d) is convex",
@@ -170,7 +172,7 @@ def _bounded(result: FractalPunchResult, flat: float) -> Number:
     largest = max(float(np.nanmax(ensemble.bem["stiffness"])) for ensemble in result.ensembles)
     deficit = 2 / result.case.cells
     return Number(
-        label=f"{BEM}: largest stiffness of any surface over that of the flat punch, {flat:g} E* L",
+        quantity=f"{BEM}: largest stiffness of any surface over that of the flat punch, {flat:g} E* L",
         value=largest / flat,
         reference=1.0 - deficit / 2,
         source="flat punch",
@@ -194,7 +196,7 @@ def _no_factor_lost(numbers: list[Number]) -> Number:
     farthest = max(numbers, key=lambda number: abs(number.value) + number.uncertainty)
     return replace(
         farthest,
-        label=f"no factor is lost, where it may be worst: {farthest.label}",
+        quantity=f"no factor is lost, where it may be worst: {farthest.label}",
         tolerance=3.0,
         reason="k ~ F^(1/(1+H)): a factor 2 lost in the force, or half of the length, is 3 dB or more for H <= 1",
         role=Role.CRITERION,
@@ -210,7 +212,7 @@ def _claimed(comparisons: list[DecadeComparison]) -> tuple[Number, ...]:
     return (
         replace(
             farthest,
-            label=f"within {CLAIMED:g} dB, where it may be worst: {farthest.label}",
+            quantity=f"within {CLAIMED:g} dB, where it may be worst: {farthest.label}",
             tolerance=CLAIMED,
             reason="what is claimed of 1D beside 3D models of rolling noise: Ford and Thompson (2006)",
         ),
@@ -280,7 +282,7 @@ def _law(comparison: DecadeComparison, method: str) -> Number:
         else (comparison.springs, abs(comparison.refined_springs.value))
     )
     return Number(
-        label=f"exponent at H = {hurst:g}, Fbar = {first:g} to {10 * first:g}: {method}",
+        quantity=f"exponent at H = {hurst:g}, Fbar = {first:g} to {10 * first:g}: {method}",
         value=found.value,
         reference=1 / (1 + hurst),
         source="1 / (1 + H)",
@@ -296,7 +298,7 @@ def _law_table(case: FractalPunch, laws: list[Number]) -> Table:
     """On the page: a row a Hurst exponent."""
 
     def column(numbers: list[Number]) -> list[object]:
-        return [f"{n.value:.3f} ± {n.uncertainty:.3f}: {n.verdict}" for n in numbers]
+        return [VerdictCell(f"{n.value:.3f} ± {n.uncertainty:.3f}", n.verdict) for n in numbers]
 
     first, *_ = (n.label.split(", ")[1].split(":")[0] for n in laws)
     return Table(
@@ -337,3 +339,17 @@ def _cost(result: FractalPunchResult) -> str:
         f"contact (at most {contacts.max():.0f}) and {frozen.mean():.1f} for the stiffness (at most "
         f"{frozen.max():.0f}), on the smallest window that holds the contact."
     )
+
+
+CASE = Case(
+    name="fractal_punch",
+    chapter=Chapter.PRESSED,
+    place=1,
+    claim="One dimension has the mean stiffness of rough punches, and its fluctuation (Fig. 14.1).",
+    answers="Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
+    quick=FractalPunch(),
+    full=FractalPunch(cells=256, surfaces=60, profiles=500, per_decade=6, refined=6, refined_per_decade=2),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.punches,
+)

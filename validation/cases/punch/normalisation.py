@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
 from validation.analysis.statistics import (
     DECIBEL,
@@ -21,6 +22,7 @@ from validation.analysis.statistics import (
     sample,
 )
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.selection import model_needed
 from validation.simulation.rough_punch import (
     BOOTSTRAP,
     METHODS,
@@ -181,7 +183,7 @@ def _deviation(case: Normalisation, mine: Sample, first: float) -> Estimate:
 def _number(label: str, apart: Estimate) -> Number:
     """A difference of logarithms in decibels."""
     return Number(
-        label=label,
+        quantity=label,
         value=DECIBEL * apart.value,
         reference=0.0,
         source="no change",
@@ -304,3 +306,17 @@ def _conclusions(result: NormalisationResult, samples: dict[tuple[float, str, st
 def _percent(found: Estimate) -> str:
     middle, low, high = (f"{100 * math.expm1(value):+.0f}" for value in found.interval)
     return f"{middle} % ({low} to {high})"
+
+
+CASE = Case(
+    name="normalisation",
+    chapter=Chapter.PRESSED,
+    place=2,
+    claim="The fluctuation depends on how heights are normalised.",
+    answers="Fixed or Gaussian amplitudes, height of each draw or of the ensemble: what the fluctuations owe to it",
+    quick=Normalisation(),
+    full=Normalisation(cells=128, surfaces=120, profiles=1000, points=2048, per_decade=3),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.punches,
+)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict, columns, table_of
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import (
@@ -21,8 +22,9 @@ from validation.analysis.statistics import (
     ratio_of_means,
     sample,
 )
-from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult
+from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
 from validation.engine.engine import Outcome, generator
+from validation.selection import model_needed
 from validation.simulation.rolling_strip import BOOTSTRAP, HERTZ, Feed, fed
 from validation.theory import rolling as rolling_theory
 
@@ -89,7 +91,7 @@ class Height:
         bem, grid = self.bem_level(weights)
         apart = self.model_level(model, weights).minus(bem)
         return Number(
-            label=f"{model} over bem3d, h/d = {self.height:g}, {where}",
+            quantity=f"{model} over bem3d, h/d = {self.height:g}, {where}",
             value=POWER * apart.value,
             reference=0.0,
             source="bem3d, extrapolated, on the same surfaces as linear theory in 3D",
@@ -107,7 +109,7 @@ class Height:
         springs = self.springs_over_linear.estimate(change(combined(weights, log_mean)))
         apart = springs.minus(bem)
         return Number(
-            label=f"nonlinear over linear, h/d = {self.height:g}, {where}: springs beside bem3d",
+            quantity=f"nonlinear over linear, h/d = {self.height:g}, {where}: springs beside bem3d",
             value=POWER * springs.value,
             reference=POWER * bem.value,
             source="bem3d over linear theory in 3D",
@@ -242,7 +244,7 @@ def _moments(mine: Height) -> list[Number]:
         ratio = ratio_of_means(outcome["variance"], outcome["linear variance"])
         numbers.append(
             Number(
-                label=f"variance of the force over that of linear theory, h/d = {mine.height:g}: {name}",
+                quantity=f"variance of the force over that of linear theory, h/d = {mine.height:g}: {name}",
                 value=ratio.value,
                 reference=1.0,
                 source="Geike's rule keeps the variance of the force at one position",
@@ -255,7 +257,7 @@ def _moments(mine: Height) -> list[Number]:
     bem, springs = mean_estimate(mine.bem["mean"]), mean_estimate(mine.mdr["geike"]["mean"])
     numbers.append(
         Number(
-            label=f"mean force over that of Hertz, h/d = {mine.height:g}: springs beside bem3d",
+            quantity=f"mean force over that of Hertz, h/d = {mine.height:g}: springs beside bem3d",
             value=springs.value,
             reference=bem.value,
             source="bem3d",
@@ -437,7 +439,7 @@ def _louder(case: ForceSpectrum, numbers: list[Number], where: str) -> Number:
     height = case.heights[0]
     found = next(n for n in numbers if n.label == f"{LINEAR_1D} over bem3d, h/d = {height:g}, {where}")
     return Number(
-        label=f"Geike's spectrum, (14.12), over bem3d, h/d = {height:g}, {where}, beside q a >> 1",
+        quantity=f"Geike's spectrum, (14.12), over bem3d, h/d = {height:g}, {where}, beside q a >> 1",
         value=found.value,
         reference=-POWER * math.log(rolling_theory.level_ratio(case.hurst)),
         source="sqrt(π) Γ(H + 2) / Γ(H + 3/2), an unbounded power law in linear theory",
@@ -531,3 +533,28 @@ def _captions(case: ForceSpectrum) -> dict[str, str]:
             "Geike's spectrum have next to nothing."
         ),
     }
+
+
+CASE = Case(
+    name="rolling",
+    chapter=Chapter.ROLLING,
+    place=2,
+    claim="One dimension has the force spectrum of a rolling wheel (Fig. 14.3).",
+    answers="Fig. 14.3: rolling force over isotropic roughness, where each model holds",
+    quick=ForceSpectrum(),
+    full=ForceSpectrum(
+        heights=(0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
+        last=20.0,
+        lowest=0.22,
+        length=256.0,
+        width=32.0,
+        cells=16,
+        strips=6,
+        rough_strips=8,
+        refined=3,
+        tracks=400,
+    ),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.rolling,
+)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict, table_of
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import Estimate, Sample, at, change, combined, log_mean, nearest, pairs, sample
@@ -312,7 +313,7 @@ def _linear_numbers(case: RollingInput, bands: Table, name: str) -> list[Number]
         errors = mine[f"{NAMES[feed]} [dB]"]
         numbers.append(
             Number(
-                label=f"linear, {name}, {NAMES[feed]}: mean level in the band",
+                quantity=f"linear, {name}, {NAMES[feed]}: mean level in the band",
                 value=float(errors[inside].mean()),
                 reference=0.0,
                 source=source,
@@ -326,7 +327,7 @@ def _linear_numbers(case: RollingInput, bands: Table, name: str) -> list[Number]
         if np.isfinite(everywhere).all():
             numbers.append(
                 Number(
-                    label=f"linear, {name}, {NAMES[feed]}: worst one-third octave but that of q a = π",
+                    quantity=f"linear, {name}, {NAMES[feed]}: worst one-third octave but that of q a = π",
                     value=float(everywhere.max()),
                     reference=0.0,
                     source=source,
@@ -386,7 +387,7 @@ def _rolled(case: RollingInput, name: str, height: float, feed: Feed, levels: _L
     inside = case.within(case.spectra[name])
     apart = levels.apart(inside / inside.sum())
     return Number(
-        label=f"springs over bem3d, {name}, h/d = {height:g}, {NAMES[feed]}: mean level in the band",
+        quantity=f"springs over bem3d, {name}, h/d = {height:g}, {NAMES[feed]}: mean level in the band",
         value=POWER * apart.value,
         reference=0.0,
         source="bem3d, relatively to linear theory on the same surfaces",
@@ -426,7 +427,7 @@ def _pressed(result: RollingInputResult, feed: Feed) -> Number:
     mdr_, bem = (one.estimate(at(level, log_mean)) for one in _stiffness(result, feed))
     apart = mdr_.minus(bem)
     return Number(
-        label=f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[feed]}",
+        quantity=f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[feed]}",
         value=math.expm1(apart.value),
         reference=0.0,
         source=f"bem3d on {result.case.punch_cells}² cells",
@@ -507,3 +508,28 @@ def _both(result: RollingInputResult, by_label: dict[str, Number]) -> str:
         "The punches of Fig. 14.1 at Fbar = 0.1, mean stiffness of MDR over boundary elements, by input: "
         f"{punches}. {answer}"
     )
+
+
+CASE = Case(
+    name="rolling_input",
+    chapter=Chapter.ROLLING,
+    place=3,
+    claim="One dimension has it within 3 dB in one-third octaves, if it is fed for it.",
+    answers="What MDR should be fed for rolling, and one-third octaves within 3 dB (Ford and Thompson 2006)",
+    quick=RollingInput(),
+    full=RollingInput(
+        last=20.0,
+        lowest=0.22,
+        length=256.0,
+        width=32.0,
+        cells=16,
+        strips=4,
+        tracks=250,
+        punch_cells=128,
+        surfaces=60,
+        profiles=500,
+    ),
+    run=run,
+    evidence=evidence,
+    needs="linear filter, 3D",
+)

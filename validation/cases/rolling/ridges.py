@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 import bem3d
 import mdr
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, claim, columns
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.theory import rolling as rolling_theory
@@ -152,7 +153,7 @@ def evidence(result: RidgesResult) -> Evidence:
     )
     numbers += [
         Number(
-            label=f"bem3d: order of the error, q a up to {FAR:g}",
+            quantity=f"bem3d: order of the error, q a up to {FAR:g}",
             value=order,
             reference=1.0,
             source="the edge of the contact falls somewhere in a cell",
@@ -240,7 +241,8 @@ def _errors(result: RidgesResult, method: str, cells: float) -> list[Number]:
     worst = int(np.argmax(off / bound))
     return [
         Number(
-            label=f"{method}, {cells:g} to a radius: error where it comes nearest to its bound, q a = {q[worst]:.3g}",
+            quantity=f"{method}, {cells:g} to a radius: error where it comes nearest to its bound, q "
+            f"a = {q[worst]:.3g}",
             value=float(off[worst]),
             reference=0.0,
             source="(14.11), which is exact for ridges in 1D and in 3D",
@@ -258,7 +260,7 @@ def _under_force(result: RidgesResult) -> Number:
     stiffness = -float(np.sum((force * approach.conj()).real) / np.sum(np.abs(approach) ** 2))
     off = np.abs(stiffness * approach + force) / np.minimum(1.0, 1 / q)
     return Number(
-        label=f"bem3d, {case.cells[0]} to a radius: k dd = -dF between a prescribed force and a prescribed approach",
+        quantity=f"bem3d, {case.cells[0]} to a radius: k dd = -dF between a prescribed force and a prescribed approach",
         value=float(off.max()),
         reference=0.0,
         source="the definition of the stiffness, dF = k dd",
@@ -291,3 +293,17 @@ def _table_of_errors(result: RidgesResult) -> Table:
             "largest error": [_largest(result, m, n, q > 0) for m, n in keys],
         },
     )
+
+
+CASE = Case(
+    name="ridges",
+    chapter=Chapter.ROLLING,
+    place=1,
+    claim="Over ridges across the track one dimension is exact in three, (14.11).",
+    answers="Ridges across the track: rolling force where one dimension is exact in three, (14.11)",
+    quick=Ridges(),
+    full=Ridges(cells=(8, 16, 32), springs=(8.5, 16.5, 32.5, 64.5)),
+    run=run,
+    evidence=evidence,
+    needs="linear filter, 1D",
+)

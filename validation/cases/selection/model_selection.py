@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
 from validation.cases.selection.random_scenes import KINDS, RANGES, WANTED, random_scene
 from validation.engine.convergence import NotConvergedError
@@ -207,7 +208,7 @@ def _numbers(tolerance: float, covered: float, least: float, saved: float) -> li
     missing = max(GOAL_COVERED - covered, 0.0)
     return [
         Number(
-            label=f"claims at {tolerance:.0%}: share of scenes missing to {GOAL_COVERED:.0%} covered",
+            quantity=f"claims at {tolerance:.0%}: share of scenes missing to {GOAL_COVERED:.0%} covered",
             value=missing,
             reference=0.0,
             source="the meaning of a 95 % interval",
@@ -217,7 +218,7 @@ def _numbers(tolerance: float, covered: float, least: float, saved: float) -> li
             role=Role.FINDING,
         ),
         Number(
-            label=f"median saving at {tolerance:.0%}, decades missing to a factor {GOAL_SAVED:g}",
+            quantity=f"median saving at {tolerance:.0%}, decades missing to a factor {GOAL_SAVED:g}",
             value=max(math.log10(GOAL_SAVED / saved), 0.0),
             reference=0.0,
             source="goal",
@@ -332,3 +333,17 @@ def _by_rung(claims: Table) -> Table:
             }
         )
     return table_of("Claims of each rung, asked whether the climb needed it or not", rows)
+
+
+CASE = Case(
+    name="ladder",
+    chapter=Chapter.SELECTION,
+    place=1,
+    claim="The cheapest model that a scene needs can be chosen beforehand, with an honest error.",
+    answers="Random scenes up the ladder of models: claimed beside true error, and what was saved",
+    quick=Ladder(),
+    full=Ladder(punches=110, spheres=24, rolling=8, wheels=4, tolerances=(0.1, 0.3)),
+    run=run,
+    evidence=evidence,
+    needs="chosen scene by scene",
+)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, claim, table_of
 from validation.cases.stability.roughness import (
     first_lift,
@@ -17,7 +18,7 @@ from validation.cases.stability.roughness import (
     spacing_numbers,
     spacing_table,
 )
-from validation.cases.stability.stability import WheelStabilityResult
+from validation.cases.stability.stability import WheelStability, WheelStabilityResult, run
 from validation.cases.stability.vibration import (
     hertz_numbers,
     hertz_table,
@@ -69,7 +70,7 @@ def _compared(result: WheelStabilityResult) -> str:
 
 def _refused(result: WheelStabilityResult) -> Number:
     return Number(
-        label="steps past the limit and waves that the points cannot carry: refused, of all asked for",
+        quantity="steps past the limit and waves that the points cannot carry: refused, of all asked for",
         value=float(np.mean([float(str(row["refused"])) for row in result.refusals])),
         reference=1.0,
         source="no motion is better than one that grows without bound, no track better than another one",
@@ -158,3 +159,27 @@ def _captions(result: WheelStabilityResult) -> dict[str, str]:
             "explicit Euler."
         ),
     }
+
+
+CASE = Case(
+    name="wheel_stability",
+    chapter=Chapter.LIMITS,
+    place=1,
+    claim="Time steps fail where theory says, and are refused before.",
+    answers="Where time stepping and springs fail: steps up to and past the limit, long runs, spacing, lift-off",
+    quick=WheelStability(),
+    full=WheelStability(
+        turns=20,
+        hertz_turns=6,
+        long_steps=1000000,
+        rounds=20,
+        heights=(0.03, 0.1, 0.2, 0.3, 0.45, 0.6, 1.0, 3.0),
+        loads=(0.01, 0.02, 0.05, 0.1, 0.2),
+        lift_rounds=2,
+        spacing_heights=(0.001, 0.064, 1.0),
+        spacing_tracks=4,
+    ),
+    run=run,
+    evidence=evidence,
+    needs="closed form",
+)

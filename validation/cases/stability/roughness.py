@@ -66,7 +66,7 @@ def _growth(what: str, rounds: int, tenths: FloatArray, theory: float, source: s
     problem = Rounds(scheme="", track=RoughTrack(rms=HEIGHT, seed=0), wheels=1, rounds=rounds)
     turns = rounds / TENTHS * problem.track.points * problem.turn / (2 * math.pi)
     return Number(
-        label=f"{what}, last tenth of {rounds} rounds over the first, log",
+        quantity=f"{what}, last tenth of {rounds} rounds over the first, log",
         value=mean,
         reference=theory,
         source=source,
@@ -120,7 +120,7 @@ def spacing_numbers(table: Table) -> list[Number]:
     open_ends = low[OPEN]
     worst = int(np.argmax(np.abs(off) / open_ends))
     linear = Number(
-        label=f"springs, h = {heights[0]:g} d: level of the last one-third octave less the sum over springs, "
+        quantity=f"springs, h = {heights[0]:g} d: level of the last one-third octave less the sum over springs, "
         f"at the spacing where that is least likely, {low['dx [shortest wave]'][worst]:g} of the shortest wave",
         value=float(off[worst]),
         reference=0.0,
@@ -140,7 +140,8 @@ def quarter_wave(table: Table) -> Table:
 
 def _quarter(rows: Table) -> Number:
     return Number(
-        label=f"springs, h = {rows['height [d_N]'][0]:g} d: error of the last one-third octave with a quarter of the "
+        quantity=f"springs, h = {rows['height [d_N]'][0]:g} d: error of the last one-third "
+        f"octave with a quarter of the "
         "shortest wave",
         value=float(quarter_wave(rows)["error of the last one-third octave [dB]"][0]),
         reference=0.0,
@@ -184,7 +185,7 @@ def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
     highest = float(table["highest force [F_N]"].max())
     return [
         Number(
-            label="force never negative: the lowest, where that is below zero, over F_N",
+            quantity="force never negative: the lowest, where that is below zero, over F_N",
             value=float(np.minimum(table["lowest force [F_N]"], 0.0).min()),
             source="springs pull nowhere",
             tolerance=4 * float(np.finfo(float).eps),
@@ -192,7 +193,7 @@ def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
             reference=0.0,
         ),
         Number(
-            label="F T - F_N T = M (v_0 - v_end), largest difference over F_N T, all loads and heights",
+            quantity="F T - F_N T = M (v_0 - v_end), largest difference over F_N T, all loads and heights",
             value=float(table["balance of momentum"].max()),
             source="momentum; steps of Verlet sum accelerations with half of the first and of the last",
             tolerance=float(np.finfo(float).eps) * highest * steps,
@@ -212,7 +213,7 @@ def _thresholds(rows: Table, sweep: str) -> list[Number]:
     pull = pulls_from(rows)
     return [
         Number(
-            label=f"first lift-off seen, h / d, changing the {sweep}",
+            quantity=f"first lift-off seen, h / d, changing the {sweep}",
             value=seen,
             reference=pull,
             source="(14.11): from where the deepest pull exceeds F_N, on the same tracks",

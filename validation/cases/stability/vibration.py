@@ -68,7 +68,7 @@ def _numbers_of_scheme(name: str, table: Table) -> list[Number]:
 
 def _eigen(label: str, error: float) -> Number:
     return Number(
-        label=label,
+        quantity=label,
         value=error,
         reference=0.0,
         source="eigenvalue of a step for y'' = -omega^2 y",
@@ -81,7 +81,7 @@ def _order(name: str, table: Table, column: str, order: float) -> Number:
     """Between the two smallest steps."""
     x, error = table["omega dt"][:2], table[column][:2]
     return Number(
-        label=f"{name}: order of the {column}",
+        quantity=f"{name}: order of the {column}",
         value=math.log(error[1] / error[0]) / math.log(x[1] / x[0]),
         reference=order,
         source="the first term of the eigenvalue of a step in omega dt",
@@ -93,7 +93,7 @@ def _order(name: str, table: Table, column: str, order: float) -> Number:
 def _energy(name: str, table: Table) -> Number:
     """The change within a turn against its theory at the smallest step."""
     return Number(
-        label=f"{name}: change of the energy in a turn, omega dt = {table['omega dt'][0]:g}, over theory",
+        quantity=f"{name}: change of the energy in a turn, omega dt = {table['omega dt'][0]:g}, over theory",
         value=float(table["change in a turn"][0] / table["change by theory"][0]),
         reference=1.0,
         source="what the scheme keeps in place of the energy, or |lambda|^2",
@@ -154,7 +154,7 @@ def _extrapolated(table: Table, highest: float) -> Number:
     correction = abs(limit - found[0])
     part = 0.1 if highest < LIFT_OFF else 0.5
     return Number(
-        label=f"velocity Verlet: period released at {highest:g} d_N, over 2 pi / omega, extrapolated to dt = 0",
+        quantity=f"velocity Verlet: period released at {highest:g} d_N, over 2 pi / omega, extrapolated to dt = 0",
         value=float(limit),
         reference=float(rows["period of Hertz [2 pi/omega]"][0]),
         source="integral of the energy between the turning points",
@@ -166,7 +166,7 @@ def _extrapolated(table: Table, highest: float) -> Number:
 def _bounded(table: Table, highest: float) -> Number:
     rows = table.where(**{"scheme": VELOCITY_VERLET.name, "released at [d_N]": highest})
     return Number(
-        label=f"velocity Verlet: largest change of energy in the second half over the first, {highest:g} d_N",
+        quantity=f"velocity Verlet: largest change of energy in the second half over the first, {highest:g} d_N",
         value=float(rows["energy, second half"][0] / rows["energy, first half"][0]),
         reference=1.0,
         source="a symplectic scheme keeps a neighbour of the energy",
@@ -177,7 +177,7 @@ def _bounded(table: Table, highest: float) -> Number:
 
 def _hertz_order(name: str, highest: float, order: float, step: float) -> Number:
     return Number(
-        label=f"{name}: order of the period on a Hertz contact, released at {highest:g} d_N",
+        quantity=f"{name}: order of the period on a Hertz contact, released at {highest:g} d_N",
         value=order,
         reference=PERIOD_ORDERS[name],
         source="its order",
@@ -225,7 +225,7 @@ def _drift(result: WheelStabilityResult, highest: float, change: FloatArray) -> 
     steps, turn = result.case.long_steps, Endurance(scheme=VELOCITY_VERLET.name, highest=(), steps=0).turn
     walk = math.sqrt(2 * steps) * EVEN * np.finfo(float).eps * highest / (highest - 1)
     return Number(
-        label=f"velocity Verlet: drift of the energy it keeps, over {steps} steps, released at {highest:.4g} d_N",
+        quantity=f"velocity Verlet: drift of the energy it keeps, over {steps} steps, released at {highest:.4g} d_N",
         value=slope,
         reference=0.0,
         source="H + (omega dt)^2 (v^2 V'' / 12 - V'^2 / 24)",
@@ -247,7 +247,7 @@ def _predicted_growth(result: WheelStabilityResult, table: Table) -> Number:
     found, theory = (np.log1p(rows[column]) for column in ("change of energy", "linear theory"))
     amplitude = (highest - 1) * math.exp(theory[-1] / 2)
     return Number(
-        label=f"explicit Euler: growth of the energy, log, over (1 + (omega dt)^2)^n, released at {highest:.4g} d_N",
+        quantity=f"explicit Euler: growth of the energy, log, over (1 + (omega dt)^2)^n, released at {highest:.4g} d_N",
         value=float((found[-1] - found[0]) / (theory[-1] - theory[0])),
         reference=1.0,
         source="|lambda|^2 = 1 + (omega dt)^2",

@@ -4,14 +4,16 @@ import math
 
 import numpy as np
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, beside, claim, columns, plus_minus, table_of
 from validation.analysis.records import band_means
 from validation.analysis.statistics import POWER_DECIBEL as POWER
 from validation.analysis.statistics import Estimate, ratio_of_means
-from validation.cases.wheel.distance import LINEAR, SPRINGS, DistanceResult, WheelDistance
+from validation.cases.wheel.distance import LINEAR, SPRINGS, TABLE, DistanceResult, WheelDistance, run
 from validation.cases.wheel.features import BREAK, FLOOR, PEAK, PREDICTED, Spectrum, expected, found, linear_spectrum
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
+from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import APART
 from validation.theory import wheel as wheel_theory
 
@@ -139,7 +141,7 @@ def _law(case: WheelDistance, breaks: Table) -> Number:
     rough = case.scene.rail or case.scene.wheel
     hurst = rough.hurst if rough else math.nan
     return Number(
-        label=f"break against duration over a factor {2**case.doublings}: d ln ω_break / d ln T",
+        quantity=f"break against duration over a factor {2**case.doublings}: d ln ω_break / d ln T",
         value=estimate.value,
         reference=wheel_theory.break_exponent(hurst),
         source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
@@ -153,7 +155,7 @@ def _law(case: WheelDistance, breaks: Table) -> Number:
 def _floors(breaks: Table) -> list[Number]:
     return [
         Number(
-            label=f"floor over J² / (ω² T), {distance:.3g} m",
+            quantity=f"floor over J² / (ω² T), {distance:.3g} m",
             value=value,
             reference=1.0,
             source="the jump of a(t) from the end of each record to its beginning",
@@ -172,7 +174,7 @@ def _jump(breaks: Table) -> Number:
     """The jump beside linear theory, over all distances; the error of a mean square of so many Gaussian values."""
     ratio, wheels = (breaks["rms jump [m/s2]"] / breaks["of linear theory [m/s2]"]) ** 2, breaks["wheels"]
     return Number(
-        label="rms jump over that of linear theory, all distances",
+        quantity="rms jump over that of linear theory, all distances",
         value=math.sqrt(float(np.average(ratio, weights=wheels))),
         reference=1.0,
         source="(1 + cos²(ω_eigen T)) int A df of (14.12) through the resonator, from static equilibrium",
@@ -189,7 +191,7 @@ def _exact(result: DistanceResult) -> list[Number]:
     third = level(result.ends["linear, repeating"], bands[THIRD]).value
     return [
         Number(
-            label=f"linear contact, repeating: level in {region} over that in region 3",
+            quantity=f"linear contact, repeating: level in {region} over that in region 3",
             value=math.exp(level(result.ends["linear, repeating"], bands[region]).value - third),
             reference=0.0,
             source="no waves outside of q_min to q_max",
@@ -203,7 +205,7 @@ def _exact(result: DistanceResult) -> list[Number]:
 def _over(label: str, value: Estimate, source: str, reason: str) -> Number:
     """A ratio of levels in decibels, beside none, within one."""
     return Number(
-        label=label,
+        quantity=label,
         value=POWER * value.value,
         reference=0.0,
         source=source,
@@ -257,7 +259,7 @@ def _order(result: DistanceResult) -> Number:
     band, step = regions_of(result.case.scene)[PLATEAU], math.log(WHOLE / QUARTER)
     change = ratio(result.sweep[STEADY, WHOLE], result.sweep[STEADY, QUARTER], band)
     return Number(
-        label=f"region 2, {STEADY}: d ln A / d ln h₀ from {QUARTER:g} to {WHOLE:g} h₀",
+        quantity=f"region 2, {STEADY}: d ln A / d ln h₀ from {QUARTER:g} to {WHOLE:g} h₀",
         value=change.value / step,
         reference=4.0,
         source="products of two waves, each linear in h₀",
@@ -272,7 +274,7 @@ def _start(result: DistanceResult) -> Number:
     """Mean square of the acceleration from static equilibrium over that without free vibration."""
     found_ = ratio_of_means(result.ends[OPEN]["square"], result.ends["springs, repeating"]["square"])
     return Number(
-        label="mean square acceleration, open from static equilibrium, over that of the repeating motion",
+        quantity="mean square acceleration, open from static equilibrium, over that of the repeating motion",
         value=found_.value,
         reference=1.5,
         source="1 + 1/2: the free vibration begins with the amplitude dF / M that cancels the forced acceleration",
@@ -307,7 +309,7 @@ def _peaks(result: DistanceResult) -> list[Number]:
         exact = 1 / wheel_theory.hertz_period(1 + release) if release else 1.0
         numbers.append(
             Number(
-                label=f"peak over ω_eigen, released {release:g} d below equilibrium",
+                quantity=f"peak over ω_eigen, released {release:g} d below equilibrium",
                 value=estimate.value,
                 reference=exact,
                 source="period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)",
@@ -512,3 +514,28 @@ def _captions(case: WheelDistance) -> dict[str, str]:
             "for a Hertz contact."
         ),
     }
+
+
+CASE = Case(
+    name="wheel_distance",
+    chapter=Chapter.WHEEL,
+    place=2,
+    claim="The break that moves with the distance is leakage (Fig. 14.5).",
+    answers="Fig. 14.5: the break that moves with the distance, its cause, and what is real in the plateau",
+    quick=WheelDistance(),
+    full=WheelDistance(
+        scene=TABLE,
+        doublings=6,
+        wheels=300,
+        fewest=40,
+        causes=60,
+        rough=20,
+        heights=(0.125, 0.25, 0.5, 1.0, 2.0, 4.0),
+        phases=(0.0, 0.25, 0.5),
+        releases=(0.0, 0.1, 0.2, 0.4),
+        released=5,
+    ),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.wheel,
+)

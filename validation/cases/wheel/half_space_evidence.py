@@ -8,13 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, beside, claim, columns, table_of
 from validation.analysis.records import band_levels, band_means, one_third_octaves, spectra
 from validation.analysis.statistics import POWER_DECIBEL as POWER
 from validation.analysis.statistics import Estimate, left_out_error
 from validation.cases.wheel.features import linear_spectrum
-from validation.cases.wheel.half_space import COARSER, FINEST, LOOSE, TIGHT, Result3D
+from validation.cases.wheel.half_space import COARSER, FINEST, LOOSE, TABLE, TIGHT, Result3D, Wheel3D, run
 from validation.engine.engine import Outcome
+from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import Feed
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
@@ -232,7 +234,7 @@ def _exact(result: Result3D) -> list[Number]:
         worst = max(worst, abs(float(series.mean())) / float(series.std()))
     return [
         Number(
-            label="linear contact on the strips, repeating motion: mean acceleration over its rms",
+            quantity="linear contact on the strips, repeating motion: mean acceleration over its rms",
             value=worst,
             reference=0.0,
             source="a motion that repeats itself gains no velocity",
@@ -251,7 +253,7 @@ def _means(found: Levels) -> list[Number]:
             value, grid = found.mean_over_bem(model, bands)
             numbers.append(
                 Number(
-                    label=f"{model} over bem3d, {where}",
+                    quantity=f"{model} over bem3d, {where}",
                     value=POWER * value.value,
                     reference=0.0,
                     source="boundary elements in the time loop",
@@ -287,7 +289,7 @@ def _region_numbers(found: Levels) -> list[Number]:
     value = Estimate(slope(density), float(left_out_error(without)), len(density))
     return [
         Number(
-            label="region 3 by boundary elements: slope",
+            quantity="region 3 by boundary elements: slope",
             value=value.value,
             reference=-2 * rail.hurst - 3,
             source="-2 H - 3, (14.13); the same in linear theory in 3D",
@@ -464,3 +466,29 @@ def _captions(found: Levels) -> dict[str, str]:
             "same surfaces, springs."
         )
     }
+
+
+CASE = Case(
+    name="wheel_3d",
+    chapter=Chapter.WHEEL,
+    place=3,
+    claim="Boundary elements in the time loop confirm Fig. 14.4.",
+    answers="Boundary elements inside the time loop: the wheel in three dimensions, beside everything cheaper",
+    quick=Wheel3D(),
+    full=Wheel3D(
+        scene=TABLE,
+        strips=16,
+        turns=4,
+        width=4,
+        cells=40,
+        shared=10,
+        coarse=30,
+        coarser=3,
+        tolerance=0.0001,
+        short=1,
+        wheels=200,
+    ),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.wheel,
+)

@@ -4,12 +4,14 @@ import math
 
 import numpy as np
 
+from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import (
     Evidence,
     Number,
     Role,
     Table,
     Verdict,
+    VerdictCell,
     beside,
     claim,
     columns,
@@ -33,9 +35,10 @@ from validation.cases.wheel.features import (
     expected,
     found,
 )
-from validation.cases.wheel.spectrum import TABLE, WheelResult
+from validation.cases.wheel.spectrum import TABLE, WheelResult, WheelSpectrum, run
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
+from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import APART as OPEN_WAVES
 from validation.theory import wheel as wheel_theory
 
@@ -125,7 +128,7 @@ def _exact(result: WheelResult) -> list[Number]:
     wheels = sum(batch["jump"].size for batch in batches)
     return [
         Number(
-            label=f"int A df over the mean square of the acceleration, less one, worst of {len(batches)} batches",
+            quantity=f"int A df over the mean square of the acceleration, less one, worst of {len(batches)} batches",
             value=parseval,
             reference=0.0,
             source="Parseval",
@@ -133,7 +136,8 @@ def _exact(result: WheelResult) -> list[Number]:
             reason="rounding of transforms",
         ),
         Number(
-            label=f"mean of F - F_N less M times the change of velocity over T, over its rms, worst of {wheels} wheels",
+            quantity=f"mean of F - F_N less M times the change of velocity over T, over its rms, "
+            f"worst of {wheels} wheels",
             value=balance,
             reference=0.0,
             source="Newton: mean force and load balance",
@@ -164,7 +168,7 @@ def _numbers(name: str, spectrum: Spectrum) -> dict[str, Number]:
         tolerance, reason = _tolerance(feature, reference, line)
         estimate: Estimate = values[feature]
         numbers[feature] = Number(
-            label=f"{name}: {label}",
+            quantity=f"{name}: {label}",
             value=estimate.value,
             reference=reference,
             source=SOURCES[feature],
@@ -204,7 +208,7 @@ def _level(spectrum: Spectrum) -> Number | None:
     error = float(np.std(sums, ddof=1)) / math.sqrt(len(sums)) / mean
     estimate = Estimate(math.log(mean / linear), error, len(sums))
     return Number(
-        label="region 3: level over linear theory, (14.12) through the resonator",
+        quantity="region 3: level over linear theory, (14.12) through the resonator",
         value=POWER * estimate.value,
         reference=0.0,
         source="a contact that keeps its radius",
@@ -382,7 +386,7 @@ def _regions(features: dict[str, Number]) -> Table:
                 "feature": NAMES[feature],
                 "found": "none stands out" if number is None else plus_minus(number.value, number.uncertainty),
                 "theory": SOURCES[feature] if number is None else f"{number.reference:.5g} = {SOURCES[feature]}",
-                "verdict": "" if number is None else f"within {number.tolerance:.3g}: {number.verdict}",
+                "verdict": "" if number is None else VerdictCell(f"within {number.tolerance:.3g}", number.verdict),
             }
         )
     return table_of("the regions of the spectrum", rows)
@@ -398,7 +402,9 @@ def _parameters(features: dict[str, dict[str, Number]]) -> Table:
             row[label] = (
                 "none stands out"
                 if number is None
-                else f"{plus_minus(number.value, number.uncertainty)} ({number.reference:.5g}): {number.verdict}"
+                else VerdictCell(
+                    f"{plus_minus(number.value, number.uncertainty)} ({number.reference:.5g})", number.verdict
+                )
             )
         rows.append(row)
     return table_of("one parameter at a time: found ± 95 % (theory)", rows)
@@ -474,3 +480,17 @@ def _captions(result: WheelResult) -> dict[str, str]:
             f"{next(iter(case.variations()))}."
         )
     return captions
+
+
+CASE = Case(
+    name="wheel",
+    chapter=Chapter.WHEEL,
+    place=1,
+    claim="The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4).",
+    answers="Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and what moves them",
+    quick=WheelSpectrum(),
+    full=WheelSpectrum(realisations=300, varied=100, cells=24, stills=64),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.wheel,
+)

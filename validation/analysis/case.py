@@ -1,0 +1,56 @@
+"""A case of the report: the claim under test, its two sizes, and how its evidence comes about."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any, Literal
+
+from validation.analysis.evidence import Evidence
+
+Profile = Literal["quick", "full"]
+
+
+class Chapter(StrEnum):
+    """Of the report, in the order of its argument."""
+
+    EXACT = "What is known exactly"
+    PRESSED = "Rough punches: the stiffness and its fluctuation"
+    ROLLING = "Rolling: the force along the track"
+    WHEEL = "The dynamic wheel"
+    LIMITS = "Where each method fails"
+    SPEED = "Speed against accuracy"
+    SELECTION = "No more model than a scene needs"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """What the report says about one claim. A module of `validation` that holds one as `CASE` is found by it.
+
+    name: on the command line, of its figures and of its data; chapter, place: where it stands, cases of a chapter in
+    the order of their places; claim: under test; answers: which figure or question; quick, full: its settings, frozen
+    dataclasses, in both sizes; run: result of settings and an engine; evidence: what the result shows; needs: which
+    model it takes, a text or a function of the settings; timed: whether it is run last and alone.
+    """
+
+    name: str
+    chapter: Chapter
+    place: int
+    claim: str
+    answers: str
+    quick: Any
+    full: Any
+    run: Callable[[Any, Any], Any]
+    evidence: Callable[[Any], Evidence]
+    needs: Callable[[Any], str] | str
+    timed: bool = False
+
+    def settings(self, profile: Profile, seed: int | None, scene: Any = None) -> Any:
+        """Of that size, with the seed where it draws anything, and the scene where it has one."""
+        settings = self.quick if profile == "quick" else self.full
+        if seed is not None and hasattr(settings, "seed"):
+            settings = replace(settings, seed=seed)
+        return replace(settings, scene=scene) if scene is not None and hasattr(settings, "scene") else settings
+
+    def model_needed(self, settings: Any) -> str:
+        """The cheapest model that these settings need."""
+        return self.needs if isinstance(self.needs, str) else self.needs(settings)
