@@ -3,36 +3,38 @@
 from collections.abc import Mapping
 
 from validation.analysis.evidence import Number, Place, Role
-from validation.analysis.statistics import Estimate
+from validation.analysis.statistics import POWER_DECIBEL, Estimate
 
 
 def difference(
-    model: Estimate,
-    reference: Estimate,
+    value: Estimate,
+    other: Estimate | None = None,
     *,
-    grid: float,
-    scale: float,
-    key: tuple[str, str, Mapping[str, Place]],
+    quantity: str,
+    model: str,
+    where: Mapping[str, Place],
     source: str,
     tolerance: float,
     reason: str,
     unit: str = "dB",
+    scale: float = POWER_DECIBEL,
+    grid: float = 0.0,
     role: Role = Role.FINDING,
+    absolute: bool = False,
 ) -> Number:
-    """model - reference, of natural logarithms, times the scale of the unit, beside zero.
+    """value - other, times the scale of the unit, beside zero; if absolute, value beside other itself.
 
-    model, reference: independent estimates; grid: half-width that the grid of the reference leaves, in natural
-    logarithms; scale: 10 / ln 10 for decibels of a power, 1 for the logarithm itself; key: quantity, model and where of
-    the number; tolerance: in the unit.
+    value, other: independent estimates, natural logarithms as a rule; without other, value is the difference already;
+    quantity, model, where: the key of the number; scale: 10 / ln 10 for decibels of a power, 20 / ln 10 of an
+    amplitude, 1 for the estimates themselves; grid: half-width that the grids leave, in the unit of the estimates.
     """
-    quantity, name, where = key
-    apart = model.minus(reference)
+    apart = value if other is None else value.minus(other)
     return Number(
         quantity=quantity,
-        model=name,
+        model=model,
         where=where,
-        value=scale * apart.value,
-        reference=0.0,
+        value=scale * (value.value if absolute else apart.value),
+        reference=scale * other.value if absolute and other is not None else 0.0,
         source=source,
         tolerance=tolerance,
         reason=reason,
