@@ -141,6 +141,9 @@ class Given:
         self.seen += problems
         return [self._outcome(problem, self._lost(problem)) for problem in problems]
 
+    def map_groups(self, solve, groups):
+        return {key: self.map(solve, group) for key, group in groups.items()}
+
 
 def pressed(problem, lost):
     if isinstance(problem, rough_punch.Surface):
