@@ -1,0 +1,117 @@
+"""The factors of CONVENTIONS.md, as the code has them."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bem3d
+import mdr
+
+PAGE = (Path(__file__).parents[1] / "CONVENTIONS.md").read_text()
+L, E, N = 2e-3, 3e9, 256
+SPACING = L / N
+ROUGH = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi / L * 16, q_max=2 * np.pi / L * 60, rms=1e-7)
+X = (np.arange(N) + 0.5) * SPACING
+WAVE = 2 * np.pi / L * 5
+
+
+def row(first, text=PAGE):
+    """The cells of the one row of a table that begins with this."""
+    (line,) = [line for line in text.splitlines() if line.startswith(f"| {first}")]
+    return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def trapezoid(values, q):
+    return float(np.trapezoid(values, q))
+
+
+def test_spectra_are_two_sided():
+    q = np.geomspace(ROUGH.q_min, ROUGH.q_max, 20_001)
+    assert 2 * trapezoid(ROUGH.c1d(q), q) == pytest.approx(ROUGH.rms**2, rel=1e-6)
+    assert 2 * np.pi * trapezoid(q * ROUGH.c2d(q), q) == pytest.approx(ROUGH.rms**2, rel=1e-6)
+    assert ROUGH.c1d(q) == pytest.approx(np.pi * q * ROUGH.c2d(q))
+
+
+def test_amplitudes_of_waves():
+    profile = mdr.rough_profile(ROUGH.c1d, length=L, points=N, rng=np.random.default_rng(1))
+    surface = bem3d.rough_surface(ROUGH.c2d, shape=(N, N), spacing=SPACING, rng=np.random.default_rng(1))
+    waves = 2 * np.pi / L * np.arange(17, 60)
+    assert np.abs(np.fft.fft(profile) / N)[17:60] == pytest.approx(np.sqrt(2 * np.pi * ROUGH.c1d(waves) / L))
+    assert np.abs(np.fft.fft2(surface) / N**2)[17:60, 0] == pytest.approx(2 * np.pi / L * np.sqrt(ROUGH.c2d(waves)))
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_displacement_goes_into_the_half_space(periodic):
+    half_space = bem3d.HalfSpace(shape=(N, N), spacing=SPACING, modulus=E, periodic=periodic)
+    if periodic:
+        pressure = np.cos(WAVE * X)[:, np.newaxis] * np.ones(N)
+        assert half_space.displacement(pressure) == pytest.approx(2 * pressure / (E * WAVE), abs=1e-9 / (E * WAVE))
+        assert half_space.displacement(np.ones((N, N))) == pytest.approx(0.0, abs=1e-25)
+    else:
+        pressure = np.zeros((N, N))
+        pressure[3, 4] = 1.0
+        assert half_space.displacement(pressure)[3, 4] == pytest.approx(4 * math.asinh(1) * SPACING / (np.pi * E))
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_a_bump_is_a_smaller_gap_and_contact_begins_at_minus_its_height(periodic):
+    height = 1e-7 * np.cos(2 * np.pi / L * X)[:, np.newaxis] * np.cos(2 * np.pi / L * X)
+    half_space = bem3d.HalfSpace(shape=(N, N), spacing=SPACING, modulus=E, periodic=periodic)
+    assert bem3d.solve(half_space, -height, approach=-1.0001 * height.max()).force == 0
+    contact = bem3d.solve(half_space, -height, approach=-0.9 * height.max())
+    assert contact.force == pytest.approx(contact.pressure.sum() * SPACING**2)
+    assert contact.pressure[height < 0.5 * height.max()].max() == 0
+    separation = -height + half_space.displacement(contact.pressure) - contact.approach
+    assert np.abs(separation[contact.pressure > 0]).max() < 1e-5 * height.max()
+    curve = mdr.load_curve(height[0], length=L, modulus=E)
+    assert curve.approach[0] == -height[0].max()
+
+
+def test_springs():
+    x = np.linspace(-1e-3, 1e-3, 7)
+    assert mdr.sphere_profile(x, radius=0.5) == pytest.approx(x**2 / 0.5)
+    sphere = mdr.press_sphere(radius=0.5, modulus=E, approach=1e-6)
+    assert sphere.force == pytest.approx(4 / 3 * E * math.sqrt(0.5) * 1e-6**1.5)
+    assert sphere.contact_radius**2 == pytest.approx(0.5 * 1e-6)
+    assert sphere.stiffness == pytest.approx(2 * E * sphere.contact_radius)
+    assert mdr.load_curve(np.zeros(8), length=L, modulus=E).at_approach(1e-6).stiffness == pytest.approx(E * L)
+
+
+def test_factors_of_surface_topography():
+    """1/(2 pi) and 1/(4 pi^2), where the package is installed."""
+    topography = pytest.importorskip("SurfaceTopography")
+    assert row("SurfaceTopography, `power_spectrum_from_profile`")[2] == "1/(2 pi)"
+    assert row("SurfaceTopography, `power_spectrum_from_area`")[2] == "1/(4 pi^2)"
+    profile = mdr.rough_profile(ROUGH.c1d, length=L, points=N, rng=np.random.default_rng(1))
+    line = topography.UniformLineScan(profile, L, periodic=True)
+    q, c1d = line.power_spectrum_from_profile(resampling_method=None)
+    assert c1d[20:50] / (2 * np.pi) == pytest.approx(ROUGH.c1d(q[20:50]))
+    surface = bem3d.rough_surface(ROUGH.c2d, shape=(N, N), spacing=SPACING, rng=np.random.default_rng(1))
+    area = topography.Topography(surface, (L, L), periodic=True)
+    *_, c2d = area.power_spectrum_from_area(return_map=True)
+    assert c2d[20:50, 0] / (4 * np.pi**2) == pytest.approx(ROUGH.c2d(2 * np.pi / L * np.arange(20, 50)))
+
+
+def test_factors_of_tamaas():
+    """Lx Ly / (4 pi^2), where the package is installed."""
+    tamaas = pytest.importorskip("tamaas")
+    assert row("tamaas, `Statistics2D.computePowerSpectrum`")[2] == "Lx Ly / (4 pi^2)"
+    surface = bem3d.rough_surface(ROUGH.c2d, shape=(N, N), spacing=SPACING, rng=np.random.default_rng(1))
+    c2d = tamaas.Statistics2D.computePowerSpectrum(surface).real[20:50, 0] * L**2 / (4 * np.pi**2)
+    assert c2d == pytest.approx(ROUGH.c2d(2 * np.pi / L * np.arange(20, 50)))
+
+
+def test_approaches_of_the_other_packages():
+    """Where each one counts from: periodic, one load, the approach of three packages, where they are installed."""
+    tamaas = pytest.importorskip("tamaas")
+    n, spacing = 32, L / 32
+    x = (np.arange(n) + 0.5) * spacing
+    height = 1e-7 * np.cos(2 * np.pi / L * x)[:, np.newaxis] * np.cos(2 * np.pi / L * x)
+    half_space = bem3d.HalfSpace(shape=(n, n), spacing=spacing, modulus=E, periodic=True)
+    ours = bem3d.solve(half_space, -height, force=1e5 * L**2, tolerance=1e-9)
+    model = tamaas.Model(tamaas.model_type.basic_2d, [L, L], [n, n])
+    model.E, model.nu = E, 0.0
+    tamaas.PolonskyKeerRey(model, height.copy(), 1e-12).solve(1e5)
+    assert -np.array(model.displacement).mean() == pytest.approx(ours.approach, rel=1e-6)
