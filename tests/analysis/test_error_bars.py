@@ -422,9 +422,9 @@ def rolled(rng, *, springs=1.2, finer=0.98, scatter=0.03, case=ROLLING):
     bem = outcome(exact_3d, scatter, case.strips)
     refined = {name: values[..., : case.refined, :] if values.ndim > 1 else values for name, values in bem.items()}
     refined["level"] = finer * refined["level"]
-    tracks = {feed: outcome(springs * np.maximum(exact_3d, 1e-12), 0.1, case.tracks) for feed in rolling.FED}
+    tracks = {name: outcome(springs * np.maximum(exact_3d, 1e-12), 0.1, case.tracks) for name in rolling.INPUT_SPECTRA}
     return rolling.RollingResult(
-        case, {0.1: bem}, {0.1: refined}, {(feed, 0.1): one for feed, one in tracks.items()}, {}, ()
+        case, {0.1: bem}, {0.1: refined}, {(name, 0.1): one for name, one in tracks.items()}, {}, ()
     )
 
 
@@ -483,7 +483,7 @@ def test_an_interval_of_a_ratio_is_that_of_its_logarithm_times_the_ratio():
     rng = np.random.default_rng(0)
     punches = {"stiffness": 1 + 0.1 * rng.standard_normal((20, len(case.forces)))}
     springs = {"stiffness": 3 + 0.1 * rng.standard_normal((30, len(case.forces)))}
-    result = SimpleNamespace(case=case, profiles=dict.fromkeys(rolling_input.FEEDS, springs), punches=punches)
+    result = SimpleNamespace(case=case, profiles=dict.fromkeys(rolling_input.INPUT_SPECTRA, springs), punches=punches)
     number = rolling_input._pressed(result, "geike")
     assert number.value == pytest.approx(2.0, rel=0.1)
     level = nearest(case.forces, 0.1)

@@ -32,7 +32,7 @@ from validation.scenes.dynamic_wheel import read_scene
 from validation.selection.hierarchy import Answer, Claim, Cost, select_model
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
-from validation.simulation.rolling_strip import self_affine
+from validation.simulation.track_spectrum import self_affine
 
 ROOT = Path(__file__).parents[2]
 

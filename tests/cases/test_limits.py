@@ -20,7 +20,7 @@ from validation.report.figures import limits as figures
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.motion import simulate
-from validation.simulation.rolling_strip import self_affine
+from validation.simulation.track_spectrum import self_affine
 from validation.theory.rolling import force_variance
 
 SMALL = case.Limits(

@@ -14,7 +14,8 @@ from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges
 from validation.simulation import rolling_strip
-from validation.simulation.rolling_strip import PowerLaws, Strip, Tracks, fed, narrowed, roll_strip, roll_tracks
+from validation.simulation.rolling_strip import Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
+from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance, linear_force
 
 SMALL = rolling.ForceSpectrum(
@@ -36,8 +37,8 @@ def strip(**changes):
     "spectrum",
     [
         *rolling_input.RollingInput().spectra.values(),
-        PowerLaws(edges=(1.0, 3.0), exponents=(2.0,)),
-        PowerLaws(edges=(0.1, 1.0, 2.0, 40.0), exponents=(0.0, 2.0, 3.4)),
+        PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
+        PiecewisePowerLaw(edges=(0.1, 1.0, 2.0, 40.0), exponents=(0.0, 2.0, 3.4)),
     ],
 )
 def test_power_laws_have_unit_height_and_are_continuous(spectrum):
@@ -51,7 +52,7 @@ def test_power_laws_have_unit_height_and_are_continuous(spectrum):
 
 def test_a_spectrum_needs_an_exponent_a_piece():
     with pytest.raises(ValueError, match="edges must be one more than exponents, got 2 and 2"):
-        PowerLaws(edges=(1.0, 2.0), exponents=(1.0, 2.0))
+        PiecewisePowerLaw(edges=(1.0, 2.0), exponents=(1.0, 2.0))
 
 
 def test_a_strip_of_parts_of_cells_is_refused():
@@ -68,7 +69,7 @@ def test_strips_are_the_same_surface_on_finer_cells():
 
 def test_what_is_rolled_over_is_the_middle_of_the_surface():
     surface = strip().surface()
-    part = narrowed(surface, 1 / 8)
+    part = crop_to_reach(surface, 1 / 8)
     cut = (surface.shape[1] - part.shape[1]) / 2
     assert cut == int(cut) > 0
     np.testing.assert_array_equal(part, surface[:, int(cut) : -int(cut)])
@@ -88,7 +89,7 @@ def test_tracks_have_the_variance_of_linear_theory():
     """Of Geike's spectrum: to the part of the band that a wave has, 2 pi / L, for a sum in place of the integral."""
     tracks = Tracks(
         spectrum=SMALL.spectrum,
-        feed="geike",
+        input_spectrum="geike",
         height=1e-3,
         realisations=5,
         length=256.0,
@@ -102,14 +103,14 @@ def test_tracks_have_the_variance_of_linear_theory():
     assert outcome["level"].sum(axis=1).mean() * 2 <= outcome["variance"].mean() * (1 + 1e-9)
 
 
-@pytest.mark.parametrize("feed", rolling_strip.FEEDS)
-def test_inputs_are_ordered_along_the_track(feed):
+@pytest.mark.parametrize("name", INPUT_SPECTRA)
+def test_inputs_are_ordered_along_the_track(name):
     """At q a = 4: Geike's most, then the line trace, then the rolling spectrum; below the band Geike's has nothing."""
-    spectrum = rolling_strip.self_affine(0.7)
-    at = {one: fed(spectrum, one)(np.array([4.0, 0.5])) for one in rolling_strip.FEEDS}
+    spectrum = self_affine(0.7)
+    at = {one: TrackSpectrum(spectrum, one)(np.array([4.0, 0.5])) for one in INPUT_SPECTRA}
     assert at["geike"][0] > at["line"][0] > at["rolling"][0] > 0
     assert at["geike"][1] == 0 < at["rolling"][1] < at["line"][1]
-    assert (fed(spectrum, feed)(np.array([[4.0], [0.5]]))[:, 0] == at[feed]).all()
+    assert (TrackSpectrum(spectrum, name)(np.array([[4.0], [0.5]]))[:, 0] == at[name]).all()
 
 
 def louder(result, factor):
@@ -160,7 +161,7 @@ def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
     assert rolling_evidence.coherence(copied) == pytest.approx(1)
     assert rolling_evidence.correlation(copied) == pytest.approx((1, 2))
     rng = np.random.default_rng(0)
-    strange = rolling_strip.compared(*rng.normal(size=(2, 1, 4096)), 1.0, Bands((0.1, 3.0)))
+    strange = rolling_strip.levels_beside_linear(*rng.normal(size=(2, 1, 4096)), 1.0, Bands((0.1, 3.0)))
     assert rolling_evidence.coherence(strange) < 0.01
 
 

@@ -128,8 +128,8 @@ def test_rail_and_wheel_add_as_spectra():
 
 def test_rolling_feed_has_long_waves_and_geike_has_none():
     """Below q_min, what crosses the track aslant; above, Geike's has more in every wave."""
-    tracks = {feed: rides(track="steady", feed=feed) for feed in ("geike", "rolling")}
-    found = {feed: power(ride.heights())[:, 0] for feed, ride in tracks.items()}
+    tracks = {name: rides(track="steady", input_spectrum=name) for name in ("geike", "rolling")}
+    found = {name: power(ride.heights())[:, 0] for name, ride in tracks.items()}
     steps = tracks["geike"].places
     q = 2 * np.pi * np.arange(1, steps // 2 + 1) / (steps * SMALL.spacing)
     below, inside = q < SMALL.rail.q_min, (q > SMALL.rail.q_min) & (q < SMALL.rail.q_max)

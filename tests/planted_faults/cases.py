@@ -82,7 +82,7 @@ def always_open(rides):
 
 
 def by_geike(rides):
-    return heights_of(dataclasses.replace(rides, feed="geike"))
+    return heights_of(dataclasses.replace(rides, input_spectrum="geike"))
 
 
 def without_resonance(omega, *, eigenfrequency, mass):
@@ -147,7 +147,7 @@ FAULTS = {
             test_wheel_cases.test_closed_tracks_hold_whole_turns_and_steady_ones_a_half_more, "steady", 0.5, 0.16
         ),
     ),
-    "Geike for the rolling feed of springs": (
+    "Geike's spectrum for the rolling-equivalent one": (
         (wheel_ensemble.WheelEnsemble, "heights", by_geike),
         test_wheel_cases.test_rolling_feed_has_long_waves_and_geike_has_none,
     ),

@@ -23,7 +23,7 @@ from validation.theory.rolling import response
 
 FloatArray = NDArray[np.float64]
 Track = Literal["open", "closed", "steady"]
-Feed = Literal["geike", "rolling"]
+InputSpectrum = Literal["geike", "rolling"]
 
 RAIL, WHEEL = 1, 2
 """The spawn keys under which the roughness of each draws."""
@@ -42,8 +42,8 @@ class WheelEnsemble:
 
     scene; first, count: which of its realisations; groups: of them, whose mean spectra are kept apart; seed: zero or
     positive; release: how much deeper than in equilibrium they begin, over the smooth approach;
-    linear: the filter (14.11) in place of springs; feed: the rule by which springs get the spectrum of the isotropic
-    surface, Geike's, or the one that gives them the level of the force on the half-space, `mdr.rolling_spectrum`;
+    linear: the filter (14.11) in place of springs; input_spectrum: the spectrum that springs get for the isotropic
+    surface: Geike's, or `mdr.rolling_spectrum`, with which they have the force level of the half-space;
     track: "open": the end is far from the beginning; "closed": the end is the beginning, after a whole
     number of turns of the resonance; "steady": closed, and the motion repeats itself, after a number and a half.
     """
@@ -54,7 +54,7 @@ class WheelEnsemble:
     groups: int = 1
     track: Track = "open"
     linear: bool = False
-    feed: Feed = "geike"
+    input_spectrum: InputSpectrum = "geike"
     release: float = 0.0
     seed: int = 0
 
@@ -105,7 +105,7 @@ class WheelEnsemble:
         return np.where(place > middle, place - self.places, place)
 
     def _drawn(self, roughness: Roughness, points: int, kind: int, number: int) -> FloatArray:
-        geike = self.feed == "geike"
+        geike = self.input_spectrum == "geike"
         return mdr.rough_profile(
             roughness.spectrum.c1d if geike else rolling_feed(roughness, self.scene.contact_radius),
             length=points * self.scene.spacing,

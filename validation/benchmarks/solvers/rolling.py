@@ -10,7 +10,8 @@ import bem3d
 from validation.analysis.evidence import Table, table_of
 from validation.benchmarks.isolation import one_thread, own_process, timed
 from validation.engine.engine import Engine, Outcome
-from validation.simulation.rolling_strip import HERTZ, PowerLaws, Strip, narrowed
+from validation.simulation.rolling_strip import HERTZ, Strip, crop_to_reach
+from validation.simulation.track_spectrum import PiecewisePowerLaw
 
 FloatArray = NDArray[np.float64]
 
@@ -44,7 +45,7 @@ class RollingThroughput:
     def strip(self, height: float, cells: int, last: float, length: int) -> Strip:
         """The rough strip, the same on every grid."""
         return Strip(
-            spectrum=PowerLaws(edges=(1.0, last), exponents=(3.4,)),
+            spectrum=PiecewisePowerLaw(edges=(1.0, last), exponents=(3.4,)),
             height=height,
             realisation=0,
             length=length,
@@ -94,7 +95,7 @@ def measure_roll(roll: Roll) -> Outcome:
 
 def _measure_roll(roll: Roll) -> Outcome:
     strip = roll.strip
-    height = narrowed(strip.surface(), 1 / strip.cells)
+    height = crop_to_reach(strip.surface(), 1 / strip.cells)
     track = bem3d.Track(height=height, spacing=1 / strip.cells, radius=1.0, modulus=1.0)
     wheel = bem3d.RollingContact(track, tolerance=roll.tolerance)
     count = roll.positions or height.shape[0]

@@ -29,7 +29,7 @@ from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, Linear, SpringsLaw
 from validation.simulation.motion import Motion, repeating, simulate
 from validation.simulation.wheel_on_half_space import WheelStrip, by_boundary_elements, linear_contact, narrowed
-from validation.simulation.wheel_on_springs import LEFT, Feed, WheelEnsemble, filtered
+from validation.simulation.wheel_on_springs import LEFT, InputSpectrum, WheelEnsemble, filtered
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
@@ -241,10 +241,10 @@ class WheelOnSprings(Configuration):
     def prepare(self) -> Draw:
         """Tracks of all wheels."""
         scene, count = self.scene, self.scene.wheels
-        feed: Feed = "rolling" if self.line == FED else "geike"
+        input_spectrum: InputSpectrum = "rolling" if self.line == FED else "geike"
         distance = scene.duration * scene.scene.speed
         on = replace(scene.scene, distance=distance, springs=round(self.value))
-        rides = WheelEnsemble(scene=on, count=count, track="steady", feed=feed, seed=scene.seed)
+        rides = WheelEnsemble(scene=on, count=count, track="steady", input_spectrum=input_spectrum, seed=scene.seed)
         heights = rides.heights()
         roll = _filter(rides, heights) if self.line == FILTER_1D else _springs(rides, heights)
 

@@ -31,7 +31,8 @@ from validation.benchmarks.work_precision.measurement import (
     SolveResult,
     TimedSolve,
 )
-from validation.simulation.rolling_strip import HERTZ, Feed, PowerLaws, Strip, Tracks, narrowed, self_affine
+from validation.simulation.rolling_strip import HERTZ, Strip, Tracks, crop_to_reach
+from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 from validation.theory import rolling as rolling_theory
 
 SMOOTH = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
@@ -92,7 +93,7 @@ class RollingProblem(Refined):
         )
 
     @property
-    def spectrum(self) -> PowerLaws:
+    def spectrum(self) -> PiecewisePowerLaw:
         """Of the surfaces, for unit height."""
         return self_affine(self.hurst, 1.0, self.last)
 
@@ -114,11 +115,11 @@ class RollingProblem(Refined):
             seed=self.seed,
         )
 
-    def track(self, feed: Feed, springs: int, realisation: int) -> FloatArray:
+    def track(self, input_spectrum: InputSpectrum, springs: int, realisation: int) -> FloatArray:
         """For springs."""
         tracks = Tracks(
             spectrum=self.spectrum,
-            feed=feed,
+            input_spectrum=input_spectrum,
             height=self.height,
             realisations=self.tracks,
             length=float(self.length),
@@ -222,12 +223,12 @@ class OnTrack(Configuration):
     def prepare(self) -> Draw:
         """Refuses waves that springs do not resolve."""
         scene, springs = self.scene, round(self.value)
-        feed: Feed = "rolling" if self.line == FED else "geike"
+        input_spectrum: InputSpectrum = "rolling" if self.line == FED else "geike"
         contact = "linear" if self.line == FILTER_1D else "one-sided"
-        scene.track(feed, springs, 0)
+        scene.track(input_spectrum, springs, 0)
 
         def draw(realisation: int) -> TimedSolve:
-            track = scene.track(feed, springs, realisation)
+            track = scene.track(input_spectrum, springs, realisation)
             solve = partial(mdr.roll, track, spacing=1 / springs, contact=contact, **SMOOTH)  # type: ignore[arg-type]
 
             def read(found: mdr.RollingTrack) -> SolveResult:
@@ -296,7 +297,7 @@ def _fast(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tup
 
     Frames and their plans belong to the strip: they are made by rolling over its beginning.
     """
-    height = narrowed(surface, 1 / cells)
+    height = crop_to_reach(surface, 1 / cells)
     track = bem3d.Track(height=height, spacing=1 / cells, radius=1.0, modulus=1.0)
 
     def roll(positions: int) -> tuple[FloatArray, float]:

@@ -11,9 +11,10 @@ import mdr
 from validation.cases.limits.sweep import Limit, heard, swept
 from validation.engine.engine import Outcome, generator
 from validation.simulation.free_vibration import WHEEL
-from validation.simulation.rolling_strip import PowerLaws, Strip, fed, roll_strip, self_affine
+from validation.simulation.rolling_strip import Strip, roll_strip
 from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, Spacings, coarsen
+from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance, response
 
 FloatArray = NDArray[np.float64]
@@ -238,7 +239,7 @@ def compare_octaves(problem: Octaves) -> Outcome:
     return {**swept("level", problem.centres, geike, 1.0, said), "level, fed for rolling": rolling}
 
 
-def _apart(spectrum: PowerLaws, centre: float, lines: int) -> tuple[float, float]:
+def _apart(spectrum: PiecewisePowerLaw, centre: float, lines: int) -> tuple[float, float]:
     """Springs over the half-space in an octave, by Geike's rule and by that for rolling [dB]."""
     q = centre * 2 ** ((np.arange(lines) + 0.5) / lines - 0.5)
     # over the power law, whose fall would leave but the first part of a turn of sin^2
@@ -246,7 +247,7 @@ def _apart(spectrum: PowerLaws, centre: float, lines: int) -> tuple[float, float
     true = np.sum(level * force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0))
     geike, rolling = (
         float(np.sum(level * force_spectrum_1d(q, c1d, contact_radius=1.0, modulus=1.0)) / true)
-        for c1d in (fed(spectrum, "geike"), fed(spectrum, "rolling"))
+        for c1d in (TrackSpectrum(spectrum, "geike"), TrackSpectrum(spectrum, "rolling"))
     )
     return decibel(geike), decibel(rolling)
 
@@ -256,11 +257,13 @@ def decibel(ratio: float) -> float:
     return 10 * math.log10(ratio)
 
 
-def _rolled(spectrum: PowerLaws, seed: int) -> FloatArray:
+def _rolled(spectrum: PiecewisePowerLaw, seed: int) -> FloatArray:
     """What a user of Geike's rule does: a track of little roughness on enough springs, rolled over."""
     length = 8 * 2 * math.pi / spectrum.edges[0]
     points = math.ceil(length * max(16.0, 8 * spectrum.edges[-1] / (2 * math.pi)))
-    track = mdr.rough_profile(fed(spectrum, "geike"), length=length, points=points, rng=generator(seed, 1), rms=1e-3)
+    track = mdr.rough_profile(
+        TrackSpectrum(spectrum, "geike"), length=length, points=points, rng=generator(seed, 1), rms=1e-3
+    )
     return mdr.rolling_force(track, spacing=length / points, radius=1.0, modulus=1.0, approach=1.0)
 
 
@@ -282,13 +285,13 @@ def stretch(problem: Stretched) -> Outcome:
     return swept("anisotropy", np.array(problem.ratios) - 1, errors, border, said)
 
 
-def cut_along(spectrum: PowerLaws, ratio: float) -> PowerLaws:
+def cut_along(spectrum: PiecewisePowerLaw, ratio: float) -> PiecewisePowerLaw:
     """The isotropic spectrum of unit height whose cut is that of the stretched surface along its long waves."""
     edges = tuple(edge / math.sqrt(ratio) for edge in spectrum.edges)
-    return PowerLaws(edges=edges, exponents=spectrum.exponents)
+    return PiecewisePowerLaw(edges=edges, exponents=spectrum.exponents)
 
 
-def stretched_variance(spectrum: PowerLaws, ratio: float, lines: int = 1500, angles: int = 180) -> float:
+def stretched_variance(spectrum: PiecewisePowerLaw, ratio: float, lines: int = 1500, angles: int = 180) -> float:
     """<dF^2> over (E* a)^2 = int G(|k|) C_2D(kappa) d2kappa, k = (kappa_x / sqrt(ratio), kappa_y sqrt(ratio))."""
     edge = np.geomspace(spectrum.edges[0], spectrum.edges[-1], lines + 1)
     kappa = np.sqrt(edge[1:] * edge[:-1])[:, np.newaxis]
@@ -302,7 +305,7 @@ def make_higher(problem: Heights) -> Outcome:
     """The linear filter against one-sided springs: difference about its mean, over the fluctuation."""
     spectrum, spacing = self_affine(problem.hurst, 1.0, problem.last), 1 / problem.springs
     unit = mdr.rough_profile(
-        fed(spectrum, "geike"),
+        TrackSpectrum(spectrum, "geike"),
         length=problem.length,
         points=round(problem.length * problem.springs),
         rng=generator(problem.seed, 2),
@@ -345,7 +348,7 @@ def make_strips_higher(problem: Strips) -> Outcome:
     return {**swept("linear in 3D", problem.heights, errors, border, said), "failed": np.array(failed)}
 
 
-def rms_slope(spectrum: PowerLaws) -> float:
+def rms_slope(spectrum: PiecewisePowerLaw) -> float:
     """h' of unit height: the root of 2 pi int q^3 C_2D dq."""
     q = np.geomspace(spectrum.edges[0], spectrum.edges[-1], 4001)
     return math.sqrt(float(np.trapezoid(2 * np.pi * q**4 * spectrum.c2d(q), np.log(q))))

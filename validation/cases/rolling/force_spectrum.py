@@ -7,17 +7,15 @@ from validation.analysis.spectra import Bands
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.rolling_strip import (
-    Feed,
-    PowerLaws,
     Strip,
     Tracks,
     roll_strip,
     roll_tracks,
-    self_affine,
     strip_levels,
 )
+from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 
-FED: tuple[Feed, ...] = ("geike", "rolling")
+INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
 ROUGH = 0.3
 
 
@@ -47,7 +45,7 @@ class ForceSpectrum:
     seed: int = 144
 
     @property
-    def spectrum(self) -> PowerLaws:
+    def spectrum(self) -> PiecewisePowerLaw:
         """C_2D of the surfaces."""
         return self_affine(self.hurst, self.first, self.last)
 
@@ -73,11 +71,11 @@ class ForceSpectrum:
             seed=self.seed,
         )
 
-    def tracks_of(self, height: float, feed: Feed) -> Tracks:
+    def tracks_of(self, height: float, rule: InputSpectrum) -> Tracks:
         """All realisations of MDR at one height."""
         return Tracks(
             spectrum=self.spectrum,
-            feed=feed,
+            input_spectrum=rule,
             height=height,
             realisations=self.tracks,
             length=self.length,
@@ -97,7 +95,7 @@ class RollingResult:
     case: ForceSpectrum
     bem: dict[float, Outcome]
     refined: dict[float, Outcome]
-    mdr: dict[tuple[Feed, float], Outcome]
+    mdr: dict[tuple[InputSpectrum, float], Outcome]
     forces: dict[float, Outcome]
     unconverged: tuple[str, ...]
 
@@ -126,13 +124,13 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> RollingResult:
             raise NotConvergedError(
                 f"{whole} strips converged at h/d = {height:g} on {cells} cells, 3 are needed", unconverged
             )
-    tracks = [case.tracks_of(height, feed) for height in case.heights for feed in FED]
+    tracks = [case.tracks_of(height, rule) for height in case.heights for rule in INPUT_SPECTRA]
     on_springs = engine.map(roll_tracks, tracks)
     return RollingResult(
         case,
         {h: strip_levels(by_group[h, case.cells], 1 / case.cells, case.bands) for h in case.heights},
         {h: strip_levels(by_group[h, 2 * case.cells], 0.5 / case.cells, case.bands) for h in case.heights},
-        {(t.feed, t.height): o for t, o in zip(tracks, on_springs, strict=True)},
+        {(t.input_spectrum, t.height): o for t, o in zip(tracks, on_springs, strict=True)},
         {h: by_group[h, case.cells][0] for h in case.heights},
         unconverged,
     )

@@ -25,7 +25,8 @@ from validation.analysis.statistics import (
 from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
 from validation.engine.engine import Outcome, generator
 from validation.selection import model_needed
-from validation.simulation.rolling_strip import BOOTSTRAP, HERTZ, Feed, fed
+from validation.simulation.rolling_strip import BOOTSTRAP, HERTZ
+from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum
 from validation.theory import rolling as rolling_theory
 
 FloatArray = NDArray[np.float64]
@@ -53,10 +54,10 @@ class Height:
     height: float
     bands: Bands
     bem: Outcome
-    mdr: dict[Feed, Outcome]
+    mdr: dict[InputSpectrum, Outcome]
     bem_over_linear: Sample
     finer: Sample
-    springs: dict[Feed, Sample]
+    springs: dict[InputSpectrum, Sample]
     springs_over_linear: Sample
     exact_1d: FloatArray
     exact_3d: FloatArray
@@ -82,8 +83,8 @@ class Height:
         if model == LINEAR_1D:
             with np.errstate(divide="ignore"):
                 return _exactly(float(weights[used] @ np.log(self.exact_1d[used])) - reference)
-        feed: Feed = "geike" if model == SPRINGS else "rolling"
-        found = self.springs[feed].estimate(combined(weights, log_mean))
+        rule: InputSpectrum = "geike" if model == SPRINGS else "rolling"
+        found = self.springs[rule].estimate(combined(weights, log_mean))
         return Estimate(found.value - reference, found.error, found.samples)
 
     def apart(self, model: str, where: str, weights: FloatArray, role: Role = Role.FINDING) -> Number:
@@ -175,7 +176,7 @@ def _ranges(case: ForceSpectrum) -> dict[str, tuple[float, float]]:
 def _height(result: RollingResult, i: int) -> Height:
     case, height = result.case, result.case.heights[i]
     bem, finer = result.bem[height], result.refined[height]
-    mdr: dict[Feed, Outcome] = {feed: result.mdr[feed, height] for feed in ("geike", "rolling")}
+    mdr: dict[InputSpectrum, Outcome] = {rule: result.mdr[rule, height] for rule in ("geike", "rolling")}
 
     def rng(part: int) -> np.random.Generator:
         return generator(case.seed, BOOTSTRAP, i, part)
@@ -188,7 +189,7 @@ def _height(result: RollingResult, i: int) -> Height:
         mdr=mdr,
         bem_over_linear=pairs(bem["linear level"], bem["level"], rng(0)),
         finer=pairs(bem["level"][: case.refined], finer["level"], rng(1)),
-        springs={feed: sample(outcome["level"], rng(2 + j)) for j, (feed, outcome) in enumerate(mdr.items())},
+        springs={rule: sample(outcome["level"], rng(2 + j)) for j, (rule, outcome) in enumerate(mdr.items())},
         springs_over_linear=pairs(_positive(mdr["geike"]["linear level"]), mdr["geike"]["level"], rng(4)),
         exact_1d=exact_1d,
         exact_3d=exact_3d,
@@ -205,7 +206,7 @@ def exact_levels(case: ForceSpectrum) -> tuple[FloatArray, FloatArray]:
     spectrum = case.spectrum
 
     def in_1d(q: FloatArray) -> FloatArray:
-        return rolling_theory.force_spectrum_1d(q, fed(spectrum, "geike"), contact_radius=1.0, modulus=1.0)
+        return rolling_theory.force_spectrum_1d(q, TrackSpectrum(spectrum, "geike"), contact_radius=1.0, modulus=1.0)
 
     def in_3d(q: FloatArray) -> FloatArray:
         return rolling_theory.force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0)
@@ -344,7 +345,7 @@ def _narrow(result: RollingResult) -> Table:
     q, spectrum = springs["wavenumber"], case.spectrum
     inside = (q > case.first / 2) & (q < case.last)
     q = q[inside]
-    geike = fed(spectrum, "geike")
+    geike = TrackSpectrum(spectrum, "geike")
     exact = rolling_theory.force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0)
     return Table(
         "spectrum",

@@ -18,26 +18,28 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.simulation.rolling_strip import (
     BOOTSTRAP,
-    FEEDS,
     HERTZ,
     TRACKS,
-    Feed,
-    PowerLaws,
     Strip,
     Tracks,
-    fed,
     roll_strip,
     roll_tracks,
-    self_affine,
     strip_levels,
 )
 from validation.simulation.rough_punch import PunchRoughness, Surface, enough, lost, press_surface, stacked
+from validation.simulation.track_spectrum import (
+    INPUT_SPECTRA,
+    InputSpectrum,
+    PiecewisePowerLaw,
+    TrackSpectrum,
+    self_affine,
+)
 from validation.theory import rolling as rolling_theory
 
 FloatArray = NDArray[np.float64]
 Row = dict[str, object]
 
-NAMES: dict[Feed, str] = {"geike": "Geike spectrum", "line": "line trace", "rolling": "rolling spectrum"}
+NAMES: dict[InputSpectrum, str] = {"geike": "Geike spectrum", "line": "line trace", "rolling": "rolling spectrum"}
 FORD_THOMPSON = 3.0
 """dB in one-third octaves: how near springs come to a 3D analysis. Ford and Thompson, J. Sound Vib. 293 (2006)."""
 
@@ -65,21 +67,21 @@ class RollingInput:
     seed: int = 144
 
     @property
-    def derived_for(self) -> dict[str, PowerLaws]:
+    def derived_for(self) -> dict[str, PiecewisePowerLaw]:
         """Power laws, for which the rule is a factor far from the ends of the band."""
         return {f"H = {hurst:g}": self_affine(hurst, 1.0, self.last) for hurst in (0.4, 0.7, 1.0)}
 
     @property
-    def others(self) -> dict[str, PowerLaws]:
+    def others(self) -> dict[str, PiecewisePowerLaw]:
         """Spectra that nobody had in mind."""
         return {
-            "roll-off": PowerLaws(edges=(0.25, 2.0, self.last), exponents=(0.0, 3.4)),
-            "two power laws": PowerLaws(edges=(1.0, 4.0, self.last), exponents=(2.4, 4.0)),
-            "narrow band": PowerLaws(edges=(4.0, 6.0), exponents=(0.0,)),
+            "roll-off": PiecewisePowerLaw(edges=(0.25, 2.0, self.last), exponents=(0.0, 3.4)),
+            "two power laws": PiecewisePowerLaw(edges=(1.0, 4.0, self.last), exponents=(2.4, 4.0)),
+            "narrow band": PiecewisePowerLaw(edges=(4.0, 6.0), exponents=(0.0,)),
         }
 
     @property
-    def spectra(self) -> dict[str, PowerLaws]:
+    def spectra(self) -> dict[str, PiecewisePowerLaw]:
         """All of them."""
         return {**self.derived_for, **self.others}
 
@@ -98,7 +100,7 @@ class RollingInput:
         """The punches of Fig. 14.1."""
         return PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
 
-    def within(self, spectrum: PowerLaws) -> NDArray[np.bool_]:
+    def within(self, spectrum: PiecewisePowerLaw) -> NDArray[np.bool_]:
         """Bands that lie in that of a spectrum."""
         edges = np.array(self.bands.edges)
         return np.asarray((edges[1:] > spectrum.edges[0] * 1.001) & (edges[:-1] < spectrum.edges[-1] * 0.999))
@@ -109,31 +111,31 @@ class PunchProfiles:
     """Profiles of the punches of Fig. 14.1, drawn from what a rule makes of their surfaces, pressed at all forces."""
 
     case: RollingInput
-    feed: Feed
+    input_spectrum: InputSpectrum
 
 
 @dataclass(frozen=True)
 class RollingInputResult:
-    """Levels by spectrum and height of boundary elements, and by feed of springs; stiffness of punches."""
+    """Levels by spectrum and height of boundary elements, and by rule of springs; stiffness of punches."""
 
     case: RollingInput
     bem: dict[tuple[str, float], Outcome]
-    mdr: dict[tuple[str, float, Feed], Outcome]
+    mdr: dict[tuple[str, float, InputSpectrum], Outcome]
     punches: Outcome
-    profiles: dict[Feed, Outcome]
+    profiles: dict[InputSpectrum, Outcome]
     unconverged: tuple[str, ...]
 
 
 def press_fed_profiles(profiles: PunchProfiles) -> Outcome:
     """k / (E* L) of each profile at each force; height: rms of the profiles over that of the surface."""
     case, punch = profiles.case, profiles.case.punch
-    spectrum = PowerLaws(edges=(2 * math.pi, math.pi / 2 * case.punch_cells), exponents=(2 * punch.hurst + 2,))
+    spectrum = PiecewisePowerLaw(edges=(2 * math.pi, math.pi / 2 * case.punch_cells), exponents=(2 * punch.hurst + 2,))
     points = 16 * case.punch_cells
     q = 2 * np.pi * np.arange(1.0, case.punch_cells // 4 + 1)
 
     # the side of the punch for the diameter of the contact
-    c1d = fed(spectrum, profiles.feed, contact_radius=0.5)
-    part = math.sqrt(float(c1d(q).sum() / fed(spectrum, "geike")(q).sum()))
+    c1d = TrackSpectrum(spectrum, profiles.input_spectrum, contact_radius=0.5)
+    part = math.sqrt(float(c1d(q).sum() / TrackSpectrum(spectrum, "geike")(q).sum()))
     curves = [
         mdr.load_curve(
             mdr.rough_profile(
@@ -187,7 +189,7 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
     tracks = [
         Tracks(
             spectrum=spectra[name],
-            feed=feed,
+            input_spectrum=rule,
             height=height,
             realisations=case.tracks,
             length=case.length,
@@ -196,7 +198,7 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
             seed=case.seed,
         )
         for name, height in keys
-        for feed in FEEDS
+        for rule in INPUT_SPECTRA
     ]
     on_springs = iter(engine.map(roll_tracks, tracks))
     surfaces = [
@@ -204,14 +206,17 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
         for i in range(case.surfaces)
     ]
     pressed = engine.map(press_surface, surfaces)
-    fed_profiles = engine.map(press_fed_profiles, [PunchProfiles(case=case, feed=feed) for feed in FEEDS])
+    fed_profiles = engine.map(
+        press_fed_profiles,
+        [PunchProfiles(case=case, input_spectrum=rule) for rule in INPUT_SPECTRA],
+    )
     enough([stacked(pressed)], lost(surfaces, pressed))
     return RollingInputResult(
         case,
         {key: strip_levels(group, 1 / case.cells, case.bands) for key, group in groups.items()},
-        {(name, height, feed): next(on_springs) for name, height in keys for feed in FEEDS},
+        {(name, height, rule): next(on_springs) for name, height in keys for rule in INPUT_SPECTRA},
         stacked(pressed),
-        dict(zip(FEEDS, fed_profiles, strict=True)),
+        dict(zip(INPUT_SPECTRA, fed_profiles, strict=True)),
         (*unconverged, *lost(surfaces, pressed)),
     )
 
@@ -222,13 +227,18 @@ def evidence(result: RollingInputResult) -> Evidence:
     linear = [row for name, spectrum in case.spectra.items() for row in _linear(case, name, spectrum)]
     bands = table_of("bands", linear)
     numbers = [number for name in case.spectra for number in _linear_numbers(case, bands, name)]
-    levels = {(*key, feed): _levels(result, *key, feed) for key in result.bem for feed in FEEDS}
+    levels = {(*key, rule): _levels(result, *key, rule) for key in result.bem for rule in INPUT_SPECTRA}
     numbers += [_rolled(case, *key, mine) for key, mine in levels.items()]
-    numbers += [_pressed(result, feed) for feed in FEEDS]
+    numbers += [_pressed(result, rule) for rule in INPUT_SPECTRA]
     nonlinear = [
         row
         for name, height in result.bem
-        for row in _nonlinear(case, name, height, {feed: levels[name, height, feed] for feed in FEEDS})
+        for row in _nonlinear(
+            case,
+            name,
+            height,
+            {rule: levels[name, height, rule] for rule in INPUT_SPECTRA},
+        )
     ]
     rolled = table_of("rolled", nonlinear)
     verdicts = _within_three(case, bands)
@@ -271,7 +281,7 @@ def evidence(result: RollingInputResult) -> Evidence:
 
 
 @cache
-def _exact(case: RollingInput, spectrum: PowerLaws) -> FloatArray:
+def _exact(case: RollingInput, spectrum: PiecewisePowerLaw) -> FloatArray:
     """Levels of linear theory in 3D at h = d, over the force of Hertz squared."""
 
     def in_3d(q: FloatArray) -> FloatArray:
@@ -280,15 +290,20 @@ def _exact(case: RollingInput, spectrum: PowerLaws) -> FloatArray:
     return over_bands(in_3d, case.bands) / HERTZ**2
 
 
-def _linear(case: RollingInput, name: str, spectrum: PowerLaws) -> list[Row]:
+def _linear(case: RollingInput, name: str, spectrum: PiecewisePowerLaw) -> list[Row]:
     """One row a band: error of (14.12) with each input, in dB; minus infinity where it has nothing."""
     exact, edges = _exact(case, spectrum), case.bands.edges
     found = {}
-    for feed in FEEDS:
-        on_springs = partial(rolling_theory.force_spectrum_1d, c1d=fed(spectrum, feed), contact_radius=1.0, modulus=1.0)
+    for rule in INPUT_SPECTRA:
+        on_springs = partial(
+            rolling_theory.force_spectrum_1d,
+            c1d=TrackSpectrum(spectrum, rule),
+            contact_radius=1.0,
+            modulus=1.0,
+        )
         level = over_bands(on_springs, case.bands)
         with np.errstate(divide="ignore", invalid="ignore"):
-            found[feed] = POWER * np.log(level / HERTZ**2 / exact)
+            found[rule] = POWER * np.log(level / HERTZ**2 / exact)
     inside = case.within(spectrum)
     return [
         {
@@ -296,7 +311,7 @@ def _linear(case: RollingInput, name: str, spectrum: PowerLaws) -> list[Row]:
             "q a": float(centre),
             "in the band": bool(inside[i]),
             "first zero": bool(edges[i] < math.pi < edges[i + 1]),
-            **{f"{NAMES[feed]} [dB]": float(found[feed][i]) for feed in FEEDS},
+            **{f"{NAMES[rule]} [dB]": float(found[rule][i]) for rule in INPUT_SPECTRA},
         }
         for i, centre in enumerate(case.bands.centres)
         if edges[i] < spectrum.edges[-1] * 0.999
@@ -309,11 +324,11 @@ def _linear_numbers(case: RollingInput, bands: Table, name: str) -> list[Number]
     inside, clear = mine["in the band"], ~mine["first zero"]
     source = "linear theory in 3D, by quadrature"
     numbers = []
-    for feed in FEEDS:
-        errors = mine[f"{NAMES[feed]} [dB]"]
+    for rule in INPUT_SPECTRA:
+        errors = mine[f"{NAMES[rule]} [dB]"]
         numbers.append(
             Number(
-                quantity=f"linear, {name}, {NAMES[feed]}: mean level in the band",
+                quantity=f"linear, {name}, {NAMES[rule]}: mean level in the band",
                 value=float(errors[inside].mean()),
                 reference=0.0,
                 source=source,
@@ -327,7 +342,7 @@ def _linear_numbers(case: RollingInput, bands: Table, name: str) -> list[Number]
         if np.isfinite(everywhere).all():
             numbers.append(
                 Number(
-                    quantity=f"linear, {name}, {NAMES[feed]}: worst one-third octave but that of q a = π",
+                    quantity=f"linear, {name}, {NAMES[rule]}: worst one-third octave but that of q a = π",
                     value=float(everywhere.max()),
                     reference=0.0,
                     source=source,
@@ -346,10 +361,10 @@ def _within_three(case: RollingInput, bands: Table) -> Table:
     for name in case.spectra:
         mine = bands.where(spectrum=name)
         row: Row = {"spectrum": name}
-        for feed in FEEDS:
-            errors = np.abs(mine[f"{NAMES[feed]} [dB]"])
+        for rule in INPUT_SPECTRA:
+            errors = np.abs(mine[f"{NAMES[rule]} [dB]"])
             for part, where in (("in the band", mine["in the band"]), ("below", ~mine["in the band"])):
-                row[f"{NAMES[feed]}, {part}"] = f"{int((errors[where] <= FORD_THOMPSON).sum())} of {int(where.sum())}"
+                row[f"{NAMES[rule]}, {part}"] = f"{int((errors[where] <= FORD_THOMPSON).sum())} of {int(where.sum())}"
         rows.append(row)
     return table_of("within 3 dB", rows)
 
@@ -371,11 +386,11 @@ class _Levels:
         return over.minus(self.bem.estimate(change(combined(weights, log_mean))))
 
 
-def _levels(result: RollingInputResult, name: str, height: float, feed: Feed) -> _Levels:
+def _levels(result: RollingInputResult, name: str, height: float, rule: InputSpectrum) -> _Levels:
     """Of one spectrum, height and input."""
     case = result.case
-    key = (list(case.spectra).index(name), case.heights.index(height), FEEDS.index(feed))
-    bem, springs = result.bem[name, height], result.mdr[name, height, feed]
+    key = (list(case.spectra).index(name), case.heights.index(height), INPUT_SPECTRA.index(rule))
+    bem, springs = result.bem[name, height], result.mdr[name, height, rule]
     return _Levels(
         pairs(bem["linear level"], bem["level"], generator(case.seed, BOOTSTRAP, *key, 0)),
         sample(np.maximum(springs["level"], 1e-300), generator(case.seed, BOOTSTRAP, *key, 1)),
@@ -383,11 +398,11 @@ def _levels(result: RollingInputResult, name: str, height: float, feed: Feed) ->
     )
 
 
-def _rolled(case: RollingInput, name: str, height: float, feed: Feed, levels: _Levels) -> Number:
+def _rolled(case: RollingInput, name: str, height: float, rule: InputSpectrum, levels: _Levels) -> Number:
     inside = case.within(case.spectra[name])
     apart = levels.apart(inside / inside.sum())
     return Number(
-        quantity=f"springs over bem3d, {name}, h/d = {height:g}, {NAMES[feed]}: mean level in the band",
+        quantity=f"springs over bem3d, {name}, h/d = {height:g}, {NAMES[rule]}: mean level in the band",
         value=POWER * apart.value,
         reference=0.0,
         source="bem3d, relatively to linear theory on the same surfaces",
@@ -399,35 +414,38 @@ def _rolled(case: RollingInput, name: str, height: float, feed: Feed, levels: _L
     )
 
 
-def _nonlinear(case: RollingInput, name: str, height: float, levels: dict[Feed, _Levels]) -> list[Row]:
+def _nonlinear(case: RollingInput, name: str, height: float, levels: dict[InputSpectrum, _Levels]) -> list[Row]:
     """One row a band: springs over boundary elements, by input."""
     rows: list[Row] = []
     for i, centre in enumerate(case.bands.centres):
         if case.bands.edges[i] >= case.spectra[name].edges[-1] * 0.999:
             continue
         row: Row = {"spectrum": name, "h/d": height, "q a": float(centre)}
-        for feed, mine in levels.items():
+        for rule, mine in levels.items():
             apart = mine.apart(np.eye(len(case.bands.centres))[i])
-            row[f"{NAMES[feed]} [dB]"] = POWER * apart.value
-            row[f"{NAMES[feed]} ± [dB]"] = POWER * apart.half_width
+            row[f"{NAMES[rule]} [dB]"] = POWER * apart.value
+            row[f"{NAMES[rule]} ± [dB]"] = POWER * apart.half_width
         rows.append(row)
     return rows
 
 
-def _stiffness(result: RollingInputResult, feed: Feed) -> tuple[Sample, Sample]:
+def _stiffness(result: RollingInputResult, rule: InputSpectrum) -> tuple[Sample, Sample]:
     case = result.case
     return (
-        sample(result.profiles[feed]["stiffness"], generator(case.seed, BOOTSTRAP, 90, FEEDS.index(feed))),
+        sample(
+            result.profiles[rule]["stiffness"],
+            generator(case.seed, BOOTSTRAP, 90, INPUT_SPECTRA.index(rule)),
+        ),
         sample(result.punches["stiffness"], generator(case.seed, BOOTSTRAP, 91)),
     )
 
 
-def _pressed(result: RollingInputResult, feed: Feed) -> Number:
+def _pressed(result: RollingInputResult, rule: InputSpectrum) -> Number:
     level = nearest(result.case.forces, 0.1)
-    mdr_, bem = (one.estimate(at(level, log_mean)) for one in _stiffness(result, feed))
+    mdr_, bem = (one.estimate(at(level, log_mean)) for one in _stiffness(result, rule))
     apart = mdr_.minus(bem)
     return Number(
-        quantity=f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[feed]}",
+        quantity=f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[rule]}",
         value=math.expm1(apart.value),
         reference=0.0,
         source=f"bem3d on {result.case.punch_cells}² cells",
@@ -440,12 +458,12 @@ def _pressed(result: RollingInputResult, feed: Feed) -> Number:
 
 def _punches(result: RollingInputResult) -> Table:
     rows: list[Row] = []
-    for feed in FEEDS:
-        mdr_, bem = _stiffness(result, feed)
+    for rule in INPUT_SPECTRA:
+        mdr_, bem = _stiffness(result, rule)
         for level, force in enumerate(result.case.forces):
             apart = mdr_.estimate(at(level, log_mean)).minus(bem.estimate(at(level, log_mean)))
             middle, low, high = (math.exp(value) for value in apart.interval)
-            rows.append({"input": NAMES[feed], "Fbar": force, "mdr over bem3d": middle, "low": low, "high": high})
+            rows.append({"input": NAMES[rule], "Fbar": force, "mdr over bem3d": middle, "low": low, "high": high})
     return table_of("punches", rows)
 
 
@@ -457,30 +475,30 @@ def _conclusions(result: RollingInputResult, bands: Table, rolled: Table, number
         return "; ".join(f"{name}: {by_label[f'{start}{name}{end}'].value:+.1f} dB" for name in names)
 
     sentences = [
-        f"In linear theory, mean level of springs over 3D in the band, fed with the {NAMES[feed]}: "
-        f"{chain('linear, ', f', {NAMES[feed]}: mean level in the band', list(case.spectra))}."
-        for feed in FEEDS
+        f"In linear theory, mean level of springs over 3D in the band, fed with the {NAMES[rule]}: "
+        f"{chain('linear, ', f', {NAMES[rule]}: mean level in the band', list(case.spectra))}."
+        for rule in INPUT_SPECTRA
     ]
     for height in case.heights:
-        for feed in FEEDS:
+        for rule in INPUT_SPECTRA:
             found = chain(
                 "springs over bem3d, ",
-                f", h/d = {height:g}, {NAMES[feed]}: mean level in the band",
+                f", h/d = {height:g}, {NAMES[rule]}: mean level in the band",
                 ["H = 0.7", *case.others],
             )
-            sentences.append(f"One-sided springs over boundary elements at h/d = {height:g}, {NAMES[feed]}: {found}.")
-    counted = {feed: [abs(x) <= FORD_THOMPSON for x in bands[f"{NAMES[feed]} [dB]"].tolist()] for feed in FEEDS}
+            sentences.append(f"One-sided springs over boundary elements at h/d = {height:g}, {NAMES[rule]}: {found}.")
+    counted = {rule: [abs(x) <= FORD_THOMPSON for x in bands[f"{NAMES[rule]} [dB]"].tolist()] for rule in INPUT_SPECTRA}
     sentences.append(
         "Springs within 3 dB of 3D in one-third octaves (Ford and Thompson 2006), both in linear theory: "
-        + "; ".join(f"{NAMES[feed]}: {sum(inside)} of {len(inside)} bands" for feed, inside in counted.items())
+        + "; ".join(f"{NAMES[rule]}: {sum(inside)} of {len(inside)} bands" for rule, inside in counted.items())
         + ". It is a statement about springs that are fed what a line along the track shows, not about Geike's rule."
     )
     for height in case.heights:
         mine = rolled.where(**{"h/d": height})
-        counts = {feed: np.abs(mine[f"{NAMES[feed]} [dB]"]) <= FORD_THOMPSON for feed in FEEDS}
+        counts = {rule: np.abs(mine[f"{NAMES[rule]} [dB]"]) <= FORD_THOMPSON for rule in INPUT_SPECTRA}
         sentences.append(
             f"One-sided springs within 3 dB of boundary elements at h/d = {height:g}: "
-            + "; ".join(f"{NAMES[feed]}: {inside.sum()} of {inside.size} bands" for feed, inside in counts.items())
+            + "; ".join(f"{NAMES[rule]}: {inside.sum()} of {inside.size} bands" for rule, inside in counts.items())
             + "."
         )
     return [*sentences, _both(result, by_label)]
@@ -489,12 +507,13 @@ def _conclusions(result: RollingInputResult, bands: Table, rolled: Table, number
 def _both(result: RollingInputResult, by_label: dict[str, Number]) -> str:
     """Whether one rule serves rolling and Fig. 14.1."""
     numbers = {
-        feed: by_label[f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[feed]}"] for feed in FEEDS
+        rule: by_label[f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[rule]}"]
+        for rule in INPUT_SPECTRA
     }
     punches = "; ".join(
-        f"{NAMES[feed]}, {float(result.profiles[feed]['height']):.2f} of the height: {100 * number.value:+.0f} ± "
+        f"{NAMES[rule]}, {float(result.profiles[rule]['height']):.2f} of the height: {100 * number.value:+.0f} ± "
         f"{100 * number.uncertainty:.0f} % ({number.verdict})"
-        for feed, number in numbers.items()
+        for rule, number in numbers.items()
     )
     none = numbers["rolling"].verdict is Verdict.DIFFER and numbers["geike"].verdict is not Verdict.DIFFER
     answer = (

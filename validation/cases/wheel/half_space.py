@@ -7,11 +7,11 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, read_scene
 from validation.simulation.wheel_on_half_space import WheelStrip, roll_strip
-from validation.simulation.wheel_on_springs import Feed, WheelEnsemble, roll_wheels
+from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, roll_wheels
 
 TABLE = read_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
-FEEDS: tuple[Feed, ...] = ("geike", "rolling")
+INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
 FINEST, COARSER, LOOSE, TIGHT = "finest", "coarser", "loose", "tight"
 ANEW = 10
 """So many times as small a residual tells what the solver leaves open."""
@@ -65,7 +65,7 @@ class Wheel3D:
             TIGHT: [self.strip(0, self.cells, self.tolerance / ANEW, self.short)],
         }
 
-    def rides(self, feed: Feed) -> list[WheelEnsemble]:
+    def rides(self, input_spectrum: InputSpectrum) -> list[WheelEnsemble]:
         """Springs in the motion that repeats itself, on tracks as long as the strips."""
         along = self.strip(0, self.cells, self.tolerance, self.turns)
         scene = replace(self.scene, distance=along.shape[0] * along.spacing)
@@ -78,7 +78,7 @@ class Wheel3D:
                 count=count,
                 groups=self.groups,
                 track="steady",
-                feed=feed,
+                input_spectrum=input_spectrum,
                 seed=self.seed,
             )
             for i in range(batches)
@@ -91,7 +91,7 @@ class Result3D:
 
     case: Wheel3D
     strips: Mapping[str, list[Outcome]]
-    springs: Mapping[Feed, list[Outcome]]
+    springs: Mapping[InputSpectrum, list[Outcome]]
     unconverged: tuple[str, ...]
 
 
@@ -110,10 +110,10 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
     whole = sum(not outcome["failed"] for outcome in found[FINEST])
     if whole < 3 or any(outcome["failed"] for name in (COARSER, LOOSE, TIGHT) for outcome in found[name]):
         raise NotConvergedError(f"{whole} strips converged on {case.cells} cells to a radius, 3 are needed", lost)
-    rides = {feed: case.rides(feed) for feed in FEEDS}
+    rides = {name: case.rides(name) for name in INPUT_SPECTRA}
     rode = iter(engine.map(roll_wheels, [ride for some in rides.values() for ride in some]))
-    springs = {feed: [next(rode) for _ in some] for feed, some in rides.items()}
-    astray = [feed for feed, some in springs.items() if any(outcome["failed"] for outcome in some)]
+    springs = {name: [next(rode) for _ in some] for name, some in rides.items()}
+    astray = [name for name, some in springs.items() if any(outcome["failed"] for outcome in some)]
     if astray:
         raise NotConvergedError("wheels on springs do not repeat themselves", astray)
     return Result3D(case, found, springs, lost)

@@ -17,7 +17,7 @@ from validation.cases.wheel.features import linear_spectrum
 from validation.cases.wheel.half_space import COARSER, FINEST, LOOSE, TABLE, TIGHT, Result3D, Wheel3D, run
 from validation.engine.engine import Outcome
 from validation.selection import model_needed
-from validation.simulation.wheel_on_springs import Feed
+from validation.simulation.wheel_on_springs import InputSpectrum
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
@@ -26,7 +26,7 @@ FloatArray = NDArray[np.float64]
 LINEAR_3D, LINEAR_1D = "linear, 3D", "linear, 1D (14.12)"
 SPRINGS, FED = "springs, Geike", "springs, fed for rolling"
 MODELS = (LINEAR_3D, LINEAR_1D, SPRINGS, FED)
-FEED: dict[str, Feed] = {SPRINGS: "geike", FED: "rolling"}
+INPUT_SPECTRA: dict[str, InputSpectrum] = {SPRINGS: "geike", FED: "rolling"}
 ONE, THREE = 1.0, 3.0
 POINTS = 40
 """At which a spectrum is taken in each band."""
@@ -144,7 +144,7 @@ class Levels:
     @cached_property
     def springs(self) -> dict[str, FloatArray]:
         """ln of the mean level of springs, (groups, bands), by what they were fed."""
-        return {name: self._of_springs(self.result.springs[feed]) for name, feed in FEED.items()}
+        return {name: self._of_springs(self.result.springs[chosen]) for name, chosen in INPUT_SPECTRA.items()}
 
     def _of_springs(self, batches: list[Outcome]) -> FloatArray:
         omega = batches[0]["omega"]
