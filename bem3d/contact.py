@@ -8,7 +8,7 @@ import numpy as np
 
 from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
-from bem3d.diagnostics import Doubt, doubts_of, doubts_of_units
+from bem3d.diagnostics import Diagnostic, diagnose_pressure, diagnose_units
 from bem3d.problem import Problem
 from bem3d.read_only import ReadOnly
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
@@ -69,16 +69,18 @@ class Contact(ReadOnly):
         return len(self.history) - 1
 
     @property
-    def doubts(self) -> tuple[Doubt, ...]:
-        """What a converged answer may still be wrong about, (category, sentence) of each; see `doubts`."""
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """What a converged answer may still be wrong about, (category, sentence) of each."""
         half_space, cells = self.problem.half_space, int(np.count_nonzero(self.pressure))
-        units = doubts_of_units(
+        units = diagnose_units(
             pressure=float(self.pressure.sum()) / max(cells, 1),
             modulus=half_space.modulus,
             approach=self.approach - self.problem.first_touch if cells else 0.0,
             side=max(n * step for n, step in zip(half_space.shape, half_space.steps, strict=True)),
         )
-        return (*doubts_of(self.pressure, periodic=half_space.periodic), *units)
+        return (*diagnose_pressure(self.pressure, periodic=half_space.periodic), *units)
+
+    doubts = diagnostics  # name of 0.1, for one release
 
     @property
     def converged(self) -> bool:

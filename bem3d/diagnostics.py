@@ -31,10 +31,10 @@ class UnitsWarning(ContactWarning):
     """A load that a body of these units would hardly bear, as where a modulus in GPa is taken as one in Pa."""
 
 
-Doubt = tuple[type[ContactWarning], str]
+Diagnostic = tuple[type[ContactWarning], str]
 
 
-def doubts_of(pressure: FloatArray, *, periodic: bool) -> tuple[Doubt, ...]:
+def diagnose_pressure(pressure: FloatArray, *, periodic: bool) -> tuple[Diagnostic, ...]:
     """What to doubt about a pressure and its contact set.
 
     A flat punch of N < 32 cells is too soft by about 0.3 / sqrt(N), measured on squares: so much is
@@ -42,7 +42,7 @@ def doubts_of(pressure: FloatArray, *, periodic: bool) -> tuple[Doubt, ...]:
     """
     contact = pressure > 0
     cells = int(np.count_nonzero(contact))
-    found = list(_doubts_of_a_spike(pressure) if cells >= FEWEST_CELLS else ())
+    found = list(_diagnose_spike(pressure) if cells >= FEWEST_CELLS else ())
     if 0 < cells < FEWEST_CELLS:
         found.append(
             (
@@ -68,7 +68,7 @@ def doubts_of(pressure: FloatArray, *, periodic: bool) -> tuple[Doubt, ...]:
     return tuple(found)
 
 
-def _doubts_of_a_spike(pressure: FloatArray) -> tuple[Doubt, ...]:
+def _diagnose_spike(pressure: FloatArray) -> tuple[Diagnostic, ...]:
     """The cell of the highest pressure, if it touches alone, open all around, and carries half of the force.
 
     An asperity of one cell is as stiff as the cell, whatever the surface is there: 0.891 E* dx, by Love. What it
@@ -91,7 +91,7 @@ def _doubts_of_a_spike(pressure: FloatArray) -> tuple[Doubt, ...]:
     )
 
 
-def doubts_of_units(*, pressure: float, modulus: float, approach: float, side: float) -> tuple[Doubt, ...]:
+def diagnose_units(*, pressure: float, modulus: float, approach: float, side: float) -> tuple[Diagnostic, ...]:
     """What to doubt about a mean pressure under an E* [Pa], and an approach from the first touch on a grid [m]."""
     found = []
     if modulus != 1 and pressure > HIGHEST_PRESSURE * modulus:
@@ -105,7 +105,7 @@ def doubts_of_units(*, pressure: float, modulus: float, approach: float, side: f
     return ((UnitsWarning, f"{', and '.join(found)}: are the units right?"),) if found else ()
 
 
-def doubts_of_sphere(cells: float) -> tuple[Doubt, ...]:
+def diagnose_sphere(cells: float) -> tuple[Diagnostic, ...]:
     """What to doubt about a sphere whose smooth contact has so many cells, whatever roughness makes of it."""
     if cells >= FEWEST_CELLS:
         return ()
@@ -118,7 +118,7 @@ def doubts_of_sphere(cells: float) -> tuple[Doubt, ...]:
     )
 
 
-def doubt_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -> tuple[Doubt, ...]:
+def diagnose_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -> tuple[Diagnostic, ...]:
     """What to doubt about a spectrum on a grid: values at the wavenumbers q, cells of these sides."""
     cells = 2 * math.pi / (float(q[values > 0].max(initial=0.0)) * max(steps)) if (values > 0).any() else math.inf
     if cells > FEWEST_CELLS_A_WAVE * (1 - 1e-9):
@@ -132,7 +132,7 @@ def doubt_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -
     )
 
 
-def warn(doubts: tuple[Doubt, ...]) -> None:
+def warn(diagnostics: tuple[Diagnostic, ...]) -> None:
     """Hand them to Python's warnings, as of the caller of the public function that found them."""
-    for category, sentence in doubts:
+    for category, sentence in diagnostics:
         warnings.warn(sentence, category, stacklevel=3)

@@ -12,7 +12,7 @@ from bem3d.contact import Contact
 from bem3d.diagnostics import warn
 from bem3d.halfspace import HalfSpace
 from bem3d.problem import Problem
-from bem3d.solver import answer, checked
+from bem3d.solver import raise_if_failed, solve_checked
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 from bem3d.window_solve import InitialGuess
 
@@ -41,7 +41,7 @@ def indent(
     through the last two otherwise. That saves the coarser grids of a cold start, and iterations as far as the loads lie
     close: where a third of the contact is new, most of the work is new too.
     Raises as `solve` does, input out of range before the first contact; warns as `solve` does, once of a kind, at the
-    first load that gives cause: `Contact.doubts` has them for each.
+    first load that gives cause: `Contact.diagnostics` has them for each.
     """
     if (approaches is None) == (forces is None):
         raise ValueError(f"give either approaches or forces, got approaches={approaches} and forces={forces}")
@@ -65,9 +65,9 @@ def _path(
     warned: set[object] = set()
     frozen: FixedContactArea | None = None
     for problem in problems:
-        contact = answer(problem, _predicted(problem, past), tolerance, max_iterations)
+        contact = solve_checked(problem, _predicted(problem, past), tolerance, max_iterations)
         if raise_on_failure:
-            checked(contact)
+            raise_if_failed(contact)
         if stiffness and contact.converged:
             frozen = solve_fixed_area(
                 problem.half_space,
@@ -78,8 +78,8 @@ def _path(
                 raise_on_failure=raise_on_failure,
             )
             contact = replace(contact, frozen=frozen)
-        warn(tuple(doubt for doubt in contact.doubts if doubt[0] not in warned))
-        warned |= {category for category, _ in contact.doubts}
+        warn(tuple(doubt for doubt in contact.diagnostics if doubt[0] not in warned))
+        warned |= {category for category, _ in contact.diagnostics}
         past = (*past[-1:], contact) if contact.converged else ()
         yield contact
 

@@ -14,12 +14,12 @@ PART = 0.03
 """A coarser grid is solved to so much of the error that its own start had, which the finer one will have again."""
 
 
-def cold_start(problem: Problem, max_iterations: int) -> tuple[InitialGuess, tuple[Level, ...]]:
+def initial_guess_from_coarse_grids(problem: Problem, max_iterations: int) -> tuple[InitialGuess, tuple[Level, ...]]:
     """A pressure for a touching problem, from the solution on coarser grids, and the applications it took there."""
     coarse = _coarser_problem(problem)
     if coarse is None or coarse.uniform or not coarse.touching:
         return first_pressure(problem), ()
-    start, levels = cold_start(coarse, max_iterations)
+    start, levels = initial_guess_from_coarse_grids(coarse, max_iterations)
     attempt = solve_on_window(coarse, start, PART * min(start.error, 1.0), max_iterations)
     levels = (*levels, (coarse.half_space.shape, attempt.operator_applications))
     pressure = prolong(attempt.pressure, problem.half_space)

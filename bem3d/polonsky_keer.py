@@ -12,7 +12,7 @@ from bem3d.checks import FloatArray, count, fraction
 from bem3d.contact import Contact, residual
 from bem3d.halfspace import HalfSpace
 from bem3d.problem import Problem
-from bem3d.solver import checked, contact_of, known_at_once
+from bem3d.solver import contact_of, raise_if_failed, trivial_solution
 from bem3d.window_solve import IterationState
 
 ROUNDING = 1e-12
@@ -48,12 +48,12 @@ def solve_polonsky_keer(
     """
     problem = Problem(half_space=half_space, gap=cast(FloatArray, gap), approach=approach, force=force)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
-    contact = known_at_once(problem, tolerance)
+    contact = trivial_solution(problem, tolerance)
     if contact is None:
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             attempt = _iterate(problem, tolerance, max_iterations)
         contact = contact_of(problem, tolerance, attempt)
-    return checked(contact) if raise_on_failure else contact
+    return raise_if_failed(contact) if raise_on_failure else contact
 
 
 def _iterate(problem: Problem, tolerance: float, max_iterations: int) -> IterationState:
@@ -61,7 +61,7 @@ def _iterate(problem: Problem, tolerance: float, max_iterations: int) -> Iterati
     iterates = polonsky_keer(problem)
     while attempt.status is None:
         iterate = next(iterates)
-        attempt.judge(iterate.residual, tolerance, max_iterations)
+        attempt.record_residual(iterate.residual, tolerance, max_iterations)
     attempt.pressure, attempt.overlap = iterate.pressure, iterate.approach - problem.first_touch
     attempt.operator_applications = iterate.operator_applications
     return attempt

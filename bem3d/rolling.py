@@ -16,7 +16,7 @@ from bem3d.projected_cg import Load, projected_cg
 from bem3d.read_only import ReadOnly
 from bem3d.rolling_frame import Frame, Spans, Track
 from bem3d.window import Candidates, smallest_box
-from bem3d.window_solve import IterationState, may_touch
+from bem3d.window_solve import IterationState, contact_candidates
 
 FIRST_STEP = 1.0
 """Of a start that is warm, the first step may be as long as the approximate inverse says."""
@@ -86,7 +86,7 @@ def roll(
     prescribed = positive("approach" if force is None else "force", approach if force is None else force)
     smooth = prescribed if force is None else hertz_approach(track, prescribed)
     _wide_enough(track, smooth)
-    warn(track.doubts(smooth))
+    warn(track.diagnose(smooth))
     stop = track.height.shape[0] if positions is None else count("positions", positions)
     wheel = RollingContact(track, tolerance=tolerance, max_iterations=max_iterations)
     along = []
@@ -233,7 +233,7 @@ class RollingContact:
         """
         if load.overlap is not None and load.overlap <= 0:
             attempt.overlap = load.overlap
-            attempt.judge(0.0, self.tolerance, self.max_iterations)
+            attempt.record_residual(0.0, self.tolerance, self.max_iterations)
             return FramePressure.nowhere(frame)
         if start is None:
             start = FramePressure.by(frame, load.scaled(_cold(frame, near, expected)))
@@ -248,9 +248,11 @@ class RollingContact:
             if attempt.history:
                 # a fresh residual takes the place of the running one of the same pressure
                 attempt.history = attempt.history[:-1]
-                attempt.judge(residual(start.pressure, w, attempt.overlap), self.tolerance, self.max_iterations)
+                attempt.record_residual(
+                    residual(start.pressure, w, attempt.overlap), self.tolerance, self.max_iterations
+                )
                 gained, confirmed = attempt.history[-1] < confirmed / 2, attempt.history[-1]
-            known, marked = marked, marked | may_touch(start.pressure, w) | (start.pressure < 0)
+            known, marked = marked, marked | contact_candidates(start.pressure, w) | (start.pressure < 0)
             if attempt.history and attempt.status is None and not gained and (marked == known).all():
                 attempt.status = Status.STAGNATION
             if attempt.status is not None:
@@ -277,7 +279,7 @@ class RollingContact:
             attempt.operator_applications += 1
         best, since = np.inf, 0
         for state in projected_cg(cells, p, g, load, FIRST_STEP):
-            attempt.judge(state.residual, 0.0, self.max_iterations)
+            attempt.record_residual(state.residual, 0.0, self.max_iterations)
             best, since = (state.residual, 0) if state.residual < best / 2 else (best, since + 1)
             if state.residual <= self.tolerance or attempt.status is not None or since > PATIENCE:
                 break

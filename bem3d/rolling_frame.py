@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray, IndexArray, grid_spacing, positive, strip
-from bem3d.diagnostics import Doubt, doubts_of_sphere, doubts_of_units
+from bem3d.diagnostics import Diagnostic, diagnose_sphere, diagnose_units
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 from bem3d.window import Box, fast_side
@@ -89,12 +89,12 @@ class Track(ReadOnly):
         ahead, across = int(a / dx), min(int(a / dy) + 1, ny // 2)
         return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
 
-    def doubts(self, approach: float) -> tuple[Doubt, ...]:
+    def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
         """What to doubt about the contact of the smooth sphere, p = 4 / (3 pi) E* a / R on average by Hertz."""
         (nx, ny), (dx, dy) = self.height.shape, self.steps
         pressure = 4 / (3 * math.pi) * math.sqrt(approach / self.radius) * self.modulus
-        units = doubts_of_units(pressure=pressure, modulus=self.modulus, approach=approach, side=max(nx * dx, ny * dy))
-        return (*doubts_of_sphere(math.pi * self.radius * approach / self.cell_area), *units)
+        units = diagnose_units(pressure=pressure, modulus=self.modulus, approach=approach, side=max(nx * dx, ny * dy))
+        return (*diagnose_sphere(math.pi * self.radius * approach / self.cell_area), *units)
 
     def reach(self, approach: float) -> int:
         """How many rows ahead and behind a cell can overlap at this approach [m]."""

@@ -10,7 +10,7 @@ from bem3d.contact import Contact, Level, Status
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import warn
 from bem3d.halfspace import HalfSpace
-from bem3d.nested import cold_start
+from bem3d.nested import initial_guess_from_coarse_grids
 from bem3d.problem import Problem
 from bem3d.window_solve import InitialGuess, IterationState, solve_on_window
 
@@ -47,24 +47,24 @@ def solve(
     """
     problem = Problem(half_space=half_space, gap=cast(FloatArray, gap), approach=approach, force=force)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
-    contact = answer(problem, _start(start, problem), tolerance, max_iterations)
-    warn(contact.doubts)
-    return checked(contact) if raise_on_failure else contact
+    contact = solve_checked(problem, _start(start, problem), tolerance, max_iterations)
+    warn(contact.diagnostics)
+    return raise_if_failed(contact) if raise_on_failure else contact
 
 
-def answer(problem: Problem, start: InitialGuess | None, tolerance: float, max_iterations: int) -> Contact:
+def solve_checked(problem: Problem, start: InitialGuess | None, tolerance: float, max_iterations: int) -> Contact:
     """`solve` for a problem and numbers that are known to be in order: a contact, converged or not."""
-    contact = known_at_once(problem, tolerance)
+    contact = trivial_solution(problem, tolerance)
     if contact is not None:
         return contact
     # numbers that overflow end as a residual that is none, and that is a status
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        begin, levels = (start, ()) if start else cold_start(problem, max_iterations)
+        begin, levels = (start, ()) if start else initial_guess_from_coarse_grids(problem, max_iterations)
         attempt = solve_on_window(problem, begin, tolerance, max_iterations)
     return contact_of(problem, tolerance, attempt, levels)
 
 
-def known_at_once(problem: Problem, tolerance: float) -> Contact | None:
+def trivial_solution(problem: Problem, tolerance: float) -> Contact | None:
     """What needs no iteration: no contact, or a uniform pressure; None otherwise."""
     if problem.touching and not problem.uniform:
         return None
@@ -81,7 +81,7 @@ def known_at_once(problem: Problem, tolerance: float) -> Contact | None:
     )
 
 
-def checked(contact: Contact) -> Contact:
+def raise_if_failed(contact: Contact) -> Contact:
     """The contact, if it is a solution; ConvergenceError otherwise."""
     if contact.converged:
         return contact

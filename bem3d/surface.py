@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from bem3d.checks import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
-from bem3d.diagnostics import doubt_waves, warn
+from bem3d.diagnostics import diagnose_waves, warn
 from bem3d.memory import fits
 
 ComplexArray = NDArray[np.complex128]
@@ -55,7 +55,7 @@ def rough_surface(
     lengths = shape[0] * steps[0], shape[1] * steps[1]
     q = 2 * np.pi * np.hypot(i / lengths[0], j / lengths[1])
     values = _resolved(c2d, q, steps)
-    warn(doubt_waves(values, q, steps))
+    warn(diagnose_waves(values, q, steps))
     variance = (2 * np.pi) ** 2 / (lengths[0] * lengths[1]) * values
     # the half spectrum shows each wave once, but those of its first and Nyquist column with their mirror images
     twice = np.where((j == 0) | (2 * j == shape[1]), 1, 2)

@@ -41,7 +41,7 @@ class IterationState:
     operator_applications: int = 0
     status: Status | None = None
 
-    def judge(self, residual: float, tolerance: float, max_iterations: int) -> None:
+    def record_residual(self, residual: float, tolerance: float, max_iterations: int) -> None:
         """Note the residual of a new pressure, and whether it ends the iteration."""
         self.history.append(residual)
         if residual <= tolerance:
@@ -86,8 +86,8 @@ def _press_window(
         w = separation - attempt.overlap
         # a fresh residual takes the place of the running one of the same pressure
         attempt.history = attempt.history[:-1]
-        attempt.judge(residual(pressure, w, attempt.overlap), tolerance, max_iterations)
-        known, marked = marked, marked | may_touch(pressure, w)
+        attempt.record_residual(residual(pressure, w, attempt.overlap), tolerance, max_iterations)
+        known, marked = marked, marked | contact_candidates(pressure, w)
         gained, confirmed = attempt.history[-1] < confirmed / 2, attempt.history[-1]
         if attempt.status is None and not gained and (marked == known).all():
             attempt.status = Status.STAGNATION
@@ -113,7 +113,7 @@ def _iterate(
     best, since = state.residual, 0
     for state in states:
         attempt.operator_applications += 1
-        attempt.judge(state.residual, 0.0, max_iterations)
+        attempt.record_residual(state.residual, 0.0, max_iterations)
         best, since = (state.residual, 0) if state.residual < best / 2 else (best, since + 1)
         if state.residual <= tolerance or attempt.status is not None or since > PATIENCE:
             break
@@ -122,7 +122,7 @@ def _iterate(
     return cells.spread(state.pressure)
 
 
-def may_touch(pressure: FloatArray, w: FloatArray) -> BoolArray:
+def contact_candidates(pressure: FloatArray, w: FloatArray) -> BoolArray:
     """Cells in contact, and those that are no further from it than the error that the start still has."""
     touching = (pressure > 0) | (w < 0)
     error = float(np.abs(w[touching]).max(initial=0.0))

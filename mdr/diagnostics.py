@@ -29,10 +29,10 @@ class SpringUnitsWarning(SpringContactWarning):
     """A load that a body of these units would hardly bear, as where a modulus in GPa is taken as one in Pa."""
 
 
-Doubt = tuple[type[SpringContactWarning], str]
+Diagnostic = tuple[type[SpringContactWarning], str]
 
 
-def doubts_of_load(pressed: NDArray[np.integer], springs: int) -> tuple[Doubt, ...]:
+def diagnose_load(pressed: NDArray[np.integer], springs: int) -> tuple[Diagnostic, ...]:
     """What to doubt about loads that press so many of all springs.
 
     A stretch of contact of length l holds l / dx springs, rounded up or down: of n springs in one stretch the stiffness
@@ -54,7 +54,7 @@ def doubts_of_load(pressed: NDArray[np.integer], springs: int) -> tuple[Doubt, .
     )
 
 
-def doubts_of_wheel(springs: float) -> tuple[Doubt, ...]:
+def diagnose_wheel(springs: float) -> tuple[Diagnostic, ...]:
     """What to doubt about a wheel whose smooth contact 2 a is so many springs long."""
     if springs >= FEWEST_SPRINGS * (1 - 1e-9):
         return ()
@@ -67,7 +67,7 @@ def doubts_of_wheel(springs: float) -> tuple[Doubt, ...]:
     )
 
 
-def doubts_of_units(*, approach: float, radius: float) -> tuple[Doubt, ...]:
+def diagnose_units(*, approach: float, radius: float) -> tuple[Diagnostic, ...]:
     """What to doubt about a smooth sphere: a contact, a = sqrt(R d), of a radius above its own."""
     if approach <= radius:
         return ()
@@ -77,7 +77,7 @@ def doubts_of_units(*, approach: float, radius: float) -> tuple[Doubt, ...]:
     )
 
 
-def doubts_of_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[Doubt, ...]:
+def diagnose_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[Diagnostic, ...]:
     """What to doubt about a spectrum on springs: values at the wavenumbers q.
 
     Springs a part 1 / n of a wave apart sum its force with an error of (pi / n) / sin(pi / n), 0.9 dB where n = 4.
@@ -95,7 +95,9 @@ def doubts_of_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[
     )
 
 
-def doubts_of_linearity(height: FloatArray, change: FloatArray, *, approach: float, reach: int) -> tuple[Doubt, ...]:
+def diagnose_linearity(
+    height: FloatArray, change: FloatArray, *, approach: float, reach: int
+) -> tuple[Diagnostic, ...]:
     """What to doubt about a contact that keeps its length 2 a under roughness.
 
     Roughness h at an end of the contact moves it by h R / (2 a): one-sided springs bear E* R h^2 / (4 a) more there, to
@@ -120,7 +122,7 @@ def doubts_of_linearity(height: FloatArray, change: FloatArray, *, approach: flo
     )
 
 
-def warn(doubts: tuple[Doubt, ...]) -> None:
+def warn(diagnostics: tuple[Diagnostic, ...]) -> None:
     """Hand them to Python's warnings, as of the caller of the public function that found them."""
-    for category, sentence in doubts:
+    for category, sentence in diagnostics:
         warnings.warn(sentence, category, stacklevel=3)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
-from mdr.diagnostics import doubts_of_load, doubts_of_units, warn
+from mdr.diagnostics import diagnose_load, diagnose_units, warn
 from mdr.read_only import ReadOnlyArrays
 
 Value = TypeVar("Value", float, FloatArray)
@@ -47,7 +47,7 @@ class LoadCurve(ReadOnlyArrays):
         d = finite_array("approach", approach)
         deepest = float(np.max(d, initial=-math.inf))
         pressed = np.searchsorted(self.approach, d, side="left")
-        warn(doubts_of_load(np.asarray(pressed), self.approach.size))
+        warn(diagnose_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
         with doubles(approach=deepest):
@@ -66,7 +66,7 @@ class LoadCurve(ReadOnlyArrays):
         if (given < 0).any():
             raise ValueError(f"force must be zero or positive, got {given.min()}")
         pressed = np.searchsorted(self.force, given, side="left")
-        warn(doubts_of_load(np.asarray(pressed), self.approach.size))
+        warn(diagnose_load(np.asarray(pressed), self.approach.size))
         last = np.maximum(pressed - 1, 0)
         stiffness = self.spring * pressed.astype(np.float64)
         with doubles(force=float(np.max(given, initial=0.0))):
@@ -149,7 +149,7 @@ def press_sphere(
         contact = SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
         held(d)
         held(contact.force, contact.stiffness, a, positive=load > 0)
-    warn(doubts_of_units(approach=d, radius=radius))
+    warn(diagnose_units(approach=d, radius=radius))
     return contact
 
 

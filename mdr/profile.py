@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, Spectrum, density, doubles, finite_array, held, positive
 from mdr.checks import count as whole
-from mdr.diagnostics import Doubt, doubts_of_waves, warn
+from mdr.diagnostics import Diagnostic, diagnose_waves, warn
 from mdr.memory import fits
 
 BYTES_A_POINT = 40
@@ -58,8 +58,8 @@ def rough_profile(
     length, points = positive("length", length), whole("points", points, least=2)
     _check_draw(rng, amplitudes)
     fits("points", points, BYTES_A_POINT * points)
-    amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
-    warn(doubts)
+    amplitude, own_mirror, diagnostics = _amplitudes(c1d, length, points, rms)
+    warn(diagnostics)
     return _drawn(amplitude * _random_waves((amplitude.size,), own_mirror, amplitudes, rng), own_mirror, points)
 
 
@@ -80,8 +80,8 @@ def rough_profiles(
     count = whole("count", count, least=1)
     _check_draw(rng, "fixed")
     fits("count", f"{count} of {points} points", BYTES_A_POINT * points * count)
-    amplitude, own_mirror, doubts = _amplitudes(c1d, length, points, rms)
-    warn(doubts)
+    amplitude, own_mirror, diagnostics = _amplitudes(c1d, length, points, rms)
+    warn(diagnostics)
     turns = _random_waves((count, amplitude.size), own_mirror, "fixed", rng)
     return _drawn(amplitude * turns, own_mirror, points)
 
@@ -95,7 +95,7 @@ def _check_draw(rng: object, amplitudes: str) -> None:
 
 def _amplitudes(
     c1d: Spectrum, length: float, points: int, rms: float | None
-) -> tuple[FloatArray, np.ndarray, tuple[Doubt, ...]]:
+) -> tuple[FloatArray, np.ndarray, tuple[Diagnostic, ...]]:
     """B(q) of the waves that the points can carry, which of them is its own mirror image, and what to doubt."""
     mode = np.arange(1, points // 2 + 1)
     with doubles(length=length, points=points):
@@ -112,7 +112,7 @@ def _amplitudes(
         scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
         amplitude = scale * np.sqrt(variance)
         held(amplitude, np.sum(amplitude))
-    return amplitude, own_mirror, doubts_of_waves(values, q, length / points)
+    return amplitude, own_mirror, diagnose_waves(values, q, length / points)
 
 
 def _drawn(wave: np.ndarray, own_mirror: np.ndarray, points: int) -> FloatArray:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.checks import FloatArray, doubles, finite_array, held, positive
-from mdr.diagnostics import Doubt, doubts_of_linearity, warn
+from mdr.diagnostics import Diagnostic, diagnose_linearity, warn
 from mdr.read_only import ReadOnlyArrays
 from mdr.spring_track import SpringTrack
 
@@ -69,8 +69,8 @@ def roll(
     Source: Popov and Hess, (14.2), (14.5) and (14.11).
     """
     track = SpringTrack(height, spacing, radius, modulus)
-    rolled, doubts = _within_doubles(track, approach, force, contact)
-    warn(doubts)
+    rolled, diagnostics = _within_doubles(track, approach, force, contact)
+    warn(diagnostics)
     return rolled
 
 
@@ -79,28 +79,28 @@ def rolling_force(
 ) -> FloatArray:
     """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
     track = SpringTrack(height, spacing, radius, modulus)
-    rolled, doubts = _within_doubles(track, approach, None, "one-sided")
-    warn(doubts)
+    rolled, diagnostics = _within_doubles(track, approach, None, "one-sided")
+    warn(diagnostics)
     return rolled.force.copy()
 
 
 def _within_doubles(
     track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
-) -> tuple[RollingTrack, tuple[Doubt, ...]]:
+) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
     """`_rolled`, refused where its numbers are too large or too small."""
     load = {"force": force} if approach is None else {"approach": approach}
     given = {"height": float(np.abs(track.height).max()), "spacing": track.spacing, "radius": track.radius}
     with doubles(**given, modulus=track.modulus, **load):
-        rolled, doubts = _rolled(track, approach, force, contact)
+        rolled, diagnostics = _rolled(track, approach, force, contact)
         held(rolled.force, rolled.approach)
         held(rolled.stiffness, positive=force is not None)
         held(float(rolled.force.any() or not rolled.stiffness.any()), positive=True)
-    return rolled, doubts
+    return rolled, diagnostics
 
 
 def _rolled(
     track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
-) -> tuple[RollingTrack, tuple[Doubt, ...]]:
+) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
     """`roll`, and what to doubt about it."""
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
@@ -113,17 +113,17 @@ def _rolled(
         d, prescribed = positive("approach", approach), None
     else:
         along = finite_array("approach", approach, ndim=1)  # type: ignore[arg-type]
-        return _one_sided_along(track, along, contact), track.doubts(float(along.max()))
+        return _one_sided_along(track, along, contact), track.diagnose(float(along.max()))
     track.longer_than(2 * math.sqrt(track.radius * d))
     if contact == "one-sided":
         one_sided = (
             _one_sided_under(track, prescribed, d) if prescribed else _one_sided(track, np.full(track.points, d))
         )
-        return one_sided, track.doubts(d)
+        return one_sided, track.diagnose(d)
     linear = (_linear if contact == "linear" else _full)(track, d, prescribed)
     a, change = math.sqrt(track.radius * d), linear.force if prescribed is None else linear.stiffness * linear.approach
-    moved = doubts_of_linearity(track.height, change / (track.modulus * a), approach=d, reach=round(a / track.spacing))
-    return linear, (*track.doubts(d), *moved)
+    moved = diagnose_linearity(track.height, change / (track.modulus * a), approach=d, reach=round(a / track.spacing))
+    return linear, (*track.diagnose(d), *moved)
 
 
 def _linear(track: SpringTrack, d: float, force: float | None) -> RollingTrack:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, count, doubles, finite_array, held, positive
-from mdr.diagnostics import doubts_of_units, doubts_of_wheel, warn
+from mdr.diagnostics import diagnose_units, diagnose_wheel, warn
 from mdr.rolling import smooth_approach
 from mdr.spring_track import MOST_SPRINGS
 
@@ -57,8 +57,8 @@ class RollingEnsemble:
         if self.points * self.spacing <= diameter:
             length = self.points * self.spacing
             raise ValueError(f"height must be longer than the contact, {diameter:.6g} m, got a track of {length:.6g} m")
-        units = doubts_of_units(approach=self.smooth_approach, radius=self.radius)
-        warn((*doubts_of_wheel(diameter / self.spacing), *units))
+        units = diagnose_units(approach=self.smooth_approach, radius=self.radius)
+        warn((*diagnose_wheel(diameter / self.spacing), *units))
 
     def _quantise(self, h: FloatArray, springs: float) -> None:
         """The quantum of each wheel, in which so many springs are added without rounding, and heights in these."""

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, finite_array, positive, stiffness_of_springs
-from mdr.diagnostics import Doubt, doubts_of_units, doubts_of_wheel
+from mdr.diagnostics import Diagnostic, diagnose_units, diagnose_wheel
 
 MOST_SPRINGS = 2**28
 """To each side of a wheel: more would take gigabytes and hours."""
@@ -27,12 +27,12 @@ class SpringTrack:
         """Springs of the track."""
         return self.height.size
 
-    def doubts(self, approach: float) -> tuple[Doubt, ...]:
+    def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
         """What to doubt about the contact of the smooth wheel."""
         if not approach > 0:
             return ()
-        units = doubts_of_units(approach=approach, radius=self.radius)
-        return (*doubts_of_wheel(2 * math.sqrt(self.radius * approach) / self.spacing), *units)
+        units = diagnose_units(approach=approach, radius=self.radius)
+        return (*diagnose_wheel(2 * math.sqrt(self.radius * approach) / self.spacing), *units)
 
     def longer_than(self, contact: float) -> None:
         """Refuse a track that the wheel covers as a whole."""

@@ -18,11 +18,11 @@ from validation.engine.termination import TerminatedError, terminable
 from validation.report.build import Section, build
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.terminal import lines_of
-from validation.scenes.dynamic_wheel import WheelScene, read_scene, shipped_wheels
-from validation.scenes.load import comparable, read_any
+from validation.scenes.description import description_lines
+from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
+from validation.scenes.load import bundled_for_compare, load_scene
+from validation.scenes.printable import printable
 from validation.scenes.reader import SceneError
-from validation.scenes.shown import printable
-from validation.scenes.understood import said_first
 from validation.selection.compare import WANTS, time_of, told
 from validation.selection.compare import compare as compared
 from validation.selection.hierarchy import ContactModel
@@ -111,14 +111,14 @@ def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene
     without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
     if without:
         raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
-    return read_scene(arguments.scene)
+    return load_wheel_scene(arguments.scene)
 
 
 def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exit:
     """Write a report and say how it came out."""
     scene = _scene_of(arguments, names)
     if scene is not None:
-        print("\n".join([scene.name, *said_first(scene), ""]), flush=True)
+        print("\n".join([scene.name, *description_lines(scene), ""]), flush=True)
     unsteady = scene is not None and bool(scene.no_steady_answer())
     sections = build(
         names,
@@ -138,7 +138,7 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
 
 def compare(arguments: argparse.Namespace) -> Exit:
     """Climb the ladder of a scene, say where it ended and why."""
-    scene = read_any(arguments.scene)
+    scene = load_scene(arguments.scene)
     found = compared(scene, want=arguments.want, tolerance=arguments.tolerance, seed=arguments.seed or 0, tell=_asking)
     print("\n".join(told(found)))
     return Exit.MET if found.climb.met else Exit.NOT_CONVERGED
@@ -202,12 +202,14 @@ def _parser() -> argparse.ArgumentParser:
         "--scene",
         metavar="FILE",
         help="a scene of your own for the cases of the dynamic wheel, TOML as validation/scenes/table_14_1.toml, or "
-        f"the name of a shipped one ({', '.join(shipped_wheels())}); alone, it means --only wheel",
+        f"the name of a shipped one ({', '.join(bundled_wheels())}); alone, it means --only wheel",
     )
     making.set_defaults(command=report)
     comparing = commands.add_parser("compare", help="one scene: the cheapest model that meets a tolerance, and why")
     comparing.add_argument(
-        "scene", metavar="SCENE", help=f"a TOML file, or the name of a shipped scene ({', '.join(comparable())})"
+        "scene",
+        metavar="SCENE",
+        help=f"a TOML file, or the name of a shipped scene ({', '.join(bundled_for_compare())})",
     )
     comparing.add_argument(
         "--tolerance", type=_tolerance, default=0.1, metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'

@@ -70,7 +70,7 @@ def test_a_solve_that_is_cut_short_says_so(solver, limit):
 )
 def test_the_tolerance_is_the_one_that_was_asked_for(residual, status):
     attempt = IterationState(np.zeros((1, 1)), 1.0)
-    attempt.judge(residual, 1e-4, 5)
+    attempt.record_residual(residual, 1e-4, 5)
     assert attempt.status == status
     assert attempt.history == [residual]
 
@@ -80,7 +80,7 @@ def test_the_limit_is_the_one_that_was_asked_for(entries, status):
     """A history has an entry for the start, too."""
     attempt = IterationState(np.zeros((1, 1)), 1.0)
     for _ in range(entries):
-        attempt.judge(1.0, 1e-4, 5)
+        attempt.record_residual(1.0, 1e-4, 5)
     assert attempt.status == status
 
 

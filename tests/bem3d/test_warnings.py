@@ -34,7 +34,7 @@ def test_few_cells():
         f"only {cells} cells in contact: a flat punch of so few is {0.3 / cells**0.5:.0%} too soft"
     )
     assert place == __file__
-    assert contact.doubts == ((category, sentence),)
+    assert contact.diagnostics == ((category, sentence),)
 
 
 @pytest.mark.parametrize(("force", "cells"), [(1e-6, "1 cell"), (1e-3, "4 cells")])
@@ -147,7 +147,7 @@ def test_a_modulus_in_gigapascals_is_asked_about():
 )
 def test_units_are_asked_about_beyond_their_borders_alone(modulus, pressure, approach, parts):
     """A modulus of one is the unit of pressure."""
-    found = diagnostics.doubts_of_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
+    found = diagnostics.diagnose_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
     assert len(found) == (parts > 0)
     assert sum(word in str(found) for word in ("mean pressure", "side of the grid")) == parts
 
@@ -171,31 +171,31 @@ def test_few_cells_are_said_with_their_number(cells, sentence):
     inner = np.zeros(64)
     inner[:cells] = 1.0
     pressure[1:9, 1:9] = inner.reshape(8, 8)
-    found = diagnostics.doubts_of(pressure, periodic=False)
+    found = diagnostics.diagnose_pressure(pressure, periodic=False)
     assert [said for _, said in found] == ([] if sentence is None else [sentence + GRID])
 
 
 def test_cells_at_the_edge_are_said_with_their_number():
     pressure = np.ones((10, 6))
     pressure[3:5, 2] = 0.0
-    assert diagnostics.doubts_of(pressure, periodic=False)[0][1] == (
+    assert diagnostics.diagnose_pressure(pressure, periodic=False)[0][1] == (
         "28 of 58 contact cells lie on the edge of the grid, beyond which nothing carries: "
         "widen the grid, unless the indenter ends there"
     )
-    assert diagnostics.doubts_of(pressure, periodic=True) == ()
+    assert diagnostics.diagnose_pressure(pressure, periodic=True) == ()
 
 
 @pytest.mark.parametrize(("cells", "warned"), [(31.9, True), (32.0, False)])
 def test_a_small_sphere_is_said_with_its_cells(cells, warned):
     said = "the contact of the smooth sphere has only 32 cells: refine the grid (32 cells or more are not warned of)"
-    assert [sentence for _, sentence in diagnostics.doubts_of_sphere(cells)] == [said] * warned
+    assert [sentence for _, sentence in diagnostics.diagnose_sphere(cells)] == [said] * warned
 
 
 @pytest.mark.parametrize(("short", "warned"), [(0.9e-9, 0), (1.1e-9, 1), (1.9e-9, 1)])
 def test_a_wave_is_too_short_by_a_billionth(short, warned):
     """Of four cells, the longer ones."""
     q = np.array([0.1, 2 * np.pi / (4 * (1 - short)) / 3, 3.0])
-    assert len(diagnostics.doubt_waves(np.array([1.0, 1.0, 0.0]), q, (3.0, 0.5))) == warned
+    assert len(diagnostics.diagnose_waves(np.array([1.0, 1.0, 0.0]), q, (3.0, 0.5))) == warned
 
 
 @pytest.mark.parametrize(("height", "warned"), [(32.0, 0), (32.1, 1)])
@@ -203,4 +203,4 @@ def test_a_spike_may_carry_half_of_the_force(height, warned):
     """Beside 32 cells of a unit each."""
     pressure = np.zeros((12, 12))
     pressure[1:5, 1:9], pressure[8, 8] = 1.0, height
-    assert len(diagnostics.doubts_of(pressure, periodic=False)) == warned
+    assert len(diagnostics.diagnose_pressure(pressure, periodic=False)) == warned

@@ -152,7 +152,7 @@ def test_coarser_grids_come_with_their_overlap(shape, load):
     """A coarser grid has another first touch: the approach it gives to begin with is that of the solution, nearly."""
     body = bem3d.HalfSpace(shape=shape, spacing=1.0, modulus=1.0)
     gap = 20 + spheres(shape, (30.3, 20.7, 0.0))
-    start, levels = nested.cold_start(Problem(half_space=body, gap=gap, **load), 500)
+    start, levels = nested.initial_guess_from_coarse_grids(Problem(half_space=body, gap=gap, **load), 500)
     contact = bem3d.solve(body, gap, **load)
     assert levels
     assert start.overlap == pytest.approx(contact.approach - gap.min(), rel=0.05)

@@ -28,7 +28,7 @@ from validation.cases.wheel import spectrum as wheel
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, generator
 from validation.report.contents import CASES
-from validation.scenes.dynamic_wheel import read_scene
+from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.selection.hierarchy import Answer, Claim, Cost, select_model
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
@@ -114,7 +114,7 @@ def test_both_ways_over_ridges_are_counted(monkeypatch):
 
 
 def test_wheels_that_do_not_repeat_themselves_are_counted(monkeypatch):
-    scene = replace(read_scene("table_14_1"), distance=0.05, springs=20)
+    scene = replace(load_wheel_scene("table_14_1"), distance=0.05, springs=20)
     rides = wheel_ensemble.WheelEnsemble(scene=scene, count=4, groups=2, track="steady", seed=1)
     monkeypatch.setattr(wheel_ensemble, "repeating", lambda *_, start, **__: (*start, np.array([0, 1, 2e-3, 0.0])))
     assert wheel_ensemble.roll_wheels(rides)["failed"] == np.sum(np.array([0, 1, 2e-3, 0.0]) > wheel_ensemble.LEFT)

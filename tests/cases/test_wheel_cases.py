@@ -20,14 +20,14 @@ from validation.cases.wheel import spectrum_evidence as wheel_evidence
 from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine
-from validation.scenes.dynamic_wheel import read_scene
+from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.motion import simulate, turns
 from validation.simulation.wheel_on_half_space import WheelStrip, roll_strip
 from validation.simulation.wheel_on_springs import WheelEnsemble, roll_wheels
 from validation.theory import wheel as wheel_theory
 
-TABLE = read_scene("table_14_1")
+TABLE = load_wheel_scene("table_14_1")
 ROUNDING = 1e-12
 DECIBEL = 10 / math.log(10)
 SMALL = replace(TABLE, distance=0.16, springs=24, rail=replace(TABLE.rail, shortest=0.5e-3))

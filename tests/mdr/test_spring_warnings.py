@@ -164,7 +164,7 @@ def test_a_smooth_track_is_not_doubted():
     ],
 )  # fmt: skip
 def test_few_springs_are_said_with_their_number(pressed, sentence):
-    found = diagnostics.doubts_of_load(np.array(pressed), 1000)
+    found = diagnostics.diagnose_load(np.array(pressed), 1000)
     more = "; take more springs (16 or more in contact are not warned of)"
     assert [said for _, said in found] == ([] if sentence is None else [sentence + more])
 
@@ -175,7 +175,7 @@ def test_what_a_linear_contact_leaves_out_is_said_with_its_part():
     height, change = 0.3 * rng.normal(size=50), 0.2 * rng.normal(size=50)
     left_out = np.array([(height[i - 7] ** 2 + height[(i + 7) % 50] ** 2) / (4 * 0.8) for i in range(50)])
     part = np.std(left_out) / np.std(change)
-    ((category, sentence),) = diagnostics.doubts_of_linearity(height, change, approach=0.8, reach=7)
+    ((category, sentence),) = diagnostics.diagnose_linearity(height, change, approach=0.8, reach=7)
     assert category is mdr.LinearityWarning
     assert sentence.startswith(f"roughness of h_rms / d = {np.std(height) / 0.8:.2g} moves the ends of the contact")
     assert f"to second order {part:.0%} of the fluctuation of its force" in sentence
@@ -185,8 +185,8 @@ def test_what_a_linear_contact_leaves_out_is_said_with_its_part():
 def test_a_wave_or_a_wheel_is_too_short_by_a_billionth(short, warned):
     """Four springs to a wave, sixteen under a wheel."""
     q = np.array([1.0, 2 * np.pi / (4 * (1 - short)), 3.0])
-    assert len(diagnostics.doubts_of_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
-    assert len(diagnostics.doubts_of_wheel(16 * (1 - short))) == warned
+    assert len(diagnostics.diagnose_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
+    assert len(diagnostics.diagnose_wheel(16 * (1 - short))) == warned
 
 
 @pytest.mark.parametrize("contact", ["linear", "full"])

@@ -82,7 +82,7 @@ def whoever_has_ended(contact):
     return contact.status in ("converged", "iteration limit")
 
 
-judged = window_solve.IterationState.judge
+judged = window_solve.IterationState.record_residual
 moments = Frame._moments
 
 
@@ -183,15 +183,15 @@ FAULTS = {
         ),
     ),
     "a modulus in gigapascals that nobody asks about": (
-        (contact, "doubts_of_units", lambda **_: ()),
+        (contact, "diagnose_units", lambda **_: ()),
         test_doubts.test_a_modulus_in_gigapascals_is_asked_about,
     ),
     "accepted at ten times its tolerance": (
-        (window_solve.IterationState, "judge", at_ten_times_the_tolerance),
+        (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
         functools.partial(test_accepted_solves.test_the_tolerance_is_the_one_that_was_asked_for, 9.9e-4, None),
     ),
     "accepted at ten times its tolerance, seen by a solve": (
-        (window_solve.IterationState, "judge", at_ten_times_the_tolerance),
+        (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
         functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
     ),
     "the iteration limit taken for convergence": (

@@ -15,7 +15,7 @@ from mdr import rolling as wheel_on_springs
 from mdr import rolling_ensemble as wheels_in_step
 from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
-from mdr.diagnostics import doubts_of_linearity
+from mdr.diagnostics import diagnose_linearity
 from tests.mdr import test_drawn_roughness, test_geike_mapping, test_rolling_springs, test_springs_against_brute_force
 from tests.mdr import test_rolling_ensemble as test_wheels_on_springs
 from tests.mdr import test_spring_warnings as test_doubts_of_springs
@@ -99,7 +99,7 @@ def not_rounded(values):
 
 
 def ends_that_move_twice_as_far(height, change, **contact):
-    return doubts_of_linearity(height, change / 2, **contact)
+    return diagnose_linearity(height, change / 2, **contact)
 
 
 reach = wheel_on_springs.SpringTrack.reach
@@ -209,15 +209,15 @@ FAULTS = {
         test_wheels_on_springs.test_a_wheel_feels_the_same_force_to_the_last_bit_whoever_rolls_beside_it,
     ),
     "springs that say nothing of short waves": (
-        (profile_module, "doubts_of_waves", lambda *_: ()),
+        (profile_module, "diagnose_waves", lambda *_: ()),
         functools.partial(test_doubts_of_springs.test_short_waves, 25, True),
     ),
     "few springs that say nothing": (
-        (foundation, "doubts_of_load", lambda *_: ()),
+        (foundation, "diagnose_load", lambda *_: ()),
         functools.partial(test_doubts_of_springs.test_few_springs_in_contact, 4, True),
     ),
     "ends of a linear contact that move twice as far": (
-        (wheel_on_springs, "doubts_of_linearity", ends_that_move_twice_as_far),
+        (wheel_on_springs, "diagnose_linearity", ends_that_move_twice_as_far),
         functools.partial(test_doubts_of_springs.test_the_ends_of_a_linear_contact_move_as_is_said, "linear", None),
     ),
     "a spike that nobody rolls over": (
@@ -229,7 +229,7 @@ FAULTS = {
         functools.partial(test_rolling_springs.test_a_light_wheel_over_a_spike, 0.1),
     ),
     "a contact wider than its sphere that nobody asks about": (
-        (foundation, "doubts_of_units", lambda **_: ()),
+        (foundation, "diagnose_units", lambda **_: ()),
         functools.partial(test_doubts_of_springs.test_units_of_a_sphere_are_asked_about, 1.0, 1.21, 1),
     ),
 }

@@ -10,8 +10,8 @@ from validation.__main__ import main
 from validation.scenes import height_files
 from validation.scenes.height_files import read_heights
 from validation.scenes.input_files import check_regular, contents_of
+from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.reader import LONGEST_LINE, MOST_BYTES, SCENES
-from validation.scenes.shown import in_quotes, is_printable, printable, shown
 
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 HEIGHT = 1e-6 * np.random.default_rng(1).standard_normal((64, 64))
@@ -208,9 +208,9 @@ def test_what_is_shown_is_short_and_on_one_line():
     deep = [1]
     for _ in range(5000):
         deep = [deep]
-    assert shown(deep) == "[[[[...]]]]"
-    assert len(shown("x" * 10**6)) < 200
-    assert len(in_quotes("x" * 10**6)) < 200
-    assert in_quotes('a"\\\n') == r'"a\"\\\n"'
+    assert shortened(deep) == "[[[[...]]]]"
+    assert len(shortened("x" * 10**6)) < 200
+    assert len(quoted("x" * 10**6)) < 200
+    assert quoted('a"\\\n') == r'"a\"\\\n"'
     assert printable("a\x07b\N{NO-BREAK SPACE}µ²\u2028") == "a\\x07b\N{NO-BREAK SPACE}µ²\\u2028"
     assert printable("a\nb\x1b", lines=True) == "a\nb\\x1b"

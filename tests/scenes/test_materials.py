@@ -9,15 +9,15 @@ import pytest
 
 import bem3d
 from validation.__main__ import main
-from validation.scenes.dynamic_wheel import read_scene
+from validation.scenes.description import describe, description_lines
+from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import read_any
+from validation.scenes.load import load_scene
 from validation.scenes.material import Elastic, Material
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.reader import SCENES, shipped
+from validation.scenes.reader import SCENES, bundled
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.scenes.understood import said_first, understood
 from validation.scenes.units import in_unit
 
 SPHERE, WHEEL, PUNCH = (
@@ -125,10 +125,10 @@ def test_a_modulus_is_that_of_its_material():
 
 @pytest.mark.parametrize(("name", "modulus"), [("rough_punch", 210e9 / (1 - 0.3**2))])
 def test_shipped_scenes_are_those_of_the_book(name, modulus):
-    assert read_any(name).modulus == modulus
-    for other in set(shipped()) - {name, "rough_wheel"}:
-        assert read_any(other).modulus == 210e9 / (1 - (1 / 3) ** 2)
-        assert read_any(other).material.counterface == "rigid"
+    assert load_scene(name).modulus == modulus
+    for other in set(bundled()) - {name, "rough_wheel"}:
+        assert load_scene(other).modulus == 210e9 / (1 - (1 / 3) ** 2)
+        assert load_scene(other).material.counterface == "rigid"
 
 
 @pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
@@ -139,21 +139,21 @@ def test_a_scene_that_does_not_say_is_shown_both_lines(tmp_path, capsys, text):
     assert said.startswith(f"error: scene {path}: material.counterface is missing")
     lines = [line.strip() for line in said.splitlines() if line.startswith("    counterface = ")]
     assert [line.partition("#")[0].strip() for line in lines] == ['counterface = "rigid"', 'counterface = "same"']
-    rigid, same = (read_any(written(tmp_path, text, f"{line}\n")) for line in lines)
+    rigid, same = (load_scene(written(tmp_path, text, f"{line}\n")) for line in lines)
     assert rigid.modulus == 2 * same.modulus
     for scene, line in zip((rigid, same), lines, strict=True):
         assert line.endswith(f" = {in_unit(scene.modulus, 'pressure', digits=6)}")
 
 
 def test_two_equal_bodies_are_softer_than_one_on_a_rigid_body(tmp_path):
-    rigid, same = (read_any(written(tmp_path, SPHERE, f'counterface = "{word}"\n')) for word in ("rigid", "same"))
+    rigid, same = (load_scene(written(tmp_path, SPHERE, f'counterface = "{word}"\n')) for word in ("rigid", "same"))
     # k = 2 E* a and a^3 = 3 F R / (4 E*)
     assert rigid.stiffness / same.stiffness == pytest.approx(2 ** (2 / 3), rel=1e-12)
 
 
 @pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
 def test_another_body_is_a_table_of_its_own(tmp_path, text):
-    scene = read_any(written(tmp_path, text, ALUMINIUM))
+    scene = load_scene(written(tmp_path, text, ALUMINIUM))
     assert scene.material.counterface == Elastic(youngs_modulus=70e9, poisson_ratio=0.33)
     assert scene.modulus == scene.material.modulus < 70e9 / (1 - 0.33**2)
 
@@ -162,7 +162,7 @@ def test_another_body_is_a_table_of_its_own(tmp_path, text):
 def test_a_contact_modulus_may_be_given_instead(tmp_path, text):
     path = tmp_path / "scene.toml"
     path.write_text(re.sub(r"\[material\]\n(.+\n)+", '[material]\ncontact_modulus = "115 GPa"\n', text))
-    assert read_any(path).modulus == 115e9
+    assert load_scene(path).modulus == 115e9
 
 
 @pytest.mark.parametrize(
@@ -180,10 +180,10 @@ def test_a_contact_modulus_may_be_given_instead(tmp_path, text):
 def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, line, sentence):
     path = written(tmp_path, text, line)
     with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
-        read_any(path)
+        load_scene(path)
     if text == WHEEL:
         with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
-            read_scene(path)
+            load_wheel_scene(path)
 
 
 # What was understood
@@ -226,7 +226,7 @@ def test_quantities_are_said_in_a_unit_that_fits(value, dimension, shown):
 
 
 def test_table_14_1_is_understood_as_what_it_is():
-    pairs = dict(understood(read_scene("table_14_1")))
+    pairs = dict(describe(load_wheel_scene("table_14_1")))
     assert pairs == {
         "contact modulus E*": "236.25 GPa: the other body is rigid, E = 210 GPa, nu = 0.33333",
         "wheel": "radius 500 mm, load 4.905 kN",
@@ -237,28 +237,28 @@ def test_table_14_1_is_understood_as_what_it_is():
         "rms slope h'": "0.00105, in one direction, h' a/d = 0.264",
         "waves of the rail": "10 mm to 200 µm, Hurst exponent 0.7, 1.257e+04 to 6.283e+05 rad/s",
     }
-    assert dict(understood(read_any("table_14_1"))).items() >= {k: pairs[k] for k in list(pairs)[:-1]}.items()
+    assert dict(describe(load_scene("table_14_1"))).items() >= {k: pairs[k] for k in list(pairs)[:-1]}.items()
 
 
 def test_punches_are_understood_by_their_load():
-    pairs = dict(understood(read_any("rough_punch")))
+    pairs = dict(describe(load_scene("rough_punch")))
     assert pairs["rms height h"] == "1 µm, F / (E* h L) = 0.1"
     assert pairs["waves"].endswith("longest waves on a side: 1")
     smooth = IndentationScene(name="flat", shape="punch", size=1.0, load=1.0, modulus=2e9)
-    assert dict(understood(smooth)) == {
+    assert dict(describe(smooth)) == {
         "contact modulus E*": "2 GPa: as it was given",
         "punch": "side L = 1 m, load 1 N",
         "roughness": "none",
     }
 
 
-@pytest.mark.parametrize("name", [name for name in shipped() if name != "rough_wheel"])
+@pytest.mark.parametrize("name", [name for name in bundled() if name != "rough_wheel"])
 def test_every_comparison_begins_with_what_was_understood(name, capsys):
-    scene = read_any(name)
-    assert said_first(scene) == [f"  {key:18s}  {value}" for key, value in understood(scene)]
+    scene = load_scene(name)
+    assert description_lines(scene) == [f"  {key:18s}  {value}" for key, value in describe(scene)]
     assert main(["compare", name, "--tolerance", "90%"]) in (0, 3)
     lines = capsys.readouterr().out.splitlines()
-    assert lines[1 : 1 + len(understood(scene))] == said_first(scene)
+    assert lines[1 : 1 + len(describe(scene))] == description_lines(scene)
 
 
 def test_two_equal_bodies_are_told(tmp_path, capsys):
@@ -270,24 +270,24 @@ def test_measured_faces_are_understood_by_their_points():
     height = 1e-3 * np.random.default_rng(1).standard_normal((64, 32))
     ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 32))
     scene = IndentationScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9, ground=ground)
-    pairs = dict(understood(scene))
+    pairs = dict(describe(scene))
     assert pairs["waves"].startswith("measured, 64 x 32 points on 1 m x 1 m; longest waves on a side: ")
     along = math.sqrt(np.mean((np.diff(height, axis=0) * 64) ** 2))
     assert float(pairs["rms slope h'"].partition(",")[0]) == pytest.approx(along, rel=0.01)
 
 
 def test_the_slope_of_a_punch_is_that_in_one_direction():
-    scene = read_any("rough_punch")
+    scene = load_scene("rough_punch")
     q = np.geomspace(scene.ground.q_min, scene.ground.q_max, 20001)
     slope = math.sqrt(np.pi * np.trapezoid(q**3 * scene.ground.c2d(q), q))
-    assert dict(understood(scene))["rms slope h'"] == f"{slope:.3g}, in one direction"
+    assert dict(describe(scene))["rms slope h'"] == f"{slope:.3g}, in one direction"
 
 
 def test_rail_and_wheel_are_understood_together():
     """Heights and slopes of both add by squares; each has its own waves."""
     wheel = Roughness(rms=2e-6, hurst=0.5, longest=5e-3, shortest=1e-3)
-    scene = replace(read_scene("table_14_1"), wheel=wheel)
-    pairs = dict(understood(scene))
+    scene = replace(load_wheel_scene("table_14_1"), wheel=wheel)
+    pairs = dict(describe(scene))
     both = math.hypot(2e-6, 0.5e-6)
     assert pairs["rms height h"] == f"{in_unit(both, 'length')}, h/d = {both / scene.approach:.3g}"
     slope = math.hypot(scene.rail.slope_along, wheel.slope_along)

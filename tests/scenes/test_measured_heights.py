@@ -12,9 +12,9 @@ import bem3d
 import mdr
 from validation import __main__ as command
 from validation.__main__ import main
-from validation.scenes.dynamic_wheel import read_scene
+from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import read_any
+from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights, measured
 from validation.scenes.reader import SCENES
 from validation.scenes.rolling import RollingScene
@@ -215,7 +215,7 @@ def test_a_tilt_and_steepness_are_notes_and_texture_and_skewness_are_reasons():
         assert ground.beyond_a_spectrum() == ()
         claims = [rung.claim() for rung in rungs_of(IndentationScene(**scene, ground=ground), "stiffness", 0.1, 0)]
         assert not any("knows the spectrum alone" in claim.because for claim in claims)
-        assert IndentationScene(**scene, ground=ground).doubts() == ground.notes()
+        assert IndentationScene(**scene, ground=ground).diagnose() == ground.notes()
     for ground in (heights(drawn(), spacing=(DX, 3 * DX)), heights(np.minimum(drawn(), 0.3e-7))):
         assert ground.beyond_a_spectrum() == ground.notes() != ()
     worn = IndentationScene(**scene, ground=heights(np.minimum(drawn(), 0.3e-7)))
@@ -264,12 +264,12 @@ def with_heights(folder, file, *, unit="", side="0.256 mm"):
 
 
 def test_shipped_scenes_are_what_they_say():
-    sphere, rolling = read_any("sphere"), read_any("rolling_wheel")
+    sphere, rolling = load_scene("sphere"), load_scene("rolling_wheel")
     assert isinstance(sphere, IndentationScene)
     assert isinstance(rolling, RollingScene)
     assert sphere.contact_radius == pytest.approx(rolling.contact_radius) == pytest.approx(1.982e-3, rel=1e-3)
-    assert read_any("rough_punch").reduced_load == pytest.approx(0.1, rel=1e-6)
-    assert read_any("table_14_1") == RollingScene.of_wheel(read_scene("table_14_1"))
+    assert load_scene("rough_punch").reduced_load == pytest.approx(0.1, rel=1e-6)
+    assert load_scene("table_14_1") == RollingScene.of_wheel(load_wheel_scene("table_14_1"))
 
 
 @pytest.mark.parametrize("suffix", ["npy", "csv", "txt", "tsv"])
@@ -279,14 +279,14 @@ def test_heights_are_read_from_a_file_beside_the_scene(tmp_path, suffix):
         np.save(tmp_path / "face.npy", height)
     else:
         np.savetxt(tmp_path / f"face.{suffix}", height, delimiter={"csv": ",", "txt": " ", "tsv": "\t"}[suffix])
-    scene = read_any(with_heights(tmp_path, f"face.{suffix}"))
+    scene = load_scene(with_heights(tmp_path, f"face.{suffix}"))
     assert scene.ground.height == pytest.approx(heights(height).height, rel=1e-12, abs=1e-20)
     assert scene.ground.spacing == (1e-6, 1e-6)
 
 
 def test_a_unit_of_heights_is_taken(tmp_path):
     np.save(tmp_path / "face.npy", 1e6 * drawn())
-    scene = read_any(with_heights(tmp_path, "face.npy", unit='unit = "um"'))
+    scene = load_scene(with_heights(tmp_path, "face.npy", unit='unit = "um"'))
     assert scene.ground.rms == pytest.approx(1e-7, rel=0.05)
 
 
@@ -302,18 +302,18 @@ def test_a_unit_of_heights_is_taken(tmp_path):
 def test_files_without_heights_are_refused(tmp_path, contents, sentence):
     (tmp_path / "face.csv").write_bytes(contents)
     with pytest.raises(ValueError, match=rf"^{IN_FILE}{sentence}"):
-        read_any(with_heights(tmp_path, "face.csv"))
+        load_scene(with_heights(tmp_path, "face.csv"))
 
 
 def test_files_of_another_kind_are_refused(tmp_path):
     (tmp_path / "face.npy").write_bytes(b"no array")
     with pytest.raises(ValueError, match=rf"^{IN_FILE}heights.file .* must hold a table of numbers, got: "):
-        read_any(with_heights(tmp_path, "face.npy"))
+        load_scene(with_heights(tmp_path, "face.npy"))
     np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
     with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
-        read_any(with_heights(tmp_path, "face.npy"))
+        load_scene(with_heights(tmp_path, "face.npy"))
     with pytest.raises(OSError, match=r"^heights.file .* cannot be read: No such file"):
-        read_any(with_heights(tmp_path, "none.npy"))
+        load_scene(with_heights(tmp_path, "none.npy"))
 
 
 @pytest.mark.parametrize(
@@ -352,22 +352,22 @@ def test_files_of_another_kind_are_refused(tmp_path):
 )
 def test_scenes_are_refused_by_the_key(tmp_path, text, old, new, sentence):
     with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
-        read_any(written(tmp_path, text, (old, new)))
+        load_scene(written(tmp_path, text, (old, new)))
 
 
 def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
     start, _, _ = ROLLING.partition("[rail.roughness]")
     with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have roughness or heights, got a smooth one$"):
-        read_any(written(tmp_path, start + "[rail]\n"))
+        load_scene(written(tmp_path, start + "[rail]\n"))
     with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
-        read_any("rough_wheel")
+        load_scene("rough_wheel")
 
 
 def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
     np.save(tmp_path / "face.npy", drawn())
     text = PUNCH + '\n[heights]\nfile = "face.npy"\nspacing = "1 um"\n'
     with pytest.raises(ValueError, match=rf"^{IN_FILE}a scene must have roughness or heights, got both$"):
-        read_any(written(tmp_path, text))
+        load_scene(written(tmp_path, text))
 
 
 @pytest.mark.parametrize(

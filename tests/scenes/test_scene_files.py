@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from scipy.fft import next_fast_len
 
 import mdr
-from validation.scenes.dynamic_wheel import WheelScene, read_scene, shipped_wheels
+from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
 from validation.scenes.material import Material
-from validation.scenes.reader import SCENES, shipped
+from validation.scenes.reader import SCENES, bundled
 from validation.scenes.roughness import Roughness
 from validation.scenes.units import UNITS, quantity
 
@@ -31,7 +31,7 @@ EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit i
 
 
 def scene(**changes):
-    return replace(read_scene("table_14_1"), **changes)
+    return replace(load_wheel_scene("table_14_1"), **changes)
 
 
 def written(tmp_path, *changes, text=TABLE):
@@ -160,7 +160,7 @@ def test_quantities_that_are_not_positive_are_refused_where_they_must_be(number)
 
 
 def test_table_14_1_is_what_the_book_prints_and_we_chose():
-    assert read_scene("table_14_1") == WheelScene(
+    assert load_wheel_scene("table_14_1") == WheelScene(
         name="Table 14.1",
         radius=0.5,
         mass=500.0,
@@ -235,7 +235,7 @@ def test_heights_add_by_their_squares():
 def test_a_smooth_track_is_a_scene_without_waves(name):
     smooth = scene(rail=None)
     assert smooth.rms == 0
-    assert smooth.doubts() == ()
+    assert smooth.diagnose() == ()
     with pytest.raises(ValueError, match="must have a rough rail or wheel"):
         getattr(smooth, name)
 
@@ -256,17 +256,17 @@ def test_every_valid_scene_can_be_drawn():
 
 
 def test_shipped_scenes_are_listed():
-    assert shipped() == ("rolling_wheel", "rough_punch", "rough_wheel", "sphere", "table_14_1")
-    assert shipped_wheels() == WHEELS
+    assert bundled() == ("rolling_wheel", "rough_punch", "rough_wheel", "sphere", "table_14_1")
+    assert bundled_wheels() == WHEELS
 
 
 @pytest.mark.parametrize("name", WHEELS)
 def test_shipped_scenes_leave_no_doubt(name):
-    assert read_scene(name).doubts() == ()
+    assert load_wheel_scene(name).diagnose() == ()
 
 
 def test_the_rough_wheel_is_table_14_1_with_its_roughness_shared():
-    shared = read_scene("rough_wheel")
+    shared = load_wheel_scene("rough_wheel")
     assert shared.rail == shared.wheel
     assert shared.rail.rms == pytest.approx(0.5e-6 / math.sqrt(2), rel=1e-15)
     assert shared.rms == pytest.approx(scene().rms, rel=1e-15)
@@ -284,22 +284,27 @@ def test_shipped_scenes_say_what_the_book_does_not_print(name):
 def test_a_name_and_a_path_read_the_same(tmp_path, monkeypatch):
     path = written(tmp_path)
     monkeypatch.chdir(tmp_path)
-    assert read_scene(path) == read_scene(str(path)) == read_scene("scene.toml") == read_scene("table_14_1")
+    assert (
+        load_wheel_scene(path)
+        == load_wheel_scene(str(path))
+        == load_wheel_scene("scene.toml")
+        == load_wheel_scene("table_14_1")
+    )
     path.rename(tmp_path / "bare")
-    assert read_scene("./bare") == read_scene("table_14_1")
+    assert load_wheel_scene("./bare") == load_wheel_scene("table_14_1")
 
 
 def test_other_units_and_an_editors_mark_make_the_same_scene(tmp_path):
     changes = [("20 m/s", "72 km/h"), ("4905 N", "4.905 kN"), ("500 kg", "0.5 t"), ("210 GPa", "210e3 MPa")]
     path = written(tmp_path, *changes, ('"10 mm"', '"0.01 m"'), ("0.5 um", "500 nm"), text="\ufeff" + TABLE)
-    assert read_scene(path) == read_scene("table_14_1")
+    assert load_wheel_scene(path) == load_wheel_scene("table_14_1")
 
 
 @pytest.mark.parametrize("rail", ["", "[rail]\n"])
 def test_without_roughness_the_rail_is_smooth(tmp_path, rail):
     start, _, rest = TABLE.partition("[rail.roughness]")
     path = written(tmp_path, text=f"{start}{rail}[simulation]{rest.partition('[simulation]')[2]}")
-    assert read_scene(path) == scene(rail=None)
+    assert load_wheel_scene(path) == scene(rail=None)
 
 
 # Refusals
@@ -369,7 +374,7 @@ def test_without_roughness_the_rail_is_smooth(tmp_path, rail):
 )
 def test_files_are_refused_by_the_key(tmp_path, old, new, sentence):
     with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
-        read_scene(written(tmp_path, (old, new)))
+        load_wheel_scene(written(tmp_path, (old, new)))
 
 
 @pytest.mark.parametrize(
@@ -385,34 +390,34 @@ def test_what_must_be_a_table_is_refused_otherwise(tmp_path, line, sentence):
     # keys of the file itself stand before its tables
     path = written(tmp_path, text=f"{line}\n{start}[simulation]{rest.partition('[simulation]')[2]}")
     with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
-        read_scene(path)
+        load_wheel_scene(path)
 
 
 def test_broken_files_are_refused_by_name(tmp_path):
     path = written(tmp_path, ("[wheel]", "[wheel"))
     with pytest.raises(ValueError, match=rf"^scene {re.escape(str(path))} must be valid TOML, got: .*line"):
-        read_scene(path)
+        load_wheel_scene(path)
     path = written(tmp_path, ("springs = 100", "springs = 100\nsprings = 50"))
     with pytest.raises(ValueError, match="must be valid TOML"):
-        read_scene(path)
+        load_wheel_scene(path)
     path.write_bytes(b'name = "\xff"')
     with pytest.raises(ValueError, match="must be valid TOML, got: 'utf-8'"):
-        read_scene(path)
+        load_wheel_scene(path)
 
 
 def test_files_that_cannot_be_read_are_refused_by_name(tmp_path):
     missing = tmp_path / "missing.toml"
     with pytest.raises(FileNotFoundError, match=rf"^scene {re.escape(str(missing))} cannot be read: No such file"):
-        read_scene(missing)
+        load_wheel_scene(missing)
     with pytest.raises(ValueError, match=rf"^scene {re.escape(str(tmp_path))} must be a regular file, got a folder$"):
-        read_scene(tmp_path)
+        load_wheel_scene(tmp_path)
 
 
 @pytest.mark.parametrize("name", ["table", "", "Table 14.1"])
 def test_unknown_names_are_answered_with_the_shipped_ones(name):
-    sentence = f'scene must be a file, as "./{name}.toml", or one of {", ".join(shipped())}, got "{name}"'
+    sentence = f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"'
     with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
-        read_scene(name)
+        load_wheel_scene(name)
 
 
 @pytest.mark.parametrize(
@@ -523,6 +528,6 @@ def test_scenes_are_refused_by_the_key(changes, error, sentence):
     ],
 )
 def test_doubts_come_with_their_numbers_and_go_with_their_cause(doubtful, beyond_doubt, sentence):
-    assert sentence in scene(**doubtful).doubts()
+    assert sentence in scene(**doubtful).diagnose()
     what = sentence.rpartition(": ")[2]
-    assert not [doubt for doubt in scene(**beyond_doubt).doubts() if doubt.endswith(what)]
+    assert not [doubt for doubt in scene(**beyond_doubt).diagnose() if doubt.endswith(what)]

@@ -10,14 +10,14 @@ import pytest
 from tests.report.test_command_line import SMALL
 from validation.__main__ import main
 from validation.report.contents import CASES
-from validation.scenes.dynamic_wheel import read_scene
-from validation.scenes.load import read_any
+from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.load import load_scene
 from validation.scenes.reader import SCENES
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
 from validation.simulation.wheel_on_springs import WheelEnsemble, _motion
 
-TABLE = read_scene("table_14_1")
+TABLE = load_wheel_scene("table_14_1")
 TOML = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")
 
 
@@ -38,8 +38,8 @@ def rolled(wheels):
 
 def test_shipped_wheels_are_steady():
     for name in ("table_14_1", "rough_wheel"):
-        assert read_scene(name).no_steady_answer() == ""
-    assert read_any("table_14_1").no_steady_answer() == read_any("rolling_wheel").no_steady_answer() == ""
+        assert load_wheel_scene(name).no_steady_answer() == ""
+    assert load_scene("table_14_1").no_steady_answer() == load_scene("rolling_wheel").no_steady_answer() == ""
     assert replace(TABLE, rail=None).no_steady_answer() == ""
 
 
@@ -69,9 +69,9 @@ def test_flight_is_foretold(height, longest, said):
 def test_short_waves_that_feed_the_free_vibration_are_told(longest, grows):
     wheels = scene(0.25, longest=longest, springs=20)
     assert wheels.no_steady_answer() == ""
-    told = [doubt for doubt in wheels.doubts() if "feeds the free vibration" in doubt]
+    told = [doubt for doubt in wheels.diagnose() if "feeds the free vibration" in doubt]
     assert bool(told) == grows
-    assert RollingScene.of_wheel(wheels).doubts() == tuple(told)
+    assert RollingScene.of_wheel(wheels).diagnose() == tuple(told)
     growth, _ = rolled(wheels)
     assert growth > 1.4 if grows else growth < 1.3
 

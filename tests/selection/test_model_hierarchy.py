@@ -17,7 +17,7 @@ from validation.cases.selection import model_selection as ladder
 from validation.cases.selection.random_scenes import KINDS, WANTED, random_scene
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import read_any
+from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
@@ -423,8 +423,8 @@ def test_a_step_without_an_answer_leaves_everything_open():
 
 @pytest.mark.parametrize("name", ["sphere", "rough_punch", "rolling_wheel", "table_14_1"])
 def test_shipped_scenes_can_be_compared(name):
-    scene = read_any(name)
-    assert scene.doubts() == ()
+    scene = load_scene(name)
+    assert scene.diagnose() == ()
     for want in wants_of(scene):
         assert rungs_of(scene, want, 0.1, 0)
 

@@ -20,8 +20,8 @@ from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
 from validation.report.style import drawn, pdf, svg
+from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.scenes.understood import understood
 
 SAFE = " !$'()*+,-./;=?@[]_~{}<>|^`"
 """What an address in quotation marks may hold as it is."""
@@ -179,8 +179,8 @@ def _said(scene: WheelScene) -> dict[str, object]:
     return {
         "name": scene.name,
         "no steady answer": scene.no_steady_answer(),
-        "doubts": list(scene.doubts()),
-        "understood": dict(understood(scene)),
+        "doubts": list(scene.diagnose()),
+        "understood": dict(describe(scene)),
     }
 
 

@@ -18,15 +18,15 @@ from validation.scenes.reader import (
     SPEED,
     WHOLE,
     Reader,
-    named,
+    bundled,
     naming,
+    nonblank_text,
     path_of,
-    shipped,
     table,
     tables_of,
 )
 from validation.scenes.roughness import Roughness, check_band, roughness_of
-from validation.scenes.steadiness import doubts_of_short_waves, no_steady_answer
+from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import Wheel
 
 KEYS = {
@@ -70,7 +70,7 @@ class WheelScene:
     springs: int
 
     def __post_init__(self) -> None:
-        named("name", self.name)
+        nonblank_text("name", self.name)
         for name, key in KEYS.items():
             positive(key, getattr(self, name))
         if not isinstance(self.material, Material):
@@ -156,11 +156,11 @@ class WheelScene:
         """2 pi R / dx, rounded."""
         return round(2 * math.pi * self.radius / self.spacing)
 
-    def doubts(self) -> tuple[str, ...]:
+    def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
         grounds = [rough for rough in (self.rail, self.wheel) if rough is not None]
-        short = doubts_of_short_waves(self.body, grounds) if grounds else ()
-        return (*_doubts_of_roughness(self), *_doubts_of_motion(self), *short)
+        short = diagnose_short_waves(self.body, grounds) if grounds else ()
+        return (*_diagnose_roughness(self), *_diagnose_motion(self), *short)
 
     def no_steady_answer(self) -> str:
         """Why the motion has no level that the distance leaves alone, in a sentence; empty where it has."""
@@ -177,12 +177,12 @@ class WheelScene:
         return rough
 
 
-def shipped_wheels() -> tuple[str, ...]:
+def bundled_wheels() -> tuple[str, ...]:
     """Names of the shipped scenes of a dynamic wheel."""
-    return tuple(name for name in shipped() if "mass" in tables_of(path_of(name)).get("wheel", {}))
+    return tuple(name for name in bundled() if "mass" in tables_of(path_of(name)).get("wheel", {}))
 
 
-def read_scene(scene: str | Path) -> WheelScene:
+def load_wheel_scene(scene: str | Path) -> WheelScene:
     """The scene of a dynamic wheel in a TOML file, or the shipped one of that name.
 
     scene: a path; a name without folder and without ".toml" is that of a shipped scene.
@@ -211,7 +211,7 @@ def wheel_of(tables: dict[str, Any]) -> WheelScene:
 
 WHEEL: dict[str, Reader] = {"radius": LENGTH, "mass": MASS, "load": FORCE, "speed": SPEED, "roughness": roughness_of}
 SCENE: dict[str, Reader] = {
-    "name": named,
+    "name": nonblank_text,
     "wheel": partial(table, WHEEL, ("roughness",)),
     "material": material_of,
     "rail": partial(table, {"roughness": roughness_of}, ("roughness",)),
@@ -251,7 +251,7 @@ def _check_waves(key: str, rough: Roughness, scene: WheelScene, *, period: float
         )
 
 
-def _doubts_of_roughness(scene: WheelScene) -> Iterator[str]:
+def _diagnose_roughness(scene: WheelScene) -> Iterator[str]:
     circumference = 2 * math.pi * scene.radius
     for key, rough in (("rail.roughness", scene.rail), ("wheel.roughness", scene.wheel)):
         if rough is None:
@@ -273,7 +273,7 @@ def _doubts_of_roughness(scene: WheelScene) -> Iterator[str]:
         )
 
 
-def _doubts_of_motion(scene: WheelScene) -> Iterator[str]:
+def _diagnose_motion(scene: WheelScene) -> Iterator[str]:
     a, turn = scene.contact_radius, scene.time_step * scene.eigenfrequency
     if turn > 0.2:
         yield (

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from validation.scenes.input_files import check_regular
 from validation.scenes.measured import FEWEST, MeasuredHeights
-from validation.scenes.reader import LENGTH, Reader, named, table
-from validation.scenes.shown import printable, shown
+from validation.scenes.printable import printable, shortened
+from validation.scenes.reader import LENGTH, Reader, nonblank_text, table
 from validation.scenes.units import quantity
 
 FloatArray = NDArray[np.float64]
@@ -28,7 +28,7 @@ ARCHIVE = b"PK"
 
 def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
     """Of a table in a scene file: file, .npy or CSV beside it; spacing of its points; unit of its values."""
-    readers: dict[str, Reader] = {"file": named, "spacing": LENGTH, "unit": _unit}
+    readers: dict[str, Reader] = {"file": nonblank_text, "spacing": LENGTH, "unit": _unit}
     found = table(readers, ("unit",), name, given)
     height = read_heights(f"{name}.file", folder / found["file"]) * found.get("unit", 1.0)
     try:
@@ -73,7 +73,9 @@ def _of_array(file: IO[bytes], size: int) -> NDArray[np.generic]:
     for side in shape:
         count *= side
     if min(shape, default=0) < 0 or count * dtype.itemsize > size - file.tell():
-        raise ValueError(f"a header of {shown(shape)} values of {dtype.itemsize} bytes, and {size - file.tell()} bytes")
+        raise ValueError(
+            f"a header of {shortened(shape)} values of {dtype.itemsize} bytes, and {size - file.tell()} bytes"
+        )
     file.seek(0)
     return np.asarray(np.lib.format.read_array(file, allow_pickle=False))
 

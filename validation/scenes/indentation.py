@@ -7,7 +7,7 @@ from typing import Literal
 from mdr.checks import positive
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
-from validation.scenes.reader import named
+from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness import Roughness, check_band
 from validation.theory import closed_forms
 
@@ -33,7 +33,7 @@ class IndentationScene:
     material: Material | None = None
 
     def __post_init__(self) -> None:
-        named("name", self.name)
+        nonblank_text("name", self.name)
         if self.shape not in ("sphere", "punch"):
             raise ValueError(f'shape must be "sphere" or "punch", got {self.shape!r}')
         positive("sphere.radius" if self.shape == "sphere" else "punch.side", self.size)
@@ -72,7 +72,7 @@ class IndentationScene:
         """h / d of a rough sphere; zero where smooth [-]."""
         return self.ground.rms / self.approach if self.ground else 0.0
 
-    def doubts(self) -> tuple[str, ...]:
+    def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
         found = self.ground.notes() if isinstance(self.ground, MeasuredHeights) else ()
         if self.shape == "sphere" and self.contact_radius > self.size / 10:

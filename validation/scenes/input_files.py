@@ -3,7 +3,7 @@
 import stat
 from pathlib import Path
 
-from validation.scenes.shown import printable
+from validation.scenes.printable import printable
 
 KINDS = {
     stat.S_IFDIR: "a folder",

@@ -14,10 +14,10 @@ from validation.scenes.reader import (
     MASS,
     SPEED,
     Reader,
-    named,
+    bundled,
     naming,
+    nonblank_text,
     path_of,
-    shipped,
     table,
     tables_of,
 )
@@ -27,7 +27,7 @@ from validation.scenes.roughness import roughness_of
 Scene = IndentationScene | RollingScene
 
 
-def read_any(scene: str | Path) -> Scene:
+def load_scene(scene: str | Path) -> Scene:
     """The scene in a TOML file, or the shipped one of that name, by the body that it has a table of.
 
     Raises ValueError naming the first thing that is missing, unknown or out of range, and OSError for files that
@@ -54,15 +54,15 @@ def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
     return _rolling(tables, moving, folder)
 
 
-def comparable() -> tuple[str, ...]:
+def bundled_for_compare() -> tuple[str, ...]:
     """Names of the shipped scenes that the ladder can be asked of: those of a smooth wheel, and of other bodies."""
-    return tuple(name for name in shipped() if "roughness" not in tables_of(path_of(name)).get("wheel", {}))
+    return tuple(name for name in bundled() if "roughness" not in tables_of(path_of(name)).get("wheel", {}))
 
 
 def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScene:
     size = "radius" if body == "sphere" else "side"
     readers: dict[str, Reader] = {
-        "name": named,
+        "name": nonblank_text,
         body: partial(table, {size: LENGTH, "load": FORCE}, ()),
         "material": material_of,
         "roughness": roughness_of,
@@ -84,7 +84,7 @@ def _rolling(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene
     motion: dict[str, Reader] = {"mass": MASS, "speed": SPEED} if moving else {}
     ground: dict[str, Reader] = {"roughness": roughness_of, "heights": partial(heights_of, folder=folder)}
     readers: dict[str, Reader] = {
-        "name": named,
+        "name": nonblank_text,
         "wheel": partial(table, {"radius": LENGTH, "load": FORCE, **motion}, ()),
         "material": material_of,
         "rail": partial(table, ground, tuple(ground)),

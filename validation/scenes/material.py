@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mdr.checks import finite, positive
+from validation.scenes.printable import quoted
 from validation.scenes.reader import NUMBER, PRESSURE, Reader, table
-from validation.scenes.shown import in_quotes
 from validation.scenes.units import in_unit
 
 OTHERS = ("youngs_modulus", "poisson_ratio", "counterface")
@@ -102,7 +102,7 @@ class Material:
         elif other not in WORDS:
             raise ValueError(
                 'material.counterface must be "rigid", "same", or a table with youngs_modulus and poisson_ratio of the '
-                f"other body, got {in_quotes(other)}"
+                f"other body, got {quoted(other)}"
             )
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import interpolate, stats
 
 from mdr.checks import positive
-from validation.scenes.shown import shown
+from validation.scenes.printable import shortened
 from validation.scenes.units import UNITS, quantity
 
 FloatArray = NDArray[np.float64]
@@ -189,7 +189,7 @@ def measured(surface: Any) -> MeasuredHeights:
     metres, sizes = _metres(surface), surface.physical_sizes
     if not isinstance(sizes, (Sequence, np.ndarray)) or height.ndim != 2 or len(sizes) != 2:
         raise ValueError(
-            f"heights must be two-dimensional with two physical_sizes, got shape {height.shape} and {shown(sizes)}"
+            f"heights must be two-dimensional with two physical_sizes, got shape {height.shape} and {shortened(sizes)}"
         )
     sides = [positive(f"physical_sizes[{i}]", size) * metres for i, size in enumerate(sizes)]
     spacing = sides[0] / max(height.shape[0], 1), sides[1] / max(height.shape[1], 1)
@@ -206,7 +206,7 @@ def _metres(surface: Any) -> float:
         return quantity("unit", f"1 {unit}", "length")
     except ValueError:
         raise ValueError(
-            f"unit of the surface must be one of {', '.join(UNITS['length'])}, got {shown(unit)}"
+            f"unit of the surface must be one of {', '.join(UNITS['length'])}, got {shortened(unit)}"
         ) from None
 
 

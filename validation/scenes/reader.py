@@ -9,7 +9,7 @@ from typing import Any
 
 from mdr.checks import count, finite
 from validation.scenes.input_files import contents_of
-from validation.scenes.shown import is_printable, printable, shown
+from validation.scenes.printable import is_printable, printable, shortened
 from validation.scenes.units import quantity
 
 Reader = Callable[[str, object], Any]
@@ -19,7 +19,7 @@ MOST_BYTES, LONGEST_LINE = 100_000, 1000
 """Of a scene file. Keys of thousands of parts, all on one line, would take minutes to be told apart."""
 
 
-def shipped() -> tuple[str, ...]:
+def bundled() -> tuple[str, ...]:
     """Names of the scenes that come with this package."""
     return tuple(sorted(path.stem for path in SCENES.glob("*.toml")))
 
@@ -32,9 +32,9 @@ def path_of(scene: str | Path) -> Path:
     name = str(scene)
     if name.endswith(".toml") or Path(name).name != name:
         return Path(name)
-    if name not in shipped():
+    if name not in bundled():
         name = printable(name)
-        raise ValueError(f'scene must be a file, as "./{name}.toml", or one of {", ".join(shipped())}, got "{name}"')
+        raise ValueError(f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"')
     return SCENES / f"{name}.toml"
 
 
@@ -71,7 +71,7 @@ def naming(path: Path) -> Iterator[None]:
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
     """Each value of a table by its own reader; no key unknown, none missing but what is optional."""
     if not isinstance(given, dict):
-        raise ValueError(f"{name} must be a table, got {shown(given)}")
+        raise ValueError(f"{name} must be a table, got {shortened(given)}")
     full = {key: f"{name}.{key}" if name else key for key in (*given, *readers)}
     for key in given:
         if key not in readers:
@@ -83,10 +83,10 @@ def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, g
     return {key: read(full[key], given[key]) for key, read in readers.items() if key in given}
 
 
-def plain(read: Reader, name: str, given: object) -> Any:
+def without_unit(read: Reader, name: str, given: object) -> Any:
     """A value without unit. In a file a wrong type is a wrong value, too."""
     if isinstance(given, (dict, list)):
-        raise ValueError(f"{name} must be a number, got {shown(given)}")
+        raise ValueError(f"{name} must be a number, got {shortened(given)}")
     try:
         return read(name, given)
     except TypeError as problem:
@@ -95,12 +95,12 @@ def plain(read: Reader, name: str, given: object) -> Any:
         raise ValueError(f"{name} must be finite, got a number of {len(str(given))} digits") from None
 
 
-def named(name: str, given: object) -> str:
+def nonblank_text(name: str, given: object) -> str:
     """A text on one line that is not blank and can be printed."""
     if not isinstance(given, str) or not given.strip():
-        raise ValueError(f"{name} must be a text that is not blank, got {shown(given)}")
+        raise ValueError(f"{name} must be a text that is not blank, got {shortened(given)}")
     if not is_printable(given):
-        raise ValueError(f"{name} must be one line without control characters, got {shown(given)}")
+        raise ValueError(f"{name} must be one line without control characters, got {shortened(given)}")
     return given
 
 
@@ -108,4 +108,4 @@ LENGTH, MASS, FORCE, PRESSURE, SPEED = (
     partial(quantity, dimension=dimension, positive=True)
     for dimension in ("length", "mass", "force", "pressure", "speed")
 )
-NUMBER, WHOLE = partial(plain, finite), partial(plain, partial(count, least=1))
+NUMBER, WHOLE = partial(without_unit, finite), partial(without_unit, partial(count, least=1))

@@ -7,9 +7,9 @@ from mdr.checks import positive
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
-from validation.scenes.reader import named
+from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness import Roughness, check_band
-from validation.scenes.steadiness import doubts_of_short_waves, no_steady_answer
+from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import Wheel
 
 Ground = Roughness | MeasuredHeights
@@ -35,7 +35,7 @@ class RollingScene:
     material: Material | None = None
 
     def __post_init__(self) -> None:
-        named("name", self.name)
+        nonblank_text("name", self.name)
         for key in ("radius", "load"):
             positive(f"wheel.{key}", getattr(self, key))
         positive("modulus", self.modulus)
@@ -86,13 +86,13 @@ class RollingScene:
         """h / d [-]."""
         return self.ground.rms / self.approach
 
-    def doubts(self) -> tuple[str, ...]:
+    def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
         found = list(self.ground.notes()) if isinstance(self.ground, MeasuredHeights) else []
         if self.roughness_ratio > 1 / 3:
             found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
         if self.mass is not None:
-            found += doubts_of_short_waves(self.body, [self.ground])
+            found += diagnose_short_waves(self.body, [self.ground])
         if self.contact_radius > self.radius / 10:
             found.append(
                 f"the contact radius is {self.contact_radius / self.radius:.3g} of wheel.radius, more than a tenth: no "

@@ -46,7 +46,7 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> s
     - 30 to 3 mm, h/d = 0.1, 0.2, 0.3, sigma / F_N = 0.14, 0.27, 0.41: flight 0, 0, 0.6 %.
     - 4 to 1 mm, shorter than the contact, so that the force hardly changes, h/d = 0.2, 0.3, 0.4, 0.5, 1: growth 1.2,
       1.6, 2.3, 2.6, 2, flight 0, 0, 0, 0.01, 7 %.
-    Below the limits such short waves still feed the free vibration, which is told by `doubts_of_short_waves`. In three
+    Below the limits such short waves still feed the free vibration, which is told by `diagnose_short_waves`. In three
     dimensions waves oblique to the track excite the resonance from below q_min v_0, too.
     """
     slow, fast = min(g.q_min for g in grounds) * speed, max(g.q_max for g in grounds) * speed
@@ -71,7 +71,7 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> s
     return ""
 
 
-def doubts_of_short_waves(wheel: Wheel, grounds: Sequence[Ground]) -> tuple[str, ...]:
+def diagnose_short_waves(wheel: Wheel, grounds: Sequence[Ground]) -> tuple[str, ...]:
     """Whether waves shorter than the contact, too high for linear theory, feed the free vibration from beat to beat.
 
     Measured as in `no_steady_answer`: the acceleration grows, for waves of 2 to 0.5 mm, h/d = 0.1, 0.2, 0.3, by 1.2,

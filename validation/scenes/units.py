@@ -5,7 +5,7 @@ from decimal import Context, Decimal, InvalidOperation
 from fractions import Fraction
 from typing import Literal
 
-from validation.scenes.shown import in_quotes
+from validation.scenes.printable import quoted
 
 Dimension = Literal["length", "mass", "force", "pressure", "speed"]
 
@@ -52,11 +52,11 @@ def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = 
     found = _read(text, dimension)
     if found is None:
         accepted = f'a {dimension}, as "{EXAMPLES[dimension]}", in one of {", ".join(UNITS[dimension])}'
-        raise ValueError(f"{name} must be {accepted}, got {in_quotes(text)}")
+        raise ValueError(f"{name} must be {accepted}, got {quoted(text)}")
     if not math.isfinite(found):
-        raise ValueError(f"{name} must be finite, got {in_quotes(text)}")
+        raise ValueError(f"{name} must be finite, got {quoted(text)}")
     if positive and found <= 0:
-        raise ValueError(f"{name} must be positive, got {in_quotes(text)}")
+        raise ValueError(f"{name} must be positive, got {quoted(text)}")
     return found
 
 

@@ -5,9 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from validation.analysis.evidence import plus_minus
+from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
-from validation.scenes.understood import said_first
 from validation.selection import indentation_models as rungs_pressed
 from validation.selection import rolling_models as rungs_rolling
 from validation.selection.hierarchy import Candidate, ContactModel, Selection, select_model
@@ -78,7 +78,7 @@ def told(comparison: Comparison) -> list[str]:
     """Lines for a person: the result with its error, why the ladder ended there, and what every rung costs."""
     scene, climbed = comparison.scene, comparison.climb
     lines = [f"{scene.name}: {comparison.want} within {_percent(climbed.tolerance)}"]
-    lines += said_first(scene, moving=comparison.want in MOVING)
+    lines += description_lines(scene, moving=comparison.want in MOVING)
     lines += ["", f"{'rung':36s}{'what became of it':18s}{'error':>10s}{'cost':>14s}   because"]
     lines += [_row(step) for step in climbed.steps]
     best = climbed.best

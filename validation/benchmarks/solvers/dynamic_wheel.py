@@ -12,7 +12,7 @@ import bem3d
 from validation.analysis.evidence import Table, table_of
 from validation.benchmarks.isolation import one_thread, own_process, timed
 from validation.engine.engine import Engine, Outcome, generator
-from validation.scenes.dynamic_wheel import WheelScene, read_scene
+from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_half_space import narrowed
@@ -20,7 +20,7 @@ from validation.simulation.wheel_on_springs import WheelEnsemble
 
 FloatArray = NDArray[np.float64]
 
-TABLE = read_scene("table_14_1")
+TABLE = load_wheel_scene("table_14_1")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -24,7 +24,7 @@ from validation.benchmarks.work_precision.measurement import (
     TimedSolve,
 )
 from validation.benchmarks.work_precision.rolling import log_levels
-from validation.scenes.dynamic_wheel import WheelScene, read_scene
+from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, Linear, SpringsLaw
 from validation.simulation.motion import Motion, repeating, simulate
@@ -33,7 +33,7 @@ from validation.simulation.wheel_on_springs import LEFT, InputSpectrum, WheelEns
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
-TABLE = read_scene("table_14_1")
+TABLE = load_wheel_scene("table_14_1")
 SCENE = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 WARM = 40
 """Places before the clock runs: frames that find their size, plans."""

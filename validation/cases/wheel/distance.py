@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.scenes.dynamic_wheel import WheelScene, read_scene
+from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.roughness import Roughness
 from validation.simulation.wheel_on_springs import Track, WheelEnsemble, roll_wheels
 
-TABLE = read_scene("table_14_1")
+TABLE = load_wheel_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
 LEAST_JUMP, LEAST_PERIODS = 4.0, 5.0
 """Over the eigenfrequency, and behind the jump, for regions that can be told apart."""

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.scenes.dynamic_wheel import WheelScene, read_scene
+from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.wheel_on_half_space import WheelStrip, roll_strip
 from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, roll_wheels
 
-TABLE = read_scene("table_14_1")
+TABLE = load_wheel_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
 FINEST, COARSER, LOOSE, TIGHT = "finest", "coarser", "loose", "tight"

@@ -13,14 +13,14 @@ import bem3d
 from mdr import SelfAffine
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
-from validation.scenes.dynamic_wheel import WheelScene, read_scene
+from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_springs import WheelEnsemble, roll_wheels
 
 FloatArray = NDArray[np.float64]
 
-TABLE = read_scene("table_14_1")
+TABLE = load_wheel_scene("table_14_1")
 STRIP = 3
 """The spawn key of the strip in the picture."""
 

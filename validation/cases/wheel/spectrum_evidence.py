@@ -94,7 +94,7 @@ def evidence(result: WheelResult) -> Evidence:
             *_hidden(case.scene),
             *_conclusions(features, base, level),
             _flight(result.batches[base]),
-            *filter(None, (case.scene.no_steady_answer(), *case.scene.doubts())),
+            *filter(None, (case.scene.no_steady_answer(), *case.scene.diagnose())),
         ),
         captions=_captions(result),
     )

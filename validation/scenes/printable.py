@@ -11,15 +11,15 @@ _SHORT.maxlevel, _SHORT.maxdict, _SHORT.maxlist, _SHORT.maxtuple = 3, 4, 4, 4
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = LONG
 
 
-def shown(value: object) -> str:
+def shortened(value: object) -> str:
     """A value as Python writes it, shortened, however deep it is nested."""
     return printable(_SHORT.repr(value))
 
 
-def in_quotes(value: object) -> str:
+def quoted(value: object) -> str:
     """The same, a text in double quotes, as in a scene file."""
     if not isinstance(value, str):
-        return shown(value)
+        return shortened(value)
     text = value if len(value) <= LONG else f"{value[: LONG - 3]}..."
     return f'"{printable(text.translate(ESCAPED))}"'
 

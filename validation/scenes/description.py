@@ -14,7 +14,7 @@ AnyScene = IndentationScene | RollingScene | WheelScene
 Pairs = tuple[tuple[str, str], ...]
 
 
-def understood(scene: AnyScene) -> Pairs:
+def describe(scene: AnyScene) -> Pairs:
     """What a scene is, in pairs of a name and a value with its unit: E* and its origin, body, contact, roughness."""
     material = scene.material or Material(contact_modulus=scene.modulus)
     modulus = ("contact modulus E*", f"{in_unit(scene.modulus, 'pressure', digits=6)}: {material.because}")
@@ -27,15 +27,15 @@ def understood(scene: AnyScene) -> Pairs:
     return modulus, *_of_punch(scene)
 
 
-def said_first(scene: AnyScene, *, moving: bool = True) -> list[str]:
+def description_lines(scene: AnyScene, *, moving: bool = True) -> list[str]:
     """Lines for a terminal: why there is no steady answer, other doubts, what was understood.
 
     moving: whether the motion of a wheel is asked for.
     """
     reason = scene.no_steady_answer() if moving and not isinstance(scene, IndentationScene) else ""
     lines = [f"no steady answer: {reason}"] if reason else []
-    lines += [f"note: {doubt}" for doubt in scene.doubts()]
-    pairs = understood(scene)
+    lines += [f"note: {doubt}" for doubt in scene.diagnose()]
+    pairs = describe(scene)
     width = max(len(name) for name, _ in pairs)
     return [*lines, *(f"  {name:{width}s}  {value}" for name, value in pairs)]
 
