@@ -140,7 +140,7 @@ def test_captured_words_are_those_of_the_code(result):
     assert found(result, "edge").said[0].startswith("EdgeWarning: ")
     assert found(result, "strip").said[0].startswith("ValueError: height must be wider than the contact")
     assert found(result, "spacing").said[0].startswith("ValueError: c1d must vanish beyond the Nyquist")
-    assert found(result, "spacing").said[1].startswith("ResolutionWarning: the shortest wave of the spectrum has 2.2 s")
+    assert found(result, "spacing").said[1].startswith("SpringResolutionWarning: the shortest wave of the spectrum has 2.2 s")
     assert found(result, "linear").said[-1].startswith("LinearityWarning: roughness of h_rms / d = 1 ")
 
 
@@ -194,7 +194,7 @@ def test_who_is_heard():
     assert heard(lambda: mdr.rough_profile(band.c1d, points=64, **draw))[1] == ""
     height, words = heard(lambda: mdr.rough_profile(band.c1d, points=20, **draw))
     assert height.size == 20
-    assert words.startswith("ResolutionWarning: the shortest wave")
+    assert words.startswith("SpringResolutionWarning: the shortest wave")
     nothing, words = heard(lambda: mdr.rough_profile(band.c1d, points=10, **draw))
     assert nothing is None
     assert words.startswith("ValueError: c1d must vanish")

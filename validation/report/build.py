@@ -15,7 +15,7 @@ from validation.analysis.case import Case, Chapter, Profile
 from validation.analysis.evidence import Evidence, Number, Role, Verdict, VerdictCell
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
-from validation.report.contents import ALL, TIMED
+from validation.report.contents import CASES, TIMED
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
 from validation.report.provenance import provenance
@@ -131,7 +131,7 @@ def _files(
 
 
 def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | None, engine: Engine) -> Section:
-    entry = ALL[name]
+    entry = TIMED[name] if name in TIMED else CASES[name]
     case = entry.settings(profile, seed, scene)
     try:
         with as_not_converged():
