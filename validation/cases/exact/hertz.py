@@ -2,29 +2,33 @@
 
 import warnings
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Table, claim, columns
+from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
 from validation.theory import closed_forms
 
-SCATTER = {
-    "bem3d": "the staircase edge scatters the error from grid to grid",
-    "mdr": "where the ends of the contact fall between two springs scatters the error, but not for whole numbers",
-}
-# error of the force in units of (dx/a)^2, and why
-QUADRATIC = {
+# tolerance of the force in units of (dx/a)^2, and why; what scatters its error from grid to grid
+FORCE_ERROR = {
     "bem3d": (
         0.25,
-        "second order: the discrete pressure minimises the energy, so the force error is quadratic in that of "
-        "the pressure; (dx/a)^2 / 4 leaves room for the staircase edge",
+        "second order: the discrete pressure minimises the energy, so the error of the force is quadratic in that of "
+        "the pressure; (dx/a)^2 / 4 includes the staircase edge of the contact",
+        "the staircase edge of the contact scatters the error",
     ),
-    "mdr": (0.5, "second order: midpoint rule, (dx/a)^2 / 8 inside and at most 3/8 from the two ends of the contact"),
+    "mdr": (
+        0.5,
+        "second order: midpoint rule, (dx/a)^2 / 8 inside and at most 3/8 from the two ends of the contact",
+        "the error depends on where the ends of the contact lie between two springs",
+    ),
 }
 
 
@@ -82,13 +86,14 @@ class HertzResult:
 
 def run(case: Hertz, engine: Engine = SERIAL) -> HertzResult:
     """Press the sphere with both methods."""
-    grids = [Sphere(case=case, resolution=n, approach=case.approach) for n in case.cells_per_radius]
-    steps = np.linspace(0, 1, case.load_steps + 1)[1:]
-    loads = [Sphere(case=case, resolution=case.cells_per_radius[1], approach=float(s * case.approach)) for s in steps]
-    bem = engine.map(press_by_bem, grids + loads)
-    springs = engine.map(press_by_springs, grids + loads)
-    n = len(grids)
-    return HertzResult(case, bem[:n], springs[:n], [load.approach for load in loads], bem[n:], springs[n:])
+    approaches = [float(s * case.approach) for s in np.linspace(0, 1, case.load_steps + 1)[1:]]
+    second = case.cells_per_radius[1]
+    spheres = {
+        "grids": [Sphere(case=case, resolution=n, approach=case.approach) for n in case.cells_per_radius],
+        "loads": [Sphere(case=case, resolution=second, approach=d) for d in approaches],
+    }
+    bem, springs = engine.map_groups(press_by_bem, spheres), engine.map_groups(press_by_springs, spheres)
+    return HertzResult(case, bem["grids"], springs["grids"], approaches, bem["loads"], springs["loads"])
 
 
 def press_by_bem(sphere: Sphere) -> Outcome:
@@ -123,7 +128,7 @@ def press_by_springs(sphere: Sphere) -> Outcome:
     curve = mdr.load_curve(height, length=cells * sphere.spacing, modulus=case.modulus)
     force = closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=sphere.approach)
     with warnings.catch_warnings():
-        # grids are compared, and what few springs cost is measured
+        # the error that few springs make is measured here
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         point, by_force = curve.at_approach(sphere.approach), curve.at_force(force)
     return {
@@ -135,163 +140,126 @@ def press_by_springs(sphere: Sphere) -> Outcome:
 
 
 def evidence(result: HertzResult) -> Evidence:
-    """Force, approach, contact radius, stiffness and pressure against Hertz, on the finest grid and in their rates."""
-    case = result.case
-    n = np.array(case.cells_per_radius)
-    finest = 1 / n[-1]
-    numbers = [*_against_hertz(case, "bem3d", result.bem), *_against_hertz(case, "mdr", result.mdr)]
-    numbers += [
+    """Force, approach, contact radius, stiffness and pressure over Hertz on the finest grid; order of the force."""
+    case, n = result.case, result.case.cells_per_radius
+    methods = float(result.mdr[-1]["force"] / result.bem[-1]["force"])
+    numbers = (
+        *_over_hertz(case, "bem3d", result.bem),
+        *_over_hertz(case, "mdr", result.mdr),
         Number(
-            quantity="bem3d: pressure, relative L2 error",
+            quantity="relative L2 error of the pressure",
+            model="bem3d",
             value=float(result.bem[-1]["pressure_error"]),
             reference=0.0,
             source="Hertz",
-            tolerance=finest,
-            reason="first order in the cell size: the root at the edge of the contact, cell by cell",
+            tolerance=1 / n[-1],
+            reason="first order in the cell size: the pressure falls as a square root at the edge of the contact",
         ),
         Number(
-            quantity="mdr over bem3d: force at the given approach",
-            value=float(result.mdr[-1]["force"] / result.bem[-1]["force"]),
+            quantity="force at the given approach",
+            model="mdr over bem3d",
+            value=methods,
             reference=1.0,
             source="the other method",
-            tolerance=0.75 * finest**2,
-            reason="both discretisation errors together",
+            tolerance=0.75 / n[-1] ** 2,
+            reason="sum of both discretisation errors",
         ),
-    ]
+    )
     return Evidence(
         title="Smooth sphere",
         compared=(
             f"A rigid sphere, R = {case.radius:g} m, on a half-space of E* = {case.modulus / 1e9:g} GPa, pressed by "
             f"{case.approach * 1e6:g} µm (Hertz: {case.force:.1f} N, a = {case.contact_radius * 1e3:.4f} mm). "
-            f"MDR: the parabola x²/R on springs. Boundary elements: (x² + y²)/2R on cells of the same width, "
-            f"{n[0]} to {n[-1]} of them in the contact radius (whole numbers, which suits the springs), "
+            f"MDR: the parabola x²/R on springs. Boundary elements: (x² + y²)/2R on cells of the same width. "
+            f"{n[0]} to {n[-1]} cells in the contact radius (whole numbers, which favours the springs), "
             f"residual {case.tolerance:g}."
         ),
-        numbers=tuple(numbers),
-        tables=(
-            _load_table(result),
-            _pressure_table(result),
-            _exact_pressure_table(case),
-            _refinement_table(result),
-        ),
+        numbers=numbers,
+        tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
         conclusions=(
             claim(
-                "For a smooth sphere both methods give the same force, approach, contact radius and stiffness: "
-                f"forces differ by {abs(float(result.mdr[-1]['force'] / result.bem[-1]['force']) - 1):.1e} "
-                f"with {n[-1]} cells in the contact radius.",
+                "For a smooth sphere both methods give the same force, approach, contact radius and stiffness. "
+                f"The forces differ by {abs(methods - 1):.1e} with {n[-1]} cells in the contact radius.",
                 numbers,
             ),
         ),
         captions={
             "hertz": (
-                f"(a) Load curve, {n[1]} cells in the largest contact radius. "
-                "(b) Pressure along a row of cells next to the centre, "
-                f"{n[1]} of them in the contact radius. (c) Relative error of the force at a given "
-                "approach against cells in the contact radius; the dotted line falls with the second power."
+                f"(a) Load curve, {n[1]} cells in the largest contact radius. (b) Pressure along a row of cells next "
+                f"to the centre, {n[1]} cells in the contact radius. (c) Relative error of the force at a given "
+                "approach against cells in the contact radius. Dotted: second order."
             )
         },
     )
 
 
-def _against_hertz(case: Hertz, method: str, outcomes: list[Outcome]) -> list[Number]:
-    """Force, approach, radius and stiffness on the finest grid, and the rate of the force."""
-    n = np.array(case.cells_per_radius)
-    finest, last = 1 / n[-1], outcomes[-1]
-    quadratic, why = QUADRATIC[method]
+def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> tuple[Number, ...]:
+    """Force, approach, radius and stiffness on the finest grid over those of Hertz, and the order of the force."""
+    cell, last = 1 / case.cells_per_radius[-1], outcomes[-1]
+    quadratic, why, scatter = FORCE_ERROR[model]
     stiffness = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
-    return [
-        Number(
-            quantity=f"{method}: force at the given approach, over Hertz",
+    over = partial(Number, model=model, reference=1.0, source="Hertz")
+    return (
+        over(
+            quantity="force at the given approach over Hertz",
             value=float(last["force"]) / case.force,
-            reference=1.0,
-            source="Hertz",
-            tolerance=quadratic * finest**2,
+            tolerance=quadratic * cell**2,
             reason=why,
         ),
-        Number(
-            quantity=f"{method}: approach at the given force, over Hertz",
+        over(
+            quantity="approach at the given force over Hertz",
             value=float(last["approach_at_force"]) / case.approach,
-            reference=1.0,
-            source="Hertz",
-            tolerance=2 / 3 * quadratic * finest**2,
+            tolerance=2 / 3 * quadratic * cell**2,
             reason="two thirds of the tolerance of the force, since d ~ F^(2/3)",
         ),
-        Number(
-            quantity=f"{method}: contact radius over Hertz",
+        over(
+            quantity="contact radius over Hertz",
             value=float(last["radius"]) / case.contact_radius,
-            reference=1.0,
-            source="Hertz",
-            tolerance=finest,
+            tolerance=cell,
             reason="one cell in the radius",
         ),
-        Number(
-            quantity=f"{method}: stiffness over 2 E* a",
+        over(
+            quantity="stiffness over 2 E* a",
             value=float(last["stiffness"]) / stiffness,
-            reference=1.0,
             source="Boussinesq",
-            tolerance=finest,
-            reason="k follows the radius of the discrete contact: one cell in the radius",
+            tolerance=cell,
+            reason="k is proportional to the radius of the discrete contact: one cell in the radius",
         ),
-        Number(
-            quantity=f"{method}: order of the force error in the cell size",
-            value=_order(n, np.array([float(o["force"]) for o in outcomes]) / case.force - 1),
+        over(
+            quantity="order of the force error in the cell size",
+            value=order(case.cells_per_radius, [float(o["force"]) / case.force - 1 for o in outcomes]),
             reference=2.0,
             source="error model",
             tolerance=0.5,
-            reason=f"second order; {SCATTER[method]}",
-        ),
-    ]
-
-
-def _order(n: np.ndarray, error: np.ndarray) -> float:
-    """Slope of ln |error| against ln of the cell size."""
-    return float(-np.polynomial.polynomial.polyfit(np.log(n), np.log(np.abs(error)), 1)[1])
-
-
-def _load_table(result: HertzResult) -> Table:
-    case = result.case
-    hertz = [closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=d) for d in result.approaches]
-    return Table(
-        "load",
-        {
-            "approach [m]": result.approaches,
-            "hertz force [N]": hertz,
-            "bem3d force [N]": [float(o["force"]) for o in result.bem_loads],
-            "mdr force [N]": [float(o["force"]) for o in result.mdr_loads],
-        },
-    )
-
-
-def _pressure_table(result: HertzResult) -> Table:
-    second = result.bem[1]
-    return Table(
-        "pressure",
-        columns(
-            **{
-                "x [m]": second["x"],
-                "bem3d pressure [Pa]": second["pressure"],
-            }
+            reason=f"second order; {scatter}",
         ),
     )
 
 
-def _exact_pressure_table(case: Hertz) -> Table:
+def _data(result: HertzResult) -> dict[str, dict[str, ArrayLike]]:
+    """Columns of each table."""
+    case, second = result.case, result.bem[1]
+    scene = {"radius": case.radius, "modulus": case.modulus}
     x = np.linspace(0, 2 * case.contact_radius, 401)
-    exact = closed_forms.hertz_pressure(x, radius=case.radius, modulus=case.modulus, approach=case.approach)
-    return Table("exact-pressure", columns(**{"x [m]": x, "hertz pressure [Pa]": exact}))
-
-
-def _refinement_table(result: HertzResult) -> Table:
-    force = result.case.force
-    return Table(
-        "refinement",
-        {
-            "cells per contact radius": list(result.case.cells_per_radius),
-            "bem3d force error": [float(o["force"]) / force - 1 for o in result.bem],
-            "mdr force error": [float(o["force"]) / force - 1 for o in result.mdr],
-            "bem3d pressure error": [float(o["pressure_error"]) for o in result.bem],
+    return {
+        "load": {
+            "approach [m]": result.approaches,
+            "hertz force [N]": [closed_forms.hertz_force(approach=d, **scene) for d in result.approaches],
+            "bem3d force [N]": [o["force"] for o in result.bem_loads],
+            "mdr force [N]": [o["force"] for o in result.mdr_loads],
         },
-    )
+        "pressure": {"x [m]": second["x"], "bem3d pressure [Pa]": second["pressure"]},
+        "exact-pressure": {
+            "x [m]": x,
+            "hertz pressure [Pa]": closed_forms.hertz_pressure(x, approach=case.approach, **scene),
+        },
+        "refinement": {
+            "cells per contact radius": case.cells_per_radius,
+            "bem3d force error": [o["force"] / case.force - 1 for o in result.bem],
+            "mdr force error": [o["force"] / case.force - 1 for o in result.mdr],
+            "bem3d pressure error": [o["pressure_error"] for o in result.bem],
+        },
+    }
 
 
 CASE = Case(

@@ -8,9 +8,14 @@ import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, columns
+from validation.cases.exact.refinement import first_order_limit
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
 from validation.theory import closed_forms
+
+CAPACITANCE = "capacitance of the square, numerical"
+DIGITS = 5e-4
+"""Five units of the last digit of 1.1523."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,111 +80,121 @@ def _springs(case: SquarePunch, length: float) -> float:
 
 
 def evidence(result: SquarePunchResult) -> Evidence:
-    """Stiffness, extrapolated to cells of no size, against the closed forms; the 1D lengths against the square."""
-    case = result.case
-    n = np.array(case.cells)
-    square = np.array([float(o["square"]) for o in result.punches]) / (case.modulus * case.side)
-    circle = np.array([float(o["circle"] / o["circle_radius"]) for o in result.punches]) / (2 * case.modulus)
-    short, long = (k / (case.modulus * case.side) for k in result.springs)
-    limit = _extrapolated(square)
+    """Stiffness, extrapolated to cells of zero size, and of both 1D lengths, beside the closed forms."""
+    case, n = result.case, result.case.cells
+    square = _over_cells(result, "square") / (case.modulus * case.side)
+    circle = _over_cells(result, "circle") / _over_cells(result, "circle_radius") / (2 * case.modulus)
     exact = closed_forms.square_punch_stiffness(side=case.side, modulus=case.modulus) / (case.modulus * case.side)
-    steps = np.abs(np.diff(square))
-    numbers = (
-        Number(
-            quantity="bem3d: square punch, k / (E* L), extrapolated",
-            value=limit,
-            reference=exact,
-            source="capacitance of the square, numerical",
-            tolerance=5e-4,
-            grid=abs(limit - _extrapolated(square[:-1])),
-            reason="five units of the last digit of the reference, 1.1523",
-        ),
-        Number(
-            quantity="bem3d: square punch, order in the cell size",
-            value=float(np.log2(steps[-2] / steps[-1])),
-            reference=1.0,
-            source="error model",
-            tolerance=0.1,
-            reason="the pressure is singular at the edge: first order; the next term, of order 1.5, bends it",
-        ),
-        Number(
-            quantity="bem3d: circular punch, k / (2 E* a)",
-            value=circle[-1],
-            reference=1.0,
-            source="Boussinesq",
-            tolerance=2 / n[-1],
-            reason="half a cell at the edge, a being the radius of a circle of as many cells; 2 dx / L",
-        ),
-        _length("L", short, exact),
-        _length("1.1523 L", long, exact),
-        Number(
-            quantity="often quoted 1.012 * 2 / sqrt(pi), beside the extrapolated bem3d",
-            value=1.012 * 2 / np.sqrt(np.pi),
-            reference=limit,
-            source="bem3d",
-            tolerance=5e-4,
-            reason="as for the extrapolation itself",
-            role=Role.FINDING,
-        ),
-    )
+    short, long = (k / (case.modulus * case.side) for k in result.springs)
+    limit = first_order_limit(square)
+    levels = {"capacitance": exact, "extrapolated": limit, "mdr L": short, "mdr 1.1523 L": long}
     last = result.punches[-1]
-    mean = float(last["square"]) / case.side**2
     return Evidence(
         title="Flat punches",
         compared=(
             f"A flat square of side L and a flat circle of diameter L, pressed by boundary elements on {n[0]}² to "
-            f"{n[-1]}² cells that just hold the square; a flat profile on springs, of length L and of 1.1523 L."
+            f"{n[-1]}² cells that cover the square; a flat profile on springs, of length L and of 1.1523 L."
         ),
-        numbers=numbers,
+        numbers=(*_of_bem(case, square, circle, exact), *_of_springs(short, long, exact), _often_quoted(limit)),
         tables=(
             Table(
                 "refinement",
-                {
-                    "cells per side": list(case.cells),
-                    "square k / (E* L)": square.tolist(),
-                    "circle k / (2 E* a)": circle.tolist(),
-                },
+                columns(**{"cells per side": n, "square k / (E* L)": square, "circle k / (2 E* a)": circle}),
             ),
+            Table("levels", {"level": list(levels), "k / (E* L)": list(levels.values())}),
             Table(
-                "levels",
-                {
-                    "level": ["capacitance", "extrapolated", "mdr L", "mdr 1.1523 L"],
-                    "k / (E* L)": [exact, limit, short, long],
-                },
+                "pressure",
+                columns(
+                    **{
+                        "x / L": last["x"] / case.side,
+                        "p / mean p": last["pressure"] / (float(last["square"]) / case.side**2),
+                    }
+                ),
             ),
-            Table("pressure", columns(**{"x / L": last["x"] / case.side, "p / mean p": last["pressure"] / mean})),
         ),
         conclusions=(
-            f"By boundary elements the stiffness of the square tends to {limit:.5f} E* L; on n cells a side it is low "
-            f"by a fraction of {(limit / square[-1] - 1) * n[-1]:.3f} / n.",
-            f"A 1D model of length L saturates {100 * (1 - short / exact):.1f} % too soft; "
-            "with 1.1523 L it saturates alike, by choice of the length.",
+            f"By boundary elements the stiffness of the square tends to {limit:.5f} E* L. On n cells a side it is too "
+            f"small by a fraction of {(limit / square[-1] - 1) * n[-1]:.3f} / n.",
+            f"In full contact a 1D model of length L is {100 * (1 - short / exact):.1f} % too soft. "
+            "With 1.1523 L it has the stiffness of the square, by choice of the length.",
         ),
         captions={
             "square_punch": (
                 "(a) Stiffness against the cell size: the square over E* L, with the extrapolation and both 1D "
-                "lengths; the circle over 2 E* a. (b) Pressure under the square along its middle, finest grid, over "
-                "its mean: singular at the edges."
+                "lengths; the circle over 2 E* a. (b) Pressure under the square along its middle over its mean, "
+                "finest grid: singular at the edges."
             )
         },
     )
 
 
-def _length(name: str, stiffness: float, exact: float) -> Number:
-    return Number(
-        quantity=f"mdr: full contact with L_1D = {name}, k / (E* L)",
-        value=stiffness,
-        reference=exact,
-        source="capacitance of the square, numerical",
-        tolerance=5e-4,
-        reason="as for boundary elements",
-        role=Role.FINDING,
+def _over_cells(result: SquarePunchResult, name: str) -> np.ndarray:
+    return np.array([float(o[name]) for o in result.punches])
+
+
+def _of_bem(case: SquarePunch, square: np.ndarray, circle: np.ndarray, exact: float) -> tuple[Number, ...]:
+    """Square and circle beside the closed forms, and the order in the cell size."""
+    limit, steps = first_order_limit(square), np.abs(np.diff(square))
+    return (
+        Number(
+            quantity="k / (E* L) of the square, extrapolated",
+            model="bem3d",
+            value=limit,
+            reference=exact,
+            source=CAPACITANCE,
+            tolerance=DIGITS,
+            grid=abs(limit - first_order_limit(square[:-1])),
+            reason="five units of the last digit of the reference, 1.1523",
+        ),
+        Number(
+            quantity="order of k of the square in the cell size",
+            model="bem3d",
+            value=float(np.log2(steps[-2] / steps[-1])),
+            reference=1.0,
+            source="error model",
+            tolerance=0.1,
+            reason="first order, since the pressure is singular at the edge; the next term, of order 1.5, changes it",
+        ),
+        Number(
+            quantity="k / (2 E* a) of the circle",
+            model="bem3d",
+            value=circle[-1],
+            reference=1.0,
+            source="Boussinesq",
+            tolerance=2 / case.cells[-1],
+            reason="half a cell at the edge; a is the radius of a circle with the area of the cells; 2 dx / L",
+        ),
     )
 
 
-def _extrapolated(stiffness: np.ndarray) -> float:
-    """Limit of a first-order sequence on doubled grids, from its last two members (Richardson)."""
-    return float(2 * stiffness[-1] - stiffness[-2])
+def _of_springs(short: float, long: float, exact: float) -> list[Number]:
+    """Springs in full contact, of both lengths, beside the square."""
+    return [
+        Number(
+            quantity="k / (E* L) in full contact",
+            model="mdr",
+            where={"length": f"L_1D = {length}"},
+            value=stiffness,
+            reference=exact,
+            source=CAPACITANCE,
+            tolerance=DIGITS,
+            reason="as for boundary elements",
+            role=Role.FINDING,
+        )
+        for length, stiffness in (("L", short), ("1.1523 L", long))
+    ]
+
+
+def _often_quoted(limit: float) -> Number:
+    return Number(
+        quantity="often quoted 1.012 * 2 / sqrt(pi), beside the extrapolated k / (E* L)",
+        value=1.012 * 2 / np.sqrt(np.pi),
+        reference=limit,
+        source="bem3d",
+        tolerance=DIGITS,
+        reason="as for the extrapolation itself",
+        role=Role.FINDING,
+    )
 
 
 CASE = Case(
