@@ -1,23 +1,28 @@
-"""Geike's rule: what it keeps between one and two dimensions, and how it differs from the spectrum of a line."""
+"""Geike's rule: which moments it keeps between one and two dimensions, and how it differs from a line trace."""
 
-import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy import integrate
 
 import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, claim
+from validation.analysis.evidence import Evidence, Number, Role, Table, claim, columns
+from validation.cases.exact.spectral_moments import (
+    line_moment,
+    mean_power_of_cosine,
+    sum_over_profile,
+    sum_over_surface,
+    surface_moment,
+)
 from validation.engine.engine import SERIAL, Engine, Outcome, generator
 from validation.theory import closed_forms
 
-FloatArray = NDArray[np.float64]
-
 MOMENTS = (0, 1, 2, 3, 4)
+NAMED = {0: "mean square height", 2: "mean square gradient", 4: "mean square curvature"}
+MEASURED = {0: "height", 2: "gradient", 4: "curvature"}
+GEIKE, LINE = "Geike's 1D spectrum", "line trace"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,12 +113,17 @@ def measure_surface(draw: Draw) -> Outcome:
 
 
 def evidence(result: GeikeResult) -> Evidence:
-    """Moments of the spectra, moments of the draws, and the line trace in Geike's place."""
+    """Moments of the spectra and of the draws; spectra measured on profiles and along lines of surfaces."""
     case, spectrum = result.case, result.case.spectrum
-    isotropic = {n: _isotropic_moment(spectrum, n) for n in MOMENTS}
-    geike = {n: _moment(spectrum.c1d, spectrum, n) / isotropic[n] for n in MOMENTS}
-    line = {n: _moment(spectrum.line, spectrum, n) / isotropic[n] for n in MOMENTS}
-    lines = _lines(result)
+    surface = {n: surface_moment(spectrum, n) for n in MOMENTS}
+    kept = {
+        rule: {n: line_moment(c1d, spectrum, n) / surface[n] for n in MOMENTS}
+        for rule, c1d in ((GEIKE, spectrum.c1d), (LINE, spectrum.line))
+    }
+    profiles = {n: sum_over_profile(spectrum.c1d, n, case.cells, case.length) for n in NAMED}
+    surfaces = {n: sum_over_surface(spectrum.c2d, n, case.cells, case.length) for n in NAMED}
+    spectra = _spectra(result)
+    exact = _of_spectra(kept)
     return Evidence(
         title="Geike's rule",
         compared=(
@@ -122,213 +132,154 @@ def evidence(result: GeikeResult) -> Evidence:
             f"{case.surfaces} surfaces of {case.cells}² cells drawn from them, fixed amplitudes, random phases."
         ),
         numbers=(
-            *_of_spectra(geike, line),
-            *_of_draws("profiles", result.profiles, _sum_over_profile(case), isotropic),
-            *_of_draws("surfaces", result.surfaces, _sum_over_surface(case), isotropic),
-            *_of_lines(result, lines),
+            *exact,
+            *_of_draws("drawn profiles", result.profiles, profiles, surface),
+            *_of_draws("drawn surfaces", result.surfaces, surfaces, surface),
+            *_of_lines(result, spectra),
         ),
-        tables=(
-            Table("spectra", lines),
-            Table(
-                "moments",
-                {
-                    "n": list(MOMENTS),
-                    "geike": list(geike.values()),
-                    "line trace": list(line.values()),
-                    "exact": [_mean_power_of_cosine(n) for n in MOMENTS],
-                },
-            ),
-        ),
+        tables=(spectra, _moments(kept)),
         conclusions=(
             claim(
-                "Geike's rule keeps every moment; the line trace keeps the height and loses "
-                f"{100 * (1 - line[2]):.1f} % of the mean square gradient.",
-                _of_spectra(geike, line),
+                "Geike's rule keeps every moment of the surface; the line trace keeps the mean square height but has "
+                f"{100 * (1 - kept[LINE][2]):.1f} % less mean square gradient.",
+                exact,
             ),
-            f"Lines cut from the drawn surfaces have {_mid_band(case, lines, 'geike [m^3]'):.3f} of Geike's spectrum "
+            f"Lines cut from the drawn surfaces have {_mid_band(case, spectra, 'geike [m^3]'):.3f} of Geike's spectrum "
             "in the middle of the band; an unbounded power law would have "
             f"{closed_forms.line_trace_ratio(case.hurst):.3f}.",
             "The sum over the waves of a period exceeds the integral of a spectrum that begins near the first wave "
-            f"(in one dimension by {100 * (_sum_over_profile(case)[0] / isotropic[0] - 1):.1f} % here): ensembles that "
-            "are normalised by the rms height prescribe it.",
+            f"(by {100 * (profiles[0] / surface[0] - 1):.1f} % in 1D here). Ensembles that are normalised by the rms "
+            "height therefore prescribe it.",
         ),
         captions={
             "geike": (
-                "(a) Spectra: Geike's 1D spectrum and the line trace, with what was measured on drawn profiles and "
-                "along lines of drawn surfaces (every mode in the CSV, some in the figure). (b) Share of the n-th "
-                "moment of the surface that each keeps."
+                "(a) Spectra: Geike's 1D spectrum and the line trace, with those measured on drawn profiles and along "
+                "lines of drawn surfaces (every wave in the CSV, some in the figure). (b) n-th moment of both over "
+                "that of the surface."
             )
         },
     )
 
 
-def _of_spectra(geike: dict[int, float], line: dict[int, float]) -> list[Number]:
-    """What both rules keep of the surface's moments."""
-    of_geike = [
-        Number(
-            quantity=f"spectra: {KEPT[n]} of Geike's 1D spectrum over that of the surface",
-            value=geike[n],
-            reference=1.0,
-            source="(10.12)",
-            tolerance=1e-9,
-            reason="exact; error of the quadrature",
-        )
-        for n in KEPT
-    ]
-    of_line = [
-        Number(
-            quantity=f"spectra: {KEPT[n]} of the line trace over that of the surface",
-            value=line[n],
-            reference=_mean_power_of_cosine(n),
+def _of_spectra(kept: dict[str, dict[int, float]]) -> list[Number]:
+    """Moments of both rules over those of the surface."""
+    over = partial(Number, tolerance=1e-9, reason="exact; error of the quadrature", source="(10.12)", reference=1.0)
+    of_geike = [over(quantity=f"{NAMED[n]} over that of the surface", model=GEIKE, value=kept[GEIKE][n]) for n in NAMED]
+    return of_geike + [
+        over(
+            quantity=f"{NAMED[n]} over that of the surface",
+            model=LINE,
+            value=kept[LINE][n],
+            reference=mean_power_of_cosine(n),
             source="mean of |cos|^n over directions",
             tolerance=1e-6,
             reason="exact; error of the quadrature at the kink of the line trace",
         )
-        for n in KEPT
+        for n in NAMED
     ]
-    return of_geike + of_line
 
 
-def _of_draws(
-    kind: str, outcomes: list[Outcome], over_waves: dict[int, float], isotropic: dict[int, float]
-) -> list[Number]:
-    """Moments measured on draws against the sum over their waves, and that sum against the integral it stands for."""
+def _of_draws(kind: str, outcomes: list[Outcome], waves: dict[int, float], integral: dict[int, float]) -> list[Number]:
+    """Moments of draws over the sum over their waves; that sum over the integral of the spectrum."""
     measured = [
         Number(
-            quantity=f"drawn {kind}: {KEPT[n]} over the sum over the waves of the period",
-            value=float(np.mean([o[MEASURED[n]] for o in outcomes])) / over_waves[n],
+            quantity=f"{NAMED[n]} over the sum over the waves of the period",
+            model=kind,
+            value=float(np.mean([o[MEASURED[n]] for o in outcomes])) / waves[n],
             reference=1.0,
             source="(14.8), (14.9)",
             tolerance=1e-9,
-            reason="exact for fixed amplitudes; rounding of transforms",
+            reason="exact for fixed amplitudes; rounding of the transforms",
         )
-        for n in KEPT
+        for n in NAMED
     ]
-    lattice = [
+    return measured + [
         Number(
-            quantity=f"{kind}: {KEPT[n]}, sum over the waves of the period over the integral of the spectrum",
-            value=over_waves[n] / isotropic[n],
+            quantity=f"{NAMED[n]}, sum over the waves of the period over the integral of the spectrum",
+            model=kind,
+            value=waves[n] / integral[n],
             reference=1.0,
             source="integral",
             tolerance=0.01,
-            reason="1 % (0.04 dB), finer than any level is measured; the sum counts the edges of the band in whole "
-            "waves",
+            reason="1 % (0.04 dB), finer than any level here; the sum has whole waves at the edges of the band",
             role=Role.FINDING,
         )
-        for n in KEPT
+        for n in NAMED
     ]
-    return measured + lattice
 
 
-def _of_lines(result: GeikeResult, lines: Mapping[str, Sequence[float]]) -> list[Number]:
-    """Spectra measured on profiles and along lines of surfaces, against both rules."""
-    case = result.case
-    profile, geike = np.array(lines["drawn profiles [m^3]"]), np.array(lines["geike [m^3]"])
+def _of_lines(result: GeikeResult, spectra: Table) -> tuple[Number, ...]:
+    """Spectra measured on profiles and along lines of surfaces, over both rules."""
+    profile, geike = spectra["drawn profiles [m^3]"], spectra["geike [m^3]"]
     band = geike > 0
-    return [
+    of_lines = partial(Number, model="lines of drawn surfaces", reference=1.0, tolerance=1e-3)
+    return (
         Number(
-            quantity="drawn profiles: largest relative deviation of the measured spectrum in the band",
+            quantity="largest relative deviation of the measured spectrum in the band",
+            model="drawn profiles",
             value=float(np.max(np.abs(profile[band] / geike[band] - 1))),
             reference=0.0,
             source="(14.9)",
             tolerance=1e-6,
-            reason="fixed amplitudes: exact but for the rounding of transforms, relative to the largest wave",
+            reason="exact for fixed amplitudes; rounding of the transforms, relative to the largest wave",
         ),
-        Number(
-            quantity="lines cut from drawn surfaces: measured spectrum over the line trace, mid band",
-            value=_mid_band(case, lines, "line trace [m^3]"),
-            reference=1.0,
+        of_lines(
+            quantity="measured spectrum over the line trace, mid band",
+            value=_mid_band(result.case, spectra, "line trace [m^3]"),
             source="SelfAffine.line",
-            tolerance=1e-3,
-            reason="a sum over waves across the line in place of an integral whose integrand is smooth there and ends "
-            "far up the band, where little is left",
+            reason="a sum over waves across the line in place of an integral; the integrand is smooth there, and small "
+            "where it ends",
         ),
-        Number(
-            quantity="lines cut from drawn surfaces: measured spectrum over Geike's, mid band",
-            value=_mid_band(case, lines, "geike [m^3]"),
-            reference=1.0,
+        of_lines(
+            quantity="measured spectrum over Geike's, mid band",
+            value=_mid_band(result.case, spectra, "geike [m^3]"),
             source="(10.12)",
-            tolerance=1e-3,
-            reason="as above; a line is not what Geike's rule describes",
+            reason="as above; Geike's rule does not describe a line",
             role=Role.FINDING,
         ),
-        Number(
-            quantity="lines cut from drawn surfaces: mean square slope over that of the surface",
+        of_lines(
+            quantity="mean square slope over that of the surface",
             value=float(np.mean([o["line_gradient"] / o["gradient"] for o in result.surfaces])),
             reference=0.5,
             source="isotropy",
             tolerance=1e-9,
-            reason="exact on a square grid, whose axes are alike, for fixed amplitudes",
+            reason="exact on a square grid for fixed amplitudes: both axes are alike",
         ),
-    ]
+    )
 
 
-def _lines(result: GeikeResult) -> dict[str, list[float]]:
-    """Spectra against wavenumber: both rules, and what was measured, the mean over the draws."""
+def _spectra(result: GeikeResult) -> Table:
+    """Spectra against wavenumber: both rules, and the mean over the draws."""
     case, spectrum = result.case, result.case.spectrum
     q = 2 * np.pi / case.length * np.arange(1, case.cells // 2)
-    return {
-        "q [rad/m]": q.tolist(),
-        "geike [m^3]": spectrum.c1d(q).tolist(),
-        "line trace [m^3]": spectrum.line(q).tolist(),
-        "drawn profiles [m^3]": np.mean([o["spectrum"][1:] for o in result.profiles], axis=0).tolist(),
-        "lines of drawn surfaces [m^3]": np.mean([o["spectrum"][1:] for o in result.surfaces], axis=0).tolist(),
+    data = {
+        "q [rad/m]": q,
+        "geike [m^3]": spectrum.c1d(q),
+        "line trace [m^3]": spectrum.line(q),
+        "drawn profiles [m^3]": np.mean([o["spectrum"][1:] for o in result.profiles], axis=0),
+        "lines of drawn surfaces [m^3]": np.mean([o["spectrum"][1:] for o in result.surfaces], axis=0),
     }
+    return Table("spectra", columns(**data))
 
 
-def _mid_band(case: Geike, lines: Mapping[str, Sequence[float]], rule: str) -> float:
+def _moments(kept: dict[str, dict[int, float]]) -> Table:
+    geike, line = (list(kept[rule].values()) for rule in (GEIKE, LINE))
+    exact = [mean_power_of_cosine(n) for n in MOMENTS]
+    return Table("moments", {"n": MOMENTS, "geike": geike, "line trace": line, "exact": exact})
+
+
+def _mid_band(case: Geike, spectra: Table, rule: str) -> float:
     """Lines of surfaces over a rule, mean over twice the lowest wave to a quarter of the highest."""
     middle = slice(2 * case.longest - 1, case.cells // 16)
-    return float(np.mean(np.array(lines["lines of drawn surfaces [m^3]"])[middle] / np.array(lines[rule])[middle]))
-
-
-def _sum_over_profile(case: Geike) -> dict[int, float]:
-    """sum |q|^n 2 pi C_1D / L over the waves of the points."""
-    q = 2 * np.pi * np.abs(np.fft.fftfreq(case.cells, case.spacing))
-    power = 2 * np.pi / case.length * case.spectrum.c1d(q)
-    return {n: float(np.sum(q**n * power)) for n in KEPT}
-
-
-def _sum_over_surface(case: Geike) -> dict[int, float]:
-    """sum |q|^n (2 pi / L)^2 C_2D over the waves of the grid."""
-    axis = 2 * np.pi * np.fft.fftfreq(case.cells, case.spacing)
-    q = np.hypot(axis[:, np.newaxis], axis)
-    power = (2 * np.pi / case.length) ** 2 * case.spectrum.c2d(q)
-    return {n: float(np.sum(q**n * power)) for n in KEPT}
-
-
-def _mean_power_of_cosine(n: int) -> float:
-    """Mean of |cos|^n over all directions: Gamma((n+1)/2) / (sqrt(pi) Gamma(n/2+1))."""
-    return math.gamma((n + 1) / 2) / (math.sqrt(math.pi) * math.gamma(n / 2 + 1))
-
-
-KEPT = {0: "mean square height", 2: "mean square gradient", 4: "mean square curvature"}
-MEASURED = {0: "height", 2: "gradient", 4: "curvature"}
-
-
-def _isotropic_moment(spectrum: mdr.SelfAffine, n: int) -> float:
-    """int |q|^n C_2D d^2q."""
-    return _integral(lambda q: 2 * np.pi * q ** (n + 1) * spectrum.c2d(q), spectrum.q_min, spectrum.q_max)
-
-
-def _moment(c1d: mdr.checks.Spectrum, spectrum: mdr.SelfAffine, n: int) -> float:
-    """int |q|^n C_1D dq, both sides; below q_min a line has waves too."""
-    below = _integral(lambda q: 2 * q**n * c1d(q), 0.0, spectrum.q_min * (1 - 1e-9))
-    return below + _integral(lambda q: 2 * q**n * c1d(q), spectrum.q_min * (1 + 1e-12), spectrum.q_max)
-
-
-def _integral(f: mdr.checks.Spectrum, low: float, high: float) -> float:
-    """Adaptive quadrature, relative error 1e-10."""
-    value, _ = integrate.quad(f, low, high, epsabs=0.0, epsrel=1e-11, limit=400)
-    return float(value)
+    return float(np.mean(spectra["lines of drawn surfaces [m^3]"][middle] / spectra[rule][middle]))
 
 
 CASE = Case(
     name="geike",
     chapter=Chapter.EXACT,
     place=4,
-    claim="Geike's rule keeps height and slope; it is no cut along a line.",
-    answers="Geike's rule (10.12): what it keeps, and why it is not the spectrum of a line",
+    claim="Geike's rule keeps height and slope; its 1D spectrum is not that of a line on the surface.",
+    answers="Geike's rule (10.12): which moments it keeps, and why it is not the spectrum of a line",
     quick=Geike(),
     full=Geike(cells=1024, surfaces=12),
     run=run,
