@@ -16,16 +16,16 @@ from validation.analysis.statistics import (
     DECIBEL,
     POWER_DECIBEL,
     Estimate,
-    at,
-    change,
+    at_level,
+    difference_of_halves,
     extrapolated,
-    left_out_error,
+    jackknife_error,
     log_mean,
     log_relative_deviation,
     mean_estimate,
     mean_of,
     nearest,
-    pairs,
+    paired_samples,
     ratio_of_means,
     sample,
 )
@@ -170,7 +170,9 @@ def test_the_bootstrap_has_the_standard_error_of_a_mean(size):
 
     def over_exact():
         draws = 1 + 0.2 * rng.standard_normal((size, 1))
-        return sample(draws, rng).estimate(at(0, lambda mean, _: mean)).error / (draws.std(ddof=1) / math.sqrt(size))
+        return sample(draws, rng).estimate(at_level(0, lambda mean, _: mean)).error / (
+            draws.std(ddof=1) / math.sqrt(size)
+        )
 
     assert np.mean([over_exact() for _ in range(40)]) == pytest.approx(1, abs=4 * 0.022 / math.sqrt(40))
 
@@ -181,7 +183,7 @@ def test_the_bootstrap_covers_in_small_samples(size, short):
     rng = np.random.default_rng(size)
 
     def drawn():
-        return ends(sample(1 + 0.2 * rng.standard_normal((size, 1)), rng).estimate(at(0, log_mean)))
+        return ends(sample(1 + 0.2 * rng.standard_normal((size, 1)), rng).estimate(at_level(0, log_mean)))
 
     assert holds(covered(drawn, 0.0, trials=300), trials=300, short=short)
 
@@ -193,7 +195,7 @@ def test_the_bootstrap_covers_log_normal_populations(size, sigma):
     truth = {log_mean: sigma**2 / 2, log_relative_deviation: math.log(math.expm1(sigma**2)) / 2}
     draws = [sample(rng.lognormal(0, sigma, (size, 1)), rng) for _ in range(200)]
     for statistic, short in ((log_mean, 0.0), (log_relative_deviation, 0.06)):
-        found_ = iter([ends(one.estimate(at(0, statistic))) for one in draws])
+        found_ = iter([ends(one.estimate(at_level(0, statistic))) for one in draws])
         share = covered(lambda found_=found_: next(found_), truth[statistic], trials=200)
         assert holds(share, trials=200, short=short)
 
@@ -205,7 +207,7 @@ def test_an_interval_shrinks_with_the_root_of_the_sample_and_its_quantile(statis
 
     def mean_width(size):
         draws = (1 + 0.2 * rng.standard_normal((size, 1)) for _ in range(60))
-        return np.mean([sample(one, rng).estimate(at(0, statistic)).half_width for one in draws])
+        return np.mean([sample(one, rng).estimate(at_level(0, statistic)).half_width for one in draws])
 
     assert mean_width(size) / mean_width(4 * size) == pytest.approx(2 * t(size) / t(4 * size), rel=0.1)
 
@@ -213,7 +215,7 @@ def test_an_interval_shrinks_with_the_root_of_the_sample_and_its_quantile(statis
 def test_leaving_out_one_is_the_standard_error_of_a_mean():
     x = np.random.default_rng(0).standard_normal((7, 3))
     without = [np.delete(x, i, axis=0).mean(axis=0) for i in range(7)]
-    np.testing.assert_allclose(left_out_error(without), x.std(axis=0, ddof=1) / math.sqrt(7), rtol=1e-12)
+    np.testing.assert_allclose(jackknife_error(without), x.std(axis=0, ddof=1) / math.sqrt(7), rtol=1e-12)
 
 
 # --- pairs of grids ---
@@ -242,8 +244,8 @@ def test_sample_and_grid_together_hold_cells_of_no_size(refined):
     def drawn():
         coarse, fine = on_grids(rng, 12)
         value, left = extrapolated(
-            sample(coarse, rng).estimate(at(0, log_mean)),
-            pairs(coarse[:refined], fine[:refined], rng).estimate(change(at(0, log_mean))),
+            sample(coarse, rng).estimate(at_level(0, log_mean)),
+            paired_samples(coarse[:refined], fine[:refined], rng).estimate(difference_of_halves(at_level(0, log_mean))),
         )
         return value.value, value.half_width + left
 
@@ -255,7 +257,7 @@ def test_what_a_grid_leaves_open_shrinks_with_the_cells_and_with_the_surfaces():
 
     def left(surfaces, **changes):
         coarse, fine = on_grids(rng, surfaces, **changes)
-        finer = pairs(coarse, fine, rng).estimate(change(at(0, log_mean)))
+        finer = paired_samples(coarse, fine, rng).estimate(difference_of_halves(at_level(0, log_mean)))
         return extrapolated(Estimate(0.0, 0.0, 9), finer)[1]
 
     # cells half as wide, all alike: half of it
@@ -331,11 +333,11 @@ def test_intervals_of_where_mdr_must_fail():
     mine = mdr_limits.RollOffSamples(
         1,
         {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
-        {"gap": pairs(coarse[:4], fine[:4], rng)},
+        {"gap": paired_samples(coarse[:4], fine[:4], rng)},
     )
-    statistic = at(0, log_mean)
+    statistic = at_level(0, log_mean)
     number = mine.apart("gap", "gap", statistic)
-    finer = mine.grids["gap"].estimate(change(statistic))
+    finer = mine.grids["gap"].estimate(difference_of_halves(statistic))
     bem, springs = (mine.by_method[method, "gap"].estimate(statistic) for method in (BEM, MDR))
     assert number.grid == pytest.approx(DECIBEL * (abs(finer.value) + 2 * finer.half_width))
     assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width)
@@ -450,9 +452,11 @@ def test_intervals_of_rolling_are_those_of_their_own_pairs():
     for i in range(len(mine.bands.centres)):
         weights = np.eye(len(mine.bands.centres))[i]
         bem, grid = mine.bem_level(weights)
-        finer = mine.finer.estimate(change(at(i, log_mean)))
+        finer = mine.finer.estimate(difference_of_halves(at_level(i, log_mean)))
         assert grid == pytest.approx(abs(finer.value) + 2 * finer.half_width)
-        assert bem.error == pytest.approx(mine.bem_over_linear.estimate(change(at(i, log_mean))).error)
+        assert bem.error == pytest.approx(
+            mine.bem_over_linear.estimate(difference_of_halves(at_level(i, log_mean))).error
+        )
         assert (bem.samples, finer.samples) == (ROLLING.strips, ROLLING.refined)
 
 

@@ -8,16 +8,16 @@ from hypothesis import strategies as st
 from validation.analysis.evidence import Number, Role, Table, Verdict
 from validation.analysis.statistics import (
     Estimate,
-    at,
-    change,
-    combined,
+    at_level,
     decade_slope,
     decade_weights,
+    difference_of_halves,
     local_slope,
     log_deviation_over,
     log_mean,
     log_relative_deviation,
     sample,
+    weighted_mean,
 )
 
 reals = st.floats(-1e3, 1e3)
@@ -77,12 +77,12 @@ def test_so_much_more_of_a_sample_would_decide(value, tolerance, grid, sample):
 
 
 def one_level(statistic):
-    return at(0, statistic)
+    return at_level(0, statistic)
 
 
 def two_levels(statistic):
     """The mean over two equal levels."""
-    return combined(np.array([0.5, 0.5]), statistic)
+    return weighted_mean(np.array([0.5, 0.5]), statistic)
 
 
 POPULATIONS = {"normal": lambda rng, size: rng.standard_normal(size), "uniform": lambda rng, size: rng.random(size)}
@@ -115,11 +115,11 @@ def test_levels_of_a_realisation_are_resampled_together():
     rng = np.random.default_rng(0)
     draws = 1 + 0.2 * rng.standard_normal((50, 1))
     both = sample(np.concatenate([draws, 1.5 * draws], axis=1), rng)
-    ratio = both.estimate(change(at(0, log_mean)))
+    ratio = both.estimate(difference_of_halves(at_level(0, log_mean)))
     assert ratio.value == pytest.approx(np.log(1.5))
     assert ratio.error == pytest.approx(0, abs=1e-12)
-    alone = both.estimate(at(0, log_mean)).error
-    assert both.estimate(combined(np.array([0.5, 0.5]), log_mean)).error == pytest.approx(alone, rel=1e-6)
+    alone = both.estimate(at_level(0, log_mean)).error
+    assert both.estimate(weighted_mean(np.array([0.5, 0.5]), log_mean)).error == pytest.approx(alone, rel=1e-6)
 
 
 def test_error_of_a_paired_change():
@@ -130,7 +130,7 @@ def test_error_of_a_paired_change():
         for _ in range(300):
             coarse = 1 + 0.2 * rng.standard_normal(40)
             fine = coarse * np.exp(0.02 * rng.standard_normal(40))
-            found = sample(np.stack([coarse, fine], axis=1), rng).estimate(change(at(0, statistic)))
+            found = sample(np.stack([coarse, fine], axis=1), rng).estimate(difference_of_halves(at_level(0, statistic)))
             changes.append(found.value)
             errors.append(found.error)
         # the standard deviation of 300 values is known to 4 %, each error to some 10 %, and small samples lack a few
@@ -143,8 +143,8 @@ def test_lost_realisations_are_left_out():
     draws[3:, 1] = np.nan
     found = sample(draws, rng)
     assert found.size == 3
-    assert found.estimate(at(1, log_mean)).value == pytest.approx(np.log(draws[:3, 1].mean()))
-    assert found.estimate(at(0, log_relative_deviation)).value == pytest.approx(
+    assert found.estimate(at_level(1, log_mean)).value == pytest.approx(np.log(draws[:3, 1].mean()))
+    assert found.estimate(at_level(0, log_relative_deviation)).value == pytest.approx(
         np.log(draws[:, 0].std(ddof=1) / draws[:, 0].mean())
     )
 

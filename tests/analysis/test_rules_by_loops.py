@@ -278,7 +278,7 @@ def test_pairs_count_where_both_are():
     """What one grid lacks counts in neither; halves are coarse and fine."""
     coarse, fine = np.arange(1.0, 11).reshape(5, 2), 2 * np.arange(1.0, 11).reshape(5, 2)
     coarse[0, 0], fine[1, 1] = np.nan, np.nan
-    both = statistics.pairs(coarse, fine, np.random.default_rng(0))
+    both = statistics.paired_samples(coarse, fine, np.random.default_rng(0))
     assert both.size == 4
     expected = [np.mean([3, 5, 7, 9]), np.mean([2, 6, 8, 10]), np.mean([6, 10, 14, 18]), np.mean([4, 12, 16, 20])]
     np.testing.assert_allclose(both.moments[0], expected)
@@ -310,7 +310,7 @@ def test_the_nearest_force_is_that_of_the_least_ratio():
 
 def test_levels_without_weight_need_not_have_the_statistic():
     weights = np.array([0.5, 0.0, 0.5])
-    found = statistics.combined(weights, lambda mean, _: np.log(mean))(np.array([1.0, -1.0, 4.0]), np.ones(3))
+    found = statistics.weighted_mean(weights, lambda mean, _: np.log(mean))(np.array([1.0, -1.0, 4.0]), np.ones(3))
     assert found == pytest.approx(math.log(4) / 2)
 
 
@@ -322,7 +322,7 @@ def test_what_differs_by_rounding_has_no_deviation():
 
 
 def test_a_change_is_of_the_second_half_less_the_first():
-    found = statistics.change(statistics.log_mean)(np.array([1.0, 2.0, 3.0, 8.0]), np.ones(4))
+    found = statistics.difference_of_halves(statistics.log_mean)(np.array([1.0, 2.0, 3.0, 8.0]), np.ones(4))
     np.testing.assert_allclose(found, [math.log(3), math.log(4)])
-    at = statistics.at(1, lambda mean, deviation: mean + 10 * deviation)
+    at = statistics.at_level(1, lambda mean, deviation: mean + 10 * deviation)
     assert at(np.array([1.0, 2.0]), np.array([3.0, 4.0])) == 42.0

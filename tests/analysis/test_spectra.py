@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from validation.analysis import records
+from validation.analysis import spectra
 from validation.analysis import spectral_features as regions
 
 WINDOWS = ("none", "hann")
@@ -47,7 +47,7 @@ def mean_square(record, steps, time_step):
 @given(x=series, time_step=time_steps)
 def test_parseval_without_window(x, time_step):
     """<x^2> - <x>^2 = sum A / T over both signs, since frequency zero is left out; rounding of N terms below one."""
-    found = mean_square(records.spectra(x, time_step=time_step), len(x), time_step)
+    found = mean_square(spectra.record_spectra(x, time_step=time_step), len(x), time_step)
     assert found == pytest.approx(np.mean(x**2, axis=0) - np.mean(x, axis=0) ** 2, abs=len(x) * ROUNDING)
 
 
@@ -58,7 +58,7 @@ def test_parseval_of_hann_in_expectation(steps):
     x = rng.normal(size=steps)
     x = np.stack([np.roll(x, n) for n in range(steps)], axis=1)
     zero = by_slow_sums(x, time_step, "hann")[0] / (steps * time_step)
-    found = mean_square(records.spectra(x, time_step=time_step, window="hann"), steps, time_step) + zero
+    found = mean_square(spectra.record_spectra(x, time_step=time_step, window="hann"), steps, time_step) + zero
     assert found.mean() == pytest.approx(np.mean(x**2), rel=ROUNDING)
     # not of each record by itself
     assert np.ptp(found) > 0.1 * found.mean()
@@ -68,7 +68,7 @@ def test_parseval_of_hann_in_expectation(steps):
 @pytest.mark.parametrize("steps", [3, 8, 31, 32])
 def test_spectra_by_slow_sums(steps, window):
     x, time_step = np.random.default_rng(steps).normal(size=(steps, 3)), 0.07
-    record = records.spectra(x, time_step=time_step, window=window)
+    record = spectra.record_spectra(x, time_step=time_step, window=window)
     slow = by_slow_sums(x, time_step, window)
     assert record.density == pytest.approx(slow[1:], abs=steps * ROUNDING * slow.max())
     assert record.omega == pytest.approx(2 * np.pi * np.arange(1, steps // 2 + 1) / (steps * time_step), rel=ROUNDING)
@@ -76,9 +76,9 @@ def test_spectra_by_slow_sums(steps, window):
 
 @given(x=series, time_step=time_steps, factor=st.floats(1e-3, 1e3), window=st.sampled_from(WINDOWS))
 def test_spectra_scale_with_squares_and_with_time(x, time_step, factor, window):
-    one = records.spectra(x, time_step=time_step, window=window)
-    louder = records.spectra(factor * x, time_step=time_step, window=window)
-    slower = records.spectra(x, time_step=factor * time_step, window=window)
+    one = spectra.record_spectra(x, time_step=time_step, window=window)
+    louder = spectra.record_spectra(factor * x, time_step=time_step, window=window)
+    slower = spectra.record_spectra(x, time_step=factor * time_step, window=window)
     room = len(x) ** 2 * ROUNDING * time_step
     assert louder.density == pytest.approx(factor**2 * one.density, abs=factor**2 * room)
     assert slower.density == pytest.approx(factor * one.density, abs=factor * room)
@@ -89,7 +89,7 @@ def test_spectra_scale_with_squares_and_with_time(x, time_step, factor, window):
 def test_white_noise_has_its_variance_times_the_time_step_at_every_line(window):
     """A = sigma^2 dt: of each line within five standard errors of a mean of 400 squares, but Nyquist's with two."""
     x = np.random.default_rng(3).normal(size=(64, 400))
-    density = records.spectra(x, time_step=0.25, window=window).density.mean(axis=1)
+    density = spectra.record_spectra(x, time_step=0.25, window=window).density.mean(axis=1)
     assert density == pytest.approx(np.full(32, 0.25), rel=5 * math.sqrt(2 / 400))
     assert density.mean() == pytest.approx(0.25, rel=5 * math.sqrt(2 / 400 / 32 * 2))
 
@@ -108,7 +108,7 @@ def test_bands_by_a_loop(lines, records_, edges, line):
     omega = line * np.arange(1, lines + 1)
     density = np.random.default_rng(lines).exponential(size=(lines, records_) if records_ else lines)
     edges = line * np.array(edges)
-    levels, means = (f(omega, density, edges) for f in (records.band_levels, records.band_means))
+    levels, means = (f(omega, density, edges) for f in (spectra.band_levels, spectra.band_means))
     assert levels.shape == means.shape == (len(edges) - 1, *density.shape[1:])
     for i in range(len(edges) - 1):
         inside = [j for j in range(lines) if edges[i] <= omega[j] < edges[i + 1]]
@@ -125,7 +125,7 @@ def test_bands_by_a_loop(lines, records_, edges, line):
 @given(first=st.floats(1, 1e5), octaves=st.floats(0.7, 8))
 def test_one_third_octaves_are_those_about_a_thousand_hertz(first, octaves):
     last = first * 2**octaves
-    edges, step = records.one_third_octaves(first, last), 2 ** (1 / 3)
+    edges, step = spectra.one_third_octaves(first, last), 2 ** (1 / 3)
     assert edges[1:] / edges[:-1] == pytest.approx(np.full(edges.size - 1, step), rel=ROUNDING)
     numbers = 3 * np.log2(edges / (2 * np.pi * 1000)) + 0.5
     assert numbers == pytest.approx(np.rint(numbers), abs=1e-9)
@@ -138,7 +138,7 @@ def test_one_third_octaves_are_those_about_a_thousand_hertz(first, octaves):
 
 def test_bands_that_end_at_the_borders_are_kept():
     centre = 2 * np.pi * 1000
-    edges = records.one_third_octaves(centre * 2 ** (-1 / 6), centre * 2 ** (5 / 6))
+    edges = spectra.one_third_octaves(centre * 2 ** (-1 / 6), centre * 2 ** (5 / 6))
     assert edges == pytest.approx(centre * 2 ** (np.array([-1, 1, 3, 5]) / 6), rel=ROUNDING)
 
 
@@ -147,7 +147,7 @@ def test_bands_that_end_at_the_borders_are_kept():
 
 def hann_of_a_tone(place, phase, steps=4096, amplitude=1.0):
     x = amplitude * np.cos(2 * np.pi * place * np.arange(steps) / steps + phase)
-    return records.spectra(x[:, np.newaxis], time_step=1.0, window="hann")
+    return spectra.record_spectra(x[:, np.newaxis], time_step=1.0, window="hann")
 
 
 def leak(distance):
@@ -215,7 +215,7 @@ def test_jump_of_noise(seed):
     spectrum = np.zeros((200, 10 * steps // 2 + 1), complex)
     spectrum[:, np.rint(place * 10).astype(int)] = amplitude
     x = np.fft.irfft(spectrum, axis=1)[:, :steps].T
-    record = records.spectra(x, time_step=1.0, window="hann")
+    record = spectra.record_spectra(x, time_step=1.0, window="hann")
     found = regions.jump(record.omega, record.density.mean(axis=1), 0.06, 0.6)
     assert found / record.omega[0] == pytest.approx(60.3, abs=0.5 + 0.28 / 0.67 / 2 + 0.05)
 
@@ -307,7 +307,7 @@ def test_floor_level_of_a_ramp():
     """Slow truth: a record that rises by J over its length leaks nothing but that."""
     steps, jump = 512, 3.0
     x = jump * np.arange(steps)[:, np.newaxis] / steps
-    record = records.spectra(x, time_step=0.1)
+    record = spectra.record_spectra(x, time_step=0.1)
     found = regions.floor_level(record.omega, record.density[:, 0], 1.0, 20.0, 0.1)
     assert found == pytest.approx(jump**2 / 51.2, rel=1e-9)
 

@@ -129,7 +129,7 @@ def test_evidence(result):
     assert not evidence.unconverged
     assert all(number.verdict is Verdict.AGREE for number in evidence.numbers)
     assert sum("too small for an exponent" in sentence for sentence in evidence.conclusions) == 3
-    assert [len(table["problem"]) for table in evidence.shown[:2]] == [4, 3]
+    assert [len(table["problem"]) for table in evidence.page_tables[:2]] == [4, 3]
     assert (scaling["peak memory [MiB]"] > 1).all()
     for name in ("bem3d", "bem3d, textbook"):
         mine = heats.where(contestant=name)

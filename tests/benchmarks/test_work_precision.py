@@ -460,8 +460,8 @@ def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
     assert "c2d must vanish beyond the Nyquist wavenumber" in reasons
     assert "c1d must vanish beyond the Nyquist wavenumber" in reasons
     assert not any(s.startswith("failed") for s in charts["status"])
-    assert {"scene", "method", "setting", "quantities", "reason"} == set(found.shown[1].columns)
-    assert len(found.shown[1]["reason"]) == len(set(zip(*found.shown[1].columns.values(), strict=True)))
+    assert {"scene", "method", "setting", "quantities", "reason"} == set(found.page_tables[1].columns)
+    assert len(found.page_tables[1]["reason"]) == len(set(zip(*found.page_tables[1].columns.values(), strict=True)))
 
 
 def test_criteria_hold_where_theory_predicts(found):
@@ -475,7 +475,7 @@ def test_conclusions_and_summary_name_the_cheapest(found):
     assert len(found.conclusions) == 11
     assert all(" is the cheapest" in sentence for sentence in found.conclusions)
     assert len(found.table("summary")["tolerance"]) == 11 * len(precision_front.TOLERANCES)
-    assert len(found.shown[0]["scene"]) == 11
+    assert len(found.page_tables[0]["scene"]) == 11
 
 
 def test_an_answer_that_is_lost_is_not_converged(result):

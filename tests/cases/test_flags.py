@@ -26,7 +26,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Engine, generator
+from validation.engine.engine import Engine, random_generator
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.selection.hierarchy import Answer, Claim, Cost, select_model
@@ -67,7 +67,7 @@ def test_a_load_that_does_not_converge_has_no_value_at_all(monkeypatch):
     for name in ("stiffness", "area", "approach", "gap"):
         assert np.flatnonzero(np.isnan(found[name])).tolist() == [2]
     assert found["residual"][2] > problem.tolerance
-    line = rough_punch.lost([problem], [found])
+    line = rough_punch.describe_failures([problem], [found])
     assert len(line) == 1 and line[0].startswith("surface 0, H = 0.7, 16² cells, Fbar = 0.464: residual")
 
 
@@ -270,7 +270,7 @@ def test_too_little_left_is_no_evidence(run, case, lost):
     )
     with pytest.raises(NotConvergedError) as caught:
         run(case, given)
-    assert caught.value.lost
+    assert caught.value.unconverged
 
 
 @pytest.mark.parametrize("which", [wheel_3d.COARSER, wheel_3d.LOOSE, wheel_3d.TIGHT])
@@ -279,7 +279,7 @@ def test_no_strip_may_be_lost_that_tells_an_error_bar(which):
     mine = case.strips_of()[which][-1]
     with pytest.raises(NotConvergedError) as caught:
         wheel_3d.run(case, Given(pressed, lambda p: p is mine or p == mine))
-    assert len(caught.value.lost) == 1
+    assert len(caught.value.unconverged) == 1
 
 
 def swept_through(problem, lost):
@@ -362,7 +362,7 @@ def reported(monkeypatch, tmp_path, *, numbers=(), unconverged=(), raises=None):
     """Exit status and page of a report of one case, made up."""
     shown = Evidence(
         title="Made up",
-        compared="nothing",
+        method="nothing",
         numbers=tuple(numbers),
         tables=(Table("t", {"x": [1.0]}),),
         conclusions=(),
@@ -418,7 +418,7 @@ def test_a_case_without_evidence_is_not_converged(error, monkeypatch, tmp_path, 
     ended, page, results = reported(monkeypatch, tmp_path, raises=error)
     assert ended == command.Exit.NOT_CONVERGED == 3
     printed = capsys.readouterr().out
-    for line in (str(error), *getattr(error, "lost", ())):
+    for line in (str(error), *getattr(error, "unconverged", ())):
         assert line in page and line in results and f"not converged: {line}" in printed
     assert "no result" in page and "no result" in printed
 
@@ -529,9 +529,9 @@ def drawn_by(monkeypatch, module):
 
     def recorded(entropy, *key):
         seen.append((entropy, *key))
-        return generator(entropy, *key)
+        return random_generator(entropy, *key)
 
-    monkeypatch.setattr(module, "generator", recorded)
+    monkeypatch.setattr(module, "random_generator", recorded)
     return seen
 
 

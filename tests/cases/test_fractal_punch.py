@@ -12,7 +12,7 @@ from tests.oracles import approach_by_least_squares, dense_operator, spring_sum
 from validation.analysis.evidence import Verdict
 from validation.cases.punch import fractal_punch, fractal_punch_evidence
 from validation.cases.punch.fractal_punch import Ensemble, FractalPunch, FractalPunchResult
-from validation.engine.engine import generator
+from validation.engine.engine import random_generator
 from validation.simulation.rough_punch import press_profiles, press_surface
 
 CASE = FractalPunch(
@@ -27,7 +27,7 @@ def test_surfaces_are_pressed_as_they_stand():
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1 / 8, modulus=1.0)
     found = press_surface(CASE.surface(0.7, 3, 8))
     height = bem3d.rough_surface(
-        SPECTRUM.c2d, shape=(8, 8), spacing=1 / 8, rng=generator(CASE.seed, 2, 700, 3), rms=CASE.height
+        SPECTRUM.c2d, shape=(8, 8), spacing=1 / 8, rng=random_generator(CASE.seed, 2, 700, 3), rms=CASE.height
     )
     assert height.std() == pytest.approx(1e-3, rel=1e-12)
     dense = dense_operator(half_space)
@@ -67,7 +67,7 @@ def test_profiles_are_those_of_geikes_spectrum(length):
             lambda q: mdr.geike(q, SPECTRUM.c2d),
             length=1.0,
             points=64,
-            rng=generator(CASE.seed, 1, 700, i),
+            rng=random_generator(CASE.seed, 1, 700, i),
             rms=CASE.height,
         )
         for j, force in enumerate(CASE.forces):

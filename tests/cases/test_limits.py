@@ -15,7 +15,7 @@ from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import limits as case
 from validation.cases.limits import springs as limits_mdr
 from validation.cases.limits import time_stepping as limits_time
-from validation.cases.limits.sweep import Limit, Sweep, heard, swept
+from validation.cases.limits.sweep import Limit, Sweep, call_and_record_warnings, swept
 from validation.report.figures import limits as figures
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import WHEEL
@@ -140,7 +140,11 @@ def test_captured_words_are_those_of_the_code(result):
     assert found(result, "edge").said[0].startswith("EdgeWarning: ")
     assert found(result, "strip").said[0].startswith("ValueError: height must be wider than the contact")
     assert found(result, "spacing").said[0].startswith("ValueError: c1d must vanish beyond the Nyquist")
-    assert found(result, "spacing").said[1].startswith("SpringResolutionWarning: the shortest wave of the spectrum has 2.2 s")
+    assert (
+        found(result, "spacing")
+        .said[1]
+        .startswith("SpringResolutionWarning: the shortest wave of the spectrum has 2.2 s")
+    )
     assert found(result, "linear").said[-1].startswith("LinearityWarning: roughness of h_rms / d = 1 ")
 
 
@@ -191,15 +195,15 @@ def test_sweeps_are_put_in_order():
 def test_who_is_heard():
     band = mdr.SelfAffine(hurst=0.7, q_min=7.0, q_max=50.0, rms=1e-6)
     draw = {"length": 1.0, "rng": np.random.default_rng(0)}
-    assert heard(lambda: mdr.rough_profile(band.c1d, points=64, **draw))[1] == ""
-    height, words = heard(lambda: mdr.rough_profile(band.c1d, points=20, **draw))
+    assert call_and_record_warnings(lambda: mdr.rough_profile(band.c1d, points=64, **draw))[1] == ""
+    height, words = call_and_record_warnings(lambda: mdr.rough_profile(band.c1d, points=20, **draw))
     assert height.size == 20
     assert words.startswith("SpringResolutionWarning: the shortest wave")
-    nothing, words = heard(lambda: mdr.rough_profile(band.c1d, points=10, **draw))
+    nothing, words = call_and_record_warnings(lambda: mdr.rough_profile(band.c1d, points=10, **draw))
     assert nothing is None
     assert words.startswith("ValueError: c1d must vanish")
     with pytest.raises(TypeError):
-        heard(lambda: mdr.rough_profile(None, points=10, **draw))
+        call_and_record_warnings(lambda: mdr.rough_profile(None, points=10, **draw))
 
 
 def test_sum_over_the_lattice_by_ewald():

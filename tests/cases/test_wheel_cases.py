@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation.analysis import records
+from validation.analysis import spectra
 from validation.analysis.evidence import Verdict
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
@@ -232,9 +232,9 @@ def test_the_linear_contact_on_open_tracks_has_its_closed_form_band_by_band():
     ride = rides(count=40, groups=40, linear=True)
     outcome = roll_wheels(ride)
     spectrum = Spectrum.of(SMALL, [outcome])
-    edges = records.one_third_octaves(1.1 * SMALL.jump, 0.9 * SMALL.cutoff)
-    found = records.band_levels(spectrum.omega, spectrum.hann.T, edges)
-    exact = records.band_levels(spectrum.omega, spectrum.linear, edges)
+    edges = spectra.one_third_octaves(1.1 * SMALL.jump, 0.9 * SMALL.cutoff)
+    found = spectra.band_levels(spectrum.omega, spectrum.hann.T, edges)
+    exact = spectra.band_levels(spectrum.omega, spectrum.linear, edges)
     error = found.std(axis=1, ddof=1) / math.sqrt(40)
     whole = 2 * np.pi / (SMALL.rail.q_min * ride.places * SMALL.spacing)
     assert exact.size >= 10
@@ -385,7 +385,7 @@ def test_too_few_strips_are_no_evidence(monkeypatch):
     monkeypatch.setattr(wheel_3d, "roll_strip", losing(1))
     with pytest.raises(NotConvergedError, match="2 strips converged on 4 cells to a radius, 3 are needed") as caught:
         wheel_3d.run(QUICK_3D)
-    assert caught.value.lost == ("strip 1, 4 cells to a radius, residual 0.0001",)
+    assert caught.value.unconverged == ("strip 1, 4 cells to a radius, residual 0.0001",)
 
 
 # --- evidence ---------------------------------------------------------------------------------------------------------
@@ -405,10 +405,10 @@ def whole(evidence):
     assert all(math.isfinite(number.value) and math.isfinite(number.uncertainty) for number in evidence.numbers)
     assert evidence.conclusions
     assert evidence.captions
-    for sentence in (evidence.compared, *evidence.conclusions, *evidence.captions.values()):
+    for sentence in (evidence.method, *evidence.conclusions, *evidence.captions.values()):
         assert not re.search(r"\b(nan|inf)\b", sentence)
     assert len({table.name for table in evidence.tables}) == len(evidence.tables)
-    for table in (*evidence.tables, *evidence.shown):
+    for table in (*evidence.tables, *evidence.page_tables):
         assert all(len(column) for column in table.columns.values())
 
 
@@ -494,7 +494,7 @@ def test_what_does_not_stand_out_is_said_so():
     case = replace(LONG, scene=scene, realisations=10, batch=10)
     found = wheel_evidence.evidence(wheel.run(case))
     whole(found)
-    shown = found.shown[1]
+    shown = found.page_tables[1]
     missing = [row for row, text in enumerate(shown.columns["found"]) if text == "none stands out"]
     assert [shown.columns["feature"][row] for row in missing] == [
         wheel_evidence.NAMES[name] for name in ("slope", "period", "break" + PREDICTED)
@@ -509,7 +509,7 @@ def test_one_parameter_at_a_time():
     assert len(names) == len(set(names)) == 13
     found = wheel_evidence.evidence(wheel.run(case))
     whole(found)
-    table = found.shown[2]
+    table = found.page_tables[2]
     assert list(table.columns["scene"]) == names
     jumps = dict(zip(names, table.columns[wheel_evidence.NAMES["jump"]], strict=True))
     base = SMALL.jump
@@ -601,10 +601,10 @@ def test_wheels_that_do_not_repeat_themselves_are_no_evidence(monkeypatch):
     monkeypatch.setattr(wheel_ensemble, "LEFT", -1.0)
     with pytest.raises(NotConvergedError, match="most wheels of an ensemble do not repeat themselves") as caught:
         wheel_distance.run(replace(DISTANCE, doublings=0, scene=replace(SMALL, distance=0.05)))
-    assert caught.value.lost[0].startswith("24 of 24 wheels do not repeat themselves, h₀ = 5e-07 m")
+    assert caught.value.unconverged[0].startswith("24 of 24 wheels do not repeat themselves, h₀ = 5e-07 m")
     with pytest.raises(NotConvergedError, match="wheels on springs do not repeat themselves") as caught:
         wheel_3d.run(QUICK_3D)
-    assert caught.value.lost == ("geike", "rolling")
+    assert caught.value.unconverged == ("geike", "rolling")
 
 
 @pytest.fixture(scope="module")

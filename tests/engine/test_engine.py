@@ -22,7 +22,7 @@ import pytest
 from validation.cases.punch import fractal_punch
 from validation.engine import engine as ensemble
 from validation.engine import progress, stored
-from validation.engine.engine import Engine, generator
+from validation.engine.engine import Engine, random_generator
 from validation.simulation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[2]
@@ -40,7 +40,7 @@ def toy(problem):
     """Leaves a trace each time it is computed."""
     with Path(problem.log).open("a") as file:
         file.write(f"{problem.number}\n")
-    return {"value": generator(5, problem.number).standard_normal(4)}
+    return {"value": random_generator(5, problem.number).standard_normal(4)}
 
 
 def other_toy(problem):
@@ -533,10 +533,10 @@ def test_progress_on_a_terminal(monkeypatch):
 
 def test_realisations_have_addresses():
     """Independent of how many others are drawn; different for every key."""
-    draws = {key: generator(7, *key).random() for key in [(1, 700, 0), (1, 700, 1), (2, 700, 0), (1, 400, 0)]}
+    draws = {key: random_generator(7, *key).random() for key in [(1, 700, 0), (1, 700, 1), (2, 700, 0), (1, 400, 0)]}
     assert len(set(draws.values())) == 4
-    assert generator(7, 1, 700, 1).random() == draws[1, 700, 1]
-    assert generator(8, 1, 700, 1).random() != draws[1, 700, 1]
+    assert random_generator(7, 1, 700, 1).random() == draws[1, 700, 1]
+    assert random_generator(8, 1, 700, 1).random() != draws[1, 700, 1]
 
 
 def test_fewer_surfaces_are_the_first_of_more():

@@ -9,7 +9,7 @@ from scipy import stats
 
 from tests.analysis import test_error_bars, test_evidence, test_rules_by_loops
 from tests.analysis import test_spectra as test_wheel_spectra
-from validation.analysis import records, spectra, statistics
+from validation.analysis import spectra, statistics
 from validation.analysis import spectral_features as regions
 from validation.analysis.evidence import Number
 from validation.cases.punch import fractal_punch_decades
@@ -28,18 +28,18 @@ def each_level_for_itself(realisations, rng):
 def dt_for_its_square(series, *, time_step, window="none"):
     """(14.17) with dt / T."""
     record = spectra_of_records(series, time_step=time_step, window=window)
-    return records.Record(record.omega, record.density / time_step)
+    return spectra.RecordSpectra(record.omega, record.density / time_step)
 
 
 def one_sided_record(series, *, time_step, window="none"):
     record = spectra_of_records(series, time_step=time_step, window=window)
-    return records.Record(record.omega, 2 * record.density)
+    return spectra.RecordSpectra(record.omega, 2 * record.density)
 
 
 def hann_as_it_is(series, *, time_step, window="none"):
     """Hann's window without its mean square, 3 / 8."""
     record = spectra_of_records(series, time_step=time_step, window=window)
-    return records.Record(record.omega, record.density * (3 / 8 if window == "hann" else 1))
+    return spectra.RecordSpectra(record.omega, record.density * (3 / 8 if window == "hann" else 1))
 
 
 def half_a_line_on(omega, hann, below):
@@ -84,7 +84,7 @@ def half_of_the_way(coarse, finer):
 
 
 def fine_before_coarse(coarse, fine, rng):
-    return statistics.pairs(fine, coarse, rng)
+    return statistics.paired_samples(fine, coarse, rng)
 
 
 def sample_for_grid(*, grid, sample, **settings):
@@ -98,7 +98,7 @@ def both_edges(bands, q, values):
 
 half_of_the_interval = statistics.Estimate.half_width.fget
 estimated = statistics.Sample.estimate
-spectra_of_records = records.spectra
+spectra_of_records = spectra.record_spectra
 peak = regions.peak
 
 
@@ -118,19 +118,19 @@ FAULTS = {
         test_evidence.test_levels_of_a_realisation_are_resampled_together,
     ),
     "dt for dt^2 in (14.17)": (
-        (records, "spectra", dt_for_its_square),
+        (spectra, "record_spectra", dt_for_its_square),
         functools.partial(test_wheel_spectra.test_spectra_by_slow_sums, 31, "none"),
     ),
     "dt for dt^2 in (14.17), seen by Parseval": (
-        (records, "spectra", dt_for_its_square),
+        (spectra, "record_spectra", dt_for_its_square),
         test_wheel_spectra.test_parseval_without_window,
     ),
     "one-sided spectrum of a record": (
-        (records, "spectra", one_sided_record),
+        (spectra, "record_spectra", one_sided_record),
         test_wheel_spectra.test_parseval_without_window,
     ),
     "Hann without its mean square": (
-        (records, "spectra", hann_as_it_is),
+        (spectra, "record_spectra", hann_as_it_is),
         functools.partial(test_wheel_spectra.test_parseval_of_hann_in_expectation, 24),
     ),
     "half a line on in the peak": (
@@ -166,7 +166,7 @@ FAULTS = {
         test_error_bars.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
     ),
     "the finer grid taken for the coarser": (
-        (fractal_punch_decades, "pairs", fine_before_coarse),
+        (fractal_punch_decades, "paired_samples", fine_before_coarse),
         test_error_bars.test_grids_are_paired_with_their_neighbours,
     ),
     "sample and grid exchanged": (

@@ -44,7 +44,7 @@ def upside_down(half_space, gap, **settings):
 
 
 def twice_the_same(entropy, *key):
-    return ensemble.generator(entropy, *key[:-1], key[-1] // 2)
+    return ensemble.random_generator(entropy, *key[:-1], key[-1] // 2)
 
 
 def half_of_the_limit(scheme, x):
@@ -110,7 +110,7 @@ FAULTS = {
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
     "every profile drawn twice": (
-        (rough_punch, "generator", twice_the_same),
+        (rough_punch, "random_generator", twice_the_same),
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
@@ -172,7 +172,7 @@ FAULTS = {
         test_limits.test_images_err_as_the_lattice_sum_says,
     ),
     "what is lost is not told": (
-        (fractal_punch, "lost", lambda *_: ()),
+        (fractal_punch, "describe_failures", lambda *_: ()),
         functools.partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
     ),
     "the referee's surfaces those of who is tested": (

@@ -2,7 +2,7 @@
 
 from tests.report import test_figure_lines, test_printed
 from validation.analysis import statistics
-from validation.analysis.evidence import Verdict, claim
+from validation.analysis.evidence import Verdict, if_confirmed
 from validation.cases.punch import fractal_punch_decades
 from validation.report import build
 from validation.report.figures import rolling as rolling_figure
@@ -10,7 +10,7 @@ from validation.report.figures import rolling as rolling_figure
 
 def unless_it_differs(sentence, numbers):
     """An undecided number taken for one that agrees."""
-    return claim(sentence, [n for n in numbers if n.verdict is not Verdict.UNDECIDED])
+    return if_confirmed(sentence, [n for n in numbers if n.verdict is not Verdict.UNDECIDED])
 
 
 FAULTS = {
@@ -27,7 +27,7 @@ FAULTS = {
         test_printed.test_rows_of_the_page_are_their_numbers,
     ),
     "undecided read as agree": (
-        (test_printed, "claim", unless_it_differs),
+        (test_printed, "if_confirmed", unless_it_differs),
         test_printed.test_a_claim_holds_with_all_of_its_numbers,
     ),
 }

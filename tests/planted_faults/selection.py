@@ -65,7 +65,7 @@ def mean_over_bands(ratios):
 
 
 def the_same_every_time(entropy, *key):
-    return ensemble.generator(entropy, *key[:-1], 0)
+    return ensemble.random_generator(entropy, *key[:-1], 0)
 
 
 def of_unit_modulus(**settings):
@@ -162,11 +162,11 @@ FAULTS = {
         test_claims.test_grids_are_compared_on_the_same_surfaces,
     ),
     "one surface for all": (
-        (pressed_heights, "generator", the_same_every_time),
+        (pressed_heights, "random_generator", the_same_every_time),
         test_claims.test_realisations_are_others,
     ),
     "one strip and one track for all": (
-        (rolled, "generator", the_same_every_time),
+        (rolled, "random_generator", the_same_every_time),
         test_claims.test_realisations_are_others,
     ),
     "a half-space of unit modulus": (

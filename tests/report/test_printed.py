@@ -18,11 +18,11 @@ from validation.analysis.evidence import (
     Role,
     Table,
     Verdict,
-    beside,
-    claim,
     columns,
+    if_confirmed,
     plus_minus,
     table_of,
+    with_reference,
 )
 from validation.analysis.statistics import Estimate
 from validation.benchmarks.work_precision.pareto import in_unit, said
@@ -77,16 +77,16 @@ class Rows(HTMLParser):
             self.rows[-1][-1].append(data.strip())
 
 
-def page_of(numbers, shown=(), **settings):
+def page_of(numbers, page_tables=(), **settings):
     """Rows of the page of one case."""
     shown = Evidence(
         title="t",
-        compared="c",
+        method="c",
         numbers=tuple(numbers),
         tables=(Table("t", {"x": [1.0]}),),
         conclusions=(),
         captions={},
-        shown=tuple(shown),
+        page_tables=tuple(page_tables),
         **settings,
     )
     section = build.Section("geike", CASES["geike"], "none", {}, shown)
@@ -169,7 +169,7 @@ def test_tables_of_the_page_keep_their_columns():
 
 def test_a_table_is_found_by_its_name():
     tables = tuple(Table(name, {"x": [i]}) for i, name in enumerate(("first", "second", "third")))
-    shown = Evidence(title="t", compared="c", numbers=(), tables=tables, conclusions=(), captions={})
+    shown = Evidence(title="t", method="c", numbers=(), tables=tables, conclusions=(), captions={})
     assert [shown.table(name)["x"][0] for name in ("third", "first", "second")] == [2, 0, 1]
 
 
@@ -247,21 +247,21 @@ def test_a_number_in_a_sentence():
 
 def test_a_number_beside_its_reference():
     n = number(1.25, reference=1.0, tolerance=0.5, grid=0.02, sample=0.03)
-    assert beside(n) == "1.250 ± 0.050 beside 1 dB (agree within 0.5, off by +0.25 dB)"
-    assert beside(replace(n, unit="-", value=0.9)) == "0.900 ± 0.050 beside 1 (agree within 0.5, off by -0.1)"
+    assert with_reference(n) == "1.250 ± 0.050 beside 1 dB (agree within 0.5, off by +0.25 dB)"
+    assert with_reference(replace(n, unit="-", value=0.9)) == "0.900 ± 0.050 beside 1 (agree within 0.5, off by -0.1)"
     # an interval that holds the difference, or none at all, leaves nothing to tell
-    assert beside(replace(n, value=1.04)) == "1.040 ± 0.050 beside 1 dB (agree within 0.5)"
-    assert beside(replace(n, grid=0.0, sample=0.0)) == "1.25 beside 1 dB (agree within 0.5)"
-    assert beside(replace(n, value=9.0)) == "9.000 ± 0.050 beside 1 dB (differ within 0.5)"
+    assert with_reference(replace(n, value=1.04)) == "1.040 ± 0.050 beside 1 dB (agree within 0.5)"
+    assert with_reference(replace(n, grid=0.0, sample=0.0)) == "1.25 beside 1 dB (agree within 0.5)"
+    assert with_reference(replace(n, value=9.0)) == "9.000 ± 0.050 beside 1 dB (differ within 0.5)"
     even = number(1.25, reference=1.0, tolerance=0.5, sample=0.25)
-    assert beside(even) == "1.25 ± 0.25 beside 1 dB (agree within 0.5)"
+    assert with_reference(even) == "1.25 ± 0.25 beside 1 dB (agree within 0.5)"
 
 
 def test_a_claim_holds_with_all_of_its_numbers():
     good, bad = number(1.0), number(5.0)
-    assert claim("So it is.", [good, good]) == "So it is."
+    assert if_confirmed("So it is.", [good, good]) == "So it is."
     for numbers in ([bad], [good, bad], [bad, good], [number(1.0, sample=1.0)]):
-        assert claim("So it is.", numbers) == "Not confirmed by this run: So it is."
+        assert if_confirmed("So it is.", numbers) == "Not confirmed by this run: So it is."
 
 
 @pytest.mark.parametrize(
@@ -448,10 +448,10 @@ def test_fig_14_4_prints_the_numbers_it_is_given():
     of = ("peak", "jump", "slope", "period", None, "floor over predicted", "break over predicted")
     assert len(sentences) == len(starts)
     for sentence, start, name in zip(sentences, starts, of, strict=True):
-        assert sentence.startswith(start) and beside(mine[name] if name else level) in sentence
+        assert sentence.startswith(start) and with_reference(mine[name] if name else level) in sentence
     off = {**mine, "slope": feature(7.77, name="slope")}
     text = wheel_evidence._conclusions({"the scene": off}, "the scene", level)[2]
-    assert text == f"Not confirmed by this run: Its slope is that of linear theory: {beside(off['slope'])}."
+    assert text == f"Not confirmed by this run: Its slope is that of linear theory: {with_reference(off['slope'])}."
     assert "7.770 ± 0.050" in text
     without = wheel_evidence._conclusions({"the scene": {"peak": mine["peak"]}}, "the scene", None)
     assert [s.split(":")[0] for s in without[1:]] == ["None stands out in this run"] * 3
@@ -480,8 +480,8 @@ def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given(monkeypatc
     second, third, slope, plateau, cost, *_ = wheel_3d_evidence._conclusions(found, numbers)
     assert "region 2: linear, 3D +0.3 ± 0.2 dB (agree); springs, Geike -23.4 ± 0.3 dB (differ)." in second
     assert "region 3: linear, 3D +5.5 ± 0.1 dB (differ)." in third
-    assert beside(numbers[3]) in slope and not slope.startswith("Not")
-    assert beside(numbers[0]) in plateau and "23 dB too low" in plateau
+    assert with_reference(numbers[3]) in slope and not slope.startswith("Not")
+    assert with_reference(numbers[0]) in plateau and "23 dB too low" in plateau
     assert "11.5 applications" in cost
 
 
@@ -518,7 +518,7 @@ def test_fig_14_5_prints_the_numbers_it_is_given():
     ]
     text = wheel_distance_evidence._conclusions(result, law, numbers)
     told = [
-        f"exponent {beside(law)}",
+        f"exponent {with_reference(law)}",
         "at all 2 distances, to 5.0 %",
         "rms over all distances 1.050 ± 0.020 of it",
         "Hann's window lowers it by 31.3 dB, a motion that repeats itself by 42.6 dB",

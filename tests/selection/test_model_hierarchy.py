@@ -665,7 +665,7 @@ def test_the_account_prints_the_numbers_it_is_given():
     assert "a factor 5 is saved in the median, 4.79 in all scenes together" in sentence
     assert "Scenes that were said to be out of reach: 2; " in sentence
     assert "without them 5. Scenes without any answer: 1." in sentence
-    row = {name: values[0] for name, values in found.shown[1].columns.items()}
+    row = {name: values[0] for name, values in found.page_tables[1].columns.items()}
     assert row["true error within the claim"].startswith("33% (")
     assert row["claim over true error, median"] == "0.5"
     assert row["at most exceeded by"] == "3 times"

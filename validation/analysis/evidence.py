@@ -179,19 +179,19 @@ def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
 
 @dataclass(frozen=True, kw_only=True)
 class Evidence:
-    """What a case shows: how it was compared, its numbers, the tables behind its figures, what follows from them.
+    """What a case shows: its numbers, the tables behind its figures, and what follows from them.
 
-    captions: of each figure, by its name; shown: tables to be printed on the page as they stand.
+    method: how they were found; captions: of each figure, by its name; page_tables: printed on the page as they stand.
     """
 
     title: str
-    compared: str
+    method: str
     numbers: tuple[Number, ...]
     tables: tuple[Table, ...]
     conclusions: tuple[str, ...]
     captions: Mapping[str, str]
     unconverged: tuple[str, ...] = field(default=())
-    shown: tuple[Table, ...] = ()
+    page_tables: tuple[Table, ...] = ()
 
     def __post_init__(self) -> None:
         labels = [number.label for number in self.numbers]
@@ -213,7 +213,7 @@ def plus_minus(value: float, half_width: float) -> str:
     return f"{value:.{place}f} ± {half_width:.{place}f}" if place < 8 else f"{value:.5g} ± {half_width:.2g}"
 
 
-def beside(number: Number) -> str:
+def with_reference(number: Number) -> str:
     """Value, interval, reference and verdict, with what is left of a difference that the interval does not hold."""
     unit = "" if number.unit == "-" else f" {number.unit}"
     off = (
@@ -227,7 +227,7 @@ def beside(number: Number) -> str:
     )
 
 
-def claim(sentence: str, numbers: Sequence[Number]) -> str:
+def if_confirmed(sentence: str, numbers: Sequence[Number]) -> str:
     """A conclusion that holds as long as all its numbers agree."""
     if all(number.verdict is Verdict.AGREE for number in numbers):
         return sentence

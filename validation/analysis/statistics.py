@@ -59,7 +59,7 @@ def _added(value: float, estimates: Sequence[Estimate]) -> Estimate:
     return Estimate(value, error, 1 + int(min(freedom * (1 + ROUNDING), 1e9)))
 
 
-def left_out_error(without: NDArray[np.floating] | Sequence[float]) -> FloatArray:
+def jackknife_error(without: NDArray[np.floating] | Sequence[float]) -> FloatArray:
     """Standard error of a value from those without one of n realisations, or groups, after the other, along axis 0.
 
     sqrt((n - 1) / n sum (x_i - mean)^2), the jackknife.
@@ -153,7 +153,7 @@ def sample(realisations: FloatArray, rng: np.random.Generator) -> Sample:
     return Sample(_moments(rows), resampled.bootstrap_distribution, int(known.sum(axis=0).min()))
 
 
-def pairs(coarse: FloatArray, fine: FloatArray, rng: np.random.Generator) -> Sample:
+def paired_samples(coarse: FloatArray, fine: FloatArray, rng: np.random.Generator) -> Sample:
     """The same realisations on two grids, side by side for `change`; what one of them lacks counts in neither."""
     both = np.where(np.isfinite(coarse) & np.isfinite(fine), 1.0, np.nan)
     return sample(np.concatenate([both * coarse, both * fine], axis=1), rng)
@@ -173,12 +173,12 @@ def log_relative_deviation(mean: FloatArray, deviation: FloatArray) -> FloatArra
     return np.asarray(np.log(_relative(mean, deviation)))
 
 
-def at(level: int, statistic: Statistic) -> Statistic:
+def at_level(level: int, statistic: Statistic) -> Statistic:
     """A statistic at one level."""
     return lambda mean, deviation: statistic(mean[level], deviation[level])
 
 
-def combined(weights: FloatArray, statistic: Statistic) -> Statistic:
+def weighted_mean(weights: FloatArray, statistic: Statistic) -> Statistic:
     """sum_l w_l s_l of a statistic s of each level: with weights that sum to one, its mean over levels.
 
     A level without weight need not have the statistic.
@@ -227,7 +227,7 @@ def log_deviation_over(weights: FloatArray) -> Statistic:
     )
 
 
-def change(statistic: Statistic) -> Statistic:
+def difference_of_halves(statistic: Statistic) -> Statistic:
     """What a statistic is of the second half of the levels, less what it is of the first: pairs, resampled together."""
 
     def of_halves(mean: FloatArray, deviation: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Not converged is never success: the exception that says what has not."""
+"""NotConvergedError: a solve that has not converged is never a success."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -6,14 +6,14 @@ from typing import Any
 
 
 class NotConvergedError(RuntimeError):
-    """Too little has converged for any evidence; `lost` says what has not."""
+    """Too little has converged for any evidence; `unconverged` lists what has not."""
 
-    def __init__(self, message: str, lost: Sequence[str] = ()):
+    def __init__(self, message: str, unconverged: Sequence[str] = ()):
         super().__init__(message)
-        self.lost = tuple(lost)
+        self.unconverged = tuple(unconverged)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return NotConvergedError, (str(self), self.lost)
+        return NotConvergedError, (str(self), self.unconverged)
 
 
 @contextmanager

@@ -35,12 +35,12 @@ PATIENCE = 10
 KEPT = "finished solves are kept, the same command goes on from there"
 
 
-def generator(entropy: int, *key: int) -> np.random.Generator:
-    """The random numbers of one realisation, independent of all others and of who computes them.
+def random_generator(seed: int, *key: int) -> np.random.Generator:
+    """The random numbers of one realisation, independent of all others and of the process that draws them.
 
-    entropy: seed of the whole run, zero or positive; key: address of the realisation, whole numbers.
+    seed: of the whole run, zero or positive; key: address of the realisation, whole numbers.
     """
-    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(entropy, spawn_key=key)))
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=key)))
 
 
 class WorkerLostError(RuntimeError):
@@ -66,8 +66,8 @@ class Engine:
     store: Path | None = None
     progress: bool = False
     executor: str = LOCAL
-    asked: list[Callable[..., Outcome]] | None = field(default=None, repr=False, compare=False)
-    """The solves of a timed run, each as often as it was asked for."""
+    timed_solves: list[Callable[..., Outcome]] | None = field(default=None, repr=False, compare=False)
+    """The solves of a timed run, in the order of the calls of `map`."""
 
     def __post_init__(self) -> None:
         if self.executor != LOCAL and not re.fullmatch(r"dask://[^/\s]+:\d+", self.executor):
@@ -81,8 +81,8 @@ class Engine:
         solve: a module's own function; where part of it has not converged, its outcome says so by a number "failed";
         problems: frozen dataclasses of plain values, which their repr identifies.
         """
-        if self.asked is not None:
-            self.asked.append(solve)
+        if self.timed_solves is not None:
+            self.timed_solves.append(solve)
         keys = [f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_numerics()}" for problem in problems]
         places = [self._place(solve, key) for key in keys]
         known = {i: outcome for i, outcome in enumerate(map(_load, places, keys)) if outcome is not None}
@@ -90,7 +90,7 @@ class Engine:
         failed = sum(map(_failed, known.values()))
         name = solve.__name__.replace("_", " ")
         with Progress(name, total=len(problems), stored=len(known), failed=failed, shown=self.progress) as progress:
-            tasks = [_Task(solve, problems[i], i, places[i], keys[i]) for i in missing]
+            tasks = [_PendingSolve(solve, problems[i], i, places[i], keys[i]) for i in missing]
             # whatever is raised meanwhile ends the workers here and now
             with closing(self._solved(tasks)) as solved:
                 for i, outcome in solved:
@@ -108,12 +108,12 @@ class Engine:
         """One solve at a time, so that none is disturbed. What is over is computed anew the next time, by whatever name
         it was stored; what was interrupted goes on.
         """
-        alone = replace(self, workers=1, executor=LOCAL, asked=[])
+        alone = replace(self, workers=1, executor=LOCAL, timed_solves=[])
         yield alone
         if self.store is not None:
-            stored.forget(self.store, [_named(solve) for solve in alone.asked or ()])
+            stored.forget(self.store, [_named(solve) for solve in alone.timed_solves or ()])
 
-    def _solved(self, tasks: Sequence["_Task[P]"]) -> Generator[tuple[int, Outcome], None, None]:
+    def _solved(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome], None, None]:
         """Each as soon as it is finished."""
         if not tasks:
             return
@@ -147,7 +147,7 @@ SERIAL = Engine()
 
 
 @dataclass(frozen=True)
-class _Task(Generic[P]):
+class _PendingSolve(Generic[P]):
     """A problem, which of all it is, and where its result belongs."""
 
     solve: Callable[[P], Outcome]
@@ -157,7 +157,7 @@ class _Task(Generic[P]):
     key: str
 
 
-def _solve_and_save(task: _Task[P], numerics: str) -> tuple[int, Outcome]:
+def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome]:
     i, outcome = _solve(task.solve, task.problem, task.index, numerics)
     _save(task.place, task.key, outcome)
     return i, outcome

@@ -137,7 +137,7 @@ def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | 
         with as_not_converged():
             evidence = entry.evidence(entry.run(case, engine))
     except NotConvergedError as error:
-        return Section(name, entry, entry.model_needed(case), asdict(case), None, (str(error), *error.lost))
+        return Section(name, entry, entry.model_needed(case), asdict(case), None, (str(error), *error.unconverged))
     return Section(name, entry, entry.model_needed(case), asdict(case), evidence)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.engine.engine import generator
+from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
@@ -178,7 +178,7 @@ class IndentationOnSprings:
         scene, ground, length, points = self.scene, ground_of(self.scene), self.length, self.points
         x = (np.arange(points) + 0.5) * length / points - length / 2
         wheel = mdr.sphere_profile(x, radius=scene.size) if scene.shape == "sphere" else np.zeros(points)
-        rng, block = generator(self.seed, PROFILES), max(1, BLOCK // points)
+        rng, block = random_generator(self.seed, PROFILES), max(1, BLOCK // points)
         for first in range(0, self.count, block):
             profiles = mdr.rough_profiles(
                 lambda q: mdr.geike(q, ground.c2d),

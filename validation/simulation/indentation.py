@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.engine.engine import generator
+from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
@@ -109,7 +109,7 @@ def height_of(scene: IndentationScene, cells: int, realisation: int, seed: int) 
     ground, side = ground_of(scene), side_of(scene)
     if isinstance(ground, MeasuredHeights):
         return _resampled(ground, side, cells)
-    return _drawn(ground, shortest_held(scene, cells), cells, side, generator(seed, SURFACES, realisation))
+    return _drawn(ground, shortest_held(scene, cells), cells, side, random_generator(seed, SURFACES, realisation))
 
 
 def highest_of(scene: IndentationScene, cells: int) -> FloatArray:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.analysis.spectra import levels, waves
-from validation.engine.engine import generator
+from validation.engine.engine import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, Linear, SpringsLaw
 from validation.simulation.motion import simulate
@@ -87,7 +87,7 @@ def strip_of(question: RollingQuantity, cells: int, realisation: int, seed: int)
             ground.c2d,
             shape=(grid.along, grid.across),
             spacing=grid.spacing,
-            rng=generator(seed, STRIPS, realisation),
+            rng=random_generator(seed, STRIPS, realisation),
             rms=ground.rms,
         )
 
@@ -168,7 +168,7 @@ def _tracks(question: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArr
             feed,
             length=points * spacing,
             points=points,
-            rng=generator(seed, TRACKS, i),
+            rng=random_generator(seed, TRACKS, i),
             rms=ground.rms if geike else None,
         )
         for i in range(tracks)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, cross_levels, levels, waves
-from validation.engine.engine import Outcome, generator
+from validation.engine.engine import Outcome, random_generator
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import linear_force
 
@@ -57,7 +57,7 @@ class Strip:
                 self.spectrum.c2d,
                 shape=(round(self.length * self.cells), round(self.width * self.cells)),
                 spacing=1 / self.cells,
-                rng=generator(self.seed, STRIPS, self.realisation),
+                rng=random_generator(self.seed, STRIPS, self.realisation),
                 rms=1.0,
             )
         return np.asarray(self.height * unit)
@@ -122,7 +122,7 @@ class Tracks:
             TrackSpectrum(self.spectrum, self.input_spectrum),
             length=self.length,
             points=points,
-            rng=generator(self.seed, TRACKS, realisation),
+            rng=random_generator(self.seed, TRACKS, realisation),
             rms=1.0 if self.input_spectrum == "geike" else None,
         )
         return np.asarray(self.height * unit)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Outcome, generator
+from validation.engine.engine import Outcome, random_generator
 
 FloatArray = NDArray[np.float64]
 
@@ -80,7 +80,7 @@ class PunchRoughness:
 
     def _generator(self, kind: int, realisation: int) -> np.random.Generator:
         """The address of a Hurst exponent is its own, so that adding one leaves the others their numbers."""
-        return generator(self.seed, kind, round(1000 * self.hurst), realisation)
+        return random_generator(self.seed, kind, round(1000 * self.hurst), realisation)
 
     def _normalised(self, height: FloatArray) -> FloatArray:
         if self.amplitudes == "fixed" or self.normalised == "ensemble":
@@ -189,7 +189,7 @@ def stacked(outcomes: list[Outcome]) -> Outcome:
     return {name: np.array([row(outcome[name]) for outcome in outcomes]) for name in outcomes[0]}
 
 
-def lost(problems: list[Surface], outcomes: list[Outcome]) -> tuple[str, ...]:
+def describe_failures(problems: list[Surface], outcomes: list[Outcome]) -> tuple[str, ...]:
     """A line for each load that did not converge."""
     return tuple(
         f"surface {s.realisation}, H = {s.roughness.hurst:g}, {s.cells}² cells, Fbar = {force:.3g}: "
@@ -200,7 +200,7 @@ def lost(problems: list[Surface], outcomes: list[Outcome]) -> tuple[str, ...]:
     )
 
 
-def enough(outcomes: Iterable[Outcome], unconverged: Sequence[str]) -> None:
+def require_converged(outcomes: Iterable[Outcome], unconverged: Sequence[str]) -> None:
     """Raise NotConvergedError unless three surfaces at the least have converged at each force."""
     for outcome in outcomes:
         fewest = int(np.isfinite(outcome["stiffness"]).sum(axis=0).min())

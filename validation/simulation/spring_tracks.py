@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 import mdr
-from validation.engine.engine import Outcome, generator
+from validation.engine.engine import Outcome, random_generator
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import SpringsLaw
 from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
@@ -62,7 +62,7 @@ class RoughTrack:
                 spectrum.c1d,
                 length=self.waves * self.longest,
                 points=self.points,
-                rng=generator(self.seed, self.realisation + i),
+                rng=random_generator(self.seed, self.realisation + i),
                 rms=self.rms,
             )
             for i in range(count)

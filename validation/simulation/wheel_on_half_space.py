@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.engine.engine import Outcome, generator
+from validation.engine.engine import Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
@@ -75,7 +75,7 @@ class WheelStrip:
                 self.roughness.spectrum.c2d,
                 shape=self.shape,
                 spacing=self.spacing,
-                rng=generator(self.seed, STRIPS, self.realisation),
+                rng=random_generator(self.seed, STRIPS, self.realisation),
                 rms=self.roughness.rms,
             )
 

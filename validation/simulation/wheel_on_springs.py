@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
 import mdr
-from validation.analysis.records import band_means, spectra
-from validation.engine.engine import Outcome, generator
+from validation.analysis.spectra import band_means, record_spectra
+from validation.engine.engine import Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
@@ -110,7 +110,7 @@ class WheelEnsemble:
             roughness.spectrum.c1d if geike else rolling_feed(roughness, self.scene.contact_radius),
             length=points * self.scene.spacing,
             points=points,
-            rng=generator(self.seed, kind, number),
+            rng=random_generator(self.seed, kind, number),
             rms=roughness.rms if geike else None,
         )
 
@@ -139,7 +139,7 @@ def roll_wheels(rides: WheelEnsemble) -> Outcome:
     except ArithmeticError:
         # a wheel that was thrown so far that sums would round: nothing of this ensemble is trusted
         return {"failed": np.array(float(rides.count))}
-    plain, hann = (spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
+    plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     scene, groups = rides.scene, np.arange(rides.count).reshape(rides.groups, -1)
     bands = band_edges(plain.omega)
     return {

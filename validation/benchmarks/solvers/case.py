@@ -17,7 +17,7 @@ from validation.benchmarks.isolation import one_thread, own_process, peak_memory
 from validation.benchmarks.peers import CONTESTANTS, Contestant, Run, Solve, Task
 from validation.benchmarks.solvers.dynamic_wheel import SteppingThroughput, measure_wheels
 from validation.benchmarks.solvers.rolling import RollingThroughput, measure_rolls
-from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
 
 SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
@@ -57,7 +57,7 @@ class Course:
         if self.surface == PUNCH:
             return punch(n, self.seed).surface(n, 0)
         band = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * n / 4, rms=0.01)
-        return bem3d.rough_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=generator(self.seed), rms=0.01)
+        return bem3d.rough_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=random_generator(self.seed), rms=0.01)
 
     def task(self) -> Task:
         """The problem, with the approach that belongs to its force."""

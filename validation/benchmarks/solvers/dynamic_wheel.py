@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import bem3d
 from validation.analysis.evidence import Table, table_of
 from validation.benchmarks.isolation import one_thread, own_process, timed
-from validation.engine.engine import Engine, Outcome, generator
+from validation.engine.engine import Engine, Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
@@ -170,7 +170,7 @@ def _measure_half_space(problem: OnHalfSpace) -> Outcome:
             rough.spectrum.c2d,
             shape=(max(problem.steps, 16 * problem.cells), 16 * problem.cells),
             spacing=spacing,
-            rng=generator(problem.seed),
+            rng=random_generator(problem.seed),
             rms=rough.rms,
         )
     law = BoundaryElementsLaw(wheel, [narrowed(surface, spacing, wheel)], spacing, tolerance=problem.tolerance)

@@ -26,7 +26,7 @@ def evidence(result: RaceResult) -> Evidence:
     cells = " and ".join(f"{n}²" for n in result.race.cells)
     return Evidence(
         title="The race: time to the same residual, one thread each",
-        compared=(
+        method=(
             f"Everyone solves the same discrete problems, cold, to a residual of {result.race.residual:g} as this "
             "project defines it, from a fresh operator application on the returned pressure; with the loosest of their "
             "own tolerances that reaches it. By force, or by the approach that belongs to this force, as each prefers. "
@@ -45,7 +45,7 @@ def evidence(result: RaceResult) -> Evidence:
             result.rolling[0],
             result.wheel[0],
         ),
-        shown=(
+        page_tables=(
             _times(result.heats, result.outcomes, "Seconds"),
             _times(result.errands, result.errand_outcomes, "The same for some of the loads of Fig. 14.1"),
             result.rolling[1],

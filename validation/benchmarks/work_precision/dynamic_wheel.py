@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.records import band_levels, one_third_octaves, spectra
+from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.benchmarks.work_precision.grids import Refined
 from validation.benchmarks.work_precision.measurement import (
     CLOSED,
@@ -100,7 +100,7 @@ class WheelProblem(Refined):
 
     def levels(self, acceleration: FloatArray, time_step: float) -> FloatArray:
         """int A df in each band, with Hann's window, one row a wheel."""
-        record = spectra(acceleration, time_step=time_step, window="hann")
+        record = record_spectra(acceleration, time_step=time_step, window="hann")
         return band_levels(record.omega, record.density, self.edges).T
 
     def attempts(self) -> tuple[Configuration, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from validation.analysis.statistics import left_out_error
+from validation.analysis.statistics import jackknife_error
 from validation.benchmarks.work_precision.measurement import (
     EXTRAPOLATED,
     FINISHED,
@@ -106,7 +106,7 @@ def _half_width(without: list[float]) -> float:
         return 0.0
     if not np.isfinite(without).all():
         return math.inf
-    return float(stats.t.ppf(0.975, len(without) - 1) * left_out_error(without))
+    return float(stats.t.ppf(0.975, len(without) - 1) * jackknife_error(without))
 
 
 def reference_of(scene: Scene, found: Found) -> tuple[MethodAnswers, Callable[[Quantity], float]]:

@@ -76,17 +76,17 @@ def evidence(result: PrecisionResult) -> Evidence:
     charts = Charts(result)
     return Evidence(
         title="Speed against accuracy: which method is enough, and what it costs",
-        compared=_compared(result),
+        method=_method(result),
         numbers=(*_orders(charts), *_equal(charts), *_models(charts)),
         tables=(_table(charts), _summary(charts)),
-        shown=(_cheapest(charts), _without(charts)),
+        page_tables=(_cheapest(charts), _without(charts)),
         conclusions=tuple(break_even(group) for group in charts.groups),
         captions=_captions(),
         unconverged=_unconverged(charts),
     )
 
 
-def _compared(result: PrecisionResult) -> str:
+def _method(result: PrecisionResult) -> str:
     case = result.case
     return (
         "Each method is a line, its knob turned along it: cells, springs, residual. Error: beside closed forms where "

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.analysis.statistics import POWER_DECIBEL
 from validation.benchmarks.isolation import one_thread, own_process, timed
 from validation.engine.engine import Outcome
 
@@ -98,7 +99,7 @@ class Quantity:
     def distance(self, log_ratio: FloatArray) -> float:
         """|ratio - 1|, or the root mean square of 10 lg ratio [dB]."""
         if self.decibel:
-            return float(10 / np.log(10) * np.sqrt(np.mean(log_ratio**2)))
+            return float(POWER_DECIBEL * np.sqrt(np.mean(log_ratio**2)))
         return float(np.abs(np.expm1(log_ratio)).max())
 
 

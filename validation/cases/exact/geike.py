@@ -8,7 +8,7 @@ import numpy as np
 import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, claim, columns
+from validation.analysis.evidence import Evidence, Number, Role, Table, columns, if_confirmed
 from validation.cases.exact.spectral_moments import (
     line_moment,
     mean_power_of_cosine,
@@ -16,7 +16,7 @@ from validation.cases.exact.spectral_moments import (
     sum_over_surface,
     surface_moment,
 )
-from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.theory import closed_forms
 
 MOMENTS = (0, 1, 2, 3, 4)
@@ -80,7 +80,7 @@ def measure_profile(draw: Draw) -> Outcome:
     """Mean squares of height, gradient and curvature of a profile, and its spectrum."""
     case = draw.case
     height = mdr.rough_profile(
-        case.spectrum.c1d, length=case.length, points=case.cells, rng=generator(case.seed, 1, draw.realisation)
+        case.spectrum.c1d, length=case.length, points=case.cells, rng=random_generator(case.seed, 1, draw.realisation)
     )
     power = np.abs(np.fft.fft(height, norm="forward")) ** 2
     q = 2 * np.pi * np.abs(np.fft.fftfreq(case.cells, case.spacing))
@@ -97,7 +97,7 @@ def measure_surface(draw: Draw) -> Outcome:
     case = draw.case
     shape = case.cells, case.cells
     height = bem3d.rough_surface(
-        case.spectrum.c2d, shape=shape, spacing=case.spacing, rng=generator(case.seed, 2, draw.realisation)
+        case.spectrum.c2d, shape=shape, spacing=case.spacing, rng=random_generator(case.seed, 2, draw.realisation)
     )
     power = np.abs(np.fft.fft2(height, norm="forward")) ** 2
     q = 2 * np.pi * np.fft.fftfreq(case.cells, case.spacing)
@@ -126,7 +126,7 @@ def evidence(result: GeikeResult) -> Evidence:
     exact = _of_spectra(kept)
     return Evidence(
         title="Geike's rule",
-        compared=(
+        method=(
             f"Self-affine roughness, H = {case.hurst:g}, waves from L/{case.longest} to L/{case.cells // 4}: moments "
             f"of the spectra by quadrature, and of {case.surfaces} profiles of {case.cells} points and "
             f"{case.surfaces} surfaces of {case.cells}² cells drawn from them, fixed amplitudes, random phases."
@@ -139,7 +139,7 @@ def evidence(result: GeikeResult) -> Evidence:
         ),
         tables=(spectra, _moments(kept)),
         conclusions=(
-            claim(
+            if_confirmed(
                 "Geike's rule keeps every moment of the surface; the line trace keeps the mean square height but has "
                 f"{100 * (1 - kept[LINE][2]):.1f} % less mean square gradient.",
                 exact,

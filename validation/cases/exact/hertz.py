@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Table, claim, columns
+from validation.analysis.evidence import Evidence, Number, Table, columns, if_confirmed
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
@@ -167,7 +167,7 @@ def evidence(result: HertzResult) -> Evidence:
     )
     return Evidence(
         title="Smooth sphere",
-        compared=(
+        method=(
             f"A rigid sphere, R = {case.radius:g} m, on a half-space of E* = {case.modulus / 1e9:g} GPa, pressed by "
             f"{case.approach * 1e6:g} µm (Hertz: {case.force:.1f} N, a = {case.contact_radius * 1e3:.4f} mm). "
             f"MDR: the parabola x²/R on springs. Boundary elements: (x² + y²)/2R on cells of the same width. "
@@ -177,7 +177,7 @@ def evidence(result: HertzResult) -> Evidence:
         numbers=numbers,
         tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
         conclusions=(
-            claim(
+            if_confirmed(
                 "For a smooth sphere both methods give the same force, approach, contact radius and stiffness. "
                 f"The forces differ by {abs(methods - 1):.1e} with {n[-1]} cells in the contact radius.",
                 numbers,

@@ -91,7 +91,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
     last = result.punches[-1]
     return Evidence(
         title="Flat punches",
-        compared=(
+        method=(
             f"A flat square of side L and a flat circle of diameter L, pressed by boundary elements on {n[0]}² to "
             f"{n[-1]}² cells that cover the square; a flat profile on springs, of length L and of 1.1523 L."
         ),

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import bem3d
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Table, claim, columns
+from validation.analysis.evidence import Evidence, Number, Table, columns, if_confirmed
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.theory import closed_forms
@@ -113,7 +113,7 @@ def evidence(result: WestergaardResult) -> Evidence:
     edges = min(_share_of_edges(o) for o in result.finest)
     return Evidence(
         title="Periodic wave",
-        compared=(
+        method=(
             f"A rigid wave of amplitude {case.amplitude * 1e6:g} µm and wavelength {case.wavelength * 1e3:g} mm "
             f"pressed against a half-space of E* = {case.modulus / 1e9:g} GPa at prescribed mean pressure, on one row "
             f"of {n[0]} to {n[-1]} cells. MDR is not part of this comparison: independent springs have no equivalent "
@@ -122,7 +122,7 @@ def evidence(result: WestergaardResult) -> Evidence:
         numbers=tuple(numbers),
         tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
         conclusions=(
-            claim("The periodic operator agrees with Westergaard at every load.", numbers),
+            if_confirmed("The periodic operator agrees with Westergaard at every load.", numbers),
             f"On {n[-1]} cells the relative L2 error of the pressure is {half[-1]:.1e} at 0.5 p*, where the edges of "
             f"the contact lie between cells, and {errors[:, -1].max():.1e} at the worst load, where they cut a cell. "
             f"At least {100 * edges:.0f} % of its square is in the two cells at the edges.",

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.cases.limits.sweep import Limit, heard, swept
+from validation.cases.limits.sweep import Limit, call_and_record_warnings, swept
 from validation.engine.engine import Outcome
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
@@ -178,7 +178,7 @@ def resolve(problem: Resolved) -> Outcome:
     true = [_area(r, problem.finest, i, problem.force) for i in range(problem.surfaces)]
     errors, said = [], []
     for cells in problem.cells:
-        _, words = heard(partial(r.surface, cells, 0))
+        _, words = call_and_record_warnings(partial(r.surface, cells, 0))
         found = [_area(r, cells, i, problem.force) for i in range(problem.surfaces)]
         errors.append(math.sqrt(sum((k / one - 1) ** 2 for k, one in zip(found, true, strict=True)) / len(true)))
         said.append(words)
@@ -187,11 +187,13 @@ def resolve(problem: Resolved) -> Outcome:
 
 def _area(roughness: PunchRoughness, cells: int, realisation: int, force: float) -> float:
     """True contact area under the force; infinitely wrong where the grid cannot carry the surface."""
-    height, _ = heard(partial(roughness.surface, cells, realisation))
+    height, _ = call_and_record_warnings(partial(roughness.surface, cells, realisation))
     if height is None:
         return math.inf
     body = half_space(cells, 1 / cells, periodic=True)
-    contact, words = heard(partial(bem3d.solve, body, -height, force=force * roughness.height, tolerance=1e-5))
+    contact, words = call_and_record_warnings(
+        partial(bem3d.solve, body, -height, force=force * roughness.height, tolerance=1e-5)
+    )
     if contact is None:
         raise ArithmeticError(words)
     return contact.area
@@ -226,7 +228,9 @@ def _few_cells(problem: Spheres) -> Outcome:
         squares = 0.0
         for place in (np.arange(problem.places) + 0.5) / (2 * problem.places):
             gap = sphere(side, 1 / cells, float(place))
-            contact, words = heard(partial(bem3d.solve, half_space(side, 1 / cells), gap, approach=1.0))
+            contact, words = call_and_record_warnings(
+                partial(bem3d.solve, half_space(side, 1 / cells), gap, approach=1.0)
+            )
             assert contact is not None
             squares += (contact.stiffness() / 2 - 1) ** 2 / problem.places
             heard_at.append(words)
@@ -242,7 +246,9 @@ def _images(problem: Spheres) -> Outcome:
         cells = period * problem.fine
         gap = sphere(cells, dx)
         free = bem3d.solve(half_space(cells, dx), gap, force=HERTZ)
-        imaged, words = heard(partial(bem3d.solve, half_space(cells, dx, periodic=True), gap, force=HERTZ))
+        imaged, words = call_and_record_warnings(
+            partial(bem3d.solve, half_space(cells, dx, periodic=True), gap, force=HERTZ)
+        )
         assert imaged is not None
         errors.append(abs(imaged.approach / free.approach - 1))
         said.append(words)
@@ -256,7 +262,9 @@ def _edge(problem: Spheres) -> Outcome:
     wide = (4 * problem.finer, 4 * problem.finer + 1)
     true = [bem3d.solve(half_space(side, dx), sphere(side, dx), approach=1.0).force for side in wide]
     for side in problem.sides:
-        contact, words = heard(partial(bem3d.solve, half_space(side, dx), sphere(side, dx), approach=1.0))
+        contact, words = call_and_record_warnings(
+            partial(bem3d.solve, half_space(side, dx), sphere(side, dx), approach=1.0)
+        )
         assert contact is not None
         errors.append(abs(contact.force / true[side % 2] - 1))
         said.append(words)
@@ -273,7 +281,7 @@ def _strip(problem: Spheres) -> Outcome:
 
     true = roll(length).force[-1]
     for width in problem.sides:
-        rolled, words = heard(partial(roll, width))
+        rolled, words = call_and_record_warnings(partial(roll, width))
         errors.append(math.inf if rolled is None else abs(rolled.force[-1] / true - 1))
         said.append(words)
     return swept("strip", np.array(problem.sides) * dx / 2, errors, 1.0, said)
@@ -288,7 +296,7 @@ def _spike(problem: Spheres) -> Outcome:
     for height in problem.heights:
         spiked = gap.copy()
         spiked[middle, middle] -= height
-        contact, words = heard(partial(bem3d.solve, body, spiked, approach=1.0, tolerance=RESIDUAL))
+        contact, words = call_and_record_warnings(partial(bem3d.solve, body, spiked, approach=1.0, tolerance=RESIDUAL))
         assert contact is not None
         errors.append(abs(contact.force / true - 1))
         said.append(words)
@@ -316,11 +324,13 @@ def _by_approach(body: bem3d.HalfSpace, gap: FloatArray, x: FloatArray, loads: t
     errors, said, by_force = [], [], []
     for load in loads:
         force = load * math.pi * body.cell_area * x.size
-        known, _ = heard(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
+        known, _ = call_and_record_warnings(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
         assert known is not None
         by_force.append((known.iterations, distance(known.pressure[:, 0], westergaard(x, load))))
         approach = known.approach if load < 1 else float(gap.mean())
-        contact, words = heard(partial(bem3d.solve, body, gap, approach=approach, tolerance=RESIDUAL))
+        contact, words = call_and_record_warnings(
+            partial(bem3d.solve, body, gap, approach=approach, tolerance=RESIDUAL)
+        )
         errors.append(math.inf if contact is None else abs(contact.force / force - 1))
         said.append(words)
     iterations, error = np.array(by_force, dtype=np.float64).T
@@ -340,8 +350,8 @@ def _by_force(body: bem3d.HalfSpace, gap: FloatArray, x: FloatArray, huge: tuple
     errors, said = [], []
     for load in huge:
         press = partial(bem3d.solve, body, gap, force=load * math.pi * body.cell_area * x.size, tolerance=RESIDUAL)
-        _, words = heard(press)
-        contact, _ = heard(partial(press, raise_on_failure=False))
+        _, words = call_and_record_warnings(press)
+        contact, _ = call_and_record_warnings(partial(press, raise_on_failure=False))
         assert contact is not None
         waves = contact.pressure[:, 0] / math.pi - load - np.cos(2 * np.pi * x)
         errors.append(float(np.sqrt(np.mean(waves**2))))

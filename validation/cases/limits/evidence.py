@@ -7,7 +7,7 @@ import numpy as np
 from scipy import stats
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, claim, table_of
+from validation.analysis.evidence import Evidence, Number, Role, Table, if_confirmed, table_of
 from validation.cases.limits import boundary_elements as limits_bem
 from validation.cases.limits.limits import Limits, LimitsResult, run
 from validation.cases.limits.solver import MEASURES, SCENES, SOLVERS
@@ -34,7 +34,7 @@ def evidence(result: LimitsResult) -> Evidence:
     survived = _survived(result)
     return Evidence(
         title="Where each method fails, and whether it says so",
-        compared=_compared(result),
+        method=_method(result),
         numbers=(*borders, *told, survived, *exponents, *honest),
         tables=(_limits(result), _sweeps(result), iterations, residuals),
         conclusions=(
@@ -46,11 +46,11 @@ def evidence(result: LimitsResult) -> Evidence:
         ),
         captions=_captions(),
         unconverged=result.unconverged,
-        shown=(_summary(result), table_of("input without an answer", result.unanswered)),
+        page_tables=(_summary(result), table_of("input without an answer", result.unanswered)),
     )
 
 
-def _compared(result: LimitsResult) -> str:
+def _method(result: LimitsResult) -> str:
     case = result.case
     return (
         f"{len(result.sweeps)} limits of springs, time stepping and boundary elements, each swept through: the error "
@@ -259,7 +259,7 @@ def _of_borders(result: LimitsResult, criteria: Sequence[Number]) -> str:
     refused = [s for s in result.sweeps if s.refused]
     seen = [s for s in result.sweeps if not s.refused]
     missed = [s for s in seen if not s.predicted]
-    return claim(
+    return if_confirmed(
         f"{len(seen) - len(missed)} of {len(seen)} limits lie where their condition says, within the factor stated for "
         f"each, {sum(s.limit.derived for s in seen)} of them by theory alone and the others by an estimate; not "
         f"predicted: {_named(missed)}. At {len(refused)} more no answer is given, so that no error is seen, and only "
@@ -272,7 +272,7 @@ def _of_words(result: LimitsResult, criteria: Sequence[Number]) -> str:
     told = [s for s in result.sweeps if s.verdict == "told"]
     silent = [s for s in result.sweeps if s.verdict == "not told"]
     partly = [s for s in result.sweeps if s not in told and s not in silent]
-    return claim(
+    return if_confirmed(
         f"A user who goes too far is told at {len(told)} of {len(result.sweeps)} limits: {_named(told)}. Told in part: "
         + ("; ".join(f"{s.limit.title} ({s.limit.method}), {s.verdict}" for s in partly) or "none")
         + f". Not told at {len(silent)}: {_named(silent)}.",
@@ -285,7 +285,7 @@ def _of_what_else(result: LimitsResult, survived: Number) -> str:
     loads, work = more["full contact knob"], more["full contact, iterations"]
     error, fed = more["full contact, L2"], more["level, fed for rolling"]
     level = next(s for s in result.sweeps if s.limit.name == "level").at_the_ends()[0]
-    return claim(
+    return if_confirmed(
         f"Under a force instead of an approach full contact is no limit: from {loads[0]:g} to {loads[-1]:g} p* the "
         f"pressure is within {error.max():.2g} of Westergaard in L2 after {work.min():.0f} to {work.max():.0f} "
         "iterations. "

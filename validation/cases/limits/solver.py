@@ -11,7 +11,7 @@ import numpy as np
 import bem3d
 import mdr
 from validation.cases.limits.boundary_elements import distance, sphere
-from validation.cases.limits.sweep import heard
+from validation.cases.limits.sweep import call_and_record_warnings
 from validation.engine.engine import Outcome
 from validation.simulation.rough_punch import PunchRoughness
 
@@ -97,7 +97,7 @@ def without_an_answer() -> list[Row]:
 
 
 def _answered(call: Callable[[], Any]) -> str:
-    answer, words = heard(call)
+    answer, words = call_and_record_warnings(call)
     if answer is None:
         return words
     stiffness = answer.stiffness() if isinstance(answer, bem3d.Contact) else answer.stiffness

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.cases.limits.sweep import Limit, heard, swept
-from validation.engine.engine import Outcome, generator
+from validation.cases.limits.sweep import Limit, call_and_record_warnings, swept
+from validation.engine.engine import Outcome, random_generator
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.rolling_strip import Strip, roll_strip
 from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface, press_profiles, press_surface
@@ -218,7 +218,7 @@ def press_punches(problem: Punches) -> Outcome:
     )
     area, gap = (np.mean([s[name] for s in surfaces], axis=0) for name in ("area", "gap"))
     curve = mdr.load_curve(r.profile(problem.points, 0), length=1.0, modulus=1.0)
-    said = [heard(partial(curve.at_force, r.height * f))[1] for f in problem.forces]
+    said = [call_and_record_warnings(partial(curve.at_force, r.height * f))[1] for f in problem.forces]
     slope = float(np.mean([s["gradient"] for s in surfaces])) / r.height
     apart = np.abs(springs["gap"].mean(axis=0) - gap) / r.height
     return {
@@ -233,7 +233,7 @@ def compare_octaves(problem: Octaves) -> Outcome:
     spectrum = self_affine(problem.hurst, problem.first, problem.last)
     apart = np.array([_apart(spectrum, centre, problem.lines) for centre in problem.centres])
     # springs know a spectrum and no surface: they are asked once, over the waves about the contact
-    _, words = heard(partial(_rolled, self_affine(problem.hurst, 0.25, 8.0), problem.seed))
+    _, words = call_and_record_warnings(partial(_rolled, self_affine(problem.hurst, 0.25, 8.0), problem.seed))
     geike, rolling = np.abs(apart).T
     said = [words] * len(problem.centres)
     return {**swept("level", problem.centres, geike, 1.0, said), "level, fed for rolling": rolling}
@@ -262,7 +262,7 @@ def _rolled(spectrum: PiecewisePowerLaw, seed: int) -> FloatArray:
     length = 8 * 2 * math.pi / spectrum.edges[0]
     points = math.ceil(length * max(16.0, 8 * spectrum.edges[-1] / (2 * math.pi)))
     track = mdr.rough_profile(
-        TrackSpectrum(spectrum, "geike"), length=length, points=points, rng=generator(seed, 1), rms=1e-3
+        TrackSpectrum(spectrum, "geike"), length=length, points=points, rng=random_generator(seed, 1), rms=1e-3
     )
     return mdr.rolling_force(track, spacing=length / points, radius=1.0, modulus=1.0, approach=1.0)
 
@@ -280,7 +280,7 @@ def stretch(problem: Stretched) -> Outcome:
         cut = cut_along(spectrum, ratio)
         springs = force_variance(cut.c2d, edges=cut.edges, contact_radius=1.0, modulus=1.0)
         errors.append(abs(math.sqrt(springs / stretched_variance(spectrum, ratio)) - 1))
-        said.append(heard(partial(_rolled, cut, problem.seed))[1])
+        said.append(call_and_record_warnings(partial(_rolled, cut, problem.seed))[1])
     border = (1 + ANISOTROPY.tolerance) ** 2 - 1
     return swept("anisotropy", np.array(problem.ratios) - 1, errors, border, said)
 
@@ -308,13 +308,13 @@ def make_higher(problem: Heights) -> Outcome:
         TrackSpectrum(spectrum, "geike"),
         length=problem.length,
         points=round(problem.length * problem.springs),
-        rng=generator(problem.seed, 2),
+        rng=random_generator(problem.seed, 2),
         rms=1.0,
     )
     errors, said = [], []
     for height in problem.heights:
         roll = partial(mdr.roll, height * unit, spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
-        linear, words = heard(partial(roll, contact="linear"))
+        linear, words = call_and_record_warnings(partial(roll, contact="linear"))
         assert linear is not None
         true = roll().force
         errors.append(np.std(linear.force - true) / np.std(linear.force))
@@ -337,7 +337,7 @@ def make_strips_higher(problem: Strips) -> Outcome:
             tolerance=1e-4,
             seed=problem.seed,
         )
-        found, words = heard(partial(roll_strip, strip))
+        found, words = call_and_record_warnings(partial(roll_strip, strip))
         assert found is not None
         force, linear = found["force"], found["linear"]
         errors.append(np.nanstd(force - linear) / np.std(linear))
@@ -359,7 +359,7 @@ def space_out(problem: Coarser) -> Outcome:
     track = RoughTrack(rms=1e-3 * WHEEL.approach, seed=problem.seed, waves=9, per_wave=FINE)
     level = coarsen(Spacings(track=track))["level"]
     error = [abs(decibel(one)) if one > 0 else math.inf for one in level]
-    said = [heard(partial(_drawn_on, track, track.points // n))[1] for n in STRIDES]
+    said = [call_and_record_warnings(partial(_drawn_on, track, track.points // n))[1] for n in STRIDES]
     return swept("spacing", FINE / np.array(STRIDES), error, 4.0, said)
 
 
@@ -367,7 +367,7 @@ def _drawn_on(track: RoughTrack, points: int) -> FloatArray:
     q_min, q_max = 2 * np.pi / track.longest, 2 * np.pi / track.shortest
     spectrum = mdr.SelfAffine(hurst=track.hurst, q_min=q_min, q_max=q_max, rms=track.rms)
     return mdr.rough_profile(
-        spectrum.c1d, length=track.waves * track.longest, points=points, rng=generator(track.seed), rms=track.rms
+        spectrum.c1d, length=track.waves * track.longest, points=points, rng=random_generator(track.seed), rms=track.rms
     )
 
 
@@ -385,6 +385,6 @@ def press_asperities(problem: Asperities) -> Outcome:
     for f, count in zip(force.tolist(), springs.T, strict=True):
         typical = int(np.argmin(np.abs(count - count.mean())))
         curve = mdr.load_curve(r.profile(problem.points, typical), length=1.0, modulus=1.0)
-        said.append(heard(partial(curve.at_force, f))[1])
+        said.append(call_and_record_warnings(partial(curve.at_force, f))[1])
     error = np.sqrt(np.mean((coarse / fine - 1) ** 2, axis=0))
     return swept("asperity", springs.mean(axis=0), error, 1 / (math.sqrt(6) * ASPERITY.tolerance), said)

@@ -148,7 +148,7 @@ def swept(name: str, knob: ArrayLike, error: ArrayLike, border: float, said: Seq
     }
 
 
-def heard(call: Callable[[], T]) -> tuple[T | None, str]:
+def call_and_record_warnings(call: Callable[[], T]) -> tuple[T | None, str]:
     """What a call answers, None where it refuses, and what it says: its warnings, or the reason of its refusal.
 
     Whether units are right is asked of spikes and pits on either side of a limit, and is no word about it.

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 import mdr
-from validation.cases.limits.sweep import Limit, heard, swept
+from validation.cases.limits.sweep import Limit, call_and_record_warnings, swept
 from validation.engine.engine import Outcome
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
@@ -116,7 +116,7 @@ def _begun(scheme: Integrator, steps: tuple[float, ...]) -> list[str]:
     """What is said of a step of each length: of one cell, of which the scheme may take more."""
     law = HertzLaw(WHEEL)
     return [
-        heard(
+        call_and_record_warnings(
             partial(
                 simulate,
                 WHEEL,
@@ -138,7 +138,7 @@ def hop(problem: Hops) -> Outcome:
         motion = LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=problem.wheels, rounds=1)
         found = lift_off(motion)
         # a linear contact in motion has its force from the filter, which is where a user is told
-        _, words = heard(partial(_filtered, track))
+        _, words = call_and_record_warnings(partial(_filtered, track))
         airborne.append(float(found["airborne"].mean()))
         imbalance.append(float(np.abs(found["mean"] - 1 + found["momentum"]).max()))
         pulls.append(float(found["pull"].max()))

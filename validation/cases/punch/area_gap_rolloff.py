@@ -16,22 +16,22 @@ from validation.analysis.statistics import (
     FloatArray,
     Sample,
     Statistic,
-    at,
-    change,
-    combined,
+    at_level,
     decade_slope,
     decade_weights,
+    difference_of_halves,
     extrapolated,
     local_slope,
     log_deviation_over,
     log_mean,
     log_relative_deviation,
     nearest,
-    pairs,
+    paired_samples,
     sample,
+    weighted_mean,
 )
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.selection import model_needed
 from validation.simulation.rough_punch import (
     BEM,
@@ -42,11 +42,11 @@ from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
     Surface,
-    enough,
+    describe_failures,
     force_levels,
-    lost,
     press_profiles,
     press_surface,
+    require_converged,
     stacked,
 )
 from validation.theory import closed_forms
@@ -139,7 +139,7 @@ def run(case: MdrLimits, engine: Engine = SERIAL) -> MdrLimitsResult:
         {r: bem[r, case.cells] for r in case.roll_offs},
         {r: bem[r, 2 * case.cells] for r in case.roll_offs},
         dict(zip(case.roll_offs, engine.map(press_profiles, profiles), strict=True)),
-        lost(surfaces, outcomes),
+        describe_failures(surfaces, outcomes),
     )
 
 
@@ -159,7 +159,7 @@ class RollOffSamples:
     def extrapolated(self, quantity: str, statistic: Statistic) -> tuple[Estimate, float]:
         """Boundary elements on cells of no size, and what that leaves open."""
         bem = self.by_method[BEM, quantity].estimate(statistic)
-        return extrapolated(bem, self.grids[quantity].estimate(change(statistic)))
+        return extrapolated(bem, self.grids[quantity].estimate(difference_of_halves(statistic)))
 
     def apart(self, label: str, quantity: str, statistic: Statistic) -> Number:
         """MDR over boundary elements in decibels."""
@@ -185,7 +185,7 @@ def evidence(result: MdrLimitsResult) -> Evidence:
     Raises NotConvergedError where too few surfaces have converged at one of the forces.
     """
     case = result.case
-    enough((*result.bem.values(), *result.refined.values()), result.unconverged)
+    require_converged((*result.bem.values(), *result.refined.values()), result.unconverged)
     samples = {roll_off: _samples(result, roll_off) for roll_off in case.roll_offs}
     layers = {BEM: layer_on_half_space(case.cells), MDR: SPRINGS}
     numbers = []
@@ -195,7 +195,7 @@ def evidence(result: MdrLimitsResult) -> Evidence:
         for roll_off, mine in samples.items():
             where = f"q_r L / 2π = {roll_off}, Fbar = {first:g} to {10 * first:g}"
             numbers += [
-                mine.apart(f"{name}, {where}", quantity, combined(weights, log_mean))
+                mine.apart(f"{name}, {where}", quantity, weighted_mean(weights, log_mean))
                 for quantity, name in MEASURED.items()
                 if quantity != "gap" or mine.open(weights)
             ]
@@ -206,7 +206,7 @@ def evidence(result: MdrLimitsResult) -> Evidence:
     curves = [row for mine in samples.values() for row in _curve(result, layers, mine)]
     return Evidence(
         title="Where MDR must fail: contact area, mean gap, roughness with a roll-off",
-        compared=(
+        method=(
             f"Punches with H = {case.hurst:g} as in Fig. 14.1, and others without waves longer than L over "
             f"{', '.join(map(str, case.roll_offs[1:]))}, all to {case.cells // 4} waves on a side. {case.surfaces} "
             f"surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs, equal forces. True "
@@ -241,9 +241,9 @@ def _samples(result: MdrLimitsResult, roll_off: int) -> RollOffSamples:
         for j, (method, outcome) in enumerate(outcomes.items()):
             # full contact has no gap but rounding's
             values = np.maximum(outcome[quantity], CLOSED)
-            by_method[method, quantity] = sample(values, generator(case.seed, BOOTSTRAP, roll_off, i, j))
+            by_method[method, quantity] = sample(values, random_generator(case.seed, BOOTSTRAP, roll_off, i, j))
         coarse, fine = outcomes[BEM][quantity][: case.refined], result.refined[roll_off][quantity]
-        grids[quantity] = pairs(coarse, fine, generator(case.seed, BOOTSTRAP, roll_off, i, 2))
+        grids[quantity] = paired_samples(coarse, fine, random_generator(case.seed, BOOTSTRAP, roll_off, i, 2))
     return RollOffSamples(roll_off, by_method, grids)
 
 
@@ -304,7 +304,7 @@ def _proportional(
     case: MdrLimits, mine: RollOffSamples, layers: dict[str, Layer], method: str, first: float
 ) -> Number | None:
     """d ln kappa / d ln F over a decade; None where the punch is as stiff as the flat one."""
-    slope = combined(decade_slope(case.forces, first), _interface(layers[method]))
+    slope = weighted_mean(decade_slope(case.forces, first), _interface(layers[method]))
     found, grid = mine.by_method[method, "stiffness"].estimate(slope), 0.0
     if method == BEM:
         found, grid = mine.extrapolated("stiffness", slope)
@@ -333,13 +333,15 @@ def _curve(result: MdrLimitsResult, layers: dict[str, Layer], mine: RollOffSampl
         row = {"q_r L / 2π": float(roll_off), "Fbar": force}
         for method in METHODS:
             for quantity, name in MEASURED.items():
-                found = mine.by_method[method, quantity].estimate(at(level, log_mean))
+                found = mine.by_method[method, quantity].estimate(at_level(level, log_mean))
                 unit = case.height if quantity == "gap" else 1.0
                 row |= _interval(f"{method} {name}", found, unit)
             stiffness = mine.by_method[method, "stiffness"]
-            row |= _interval(f"{method} relative deviation", stiffness.estimate(at(level, log_relative_deviation)))
-            row |= _interval(f"{method} interface", stiffness.estimate(at(level, _interface(layers[method]))))
-            slope = combined(local_slope(case.forces, level), _interface(layers[method]))
+            row |= _interval(
+                f"{method} relative deviation", stiffness.estimate(at_level(level, log_relative_deviation))
+            )
+            row |= _interval(f"{method} interface", stiffness.estimate(at_level(level, _interface(layers[method]))))
+            slope = weighted_mean(local_slope(case.forces, level), _interface(layers[method]))
             row[f"{method} exponent of the interface"] = stiffness.estimate(slope).value
         row["Persson contact fraction"] = closed_forms.persson_contact_fraction(
             case.height * force, gradient=float(outcome["gradient"].mean())
@@ -367,14 +369,14 @@ def _conclusions(result: MdrLimitsResult, samples: dict[int, RollOffSamples], nu
     ]
     for roll_off, mine in samples.items():
         beside = {
-            quantity: f"{_with_interval(*mine.extrapolated(quantity, at(level, log_mean)), units[quantity])} and "
-            f"{math.exp(mine.by_method[MDR, quantity].estimate(at(level, log_mean)).value) / units[quantity]:.3g}"
+            quantity: f"{_with_interval(*mine.extrapolated(quantity, at_level(level, log_mean)), units[quantity])} and "
+            f"{math.exp(mine.by_method[MDR, quantity].estimate(at_level(level, log_mean)).value) / units[quantity]:.3g}"
             for quantity in units
         }
         law = closed_forms.persson_contact_fraction(
             case.height * case.forces[level], gradient=float(result.bem[roll_off]["gradient"].mean())
         )
-        deviation = at(level, log_relative_deviation)
+        deviation = at_level(level, log_relative_deviation)
         sentences.append(
             f"q_r L / 2π = {roll_off}, Fbar = {case.forces[level]:.2g}, boundary elements (extrapolated, with their "
             f"interval) and MDR: contact fraction {beside['area']} (Persson {law:.2g}), mean gap {beside['gap']} h, "

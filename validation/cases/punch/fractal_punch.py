@@ -7,8 +7,8 @@ from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
     Surface,
+    describe_failures,
     force_levels,
-    lost,
     press_profiles,
     press_surface,
     stacked,
@@ -153,4 +153,4 @@ def run(case: FractalPunch, engine: Engine = SERIAL) -> FractalPunchResult:
         )
         for hurst in case.hursts
     ]
-    return FractalPunchResult(case, ensembles, lost(surfaces, outcomes))
+    return FractalPunchResult(case, ensembles, describe_failures(surfaces, outcomes))

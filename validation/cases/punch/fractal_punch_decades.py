@@ -14,18 +14,18 @@ from validation.analysis.statistics import (
     Estimate,
     Sample,
     Statistic,
-    change,
-    combined,
     decade_slope,
     decade_weights,
+    difference_of_halves,
     log_deviation_over,
     log_mean,
     mean_of,
-    pairs,
+    paired_samples,
     sample,
+    weighted_mean,
 )
 from validation.cases.punch.fractal_punch import Ensemble, FractalPunch
-from validation.engine.engine import generator
+from validation.engine.engine import random_generator
 from validation.simulation.rough_punch import BEM, BOOTSTRAP, MDR
 
 Forces = tuple[float, ...]
@@ -55,7 +55,7 @@ class DecadeQuantity:
 
 
 def _mean(forces: Forces, first: float) -> Statistic:
-    return combined(decade_weights(forces, first), log_mean)
+    return weighted_mean(decade_weights(forces, first), log_mean)
 
 
 def _deviation(forces: Forces, first: float) -> Statistic:
@@ -64,7 +64,7 @@ def _deviation(forces: Forces, first: float) -> Statistic:
 
 def _exponent(forces: Forces, first: float) -> Statistic:
     """d ln k / d ln F of the mean stiffness over the decade."""
-    return combined(decade_slope(forces, first), log_mean)
+    return weighted_mean(decade_slope(forces, first), log_mean)
 
 
 FIGURE = "3 %: the standard error of a deviation from the 500 profiles of the book, whose figure cannot show less"
@@ -157,16 +157,16 @@ def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> EnsembleSamples
     middle = ensemble.bem["stiffness"][: len(finer), np.isin(case.forces, case.refined_forces)]
 
     def draws(key: int) -> np.random.Generator:
-        return generator(case.seed, BOOTSTRAP, h, key)
+        return random_generator(case.seed, BOOTSTRAP, h, key)
 
     return EnsembleSamples(
         {
             method: sample(outcome["stiffness"], draws(key))
             for key, (method, outcome) in enumerate(zip((BEM, MDR, LONG), realisations, strict=True))
         },
-        coarser=pairs(coarser, middle, draws(3)),
-        finer=pairs(middle, finer, draws(4)),
-        springs=pairs(ensemble.coarse["stiffness"], ensemble.mdr["stiffness"], draws(5)),
+        coarser=paired_samples(coarser, middle, draws(3)),
+        finer=paired_samples(middle, finer, draws(4)),
+        springs=paired_samples(ensemble.coarse["stiffness"], ensemble.mdr["stiffness"], draws(5)),
     )
 
 
@@ -180,9 +180,9 @@ def compare(case: FractalPunch, hurst: float, samples: EnsembleSamples, name: st
         first,
         springs=samples.methods[quantity.method].estimate(everywhere),
         bem=samples.methods[BEM].estimate(everywhere),
-        coarser=samples.coarser.estimate(change(refined)),
-        finer=samples.finer.estimate(change(refined)),
-        refined_springs=samples.springs.estimate(change(everywhere)),
+        coarser=samples.coarser.estimate(difference_of_halves(refined)),
+        finer=samples.finer.estimate(difference_of_halves(refined)),
+        refined_springs=samples.springs.estimate(difference_of_halves(everywhere)),
     )
 
 

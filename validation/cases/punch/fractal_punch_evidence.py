@@ -10,12 +10,12 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, VerdictCell, table_of
 from validation.analysis.statistics import (
     Estimate,
-    at,
-    combined,
+    at_level,
     local_slope,
     log_mean,
     log_relative_deviation,
     nearest,
+    weighted_mean,
 )
 from validation.cases.punch.fractal_punch import Ensemble, FractalPunch, FractalPunchResult, run
 from validation.cases.punch.fractal_punch_decades import (
@@ -32,7 +32,7 @@ from validation.cases.punch.fractal_punch_decades import (
 )
 from validation.engine.engine import Outcome
 from validation.selection import model_needed
-from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, enough
+from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, require_converged
 from validation.theory import closed_forms
 
 Row = dict[str, float]
@@ -50,7 +50,7 @@ def evidence(result: FractalPunchResult) -> Evidence:
     """
     case = result.case
     for ensemble in result.ensembles:
-        enough((ensemble.bem, ensemble.coarser, ensemble.finer), result.unconverged)
+        require_converged((ensemble.bem, ensemble.coarser, ensemble.finer), result.unconverged)
     samples = [resampled(case, h, ensemble) for h, ensemble in enumerate(result.ensembles)]
     comparisons = _comparisons(case, samples)
     numbers = [n for c in comparisons if (n := c.number) is not None]
@@ -65,14 +65,14 @@ def evidence(result: FractalPunchResult) -> Evidence:
     grids = [row for e, mine in zip(result.ensembles, samples, strict=True) for row in _grids(case, e, mine)]
     return Evidence(
         title="Fractal punch (Fig. 14.1)",
-        compared=_compared(case),
+        method=_method(case),
         numbers=(*criteria, *_claimed(comparisons), *laws, *numbers),
         tables=(
             table_of("curves", curves),
             table_of("decades", list(map(data_row, comparisons))),
             table_of("grids", grids),
         ),
-        shown=(*(matrix(case, name, comparisons) for name in QUANTITIES), _law_table(case, laws)),
+        page_tables=(*(matrix(case, name, comparisons) for name in QUANTITIES), _law_table(case, laws)),
         conclusions=(
             *(summary(name, comparisons) for name in QUANTITIES),
             *_saturation(curves),
@@ -94,7 +94,7 @@ def _comparisons(case: FractalPunch, samples: list[EnsembleSamples]) -> list[Dec
     return sorted(comparisons, key=lambda c: (list(QUANTITIES).index(c.name), c.hurst is None, c.hurst or 0.0))
 
 
-def _compared(case: FractalPunch) -> str:
+def _method(case: FractalPunch) -> str:
     coarser, cells, finer = case.grids
     return (
         f"A rigid square punch of side L, rough from q_min = 2π/L to {cells // 4} q_min, no roll-off, amplitudes fixed "
@@ -228,12 +228,14 @@ def _curve(case: FractalPunch, ensemble: Ensemble, samples: EnsembleSamples) -> 
     rows = []
     for level, force in enumerate(case.forces):
         row = {"H": ensemble.hurst, "Fbar": force}
-        slope = combined(local_slope(case.forces, level), log_mean)
+        slope = weighted_mean(local_slope(case.forces, level), log_mean)
         for method, mine in samples.methods.items():
-            row |= _interval(f"{method} mean stiffness", mine.estimate(at(level, log_mean)), math.exp)
-            row |= _interval(f"{method} relative deviation", mine.estimate(at(level, log_relative_deviation)), math.exp)
+            row |= _interval(f"{method} mean stiffness", mine.estimate(at_level(level, log_mean)), math.exp)
+            row |= _interval(
+                f"{method} relative deviation", mine.estimate(at_level(level, log_relative_deviation)), math.exp
+            )
             row |= _interval(f"{method} exponent", mine.estimate(slope), float)
-        apart = [samples.methods[method].estimate(at(level, log_relative_deviation)) for method in (MDR, BEM)]
+        apart = [samples.methods[method].estimate(at_level(level, log_relative_deviation)) for method in (MDR, BEM)]
         row |= _interval("mdr over bem3d relative deviation", apart[0].minus(apart[1]), math.exp)
         row["bem3d contact fraction"] = float(np.nanmean(ensemble.bem["area"][:, level]))
         row["bem3d cells in contact"] = row["bem3d contact fraction"] * case.cells**2
@@ -258,7 +260,7 @@ def _grids(case: FractalPunch, ensemble: Ensemble, samples: EnsembleSamples) -> 
         row = {"H": ensemble.hurst, "Fbar": force, "surfaces": float(surfaces)}
         for name, statistic in (("mean stiffness", log_mean), ("relative deviation", log_relative_deviation)):
             grids = (samples.coarser, level), (samples.finer, level), (samples.finer, half + level)
-            values = [s.estimate(at(place, statistic)).value for s, place in grids]
+            values = [s.estimate(at_level(place, statistic)).value for s, place in grids]
             for cells, value in zip(case.grids, values, strict=True):
                 row[f"{name}, {cells}²"] = math.exp(value)
             row[f"{name}, extrapolated"] = math.exp(2 * values[2] - values[1])

@@ -13,15 +13,15 @@ from validation.analysis.statistics import (
     THREE_PER_CENT,
     Estimate,
     Sample,
-    at,
-    change,
+    at_level,
     decade_weights,
+    difference_of_halves,
     log_deviation_over,
     log_relative_deviation,
     mean_of,
     sample,
 )
-from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.selection import model_needed
 from validation.simulation.rough_punch import (
     BOOTSTRAP,
@@ -29,11 +29,11 @@ from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
     Surface,
-    enough,
+    describe_failures,
     force_levels,
-    lost,
     press_profiles,
     press_surface,
+    require_converged,
     stacked,
 )
 
@@ -115,7 +115,7 @@ def run(case: Normalisation, engine: Engine = SERIAL) -> NormalisationResult:
     for w, (hurst, variant, _) in enumerate(ways):
         outcomes[hurst, variant, "bem3d"] = stacked(pressed[w * case.surfaces : (w + 1) * case.surfaces])
         outcomes[hurst, variant, "mdr"] = springs[w]
-    return NormalisationResult(case, outcomes, lost(surfaces, pressed))
+    return NormalisationResult(case, outcomes, describe_failures(surfaces, pressed))
 
 
 def evidence(result: NormalisationResult) -> Evidence:
@@ -124,9 +124,9 @@ def evidence(result: NormalisationResult) -> Evidence:
     Raises NotConvergedError where too few surfaces have converged at one of the forces.
     """
     case = result.case
-    enough([o for (_, _, method), o in result.outcomes.items() if method == "bem3d"], result.unconverged)
+    require_converged([o for (_, _, method), o in result.outcomes.items() if method == "bem3d"], result.unconverged)
     samples = {
-        key: sample(outcome["stiffness"], generator(case.seed, BOOTSTRAP, i))
+        key: sample(outcome["stiffness"], random_generator(case.seed, BOOTSTRAP, i))
         for i, (key, outcome) in enumerate(result.outcomes.items())
     }
     numbers = []
@@ -143,7 +143,7 @@ def evidence(result: NormalisationResult) -> Evidence:
                 ]
     return Evidence(
         title="Normalisation: what the fluctuations owe to the way of drawing",
-        compared=(
+        method=(
             "The punches of Fig. 14.1 drawn in three ways: amplitudes fixed by the spectrum as in (14.8), phases "
             "random, where every draw has the rms height h exactly; Gaussian amplitudes, scaled to h draw by draw; and "
             "Gaussian amplitudes that have h in the mean of the ensemble. "
@@ -154,7 +154,7 @@ def evidence(result: NormalisationResult) -> Evidence:
         ),
         numbers=tuple(numbers),
         tables=(_curves(case, samples), _heights(result)),
-        shown=(_matrix(case, samples),),
+        page_tables=(_matrix(case, samples),),
         conclusions=tuple(_conclusions(result, samples)),
         captions={
             "normalisation": (
@@ -172,8 +172,8 @@ def _paired(case: Normalisation, result: NormalisationResult, hurst: float, meth
     both = np.concatenate([each, whole], axis=1)
     lost_in_one = np.isnan(both).any(axis=1, keepdims=True)
     key = (case.hursts.index(hurst), METHODS.index(method))
-    drawn = sample(np.where(lost_in_one, np.nan, both), generator(case.seed, PAIRS, *key))
-    return drawn.estimate(change(log_deviation_over(decade_weights(case.forces, first))))
+    drawn = sample(np.where(lost_in_one, np.nan, both), random_generator(case.seed, PAIRS, *key))
+    return drawn.estimate(difference_of_halves(log_deviation_over(decade_weights(case.forces, first))))
 
 
 def _deviation(case: Normalisation, mine: Sample, first: float) -> Estimate:
@@ -199,7 +199,7 @@ def _curves(case: Normalisation, samples: dict[tuple[float, str, str], Sample]) 
     rows: list[Row] = []
     for (hurst, variant, method), mine in samples.items():
         for level, force in enumerate(case.forces):
-            value, low, high = map(math.exp, mine.estimate(at(level, log_relative_deviation)).interval)
+            value, low, high = map(math.exp, mine.estimate(at_level(level, log_relative_deviation)).interval)
             rows.append(
                 {
                     "H": hurst,

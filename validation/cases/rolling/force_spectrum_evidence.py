@@ -10,20 +10,21 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict, columns, table_of
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import (
+    POWER_DECIBEL,
     Estimate,
     Sample,
-    at,
-    change,
-    combined,
+    at_level,
+    difference_of_halves,
     extrapolated,
     log_mean,
     mean_estimate,
-    pairs,
+    paired_samples,
     ratio_of_means,
     sample,
+    weighted_mean,
 )
 from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
-from validation.engine.engine import Outcome, generator
+from validation.engine.engine import Outcome, random_generator
 from validation.selection import model_needed
 from validation.simulation.rolling_strip import BOOTSTRAP, HERTZ
 from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum
@@ -32,8 +33,6 @@ from validation.theory import rolling as rolling_theory
 FloatArray = NDArray[np.float64]
 Row = dict[str, object]
 
-POWER = 10 / math.log(10)
-"""Decibels of a power, from a natural logarithm."""
 ONE = 1.0
 LOW = 0.01
 """Heights over d up to which boundary elements must agree with linear theory, or something is wrong with them."""
@@ -70,7 +69,7 @@ class Height:
 
     def bem_level(self, weights: FloatArray) -> tuple[Estimate, float]:
         """ln of boundary elements over linear theory in 3D on cells of no size, and what that leaves open."""
-        statistic = change(combined(weights, log_mean))
+        statistic = difference_of_halves(weighted_mean(weights, log_mean))
         finer = self.finer.estimate(statistic)
         return extrapolated(self.bem_over_linear.estimate(statistic), finer)
 
@@ -84,7 +83,7 @@ class Height:
             with np.errstate(divide="ignore"):
                 return _exactly(float(weights[used] @ np.log(self.exact_1d[used])) - reference)
         rule: InputSpectrum = "geike" if model == SPRINGS else "rolling"
-        found = self.springs[rule].estimate(combined(weights, log_mean))
+        found = self.springs[rule].estimate(weighted_mean(weights, log_mean))
         return Estimate(found.value - reference, found.error, found.samples)
 
     def apart(self, model: str, where: str, weights: FloatArray, role: Role = Role.FINDING) -> Number:
@@ -93,32 +92,32 @@ class Height:
         apart = self.model_level(model, weights).minus(bem)
         return Number(
             quantity=f"{model} over bem3d, h/d = {self.height:g}, {where}",
-            value=POWER * apart.value,
+            value=POWER_DECIBEL * apart.value,
             reference=0.0,
             source="bem3d, extrapolated, on the same surfaces as linear theory in 3D",
             tolerance=ONE,
             unit="dB",
             reason=REASON,
-            grid=POWER * grid,
-            sample=POWER * apart.half_width,
+            grid=POWER_DECIBEL * grid,
+            sample=POWER_DECIBEL * apart.half_width,
             role=role,
         )
 
     def departure(self, where: str, weights: FloatArray) -> Number:
         """What nonlinearity does to springs, beside what it does to boundary elements."""
         bem, grid = self.bem_level(weights)
-        springs = self.springs_over_linear.estimate(change(combined(weights, log_mean)))
+        springs = self.springs_over_linear.estimate(difference_of_halves(weighted_mean(weights, log_mean)))
         apart = springs.minus(bem)
         return Number(
             quantity=f"nonlinear over linear, h/d = {self.height:g}, {where}: springs beside bem3d",
-            value=POWER * springs.value,
-            reference=POWER * bem.value,
+            value=POWER_DECIBEL * springs.value,
+            reference=POWER_DECIBEL * bem.value,
             source="bem3d over linear theory in 3D",
             tolerance=ONE,
             unit="dB",
             reason=REASON,
-            grid=POWER * grid,
-            sample=POWER * apart.half_width,
+            grid=POWER_DECIBEL * grid,
+            sample=POWER_DECIBEL * apart.half_width,
             role=Role.FINDING,
         )
 
@@ -141,7 +140,7 @@ def evidence(result: RollingResult) -> Evidence:
     heights = ", ".join(f"{h:g}" for h in case.heights)
     return Evidence(
         title="Rolling over isotropic roughness: where one dimension is some decibels off",
-        compared=(
+        method=(
             f"A wheel at a fixed approach d over self-affine roughness, H = {case.hurst:g}, q a = {case.first:g} to "
             f"{case.last:g}, h_rms / d = {heights}. Boundary elements: {case.strips} surfaces {case.length:g} a long "
             f"({case.rough_strips} from h/d = {ROUGH:g} on), "
@@ -159,7 +158,7 @@ def evidence(result: RollingResult) -> Evidence:
         conclusions=tuple(_conclusions(case, found, numbers)),
         captions=_captions(case),
         unconverged=result.unconverged,
-        shown=(within, summary),
+        page_tables=(within, summary),
     )
 
 
@@ -179,7 +178,7 @@ def _height(result: RollingResult, i: int) -> Height:
     mdr: dict[InputSpectrum, Outcome] = {rule: result.mdr[rule, height] for rule in ("geike", "rolling")}
 
     def rng(part: int) -> np.random.Generator:
-        return generator(case.seed, BOOTSTRAP, i, part)
+        return random_generator(case.seed, BOOTSTRAP, i, part)
 
     exact_1d, exact_3d = (height**2 * level for level in exact_levels(case))
     return Height(
@@ -187,10 +186,10 @@ def _height(result: RollingResult, i: int) -> Height:
         bands=case.bands,
         bem=bem,
         mdr=mdr,
-        bem_over_linear=pairs(bem["linear level"], bem["level"], rng(0)),
-        finer=pairs(bem["level"][: case.refined], finer["level"], rng(1)),
+        bem_over_linear=paired_samples(bem["linear level"], bem["level"], rng(0)),
+        finer=paired_samples(bem["level"][: case.refined], finer["level"], rng(1)),
         springs={rule: sample(outcome["level"], rng(2 + j)) for j, (rule, outcome) in enumerate(mdr.items())},
-        springs_over_linear=pairs(_positive(mdr["geike"]["linear level"]), mdr["geike"]["level"], rng(4)),
+        springs_over_linear=paired_samples(_positive(mdr["geike"]["linear level"]), mdr["geike"]["level"], rng(4)),
         exact_1d=exact_1d,
         exact_3d=exact_3d,
     )
@@ -315,25 +314,25 @@ def _levels(case: ForceSpectrum, mine: Height) -> list[Row]:
     for i, centre in enumerate(mine.bands.centres):
         weights = np.eye(len(mine.bands.centres))[i]
         bem, grid = mine.bem_level(weights)
-        unit = POWER * math.log(mine.exact_3d[i] / mine.height**2)
+        unit = POWER_DECIBEL * math.log(mine.exact_3d[i] / mine.height**2)
         row: Row = {
             "h/d": mine.height,
             "q a": float(centre),
             "from": mine.bands.edges[i],
             "to": mine.bands.edges[i + 1],
             "waves": float(waves[i] * np.isfinite(mine.bem["level"][:, i]).sum()),
-            "bem3d [dB]": unit + POWER * bem.value,
-            "± sample [dB]": POWER * bem.half_width,
-            "± grid [dB]": POWER * grid,
-            "bem3d over linear 3D, as rolled [dB]": POWER
-            * mine.bem_over_linear.estimate(change(at(i, log_mean))).value,
+            "bem3d [dB]": unit + POWER_DECIBEL * bem.value,
+            "± sample [dB]": POWER_DECIBEL * bem.half_width,
+            "± grid [dB]": POWER_DECIBEL * grid,
+            "bem3d over linear 3D, as rolled [dB]": POWER_DECIBEL
+            * mine.bem_over_linear.estimate(difference_of_halves(at_level(i, log_mean))).value,
             "coherence of bem3d": float(of_bem[i]),
             "coherence of springs": float(of_springs[i]) if mine.exact_1d[i] > 0 else math.nan,
         }
         for model in MODELS:
             level = mine.model_level(model, weights)
-            row[f"{model} [dB]"] = unit + POWER * level.value
-            row[f"{model} over bem3d [dB]"] = POWER * (level.value - bem.value)
+            row[f"{model} [dB]"] = unit + POWER_DECIBEL * level.value
+            row[f"{model} over bem3d [dB]"] = POWER_DECIBEL * (level.value - bem.value)
         rows.append(row)
     return rows
 
@@ -428,7 +427,10 @@ def _scatter(found: list[Height]) -> str:
     parts = []
     for mine in found:
         errors = [mine.bem_level(np.eye(len(mine.bands.centres))[i])[0].error for i in range(len(mine.bands.centres))]
-        parts.append(f"{mine.height:g}: {POWER * max(errors):.2f} dB, median {POWER * float(np.median(errors)):.2f} dB")
+        parts.append(
+            f"{mine.height:g}: {POWER_DECIBEL * max(errors):.2f} dB, "
+            f"median {POWER_DECIBEL * float(np.median(errors)):.2f} dB"
+        )
     return (
         "Standard error of the sample in single one-third octaves of boundary elements, largest, by h/d: "
         f"{'; '.join(parts)}."
@@ -442,7 +444,7 @@ def _louder(case: ForceSpectrum, numbers: list[Number], where: str) -> Number:
     return Number(
         quantity=f"Geike's spectrum, (14.12), over bem3d, h/d = {height:g}, {where}, beside q a >> 1",
         value=found.value,
-        reference=-POWER * math.log(rolling_theory.level_ratio(case.hurst)),
+        reference=-POWER_DECIBEL * math.log(rolling_theory.level_ratio(case.hurst)),
         source="sqrt(π) Γ(H + 2) / Γ(H + 3/2), an unbounded power law in linear theory",
         tolerance=0.5,
         unit="dB",
@@ -487,7 +489,7 @@ def _within(case: ForceSpectrum, found: list[Height]) -> Table:
 def _over(mine: Height, model: str, band: int) -> float:
     """A model over boundary elements in one band, in decibels."""
     weights = np.eye(len(mine.bands.centres))[band]
-    return POWER * (mine.model_level(model, weights).value - mine.bem_level(weights)[0].value)
+    return POWER_DECIBEL * (mine.model_level(model, weights).value - mine.bem_level(weights)[0].value)
 
 
 def _variances(numbers: list[Number]) -> str:

@@ -12,10 +12,21 @@ import mdr
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict, table_of
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import Estimate, Sample, at, change, combined, log_mean, nearest, pairs, sample
-from validation.cases.rolling.force_spectrum_evidence import POWER, REASON, over_bands
+from validation.analysis.statistics import (
+    POWER_DECIBEL,
+    Estimate,
+    Sample,
+    at_level,
+    difference_of_halves,
+    log_mean,
+    nearest,
+    paired_samples,
+    sample,
+    weighted_mean,
+)
+from validation.cases.rolling.force_spectrum_evidence import REASON, over_bands
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.simulation.rolling_strip import (
     BOOTSTRAP,
     HERTZ,
@@ -26,7 +37,14 @@ from validation.simulation.rolling_strip import (
     roll_tracks,
     strip_levels,
 )
-from validation.simulation.rough_punch import PunchRoughness, Surface, enough, lost, press_surface, stacked
+from validation.simulation.rough_punch import (
+    PunchRoughness,
+    Surface,
+    describe_failures,
+    press_surface,
+    require_converged,
+    stacked,
+)
 from validation.simulation.track_spectrum import (
     INPUT_SPECTRA,
     InputSpectrum,
@@ -142,7 +160,7 @@ def press_fed_profiles(profiles: PunchProfiles) -> Outcome:
                 c1d,
                 length=1.0,
                 points=points,
-                rng=generator(case.seed, TRACKS, i),
+                rng=random_generator(case.seed, TRACKS, i),
                 rms=punch.height * part,
             ),
             length=1.0,
@@ -210,14 +228,14 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
         press_fed_profiles,
         [PunchProfiles(case=case, input_spectrum=rule) for rule in INPUT_SPECTRA],
     )
-    enough([stacked(pressed)], lost(surfaces, pressed))
+    require_converged([stacked(pressed)], describe_failures(surfaces, pressed))
     return RollingInputResult(
         case,
         {key: strip_levels(group, 1 / case.cells, case.bands) for key, group in groups.items()},
         {(name, height, rule): next(on_springs) for name, height in keys for rule in INPUT_SPECTRA},
         stacked(pressed),
         dict(zip(INPUT_SPECTRA, fed_profiles, strict=True)),
-        (*unconverged, *lost(surfaces, pressed)),
+        (*unconverged, *describe_failures(surfaces, pressed)),
     )
 
 
@@ -244,7 +262,7 @@ def evidence(result: RollingInputResult) -> Evidence:
     verdicts = _within_three(case, bands)
     return Evidence(
         title="What springs should be fed for rolling",
-        compared=(
+        method=(
             "Three inputs to springs for one isotropic surface: Geike's spectrum, the line trace, and the rolling "
             "spectrum C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k², which has the level along the "
             "track: a wave s that crosses the track at an angle acts as s and shows as q. First in linear theory, "
@@ -276,7 +294,7 @@ def evidence(result: RollingInputResult) -> Evidence:
             ),
         },
         unconverged=result.unconverged,
-        shown=(verdicts,),
+        page_tables=(verdicts,),
     )
 
 
@@ -303,7 +321,7 @@ def _linear(case: RollingInput, name: str, spectrum: PiecewisePowerLaw) -> list[
         )
         level = over_bands(on_springs, case.bands)
         with np.errstate(divide="ignore", invalid="ignore"):
-            found[rule] = POWER * np.log(level / HERTZ**2 / exact)
+            found[rule] = POWER_DECIBEL * np.log(level / HERTZ**2 / exact)
     inside = case.within(spectrum)
     return [
         {
@@ -381,9 +399,9 @@ class _Levels:
         """Springs over boundary elements."""
         used = weights > 0
         reference = float(weights[used] @ np.log(self.exact[used]))
-        springs = self.springs.estimate(combined(weights, log_mean))
+        springs = self.springs.estimate(weighted_mean(weights, log_mean))
         over = Estimate(springs.value - reference, springs.error, springs.samples)
-        return over.minus(self.bem.estimate(change(combined(weights, log_mean))))
+        return over.minus(self.bem.estimate(difference_of_halves(weighted_mean(weights, log_mean))))
 
 
 def _levels(result: RollingInputResult, name: str, height: float, rule: InputSpectrum) -> _Levels:
@@ -392,8 +410,8 @@ def _levels(result: RollingInputResult, name: str, height: float, rule: InputSpe
     key = (list(case.spectra).index(name), case.heights.index(height), INPUT_SPECTRA.index(rule))
     bem, springs = result.bem[name, height], result.mdr[name, height, rule]
     return _Levels(
-        pairs(bem["linear level"], bem["level"], generator(case.seed, BOOTSTRAP, *key, 0)),
-        sample(np.maximum(springs["level"], 1e-300), generator(case.seed, BOOTSTRAP, *key, 1)),
+        paired_samples(bem["linear level"], bem["level"], random_generator(case.seed, BOOTSTRAP, *key, 0)),
+        sample(np.maximum(springs["level"], 1e-300), random_generator(case.seed, BOOTSTRAP, *key, 1)),
         height**2 * _exact(case, case.spectra[name]),
     )
 
@@ -403,13 +421,13 @@ def _rolled(case: RollingInput, name: str, height: float, rule: InputSpectrum, l
     apart = levels.apart(inside / inside.sum())
     return Number(
         quantity=f"springs over bem3d, {name}, h/d = {height:g}, {NAMES[rule]}: mean level in the band",
-        value=POWER * apart.value,
+        value=POWER_DECIBEL * apart.value,
         reference=0.0,
         source="bem3d, relatively to linear theory on the same surfaces",
         tolerance=1.0,
         unit="dB",
         reason=REASON,
-        sample=POWER * apart.half_width,
+        sample=POWER_DECIBEL * apart.half_width,
         role=Role.FINDING,
     )
 
@@ -423,8 +441,8 @@ def _nonlinear(case: RollingInput, name: str, height: float, levels: dict[InputS
         row: Row = {"spectrum": name, "h/d": height, "q a": float(centre)}
         for rule, mine in levels.items():
             apart = mine.apart(np.eye(len(case.bands.centres))[i])
-            row[f"{NAMES[rule]} [dB]"] = POWER * apart.value
-            row[f"{NAMES[rule]} ± [dB]"] = POWER * apart.half_width
+            row[f"{NAMES[rule]} [dB]"] = POWER_DECIBEL * apart.value
+            row[f"{NAMES[rule]} ± [dB]"] = POWER_DECIBEL * apart.half_width
         rows.append(row)
     return rows
 
@@ -434,15 +452,15 @@ def _stiffness(result: RollingInputResult, rule: InputSpectrum) -> tuple[Sample,
     return (
         sample(
             result.profiles[rule]["stiffness"],
-            generator(case.seed, BOOTSTRAP, 90, INPUT_SPECTRA.index(rule)),
+            random_generator(case.seed, BOOTSTRAP, 90, INPUT_SPECTRA.index(rule)),
         ),
-        sample(result.punches["stiffness"], generator(case.seed, BOOTSTRAP, 91)),
+        sample(result.punches["stiffness"], random_generator(case.seed, BOOTSTRAP, 91)),
     )
 
 
 def _pressed(result: RollingInputResult, rule: InputSpectrum) -> Number:
     level = nearest(result.case.forces, 0.1)
-    mdr_, bem = (one.estimate(at(level, log_mean)) for one in _stiffness(result, rule))
+    mdr_, bem = (one.estimate(at_level(level, log_mean)) for one in _stiffness(result, rule))
     apart = mdr_.minus(bem)
     return Number(
         quantity=f"mean stiffness of punches at Fbar = 0.1, MDR over bem3d, {NAMES[rule]}",
@@ -461,7 +479,7 @@ def _punches(result: RollingInputResult) -> Table:
     for rule in INPUT_SPECTRA:
         mdr_, bem = _stiffness(result, rule)
         for level, force in enumerate(result.case.forces):
-            apart = mdr_.estimate(at(level, log_mean)).minus(bem.estimate(at(level, log_mean)))
+            apart = mdr_.estimate(at_level(level, log_mean)).minus(bem.estimate(at_level(level, log_mean)))
             middle, low, high = (math.exp(value) for value in apart.interval)
             rows.append({"input": NAMES[rule], "Fbar": force, "mdr over bem3d": middle, "low": low, "high": high})
     return table_of("punches", rows)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, claim, columns
-from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.analysis.evidence import Evidence, Number, Role, Table, columns, if_confirmed
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.theory import rolling as rolling_theory
 
 FloatArray = NDArray[np.float64]
@@ -50,7 +50,7 @@ class Ridges:
         """Heights at so many points of the track: amplitudes as 1/q, so that the force is as large by every wave."""
         q = self.wavenumbers
         x = self.length / points * np.arange(points)
-        phase = 2 * np.pi * generator(self.seed).random(q.size)
+        phase = 2 * np.pi * random_generator(self.seed).random(q.size)
         unit = np.cos(np.outer(x, q) + phase) @ (1 / q)
         return np.asarray(self.height * unit / math.sqrt(np.sum(0.5 / q**2)))
 
@@ -167,7 +167,7 @@ def evidence(result: RidgesResult) -> Evidence:
     close = [n for n in numbers if n.role is Role.CRITERION]
     return Evidence(
         title="Ridges across the track: springs, boundary elements and (14.11)",
-        compared=(
+        method=(
             f"{q.size} ridges at once, {label}, {case.height:g} d high in all, so that each answers for itself; the "
             "response of the force to the height of each, amplitude and phase, over 2 E* a. Boundary elements with "
             f"{', '.join(map(str, case.cells))} cells to a contact radius, springs with "
@@ -177,7 +177,7 @@ def evidence(result: RidgesResult) -> Evidence:
         numbers=tuple(numbers),
         tables=(_curves(result), _table_of_errors(result)),
         conclusions=(
-            claim(
+            if_confirmed(
                 f"Over ridges the force on the half-space is that of (14.11) for {label}, through the zeros and with "
                 "the sign that changes there: what boundary elements lack is less than the place of the edge of "
                 "their contact, some tenths of a cell, explains.",

@@ -171,7 +171,7 @@ def evidence(result: LadderResult) -> Evidence:
         )
     return Evidence(
         title="No more model than a scene needs: the ladder held to account",
-        compared=(
+        method=(
             f"{len(result.outcomes)} scenes drawn at random ({case.punches} rough punches, {case.spheres} rough "
             f"spheres, {case.rolling} rolling and {case.wheels} dynamic wheels): {RANGES}. The ladder is climbed as "
             "far as the tolerance asks; the referee is boundary elements on the finest grid with surfaces of its own, "
@@ -184,7 +184,7 @@ def evidence(result: LadderResult) -> Evidence:
         conclusions=tuple(sentences),
         captions={"ladder": CAPTION},
         unconverged=result.unconverged,
-        shown=(_summary(case, table), _by_rung(claims)),
+        page_tables=(_summary(case, table), _by_rung(claims)),
     )
 
 

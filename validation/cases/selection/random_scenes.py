@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from validation.engine.engine import generator
+from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
@@ -28,7 +28,7 @@ RANGES = (
 
 def random_scene(kind: str, number: int, seed: int) -> Scene:
     """One of `KINDS`, with units, Hurst exponent, band, height and load at random; the same for the same numbers."""
-    rng = generator(seed, KINDS.index(kind), number)
+    rng = random_generator(seed, KINDS.index(kind), number)
     modulus = 10 ** rng.uniform(6, 11.5)
     if kind == "punch":
         return _punch(rng, modulus, f"punch {number}")

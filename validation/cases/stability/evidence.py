@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, claim, table_of
+from validation.analysis.evidence import Evidence, Number, Role, Table, if_confirmed, table_of
 from validation.cases.stability.roughness import (
     first_lift,
     lift_numbers,
@@ -41,7 +41,7 @@ def evidence(result: WheelStabilityResult) -> Evidence:
     of_rounds, of_lift = round_numbers(result), lift_numbers(result, lift)
     return Evidence(
         title="Where time stepping and springs fail",
-        compared=_compared(result),
+        method=_method(result),
         numbers=(*of_schemes, *of_long, *of_rounds, *of_springs, *of_lift, _refused(result)),
         tables=(linear, hertz, long, rounds, spacing, lift),
         conclusions=(
@@ -52,11 +52,11 @@ def evidence(result: WheelStabilityResult) -> Evidence:
         ),
         captions=_captions(result),
         unconverged=tuple(f"{p.sweep}, load {p.load:g} N" for p, o in result.lift if o["failed"]),
-        shown=(orders_table(hertz), table_of("refusals", result.refusals)),
+        page_tables=(orders_table(hertz), table_of("refusals", result.refusals)),
     )
 
 
-def _compared(result: WheelStabilityResult) -> str:
+def _method(result: WheelStabilityResult) -> str:
     case = result.case
     return (
         "The wheel of Table 14.1. Free vibration by four schemes with omega_eigen dt from "
@@ -87,7 +87,7 @@ def _of_schemes(numbers: Sequence[Number], table: Table) -> str:
     verlet = table.where(scheme=VELOCITY_VERLET.name)
     last = verlet["omega dt"].max()
     worst = verlet.where(**{"omega dt": last})["error of the period"].max()
-    return claim(
+    return if_confirmed(
         "Each scheme errs as the eigenvalue of its step says, on both sides of its limit: symplectic Euler and "
         "velocity Verlet keep the energy of a linear vibration up to omega dt = 2, Runge-Kutta loses "
         f"(omega dt)^6 / 72 of it a step and holds up to {RUNGE_KUTTA.limit:.3g}, explicit Euler gains at any step. "
@@ -99,7 +99,7 @@ def _of_schemes(numbers: Sequence[Number], table: Table) -> str:
 
 def _of_long_runs(result: WheelStabilityResult, numbers: Sequence[Number], rounds: Sequence[Number]) -> str:
     drift, growth, euler = numbers[0], rounds[0], rounds[-1]
-    return claim(
+    return if_confirmed(
         f"Over {result.case.long_steps} steps at the amplitude and the step of Table 14.1 the energy drifts by "
         f"{drift.value:.1g} ± {drift.sample:.1g} of itself, no more than rounding explains; over {result.case.rounds} "
         f"rounds on springs the mean square acceleration changes by a factor {math.exp(growth.value):.4g}, within its "
@@ -117,7 +117,9 @@ def _of_spacing(table: Table, numbers: Sequence[Number]) -> str:
     return (
         f"With springs a quarter of the shortest wave apart the last one-third octave is off by {quarter} dB and the "
         f"force by {errors} of its fluctuation, for h / d = {heights}. "
-        + claim("Where roughness is low the error of that level is the sum over springs for an integral.", numbers[:1])
+        + if_confirmed(
+            "Where roughness is low the error of that level is the sum over springs for an integral.", numbers[:1]
+        )
     )
 
 
@@ -128,7 +130,7 @@ def _of_lift(table: Table, numbers: Sequence[Number]) -> str:
     lifted = (
         "no wheel was seen to lift off" if seen is None else f"a wheel was first seen to lift off at h / d = {seen:.2g}"
     )
-    return claim(
+    return if_confirmed(
         f"Wheels that lift off come back, and their mean force is the load but for the momentum they end with: linear "
         f"theory would pull from h / d = {pulls_from(rows):.2g} on, {lifted}; at "
         f"h / d = {rows['height [d_N]'][last]:g} "

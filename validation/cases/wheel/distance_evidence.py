@@ -5,10 +5,19 @@ import math
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, beside, claim, columns, plus_minus, table_of
-from validation.analysis.records import band_means
-from validation.analysis.statistics import POWER_DECIBEL as POWER
-from validation.analysis.statistics import Estimate, ratio_of_means
+from validation.analysis.evidence import (
+    Evidence,
+    Number,
+    Role,
+    Table,
+    columns,
+    if_confirmed,
+    plus_minus,
+    table_of,
+    with_reference,
+)
+from validation.analysis.spectra import band_means
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means
 from validation.cases.wheel.distance import LINEAR, SPRINGS, TABLE, DistanceResult, WheelDistance, run
 from validation.cases.wheel.features import BREAK, FLOOR, PEAK, PREDICTED, Spectrum, expected, found, linear_spectrum
 from validation.engine.engine import Outcome
@@ -42,17 +51,17 @@ def evidence(result: DistanceResult) -> Evidence:
     ]
     return Evidence(
         title="Fig. 14.5: the break, the plateau and the ends of a record",
-        compared=_compared(result.case),
+        method=_method(result.case),
         numbers=tuple(numbers),
         tables=(_spectra(result), breaks, _endings(result), plateau, _vibrations(result)),
-        shown=(_shown_breaks(breaks), ends, _shown_plateau(plateau), _phases(result)),
+        page_tables=(_shown_breaks(breaks), ends, _shown_plateau(plateau), _phases(result)),
         conclusions=tuple(_conclusions(result, law, numbers)),
         captions=_captions(result.case),
         unconverged=result.unconverged,
     )
 
 
-def _compared(case: WheelDistance) -> str:
+def _method(case: WheelDistance) -> str:
     scene = case.scene
     return (
         f"Wheels of {scene.name}, {case.wheels} and fewer, over {case.turns} to "
@@ -206,13 +215,13 @@ def _over(label: str, value: Estimate, source: str, reason: str) -> Number:
     """A ratio of levels in decibels, beside none, within one."""
     return Number(
         quantity=label,
-        value=POWER * value.value,
+        value=POWER_DECIBEL * value.value,
         reference=0.0,
         source=source,
         tolerance=1.0,
         unit="dB",
         reason=reason,
-        sample=POWER * value.half_width,
+        sample=POWER_DECIBEL * value.half_width,
         role=Role.FINDING,
     )
 
@@ -295,8 +304,8 @@ def _phases(result: DistanceResult) -> Table:
         rows.append(
             {
                 "turns of the resonance": f"{springs['duration'] * result.case.scene.eigenfrequency / 2 / math.pi:.2f}",
-                "springs, open [dB]": f"{POWER * level(springs, band).value:.1f}",
-                "linear, open [dB]": f"{POWER * level(linear, band).value:.1f}",
+                "springs, open [dB]": f"{POWER_DECIBEL * level(springs, band).value:.1f}",
+                "linear, open [dB]": f"{POWER_DECIBEL * level(linear, band).value:.1f}",
                 "leakage": f"{100 * share:.0f} %",
             }
         )
@@ -375,7 +384,7 @@ def _ends(result: DistanceResult) -> Table:
         for window, of in (("none", "plain"), ("Hann", "hann")):
             row: dict[str, object] = {"contact and track": name, "window": window}
             for region, band in regions_of(result.case.scene).items():
-                value = POWER * level(outcome, band, of).value
+                value = POWER_DECIBEL * level(outcome, band, of).value
                 row[f"{region} [dB]"] = f"{value:.1f}" if value > -250 else "none"
             rows.append(row)
     return table_of("levels by the way a record ends", rows)
@@ -391,7 +400,7 @@ def _plateau(result: DistanceResult) -> Table:
         }
         for kind in (OPEN, LINEAR_OPEN, STEADY):
             value = level(result.sweep[kind, height], band)
-            row[f"{kind} [dB]"], row[f"± {kind} [dB]"] = POWER * value.value, POWER * value.half_width
+            row[f"{kind} [dB]"], row[f"± {kind} [dB]"] = POWER_DECIBEL * value.value, POWER_DECIBEL * value.half_width
         rows.append(row)
     return table_of("plateau", rows)
 
@@ -454,25 +463,25 @@ def _conclusions(result: DistanceResult, law: Number, numbers: list[Number]) -> 
     start, order = value("mean square"), value("region 2, springs, steady")
     turns = float(result.ends[OPEN]["duration"]) * result.case.scene.eigenfrequency / (2 * math.pi)
     band = regions_of(result.case.scene)[PLATEAU]
-    leaks = [POWER * level(result.ended[LINEAR, phase], band).value for phase in result.case.phases]
+    leaks = [POWER_DECIBEL * level(result.ended[LINEAR, phase], band).value for phase in result.case.phases]
     phases = f"{min(leaks):.0f} and {max(leaks):.0f} dB"
     return [
-        claim(
-            f"The break moves as T^{law.reference:.3f}: exponent {beside(law)}. It goes to higher frequencies with the "
-            "distance, and with it region 4 disappears.",
+        if_confirmed(
+            f"The break moves as T^{law.reference:.3f}: exponent {with_reference(law)}. It goes to higher frequencies "
+            "with the distance, and with it region 4 disappears.",
             [law],
         ),
-        claim(
+        if_confirmed(
             "The level of region 4 follows from the jump between the end and the beginning of each record, "
             f"J² / (ω² T), at all {len(floors)} distances, to {100 * max(abs(n.value - 1) for n in floors):.1f} %.",
             floors,
         ),
-        claim(
+        if_confirmed(
             "That jump follows from linear theory and the start in static equilibrium, 1 + cos²(ω_eigen T) times the "
             f"forced acceleration squared: rms over all distances {jump.value:.3f} ± {jump.uncertainty:.3f} of it.",
             [jump],
         ),
-        claim(
+        if_confirmed(
             "Region 4 is leakage of the rectangular window, the linear contact has it as well: Hann's window lowers it "
             f"by {-hann.value:.1f} dB, a motion that repeats itself by {-repeating.value:.1f} dB, to what nonlinear "
             "springs really have there.",
@@ -483,13 +492,13 @@ def _conclusions(result: DistanceResult, law: Number, numbers: list[Number]) -> 
         f"have {share[1]:.0f} %. The first grows as h₀² and falls as 1/T, and depends on the phase in which the record "
         f"ends, between {phases}; the second grows as h₀^{order.value:.2f} ({order.verdict} with h₀⁴ within "
         f"{order.tolerance:g}), whatever the record. On springs of Geike's spectrum nothing else is there.",
-        claim(
+        if_confirmed(
             "Nothing damps the wheel, so the free vibration with which it begins stays: the mean square acceleration "
             f"is {start.value:.2f} ± {start.uncertainty:.2f} times that without it. The level of region 1 is that of "
             "the start; its frequency alone is the contact's.",
             [start],
         ),
-        claim(
+        if_confirmed(
             "The peak follows the amplitude of free vibration as a Hertz contact has it: "
             + "; ".join(f"{n.label.split('released ')[1]}: {n.value:.4f} beside {n.reference:.4f}" for n in shifts)
             + ".",

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
-from validation.analysis.statistics import Estimate, left_out_error
+from validation.analysis.statistics import Estimate, jackknife_error
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
@@ -83,7 +83,7 @@ def found(spectrum: Spectrum) -> dict[str, Estimate]:
         rest = np.arange(groups) != i
         plain, hann = (s[rest].mean(axis=0) for s in (spectrum.plain, spectrum.hann))
         without.append(_features(spectrum, plain, hann, shares[rest].ravel()))
-    errors = {name: float(left_out_error([w.get(name, math.nan) for w in without])) for name in all_of_them}
+    errors = {name: float(jackknife_error([w.get(name, math.nan) for w in without])) for name in all_of_them}
     return {
         name: Estimate(value, errors[name], groups)
         for name, value in all_of_them.items()

@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, beside, claim, columns, table_of
-from validation.analysis.records import band_levels, band_means, one_third_octaves, spectra
-from validation.analysis.statistics import POWER_DECIBEL as POWER
-from validation.analysis.statistics import Estimate, left_out_error
+from validation.analysis.evidence import Evidence, Number, Role, Table, columns, if_confirmed, table_of, with_reference
+from validation.analysis.spectra import band_levels, band_means, one_third_octaves, record_spectra
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error
 from validation.cases.wheel.features import linear_spectrum
 from validation.cases.wheel.half_space import COARSER, FINEST, LOOSE, TABLE, TIGHT, Result3D, Wheel3D, run
 from validation.engine.engine import Outcome
@@ -38,10 +37,10 @@ def evidence(result: Result3D) -> Evidence:
     numbers = [*_exact(result), *_means(found), *_region_numbers(found)]
     return Evidence(
         title="The wheel in three dimensions: boundary elements inside the time loop",
-        compared=_compared(found),
+        method=_method(found),
         numbers=tuple(numbers),
         tables=(_table(found), _narrow(found)),
-        shown=(_regions(found, numbers), _within(found)),
+        page_tables=(_regions(found, numbers), _within(found)),
         conclusions=tuple(_conclusions(found, numbers)),
         captions=_captions(found),
         unconverged=result.unconverged,
@@ -166,7 +165,7 @@ class Levels:
 
     def _error_of_ratio(self, where: NDArray[np.bool_]) -> float:
         bem, linear = (self.of_strips(FINEST, model)[:, where] for model in ("bem", "linear"))
-        return float(left_out_error(_without(bem, linear).mean(axis=1)))
+        return float(jackknife_error(_without(bem, linear).mean(axis=1)))
 
     def _error_of_model(self, model: str, where: NDArray[np.bool_]) -> float:
         if model in self.exact:
@@ -177,7 +176,7 @@ class Levels:
 
 def log_ratio(mine: FloatArray, other: FloatArray) -> list[Estimate]:
     """ln of the ratio of both means, realisations in pairs along the first axis; error by leaving out one of them."""
-    value, errors = _log_mean(mine) - _log_mean(other), left_out_error(_without(mine, other))
+    value, errors = _log_mean(mine) - _log_mean(other), jackknife_error(_without(mine, other))
     return [Estimate(float(v), float(e), len(mine)) for v, e in zip(value, errors, strict=True)]
 
 
@@ -191,7 +190,7 @@ def _log_mean(levels: FloatArray) -> FloatArray:
 
 
 def _levels(series: FloatArray, time_step: float, edges: FloatArray) -> FloatArray:
-    record = spectra(series[:, np.newaxis], time_step=time_step, window="hann")
+    record = record_spectra(series[:, np.newaxis], time_step=time_step, window="hann")
     return band_levels(record.omega, record.density, edges)[:, 0]
 
 
@@ -207,7 +206,7 @@ def ranges(found: Levels) -> dict[str, NDArray[np.bool_]]:
     }
 
 
-def _compared(found: Levels) -> str:
+def _method(found: Levels) -> str:
     case, scene = found.result.case, found.result.case.scene
     strips = case.strip(0, case.cells, case.tolerance, case.turns)
     steps, across = strips.shape
@@ -254,14 +253,14 @@ def _means(found: Levels) -> list[Number]:
             numbers.append(
                 Number(
                     quantity=f"{model} over bem3d, {where}",
-                    value=POWER * value.value,
+                    value=POWER_DECIBEL * value.value,
                     reference=0.0,
                     source="boundary elements in the time loop",
                     tolerance=ONE,
                     unit="dB",
                     reason="1 dB: a third of what one-third octaves of rolling noise are held to",
-                    grid=POWER * grid,
-                    sample=POWER * value.half_width,
+                    grid=POWER_DECIBEL * grid,
+                    sample=POWER_DECIBEL * value.half_width,
                     role=Role.FINDING,
                 )
             )
@@ -275,7 +274,9 @@ def _region_numbers(found: Levels) -> list[Number]:
     assert rail is not None  # strips have refused it
     period = math.pi * scene.speed / scene.contact_radius
     whole = [one for one in found.result.strips[FINEST] if not one["failed"]]
-    records = [spectra(one["bem"][:, np.newaxis], time_step=float(one["time step"]), window="hann") for one in whole]
+    records = [
+        record_spectra(one["bem"][:, np.newaxis], time_step=float(one["time step"]), window="hann") for one in whole
+    ]
     omega = records[0].omega
     density = np.array([record.density[:, 0] for record in records])
     first, last = 1.1 * scene.jump, 0.7 * scene.cutoff
@@ -286,7 +287,7 @@ def _region_numbers(found: Levels) -> list[Number]:
         return regions.slope(omega, some.mean(axis=0), first, last, period)
 
     without = [slope(np.delete(density, i, axis=0)) for i in range(len(density))]
-    value = Estimate(slope(density), float(left_out_error(without)), len(density))
+    value = Estimate(slope(density), float(jackknife_error(without)), len(density))
     return [
         Number(
             quantity="region 3 by boundary elements: slope",
@@ -308,13 +309,13 @@ def _table(found: Levels) -> Table:
             "omega [rad/s]": float(centre),
             "from [rad/s]": float(found.edges[i]),
             "to [rad/s]": float(found.edges[i + 1]),
-            "bem3d [dB]": POWER * float(found.bem[i]),
-            "± sample [dB]": POWER * found.ratio[i].half_width,
-            "± grid [dB]": POWER * float(found.grid[i]),
-            "± solver [dB]": POWER * float(found.solver[i]),
+            "bem3d [dB]": POWER_DECIBEL * float(found.bem[i]),
+            "± sample [dB]": POWER_DECIBEL * found.ratio[i].half_width,
+            "± grid [dB]": POWER_DECIBEL * float(found.grid[i]),
+            "± solver [dB]": POWER_DECIBEL * float(found.solver[i]),
         }
         for model in MODELS:
-            row[f"{model} over bem3d [dB]"] = POWER * float(found.over_bem(model)[i])
+            row[f"{model} over bem3d [dB]"] = POWER_DECIBEL * float(found.over_bem(model)[i])
         rows.append(row)
     return table_of("levels", rows)
 
@@ -326,7 +327,7 @@ def _narrow(found: Levels) -> Table:
     whole = [one for one in found.result.strips[FINEST] if not one["failed"]]
     time_step = float(whole[0]["time step"])
     series = {model: np.stack([one[model] for one in whole], axis=1) for model in ("bem", "linear")}
-    records = {model: spectra(x, time_step=time_step, window="hann") for model, x in series.items()}
+    records = {model: record_spectra(x, time_step=time_step, window="hann") for model, x in series.items()}
     omega = records["bem"].omega
     edges = np.arange(0.7 * scene.jump, min(scene.cutoff, 12 * period), max(period / 12, 2 * float(omega[0])))
     springs = found.result.springs["geike"]
@@ -361,8 +362,8 @@ def _regions(found: Levels, numbers: list[Number]) -> Table:
             ],
             "by boundary elements": [
                 f"excited by the roughness: its force there over that at q_min v₀ is {_at_resonance(found):+.1f} dB",
-                f"real; linear theory over it {beside(plateau[0])}" if plateau else "no band holds it",
-                f"slope {beside(third[0])}; zeros filled in"
+                f"real; linear theory over it {with_reference(plateau[0])}" if plateau else "no band holds it",
+                f"slope {with_reference(third[0])}; zeros filled in"
                 if third
                 else "too few periods for a slope; zeros filled in",
                 f"beyond 1.3 q_max v₀ {_beyond(found):.0f} dB below the last tenth of the roughness, with Hann's "
@@ -390,7 +391,7 @@ def _at_resonance(found: Levels) -> float:
         contact_radius=scene.contact_radius,
         modulus=scene.modulus,
     )
-    return POWER * math.log(force[0] / force[1])
+    return POWER_DECIBEL * math.log(force[0] / force[1])
 
 
 def _beyond(found: Levels) -> float:
@@ -400,7 +401,7 @@ def _beyond(found: Levels) -> float:
         found.of_strips(FINEST, "bem", np.array(band) * cutoff)[:, 0].mean() / (band[1] - band[0])
         for band in ((0.9, 1.0), (1.3, 1.8))
     )
-    return -POWER * math.log(outside / inside)
+    return -POWER_DECIBEL * math.log(outside / inside)
 
 
 def _within(found: Levels) -> Table:
@@ -408,7 +409,7 @@ def _within(found: Levels) -> Table:
     rows: list[dict[str, object]] = []
     for model in MODELS:
         row: dict[str, object] = {"model": model}
-        off = np.abs(POWER * found.over_bem(model))
+        off = np.abs(POWER_DECIBEL * found.over_bem(model))
         for where, bands in ranges(found).items():
             row[where] = f"{(off[bands] <= ONE).sum()} and {(off[bands] <= THREE).sum()} of {bands.sum()}"
         rows.append(row)
@@ -427,17 +428,21 @@ def _conclusions(found: Levels, numbers: list[Number]) -> list[str]:
             sentences.append(f"Level over boundary elements, {where}: {'; '.join(parts)}.")
     slope = next((n for n in numbers if "slope" in n.label), None)
     if slope is not None:
-        sentences.append(claim(f"The power law of region 3 holds in three dimensions: slope {beside(slope)}.", [slope]))
+        sentences.append(
+            if_confirmed(
+                f"The power law of region 3 holds in three dimensions: slope {with_reference(slope)}.", [slope]
+            )
+        )
     plateau = [n for n in numbers if n.label.endswith("region 2")]
     theory = next((n for n in plateau if n.label.startswith(LINEAR_3D)), None)
     geike = next((n for n in plateau if n.label.startswith(SPRINGS)), None)
     if theory is not None and geike is not None:
         sentences.append(
-            claim(
+            if_confirmed(
                 "In three dimensions region 2 is real: an isotropic surface has waves that cross the track aslant, and "
                 "along it they are longer than those of q_min. Linear theory has it, "
-                f"{beside(theory)}; springs of Geike's spectrum, of which only leakage and nonlinearity are there, are "
-                f"{abs(geike.value):.0f} dB too {'low' if geike.value < 0 else 'high'} once nothing leaks.",
+                f"{with_reference(theory)}; springs of Geike's spectrum, of which only leakage and nonlinearity are "
+                f"there, are {abs(geike.value):.0f} dB too {'low' if geike.value < 0 else 'high'} once nothing leaks.",
                 [theory],
             )
         )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import bem3d
 from mdr import SelfAffine
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome, generator
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
@@ -165,7 +165,7 @@ def _strip_contact(still: Still) -> bem3d.RollingContact:
             if rough is not None:
                 carried = partial(_carried, rough.spectrum, math.pi / (2 * spacing))
                 strip += bem3d.rough_surface(
-                    carried, shape=strip.shape, spacing=spacing, rng=generator(still.seed, STRIP, i)
+                    carried, shape=strip.shape, spacing=spacing, rng=random_generator(still.seed, STRIP, i)
                 )
     law = BoundaryElementsLaw(wheel, [strip], spacing)
     simulate(wheel, law, time_step=spacing / scene.speed, steps=still.steps)

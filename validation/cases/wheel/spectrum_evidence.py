@@ -12,15 +12,14 @@ from validation.analysis.evidence import (
     Table,
     Verdict,
     VerdictCell,
-    beside,
-    claim,
     columns,
+    if_confirmed,
     plus_minus,
     table_of,
+    with_reference,
 )
-from validation.analysis.records import band_means
-from validation.analysis.statistics import POWER_DECIBEL as POWER
-from validation.analysis.statistics import Estimate
+from validation.analysis.spectra import band_means
+from validation.analysis.statistics import POWER_DECIBEL, Estimate
 from validation.cases.wheel.features import (
     APART,
     BREAK,
@@ -79,7 +78,7 @@ def evidence(result: WheelResult) -> Evidence:
     numbers = [*_exact(result), *features[base].values(), *([level] if level else [])]
     return Evidence(
         title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
-        compared=_compared(result, spectra[base]),
+        method=_method(result, spectra[base]),
         numbers=tuple(numbers),
         tables=(
             _bands(result, spectra, base),
@@ -89,7 +88,11 @@ def evidence(result: WheelResult) -> Evidence:
             _pressure(result),
             _marks(spectra[base]),
         ),
-        shown=(_scene(case.scene), _regions(features[base]), *([_parameters(features)] if len(features) > 1 else [])),
+        page_tables=(
+            _scene(case.scene),
+            _regions(features[base]),
+            *([_parameters(features)] if len(features) > 1 else []),
+        ),
         conclusions=(
             *_hidden(case.scene),
             *_conclusions(features, base, level),
@@ -100,7 +103,7 @@ def evidence(result: WheelResult) -> Evidence:
     )
 
 
-def _compared(result: WheelResult, spectrum: Spectrum) -> str:
+def _method(result: WheelResult, spectrum: Spectrum) -> str:
     scene = result.case.scene
     ours = (
         "Table 14.1 prints E, ν, R, M and h₀; all else is our choice, see the table of the scene. "
@@ -209,13 +212,13 @@ def _level(spectrum: Spectrum) -> Number | None:
     estimate = Estimate(math.log(mean / linear), error, len(sums))
     return Number(
         quantity="region 3: level over linear theory, (14.12) through the resonator",
-        value=POWER * estimate.value,
+        value=POWER_DECIBEL * estimate.value,
         reference=0.0,
         source="a contact that keeps its radius",
         tolerance=0.5,
         unit="dB",
         reason="0.5 dB: a sixth of what one-third octaves of rolling noise are held to",
-        sample=POWER * estimate.half_width,
+        sample=POWER_DECIBEL * estimate.half_width,
         role=Role.FINDING,
     )
 
@@ -434,7 +437,7 @@ def _conclusions(features: dict[str, dict[str, Number]], base: str, level: Numbe
 def _said(sentence: str, number: Number | None) -> str:
     if number is None:
         return f"None stands out in this run: {sentence[0].lower()}{sentence[1:]}."
-    return claim(f"{sentence}: {beside(number)}.", [number])
+    return if_confirmed(f"{sentence}: {with_reference(number)}.", [number])
 
 
 def _moves(features: dict[str, dict[str, Number]]) -> list[str]:
