@@ -23,7 +23,7 @@ from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_whe
 from validation.scenes.load import bundled_for_compare, load_scene
 from validation.scenes.printable import printable
 from validation.scenes.reader import SceneError
-from validation.selection.compare import WANTS, time_of, told
+from validation.selection.compare import QUANTITIES, format_seconds, summary
 from validation.selection.compare import compare as compared
 from validation.selection.hierarchy import ContactModel
 
@@ -139,15 +139,16 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
 def compare(arguments: argparse.Namespace) -> Exit:
     """Climb the ladder of a scene, say where it ended and why."""
     scene = load_scene(arguments.scene)
-    found = compared(scene, want=arguments.want, tolerance=arguments.tolerance, seed=arguments.seed or 0, tell=_asking)
-    print("\n".join(told(found)))
-    return Exit.MET if found.climb.met else Exit.NOT_CONVERGED
+    seed = arguments.seed or 0
+    found = compared(scene, quantity=arguments.want, tolerance=arguments.tolerance, seed=seed, callback=_announce)
+    print("\n".join(summary(found)))
+    return Exit.MET if found.selection.met else Exit.NOT_CONVERGED
 
 
-def _asking(rung: ContactModel) -> None:
-    """What takes a while is said before it is done."""
-    if rung.cost().seconds >= 1:
-        print(f"asking {rung.name}, {time_of(rung.cost().seconds)} or so", file=sys.stderr, flush=True)
+def _announce(model: ContactModel) -> None:
+    """Name a model whose solve takes a second or more, before it begins."""
+    if model.cost().seconds >= 1:
+        print(f"solving {model.name}, about {format_seconds(model.cost().seconds)}", file=sys.stderr, flush=True)
 
 
 def cases(arguments: argparse.Namespace) -> Exit:
@@ -215,7 +216,10 @@ def _parser() -> argparse.ArgumentParser:
         "--tolerance", type=_tolerance, default=0.1, metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
     )
     comparing.add_argument(
-        "--want", choices=WANTS, metavar="WHAT", help=f"one of {', '.join(WANTS)} (default: the first that fits)"
+        "--want",
+        choices=QUANTITIES,
+        metavar="WHAT",
+        help=f"one of {', '.join(QUANTITIES)} (default: the first that fits)",
     )
     comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the roughness that is drawn (default: 0)")
     comparing.set_defaults(command=compare)

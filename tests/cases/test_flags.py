@@ -29,7 +29,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, random_generator
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.selection.hierarchy import Answer, Claim, Cost, select_model
+from validation.selection.hierarchy import Answer, Cost, ErrorEstimate, select_model
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.track_spectrum import self_affine
@@ -462,19 +462,19 @@ class Rung:
     def cost(self):
         return Cost(work=1.0, unit="solves", seconds=1.0)
 
-    def claim(self):
-        return Claim(error=self._claim, because="as claimed")
+    def estimate(self):
+        return ErrorEstimate(error=self._claim, reason="as claimed")
 
     def solve(self):
         parts = {"model": self._error or 0.0, "grid": 0.0, "sample": 0.0}
-        return Answer(value=np.ones(1), **parts, cost=self.cost(), because="as found", failed=self._failed)
+        return Answer(value=np.ones(1), **parts, cost=self.cost(), reason="as found", failed=self._failed)
 
 
 def test_a_rung_that_fails_is_no_answer_however_small_its_error():
     found = select_model([Rung("fails", 0.01, 0.0, "it was cut short"), Rung("holds", 0.05, 0.04)], 0.05)
-    assert [step.fate for step in found.steps] == ["failed", "enough"]
-    assert found.best.rung.name == "holds" and found.met
-    assert found.steps[0].because == "it was cut short"
+    assert [step.status for step in found.candidates] == ["failed", "accepted"]
+    assert found.best.model.name == "holds" and found.met
+    assert found.candidates[0].reason == "it was cut short"
     alone = select_model([Rung("fails", 0.01, 0.0, "it was cut short")], 0.05)
     assert alone.best is None and not alone.met
 
@@ -488,19 +488,19 @@ def test_half_widths_add_and_a_failure_has_no_error_bar():
 @pytest.mark.parametrize(
     ("claims", "errors", "fates"),
     [
-        ((0.2, 0.1), (0.1, 0.05), ["skipped", "enough"]),
-        ((0.1, 0.1), (0.11, 0.1), ["not enough", "enough"]),
-        ((0.1, 0.1, 0.1), (0.1, 0.0, 0.0), ["enough", "not needed", "not needed"]),
-        ((0.3, 0.2), (0.1, 0.15), ["skipped", "not enough"]),
-        ((0.1, 0.5), (0.2, 0.01), ["not enough", "skipped"]),
+        ((0.2, 0.1), (0.1, 0.05), ["skipped", "accepted"]),
+        ((0.1, 0.1), (0.11, 0.1), ["not accurate enough", "accepted"]),
+        ((0.1, 0.1, 0.1), (0.1, 0.0, 0.0), ["accepted", "not needed", "not needed"]),
+        ((0.3, 0.2), (0.1, 0.15), ["skipped", "not accurate enough"]),
+        ((0.1, 0.5), (0.2, 0.01), ["not accurate enough", "skipped"]),
     ],
 )
 def test_what_becomes_of_rungs(claims, errors, fates):
     """A tolerance of 0.1 is met by an error of just as much."""
     names = "abc"
     found = select_model([Rung(n, c, e) for n, c, e in zip(names, claims, errors, strict=False)], 0.1)
-    assert [step.fate for step in found.steps] == fates
-    assert found.met == ("enough" in fates)
+    assert [step.status for step in found.candidates] == fates
+    assert found.met == ("accepted" in fates)
 
 
 # --- whose surfaces are whose ---
@@ -509,15 +509,15 @@ def test_what_becomes_of_rungs(claims, errors, fates):
 def test_the_referee_of_the_ladder_has_surfaces_of_its_own():
     """Everybody who is held to account draws with the seed of the trial, the referee with none of theirs."""
     seeds = []
-    rungs_of = ladder.rungs_of
+    models_of = ladder.models_of
 
     def seen(scene, want, tolerance, seed):
         seeds.append(seed)
-        return rungs_of(scene, want, tolerance, seed)
+        return models_of(scene, want, tolerance, seed)
 
     trial = ladder.Ladder(punches=1, spheres=0, rolling=0, wheels=0, tolerances=(0.3,)).trials[0]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(ladder, "rungs_of", seen)
+        patch.setattr(ladder, "models_of", seen)
         ladder.hold_to_account(trial)
     referee, *tested = seeds
     assert set(tested) == {trial.seed} and referee != trial.seed

@@ -14,10 +14,10 @@ from tests.selection import test_model_hierarchy as test_ladder
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.engine import engine as ensemble
 from validation.selection import compare
-from validation.selection import hierarchy as ladder_of_models
-from validation.selection import indentation_models as rungs_pressed
-from validation.selection import indentation_on_grids as rungs_pressed_grids
-from validation.selection import rolling_models as rungs_rolling
+from validation.selection import hierarchy as hierarchy
+from validation.selection import indentation_models as indentation_models
+from validation.selection import indentation_on_grids as indentation_on_grids
+from validation.selection import rolling_models as rolling_models
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
@@ -30,8 +30,8 @@ def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
     return rolling_theory.force_spectrum_1d(q, geike, contact_radius=contact_radius, modulus=modulus)
 
 
-def without_a_resonator(question, q):
-    return np.ones_like(q) / question.scene.body.mass
+def without_a_resonator(quantity, q):
+    return np.ones_like(q) / quantity.scene.body.mass
 
 
 def one_standard_error(ratios):
@@ -51,17 +51,17 @@ def other_waves_on_every_grid(ground, shortest, cells, side, rng):
 
 
 def the_last_change_alone(earlier, last):
-    return abs(float(last.mean())) + ladder_of_models.mean_error(last[:, np.newaxis])
+    return abs(float(last.mean())) + hierarchy.mean_error(last[:, np.newaxis])
 
 
 def without_the_noise_of_its_series(earlier, last):
     before, after = (abs(float(change.mean())) for change in (earlier, last))
-    ratio = min(after / before, ladder_of_models.SLOWEST)
-    return after * max(1.0, ratio / (1 - ratio)) + ladder_of_models.mean_error(last[:, np.newaxis])
+    ratio = min(after / before, hierarchy.SLOWEST)
+    return after * max(1.0, ratio / (1 - ratio)) + hierarchy.mean_error(last[:, np.newaxis])
 
 
 def mean_over_bands(ratios):
-    return float(np.mean([ladder_of_models.mean_error(band[:, np.newaxis]) for band in ratios.T]))
+    return float(np.mean([hierarchy.mean_error(band[:, np.newaxis]) for band in ratios.T]))
 
 
 def the_same_every_time(entropy, *key):
@@ -72,16 +72,16 @@ def of_unit_modulus(**settings):
     return bem3d.HalfSpace(**{**settings, "modulus": 1.0})
 
 
-pressed_on_a_grid = rungs_pressed_grids.IndentationOnGrid._pressed
+pressed_on_a_grid = indentation_on_grids.IndentationOnGrid._pressed
 
 
-def another_surface_on_coarser_grids(rung, realisation, cells):
-    return pressed_on_a_grid(rung, realisation + (cells != rung.cells), cells)
+def another_surface_on_coarser_grids(model, realisation, cells):
+    return pressed_on_a_grid(model, realisation + (cells != model.cells), cells)
 
 
-def another_strip_beside(rung, realisation, cells):
-    other = realisation + (cells == rung.beside)
-    return rungs_rolling.on_boundary_elements(rung.question, cells, other, rung.seed)
+def another_strip_beside(model, realisation, cells):
+    other = realisation + (cells == model.beside)
+    return rolling_models.on_boundary_elements(model.quantity, cells, other, model.seed)
 
 
 def geike_for_what_rolls(ground, contact_radius):
@@ -102,7 +102,7 @@ FAULTS = {
         test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
     ),
     "one standard error for a 95 % interval": (
-        (ladder_of_models, "mean_error", one_standard_error),
+        (hierarchy, "mean_error", one_standard_error),
         test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
     ),
     "twice the separation of a rough face": (
@@ -122,7 +122,7 @@ FAULTS = {
         test_ladder.test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed,
     ),
     "an answer that stands on one cell": (
-        (rungs_pressed_grids, "too_few", lambda *_: ""),
+        (indentation_on_grids, "too_few", lambda *_: ""),
         test_claims.test_few_springs_and_few_cells_are_no_answer,
     ),
     "grids that do not converge with the error bar of those that do": (
@@ -130,15 +130,15 @@ FAULTS = {
         test_claims.test_grids_that_do_not_converge_have_no_error_bar,
     ),
     "the error of a grid without that of its sample": (
-        (ladder_of_models, "mean_error", lambda _: 0.0),
+        (hierarchy, "mean_error", lambda _: 0.0),
         test_claims.test_grids_that_do_not_converge_have_no_error_bar,
     ),
     "a table of errors held constant beyond its end": (
-        (rungs_pressed, "outside", lambda *_: ""),
+        (indentation_models, "outside", lambda *_: ""),
         functools.partial(test_claims.test_light_loads_have_no_answer_unless_it_is_that_of_the_summits, 1e-5, 8),
     ),
     "a linear filter for waves shorter than the contact": (
-        (rungs_rolling, "outside", lambda *_: ""),
+        (rolling_models, "outside", lambda *_: ""),
         functools.partial(
             test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15
         ),
@@ -158,7 +158,7 @@ FAULTS = {
         test_claims.test_the_error_over_bands_is_their_root_mean_square,
     ),
     "coarser grids on other surfaces": (
-        (rungs_pressed_grids.IndentationOnGrid, "_pressed", another_surface_on_coarser_grids),
+        (indentation_on_grids.IndentationOnGrid, "_pressed", another_surface_on_coarser_grids),
         test_claims.test_grids_are_compared_on_the_same_surfaces,
     ),
     "one surface for all": (
@@ -170,11 +170,11 @@ FAULTS = {
         test_claims.test_realisations_are_others,
     ),
     "a half-space of unit modulus": (
-        (rungs_pressed_grids, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})),
+        (indentation_on_grids, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})),
         functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
     ),
     "one measured face for the mean of all": (
-        (rungs_pressed, "SCATTER", 0.0),
+        (indentation_models, "SCATTER", 0.0),
         test_claims.test_one_measured_face_is_not_the_mean_of_all,
     ),
     "a sphere cut off at its smooth approach": (
@@ -186,15 +186,15 @@ FAULTS = {
         test_claims.test_grids_are_as_fine_in_any_unit,
     ),
     "the rule of the rms for levels in bands": (
-        (rungs_rolling, "LINEAR_BANDS", rungs_rolling.LINEAR_RMS),
+        (rolling_models, "LINEAR_BANDS", rolling_models.LINEAR_RMS),
         functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
     ),
     "what the finer of two grids leaves, for the coarser": (
-        (rungs_rolling, "OF_COARSE", rungs_rolling.OF_FINE),
+        (rolling_models, "OF_COARSE", rolling_models.OF_FINE),
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
     ),
     "a grid beside another on another strip": (
-        (rungs_rolling.RollingOnGrid, "_rolled", another_strip_beside),
+        (rolling_models.RollingOnGrid, "_rolled", another_strip_beside),
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
     ),
     "Geike's spectrum for springs that roll": (

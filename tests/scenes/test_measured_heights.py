@@ -18,7 +18,7 @@ from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights, measured
 from validation.scenes.reader import SCENES
 from validation.scenes.rolling import RollingScene
-from validation.selection.compare import rungs_of
+from validation.selection.compare import models_of
 
 N, DX = 256, 1e-6
 BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)
@@ -213,13 +213,13 @@ def test_a_tilt_and_steepness_are_notes_and_texture_and_skewness_are_reasons():
     scene = {"name": "it", "shape": "punch", "size": N * DX, "load": 0.1, "modulus": 1e9}
     for ground in (tilted, steep):
         assert ground.beyond_a_spectrum() == ()
-        claims = [rung.claim() for rung in rungs_of(IndentationScene(**scene, ground=ground), "stiffness", 0.1, 0)]
-        assert not any("knows the spectrum alone" in claim.because for claim in claims)
+        claims = [rung.estimate() for rung in models_of(IndentationScene(**scene, ground=ground), "stiffness", 0.1, 0)]
+        assert not any("knows the spectrum alone" in claim.reason for claim in claims)
         assert IndentationScene(**scene, ground=ground).diagnose() == ground.notes()
     for ground in (heights(drawn(), spacing=(DX, 3 * DX)), heights(np.minimum(drawn(), 0.3e-7))):
         assert ground.beyond_a_spectrum() == ground.notes() != ()
     worn = IndentationScene(**scene, ground=heights(np.minimum(drawn(), 0.3e-7)))
-    assert "knows the spectrum alone" in rungs_of(worn, "stiffness", 0.1, 0)[0].claim().because
+    assert "knows the spectrum alone" in models_of(worn, "stiffness", 0.1, 0)[0].estimate().reason
 
 
 @pytest.mark.parametrize(

@@ -14,12 +14,12 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection import hierarchy as ladder_of_models
-from validation.selection import indentation_models as rungs_pressed
-from validation.selection import indentation_on_grids as rungs_pressed_grids
-from validation.selection import rolling_models as rungs_rolling
+from validation.selection import hierarchy as hierarchy
+from validation.selection import indentation_models as indentation_models
+from validation.selection import indentation_on_grids as indentation_on_grids
+from validation.selection import rolling_models as rolling_models
 from validation.selection.calibrated import outside
-from validation.selection.compare import compare, rungs_of, told, wants_of
+from validation.selection.compare import compare, models_of, quantities_of, summary
 from validation.selection.hierarchy import Answer, Cost, grid_error, mean_error, select_model
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
@@ -42,8 +42,8 @@ def rolling(height=0.03, first=1.0, last=4.0, hurst=0.7, shape="wheel"):
     return RollingScene(name="wheel", radius=10.0, **given)
 
 
-def fates(comparison):
-    return {step.rung.name: step.fate for step in comparison.climb.steps}
+def statuses(comparison):
+    return {candidate.model.name: candidate.status for candidate in comparison.selection.candidates}
 
 
 # Grids
@@ -102,36 +102,36 @@ def summit_stiffness(scene, realisation, cells=64):
 def test_light_loads_have_no_answer_unless_it_is_that_of_the_summits(load, last):
     scene = punch(load=load, last=last)
     found = compare(scene, tolerance=1.0)
-    best = found.climb.best
+    best = found.selection.best
     if best is not None:
         truth = np.mean([summit_stiffness(scene, i) for i in range(16)])
         # of sixteen summits; an ellipse taken for a circle
         assert abs(math.log(best.answer.value[0] / truth)) <= best.answer.error + 0.3
-    assert fates(found)["springs"] == "out of range"
-    assert fates(found)["closed form"] == "out of range"
+    assert statuses(found)["springs"] == "out of range"
+    assert statuses(found)["closed form"] == "out of range"
 
 
 def test_few_springs_and_few_cells_are_no_answer():
     scene = punch(load=1e-3, last=32)
-    assert "springs or fewer" in rungs_of(scene, "stiffness", 0.5, 0)[1].solve().failed
-    assert "cells or fewer" in rungs_pressed_grids.IndentationOnGrid(scene, 0.5, 0, 64).solve().failed
-    assert set(fates(compare(punch(load=1e-6), tolerance=0.5)).values()) == {"out of range", "failed"}
+    assert "springs or fewer" in models_of(scene, "stiffness", 0.5, 0)[1].solve().failed
+    assert "cells or fewer" in indentation_on_grids.IndentationOnGrid(scene, 0.5, 0, 64).solve().failed
+    assert set(statuses(compare(punch(load=1e-6), tolerance=0.5)).values()) == {"out of range", "failed"}
 
 
 def test_a_sphere_that_reaches_the_edge_of_its_grid_is_no_answer(monkeypatch):
     # a = 1
-    for module in (pressed_heights, rungs_pressed_grids):
+    for module in (pressed_heights, indentation_on_grids):
         monkeypatch.setattr(module, "side_of", lambda scene: 1.5)
     ball = rolling(height=0.1, first=4.5, last=9, shape="sphere")
     assert (
-        rungs_pressed_grids.IndentationOnGrid(ball, 0.5, 0, 32).solve().failed.endswith("reached the edge of the grid")
+        indentation_on_grids.IndentationOnGrid(ball, 0.5, 0, 32).solve().failed.endswith("reached the edge of the grid")
     )
 
 
 def test_a_contact_that_is_cut_short_is_no_answer(monkeypatch):
     solve = bem3d.solve
     monkeypatch.setattr(bem3d, "solve", lambda *a, **k: solve(*a, **{**k, "max_iterations": 1}))
-    answer = rungs_pressed_grids.IndentationOnGrid(punch(), 0.5, 0, 32).solve()
+    answer = indentation_on_grids.IndentationOnGrid(punch(), 0.5, 0, 32).solve()
     assert answer.failed.endswith("did not converge")
     assert answer.error == math.inf
 
@@ -161,21 +161,22 @@ INSIDE_AND_OUTSIDE = [
 
 @pytest.mark.parametrize(("name", "inside", "outside"), INSIDE_AND_OUTSIDE)
 def test_beyond_what_was_measured_springs_and_filters_claim_nothing(name, inside, outside):
-    for want in wants_of(inside):
+    for quantity in quantities_of(inside):
         within, beyond = (
-            {rung.model: rung.claim() for rung in rungs_of(scene, want, 0.1, 0)} for scene in (inside, outside)
+            {model.kind: model.estimate() for model in models_of(scene, quantity, 0.1, 0)}
+            for scene in (inside, outside)
         )
         for model in within.keys() - {"boundary elements", "closed form"}:
             assert within[model].in_range
             assert not beyond[model].in_range
-            assert beyond[model].because.startswith(f"{name} = ")
+            assert beyond[model].reason.startswith(f"{name} = ")
 
 
 @pytest.mark.parametrize(
     "scene", [punch(load=0.19), punch(load=1.0, first=6, last=24), rolling(height=1.1, shape="sphere")]
 )
 def test_beyond_what_was_measured_closed_forms_claim_nothing(scene):
-    assert "its error was measured from" in rungs_of(scene, "stiffness", 0.1, 0)[0].claim().because
+    assert "its error was measured from" in models_of(scene, "stiffness", 0.1, 0)[0].estimate().reason
 
 
 def test_what_is_outside_is_said_with_its_numbers():
@@ -187,32 +188,32 @@ def test_what_is_outside_is_said_with_its_numbers():
     assert outside({}, ranges) == ""
 
 
-@pytest.mark.parametrize(("want", "tolerance"), [("force-spectrum", 10 ** (4 / 20) - 1), ("force-rms", 0.15)])
-def test_waves_shorter_than_the_contact_are_left_to_boundary_elements(want, tolerance):
+@pytest.mark.parametrize(("quantity", "tolerance"), [("force-spectrum", 10 ** (4 / 20) - 1), ("force-rms", 0.15)])
+def test_waves_shorter_than_the_contact_are_left_to_boundary_elements(quantity, tolerance):
     a = 1.0
     ground = Roughness(rms=0.05 * 0.1, hurst=0.9, longest=0.6 * a, shortest=0.2 * a)
     scene = replace(rolling(), ground=ground)
-    for rung in rungs_of(scene, want, tolerance, 0):
-        assert rung.claim().in_range == (rung.model == "boundary elements")
+    for model in models_of(scene, quantity, tolerance, 0):
+        assert model.estimate().in_range == (model.kind == "boundary elements")
 
 
 def test_a_model_out_of_range_is_never_asked():
     class Refusing:
-        model = name = "refusing"
+        kind = name = "refusing"
 
         def cost(self):
-            return Cost(work=1, unit="steps", seconds=1.0)
+            return Cost(work=1, unit="candidates", seconds=1.0)
 
-        def claim(self):
-            return ladder_of_models.Claim.out_of_range("never measured")
+        def estimate(self):
+            return hierarchy.ErrorEstimate.out_of_range("never measured")
 
         def solve(self):
             raise AssertionError("asked all the same")
 
-    climbed = select_model([Refusing()], 0.1)
-    assert [step.fate for step in climbed.steps] == ["out of range"]
-    assert climbed.best is None
-    assert ladder_of_models.needed([Refusing()], 1e300) is None
+    selection = select_model([Refusing()], 0.1)
+    assert [candidate.status for candidate in selection.candidates] == ["out of range"]
+    assert selection.best is None
+    assert hierarchy.needed([Refusing()], 1e300) is None
 
 
 # What cannot serve a scene is a row
@@ -221,15 +222,15 @@ def test_a_model_out_of_range_is_never_asked():
 @pytest.mark.parametrize(("first", "last"), [(1, 1.5), (4, 5), (8, 9)])
 def test_narrow_bands_have_an_answer(first, last):
     found = compare(punch(first=first, last=last), tolerance=0.5)
-    assert found.climb.met
-    assert found.climb.best.rung.model == "boundary elements"
+    assert found.selection.met
+    assert found.selection.best.model.model == "boundary elements"
 
 
 def test_a_band_without_a_wave_that_fits_is_a_row_with_its_reason():
     found = compare(punch(first=1.05, last=1.2), tolerance=0.5)
-    assert not found.climb.met
-    assert "no rung has an answer" in told(found)
-    assert all(step.because for step in found.climb.steps)
+    assert not found.selection.met
+    assert "no model has an answer" in summary(found)
+    assert all(candidate.reason for candidate in found.selection.candidates)
 
 
 @pytest.mark.parametrize("problem", [ValueError("no wave"), ZeroDivisionError("division by zero"), MemoryError()])
@@ -237,13 +238,13 @@ def test_a_solve_that_raises_is_a_row_and_the_others_go_on(problem, monkeypatch)
     def raising(self):
         raise problem
 
-    monkeypatch.setattr(rungs_pressed.IndentationOnSprings, "solve", raising)
+    monkeypatch.setattr(indentation_models.IndentationOnSprings, "solve", raising)
     found = compare(punch(load=0.1), tolerance=0.3)
-    assert fates(found)["springs"] == "failed"
-    assert found.climb.met
-    step = found.climb.steps[1]
-    assert step.because == (str(problem) or "MemoryError")
-    assert step.answer.error == math.inf
+    assert statuses(found)["springs"] == "failed"
+    assert found.selection.met
+    candidate = found.selection.candidates[1]
+    assert candidate.reason == (str(problem) or "MemoryError")
+    assert candidate.answer.error == math.inf
 
 
 # Memory and cost
@@ -264,27 +265,27 @@ def test_the_shortest_waves_cost_no_memory():
         ground = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=10.0**-power)
         scene = replace(punch(), ground=ground)
         assert pressed_heights.height_of(scene, 64, 0, 0).std() < 1e-3
-        assert not rungs_of(scene, "stiffness", 0.2, 0)[1].claim().in_range
+        assert not models_of(scene, "stiffness", 0.2, 0)[1].estimate().in_range
 
 
 def test_profiles_in_blocks_are_those_drawn_at_once(monkeypatch):
-    rung = rungs_pressed.IndentationOnSprings(punch(), 0.2, seed=3)
-    whole = rung.solve()
-    monkeypatch.setattr(rungs_pressed, "BLOCK", 7 * rung.points)
-    assert rung.solve().value == whole.value
-    assert rung.solve().sample == whole.sample
+    model = indentation_models.IndentationOnSprings(punch(), 0.2, seed=3)
+    whole = model.solve()
+    monkeypatch.setattr(indentation_models, "BLOCK", 7 * model.points)
+    assert model.solve().value == whole.value
+    assert model.solve().sample == whole.sample
 
 
 def test_what_does_not_fit_into_memory_is_said_before_it_is_begun():
     far = rolling(first=1e-7, last=1e-6, shape="sphere")
-    assert "springs, more than" in rungs_of(far, "stiffness", 0.1, 0)[1].claim().because
+    assert "springs, more than" in models_of(far, "stiffness", 0.1, 0)[1].estimate().reason
     wide = rolling(first=1e-4, last=1e-3)
-    claims = [rung.claim() for rung in rungs_of(wide, "force-rms", 0.1, 0)]
+    claims = [model.estimate() for model in models_of(wide, "force-rms", 0.1, 0)]
     assert claims[0].in_range
-    assert "springs, more than" in claims[1].because
-    assert all("cells, more than" in claim.because for claim in claims[2:])
+    assert "springs, more than" in claims[1].reason
+    assert all("cells, more than" in claim.reason for claim in claims[2:])
     fine = rolling(first=1.0, last=200.0)
-    assert "cells on the finest grids" in rungs_of(fine, "force-rms", 0.1, 0)[-1].claim().because
+    assert "cells on the finest grids" in models_of(fine, "force-rms", 0.1, 0)[-1].estimate().reason
 
 
 # Models by their own names
@@ -294,27 +295,27 @@ def test_what_does_not_fit_into_memory_is_said_before_it_is_begun():
 def test_every_model_has_its_claims_tested(kind):
     for number in range(12):
         scene = random_scene(kind, number, 0)
-        for want in WANTED[kind]:
-            rungs = rungs_of(scene, want, 0.1, 0)
-            assert {ladder._rung_of(rung, rungs) for rung in rungs} <= set(ladder.RUNGS)
+        for quantity in WANTED[kind]:
+            models = models_of(scene, quantity, 0.1, 0)
+            assert {ladder._rung_of(model, models) for model in models} <= set(ladder.RUNGS)
 
 
 def test_a_model_that_the_case_does_not_know_is_an_error():
-    class New(rungs_pressed.IndentationClosedForm):
-        model = name = "a new closed form"
+    class New(indentation_models.IndentationClosedForm):
+        kind = name = "a new closed form"
 
-    rungs = [New(punch()), *rungs_of(punch(), "stiffness", 0.1, 0)]
+    models = [New(punch()), *models_of(punch(), "stiffness", 0.1, 0)]
     with pytest.raises(
-        ValueError, match=r"^the model of a rung must be one of closed form, .*, got a new closed form$"
+        ValueError, match=r"^the model of a model must be one of closed form, .*, got a new closed form$"
     ):
-        ladder._asked(rungs, "closed form", np.array([1.0]))
+        ladder._asked(models, "closed form", np.array([1.0]))
 
 
 def test_a_model_out_of_range_is_not_counted_as_covered():
     scene = punch(load=1e-4)
-    rungs = rungs_of(scene, "stiffness", 0.1, 0)
-    assert np.isnan(ladder._asked(rungs, "springs", np.array([1.0]))).all()
-    assert np.isnan(ladder._asked(rungs, ladder.COARSE, np.array([1.0]))).all()
+    models = models_of(scene, "stiffness", 0.1, 0)
+    assert np.isnan(ladder._asked(models, "springs", np.array([1.0]))).all()
+    assert np.isnan(ladder._asked(models, ladder.COARSE, np.array([1.0]))).all()
 
 
 def test_what_has_failed_leaves_everything_open():
@@ -348,7 +349,7 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
     """Half as much again of the last change or of half of that before, whichever is more."""
     height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
     scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
-    left = {cells: rungs_pressed_grids.IndentationOnGrid(scene, 0.1, 0, cells)._grid_of_one for cells in (16, 32, 64)}
+    left = {cells: indentation_on_grids.IndentationOnGrid(scene, 0.1, 0, cells)._grid_of_one for cells in (16, 32, 64)}
     assert [left[cells](np.array([0.1, 0.15, 0.2])) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
     assert left[64](np.array([-0.01, 0.1, 0.2])) == pytest.approx(0.075)
     assert left[64](np.array([0.2, 0.15, 0.1])) == math.inf
@@ -363,8 +364,8 @@ def test_grids_are_compared_on_the_same_surfaces():
 
     height_of = pressed_heights.height_of
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(rungs_pressed_grids, "height_of", recorded)
-        rungs_pressed_grids.IndentationOnGrid(punch(), 0.8, 3, 32).solve()
+        patch.setattr(indentation_on_grids, "height_of", recorded)
+        indentation_on_grids.IndentationOnGrid(punch(), 0.8, 3, 32).solve()
     fine = [(32, i, 3) for i in range(len(seen) - 16)]
     assert sorted(seen) == sorted([*fine, *((cells, i, 3) for cells in (8, 16) for i in range(8))])
 
@@ -386,17 +387,17 @@ def test_realisations_are_others():
 
 
 def test_a_contact_costs_the_same_on_every_grid():
-    rung = rungs_pressed_grids.IndentationOnGrid(punch(), 0.4, 0, 32)
-    cost = rung._cost(9, 8)
-    contacts = (cost.seconds - rungs_pressed_grids.CELL * cost.work) / rungs_pressed_grids.PRESS
+    model = indentation_on_grids.IndentationOnGrid(punch(), 0.4, 0, 32)
+    cost = model._cost(9, 8)
+    contacts = (cost.seconds - indentation_on_grids.CELL * cost.work) / indentation_on_grids.PRESS
     assert contacts == pytest.approx(9 + 2 * 8)
 
 
 # What models claim, by hand
 
 
-def claims(scene, want="stiffness", tolerance=0.1):
-    return {rung.model: rung.claim().error for rung in rungs_of(scene, want, tolerance, 0)}
+def claims(scene, quantity="stiffness", tolerance=0.1):
+    return {model.kind: model.estimate().error for model in models_of(scene, quantity, tolerance, 0)}
 
 
 @pytest.mark.parametrize(
@@ -438,9 +439,9 @@ def test_one_measured_face_is_not_the_mean_of_all():
     ],
 )
 def test_boundary_elements_claim_what_their_sample_leaves(scene, tolerance, count, claimed):
-    rung = rungs_of(scene, "stiffness", tolerance, 0)[-1]
-    assert rung.count == count
-    assert rung.claim().error == pytest.approx(claimed)
+    model = models_of(scene, "stiffness", tolerance, 0)[-1]
+    assert model.count == count
+    assert model.estimate().error == pytest.approx(claimed)
 
 
 RULES = [
@@ -456,14 +457,14 @@ RULES = [
 ]
 
 
-@pytest.mark.parametrize(("want", "rules"), RULES)
-def test_claims_of_cheap_models_of_rolling(want, rules):
+@pytest.mark.parametrize(("quantity", "rules"), RULES)
+def test_claims_of_cheap_models_of_rolling(quantity, rules):
     """Of the contact that linear theory loses, of h/d, and of neither; springs beside a tenth of the tolerance."""
     scene = rolling(height=0.3)
     ground = scene.ground
     lost = contact_lost(ground.c2d, edges=ground.edges, contact_radius=scene.contact_radius, radius=scene.radius)
     assert not 0.5 < lost / 0.3 < 2
-    found = claims(scene, want)
+    found = claims(scene, quantity)
     for model, rule in rules.items():
         assert found[model] == pytest.approx(np.dot(rule, (lost, 0.3, 1.0)))
 
@@ -475,38 +476,38 @@ def test_claims_of_cheap_models_of_rolling(want, rules):
 def test_two_grids_of_second_order_leave_what_they_miss(finest):
     """ln of a level is c / cells^2 beside its limit, and strips scatter by far more: they are compared one by one."""
 
-    def levels(question, cells, realisation, seed):
+    def levels(quantity, cells, realisation, seed):
         return np.array([realisation % 2 - 0.5 - 20 / cells**2])
 
-    coarse, fine = rungs_of(rolling(), "force-rms", 0.1, 0)[-2:]
+    coarse, fine = models_of(rolling(), "force-rms", 0.1, 0)[-2:]
     assert fine.cells == 1.5 * coarse.cells
-    rung = fine if finest else coarse
+    model = fine if finest else coarse
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(rungs_rolling, "on_boundary_elements", levels)
-        found = rung.solve()
-    assert found.grid == pytest.approx(20 / rung.cells**2, rel=0.01)
+        patch.setattr(rolling_models, "on_boundary_elements", levels)
+        found = model.solve()
+    assert found.grid == pytest.approx(20 / model.cells**2, rel=0.01)
     assert found.sample == pytest.approx(stats.t(9).ppf(0.975) * 0.5 / 3, rel=1e-9)
-    level = rung.question.expected(one_dimensional=False)
-    assert found.value == pytest.approx(level * math.exp(-20 / rung.cells**2), rel=1e-9)
+    level = model.quantity.expected(one_dimensional=False)
+    assert found.value == pytest.approx(level * math.exp(-20 / model.cells**2), rel=1e-9)
 
 
 def test_springs_leave_what_their_tracks_scatter(monkeypatch):
-    springs = rungs_of(rolling(), "force-spectrum", 0.1, 0)[2]
+    springs = models_of(rolling(), "force-spectrum", 0.1, 0)[2]
     assert springs.model == "springs"
-    change = np.random.default_rng(1).standard_normal((60, springs.question.bands.centres.size))
-    monkeypatch.setattr(rungs_rolling, "on_springs", lambda *_: change)
+    change = np.random.default_rng(1).standard_normal((60, springs.quantity.bands.centres.size))
+    monkeypatch.setattr(rolling_models, "on_springs", lambda *_: change)
     found = springs.solve()
     assert found.sample == mean_error(change)
-    assert found.model == springs.claim().error
+    assert found.model == springs.estimate().error
 
 
-@pytest.mark.parametrize("want", ["force-rms", "force-spectrum", "acceleration", "acceleration-rms"])
-def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(want):
-    moving = {"mass": 3.0, "speed": 40.0} if want.startswith("acceleration") else {}
+@pytest.mark.parametrize("quantity", ["force-rms", "force-spectrum", "acceleration", "acceleration-rms"])
+def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(quantity):
+    moving = {"mass": 3.0, "speed": 40.0} if quantity.startswith("acceleration") else {}
     scene = replace(rolling(height=1e-4), **moving)
-    change = rolled.on_springs(RollingQuantity(scene, want), 24, 5)
+    change = rolled.on_springs(RollingQuantity(scene, quantity), 24, 5)
     # tracks that are fed have the level of half-spaces in the mean alone
-    assert abs(change.mean()) <= mean_error(change) + (0.0 if want == "force-rms" else 0.1)
+    assert abs(change.mean()) <= mean_error(change) + (0.0 if quantity == "force-rms" else 0.1)
 
 
 def test_bands_of_measured_heights_are_those_that_they_resolve():
@@ -514,9 +515,9 @@ def test_bands_of_measured_heights_are_those_that_they_resolve():
     height = 1e-4 * np.random.default_rng(6).standard_normal((512, 128))
     ground = MeasuredHeights(height=height, spacing=(1 / 16, 1 / 16))
     bands = RollingQuantity(replace(rolling(), ground=ground), "force-spectrum").bands
-    step = 10**0.1
-    assert bands.edges[0] >= 4 * 2 * math.pi / 32 > bands.edges[0] / step
-    assert bands.edges[-1] <= math.pi * 16 / 2 * (1 + 1e-9) < bands.edges[-1] * step * (1 + 1e-9)
+    candidate = 10**0.1
+    assert bands.edges[0] >= 4 * 2 * math.pi / 32 > bands.edges[0] / candidate
+    assert bands.edges[-1] <= math.pi * 16 / 2 * (1 + 1e-9) < bands.edges[-1] * candidate * (1 + 1e-9)
 
 
 # Units
@@ -535,8 +536,8 @@ ROUGH_BODIES = [punch(load=0.01, last=16), rolling(height=0.1, shape="sphere")]
 @pytest.mark.parametrize("scene", ROUGH_BODIES)
 def test_no_stiffness_depends_on_units(scene):
     """Every model counts as many springs and cells, and answers E* times length more."""
-    ladders = [rungs_of(one, "stiffness", 0.9, 0) for one in (scene, in_other_units(scene))]
-    for one, two in zip(*(rungs[:3] for rungs in ladders), strict=True):
+    ladders = [models_of(one, "stiffness", 0.9, 0) for one in (scene, in_other_units(scene))]
+    for one, two in zip(*(models[:3] for models in ladders), strict=True):
         here, there = one.solve(), two.solve()
         assert there.value == pytest.approx(2e11 * 1e-6 * here.value, rel=1e-3)
         assert there.error == pytest.approx(here.error, rel=1e-2)
@@ -556,12 +557,12 @@ def test_grids_are_as_fine_in_any_unit():
 def test_a_handful_of_springs_is_none_in_any_unit():
     ground = Roughness(rms=1e-9, hurst=0.7, longest=1e-6, shortest=1e-6 / 32)
     few = IndentationScene(name="few", shape="punch", size=1e-6, load=1e-3 * 2e11 * 1e-15, modulus=2e11, ground=ground)
-    assert "springs or fewer" in rungs_of(few, "stiffness", 0.5, 0)[1].solve().failed
+    assert "springs or fewer" in models_of(few, "stiffness", 0.5, 0)[1].solve().failed
 
 
 def test_a_sphere_of_low_roughness_is_that_of_hertz():
     scene = rolling(height=0.01, first=1.9, last=4, shape="sphere")
-    found = rungs_pressed_grids.IndentationOnGrid(scene, 0.1, 0, 32).solve()
+    found = indentation_on_grids.IndentationOnGrid(scene, 0.1, 0, 32).solve()
     assert found.error < 0.1
     assert abs(math.log(found.value[0] / scene.stiffness)) <= found.error + 0.32 * 0.01 + 0.01
 

@@ -21,16 +21,16 @@ from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection import hierarchy as ladder_of_models
-from validation.selection import indentation_models as rungs_pressed
-from validation.selection import indentation_on_grids as pressed_grids
-from validation.selection import rolling_models as rungs_rolling
-from validation.selection.compare import WANTS, Comparison, compare, rungs_of, told, wants_of
+from validation.selection import hierarchy as hierarchy
+from validation.selection import indentation_models as indentation_models
+from validation.selection import indentation_on_grids as indentation_on_grids
+from validation.selection import rolling_models as rolling_models
+from validation.selection.compare import QUANTITIES, Comparison, compare, models_of, quantities_of, summary
 from validation.selection.hierarchy import (
     Answer,
     Candidate,
-    Claim,
     Cost,
+    ErrorEstimate,
     Selection,
     distance,
     mean_error,
@@ -47,7 +47,7 @@ ROUGH = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
 
 @dataclass(frozen=True)
 class Fake:
-    """A rung that claims and finds what it is told."""
+    """A model that claims and finds what it is told."""
 
     name: str = "fake"
     claimed: float = 0.0
@@ -56,14 +56,14 @@ class Fake:
     failed: str = ""
 
     def cost(self):
-        return Cost(work=1, unit="steps", seconds=self.seconds)
+        return Cost(work=1, unit="candidates", seconds=self.seconds)
 
-    def claim(self):
-        return Claim(error=self.claimed, because=f"claims {self.claimed}")
+    def estimate(self):
+        return ErrorEstimate(error=self.claimed, reason=f"claims {self.claimed}")
 
     def solve(self):
         return Answer(
-            value=np.array([1.0]), cost=self.cost(), model=self.left, because=f"leaves {self.left}", failed=self.failed
+            value=np.array([1.0]), cost=self.cost(), model=self.left, reason=f"leaves {self.left}", failed=self.failed
         )
 
 
@@ -82,41 +82,46 @@ def wheel(height=0.03, first=1.0, last=4.0, **changes):
 # The climb
 
 
-def fates(climbed):
-    return [step.fate for step in climbed.steps]
+def statuses(selection):
+    return [candidate.status for candidate in selection.candidates]
 
 
 def test_a_climb_ends_where_the_tolerance_is_met():
-    rungs = [
+    models = [
         Fake(claimed=0.5, seconds=1),
         Fake(left=0.2, seconds=2),
         Fake(failed="lost", seconds=4),
         Fake(left=0.1, seconds=8),
         Fake(seconds=16),
     ]
-    climbed = select_model(rungs, 0.1)
-    assert fates(climbed) == ["skipped", "not enough", "failed", "enough", "not needed"]
-    assert climbed.met
-    assert climbed.best.rung is rungs[3]
-    assert climbed.spent == 2 + 4 + 8
-    assert [step.because for step in climbed.steps[:4]] == ["claims 0.5", "leaves 0.2", "lost", "leaves 0.1"]
+    selection = select_model(models, 0.1)
+    assert statuses(selection) == ["skipped", "not accurate enough", "failed", "accepted", "not needed"]
+    assert selection.met
+    assert selection.best.model is models[3]
+    assert selection.spent == 2 + 4 + 8
+    assert [candidate.reason for candidate in selection.candidates[:4]] == [
+        "claims 0.5",
+        "leaves 0.2",
+        "lost",
+        "leaves 0.1",
+    ]
 
 
 def test_who_misses_the_tolerance_at_the_top_is_told_the_best_there_is():
-    rungs = [Fake(left=0.3), Fake(left=0.2), Fake(failed="lost")]
-    climbed = select_model(rungs, 0.1)
-    assert not climbed.met
-    assert climbed.best.rung is rungs[1]
+    models = [Fake(left=0.3), Fake(left=0.2), Fake(failed="lost")]
+    selection = select_model(models, 0.1)
+    assert not selection.met
+    assert selection.best.model is models[1]
     assert select_model([Fake(failed="lost")], 0.1).best is None
     assert select_model([Fake(claimed=math.inf)], 0.1).best is None
 
 
 def test_the_best_there_is_may_have_been_skipped():
-    rungs = [Fake(claimed=0.2, left=0.15), Fake(claimed=0.15, left=0.12), Fake(left=0.3)]
-    climbed = select_model(rungs, 0.1)
-    assert fates(climbed) == ["skipped", "not enough", "not enough"]
-    assert climbed.best.rung is rungs[1]
-    assert fates(select_model([Fake(claimed=0.5), Fake(left=0.3)], 0.1)) == ["skipped", "not enough"]
+    models = [Fake(claimed=0.2, left=0.15), Fake(claimed=0.15, left=0.12), Fake(left=0.3)]
+    selection = select_model(models, 0.1)
+    assert statuses(selection) == ["skipped", "not accurate enough", "not accurate enough"]
+    assert selection.best.model is models[1]
+    assert statuses(select_model([Fake(claimed=0.5), Fake(left=0.3)], 0.1)) == ["skipped", "not accurate enough"]
 
 
 @pytest.mark.parametrize("tolerance", [0.0, -0.1, math.nan, math.inf])
@@ -126,22 +131,22 @@ def test_tolerances_out_of_range_are_refused(tolerance):
 
 
 def test_what_was_done_is_counted_and_not_what_was_expected():
-    rung = rungs_pressed.IndentationOnGrid(punch(), 0.6, seed=3, cells=32)
-    climbed = select_model([rung], 0.6)
+    model = indentation_models.IndentationOnGrid(punch(), 0.6, seed=3, cells=32)
+    selection = select_model([model], 0.6)
     fine, coarse = 9, 8
-    assert climbed.steps[0].answer.cost.work == 24 * 32**2 * (fine + coarse / 4 + coarse / 16)
-    assert climbed.spent == climbed.steps[0].answer.cost.seconds
-    rough = rungs_of(wheel(height=0.2), "force-spectrum", 0.1, seed=1)[-2]
+    assert selection.candidates[0].answer.cost.work == 24 * 32**2 * (fine + coarse / 4 + coarse / 16)
+    assert selection.spent == selection.candidates[0].answer.cost.seconds
+    rough = models_of(wheel(height=0.2), "force-spectrum", 0.1, seed=1)[-2]
     found = rough.solve()
-    strips = int(found.because.rsplit(" ", 1)[1])
+    strips = int(found.reason.rsplit(" ", 1)[1])
     assert found.cost == rough._cost(strips, 1)
     assert strips > 4
 
 
 def test_what_is_needed_is_known_beforehand():
-    rungs = [Fake(claimed=0.5), Fake(claimed=0.05), Fake()]
-    assert needed(rungs, 0.1) is rungs[1]
-    assert needed(rungs[:1], 0.1) is None
+    models = [Fake(claimed=0.5), Fake(claimed=0.05), Fake()]
+    assert needed(models, 0.1) is models[1]
+    assert needed(models[:1], 0.1) is None
 
 
 def test_errors_add_as_if_they_went_the_same_way():
@@ -159,7 +164,7 @@ def test_a_distance_is_over_all_numbers():
 def test_the_error_of_a_mean_covers_it_in_95_of_100():
     rng = np.random.default_rng(5)
     draws = rng.standard_normal((4000, 6))
-    inside = np.array([abs(row.mean()) <= ladder_of_models.mean_error(row[:, np.newaxis]) for row in draws])
+    inside = np.array([abs(row.mean()) <= hierarchy.mean_error(row[:, np.newaxis]) for row in draws])
     # two standard errors of a share of 4000
     assert inside.mean() == pytest.approx(0.95, abs=2 * math.sqrt(0.95 * 0.05 / 4000))
 
@@ -170,23 +175,28 @@ def test_so_many_realisations_leave_the_error_that_was_asked_for():
     assert realisations(0.3, 1e-9, most=77) == 77
 
 
-# Rungs of a pressed body
+# Models of a pressed body
 
 
 def test_smooth_bodies_need_a_formula():
     smooth = punch(ground=None, load=1.0)
     found = compare(smooth, tolerance=1e-9)
-    assert found.climb.best.rung.name == "closed form"
-    assert found.climb.best.answer.value[0] == pytest.approx(1.1523, rel=1e-12)
+    assert found.selection.best.model.name == "closed form"
+    assert found.selection.best.answer.value[0] == pytest.approx(1.1523, rel=1e-12)
     sphere = replace(smooth, shape="sphere", size=0.5, load=4 / 3 * math.sqrt(0.5) * 1e-3**1.5)
-    assert compare(sphere, tolerance=1e-9).climb.best.answer.value[0] == pytest.approx(2 * math.sqrt(0.5 * 1e-3))
+    assert compare(sphere, tolerance=1e-9).selection.best.answer.value[0] == pytest.approx(2 * math.sqrt(0.5 * 1e-3))
 
 
 def test_a_heavily_loaded_punch_is_a_flat_one_on_its_rough_face():
-    for load, rung in ((30.0, "closed form"), (1.0, "closed form"), (0.1, "springs"), (0.003, "boundary elements 64²")):
-        assert needed(rungs_of(punch(load=load), "stiffness", 0.1, 0), 0.1).name == rung
+    for load, model in (
+        (30.0, "closed form"),
+        (1.0, "closed form"),
+        (0.1, "springs"),
+        (0.003, "boundary elements 64²"),
+    ):
+        assert needed(models_of(punch(load=load), "stiffness", 0.1, 0), 0.1).name == model
     # the lower the load, the less the face is an interface; and one face is not the mean of all
-    errors = [rungs_of(punch(load=load), "stiffness", 0.1, 0)[0].claim().error for load in (0.01, 0.1, 1.0, 100.0)]
+    errors = [models_of(punch(load=load), "stiffness", 0.1, 0)[0].estimate().error for load in (0.01, 0.1, 1.0, 100.0)]
     assert errors == sorted(errors, reverse=True)
     assert errors[0] == math.inf
     assert errors[-1] == pytest.approx(0.03 * 10**1.5 / 100)
@@ -194,16 +204,16 @@ def test_a_heavily_loaded_punch_is_a_flat_one_on_its_rough_face():
 
 @pytest.mark.parametrize("load", [0.3, 1.0, 3.0])
 def test_the_law_of_interfaces_holds_as_it_claims(load):
-    closed, *_, coarse, _ = rungs_of(punch(load=load), "stiffness", 0.2, seed=8)
+    closed, *_, coarse, _ = models_of(punch(load=load), "stiffness", 0.2, seed=8)
     found = coarse.solve()
-    assert distance(closed.solve().value, found.value) <= closed.claim().error + found.error
+    assert distance(closed.solve().value, found.value) <= closed.estimate().error + found.error
 
 
 def test_springs_are_the_mean_of_load_curves():
-    rung = rungs_pressed.IndentationOnSprings(punch(), 0.2, seed=3)
-    answer = rung.solve()
-    assert answer.sample <= 1.5 * rung.tolerance / 5
-    other = rungs_pressed.IndentationOnSprings(punch(), 0.2, seed=4).solve()
+    model = indentation_models.IndentationOnSprings(punch(), 0.2, seed=3)
+    answer = model.solve()
+    assert answer.sample <= 1.5 * model.tolerance / 5
+    other = indentation_models.IndentationOnSprings(punch(), 0.2, seed=4).solve()
     # both have two standard errors: half as much again is one in a thousand
     assert 0 < distance(answer.value, other.value) <= 1.5 * math.hypot(answer.sample, other.sample)
     rng, drawn = np.random.default_rng(9), []
@@ -215,13 +225,13 @@ def test_springs_are_the_mean_of_load_curves():
 
 
 def test_boundary_elements_are_those_of_the_solver():
-    rung = rungs_pressed.IndentationOnGrid(punch(), 0.6, seed=3, cells=32)
-    answer = rung.solve()
+    model = indentation_models.IndentationOnGrid(punch(), 0.6, seed=3, cells=32)
+    answer = model.solve()
     # eight surfaces leave more than half of the tolerance, nine do not
-    assert answer.because.endswith("surfaces: 9")
+    assert answer.reason.endswith("surfaces: 9")
     drawn = []
     for i in range(9):
-        surface = pressed_heights.height_of(rung.scene, 32, i, seed=3)
+        surface = pressed_heights.height_of(model.scene, 32, i, seed=3)
         half_space = bem3d.HalfSpace(shape=(32, 32), spacing=1 / 32, modulus=1.0)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", bem3d.ContactWarning)
@@ -246,17 +256,17 @@ def test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed():
 
 def test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one():
     tolerance = 0.4
-    coarse, fine = (rungs_pressed.IndentationOnGrid(punch(), tolerance, 3, n).solve() for n in (32, 64))
+    coarse, fine = (indentation_models.IndentationOnGrid(punch(), tolerance, 3, n).solve() for n in (32, 64))
     assert distance(coarse.value, fine.value) <= coarse.grid
 
 
-# Rungs of a wheel
+# Models of a wheel
 
 
 def test_the_expected_levels_are_integrals_of_the_spectrum():
-    question = RollingQuantity(wheel(), "force-spectrum")
-    found = question.expected(one_dimensional=False)
-    ground = question.scene.ground
+    quantity = RollingQuantity(wheel(), "force-spectrum")
+    found = quantity.expected(one_dimensional=False)
+    ground = quantity.scene.ground
 
     def density(q):
         # by reciprocity with the flat punch, across the track
@@ -267,7 +277,7 @@ def test_the_expected_levels_are_integrals_of_the_spectrum():
         low, high = math.sqrt(max(ground.q_min**2 - q**2, 0.0)), math.sqrt(max(ground.q_max**2 - q**2, 0.0))
         return 2 * integrate.quad(filtered, low, high, epsabs=0, epsrel=1e-8)[0]
 
-    for level, low, high in zip(found, question.bands.edges, question.bands.edges[1:], strict=False):
+    for level, low, high in zip(found, quantity.bands.edges, quantity.bands.edges[1:], strict=False):
         assert level**2 == pytest.approx(2 * integrate.quad(density, low, high, epsrel=1e-5)[0], rel=1e-4)
 
 
@@ -291,27 +301,27 @@ def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
 
 
 def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
-    question = RollingQuantity(wheel(mass=2.0, speed=3.0), "acceleration")
+    quantity = RollingQuantity(wheel(mass=2.0, speed=3.0), "acceleration")
     q = np.array([0.5, 2.0, 7.0])
     k, omega = 2.0, 3.0 * q
-    assert question.transfer(q) == pytest.approx(omega**2 / np.abs(k - 2.0 * omega**2))
-    assert question.transfer(np.array([1e6]))[0] == pytest.approx(1 / 2.0)
-    assert question.bands.edges[0] >= 2 * math.sqrt(k / 2.0) / 3.0 * (1 - 1e-9)
+    assert quantity.transfer(q) == pytest.approx(omega**2 / np.abs(k - 2.0 * omega**2))
+    assert quantity.transfer(np.array([1e6]))[0] == pytest.approx(1 / 2.0)
+    assert quantity.bands.edges[0] >= 2 * math.sqrt(k / 2.0) / 3.0 * (1 - 1e-9)
 
 
-@pytest.mark.parametrize("want", ["force-spectrum", "acceleration-rms"])
-def test_boundary_elements_tend_to_linear_theory(want):
-    moving = {"mass": 1.0, "speed": 4.0} if want.startswith("acceleration") else {}
-    rungs = rungs_of(wheel(height=1e-3, **moving), want, 0.1, seed=1)
-    found, linear = rungs[-2].solve(), rungs[1].solve()
+@pytest.mark.parametrize("quantity", ["force-spectrum", "acceleration-rms"])
+def test_boundary_elements_tend_to_linear_theory(quantity):
+    moving = {"mass": 1.0, "speed": 4.0} if quantity.startswith("acceleration") else {}
+    models = models_of(wheel(height=1e-3, **moving), quantity, 0.1, seed=1)
+    found, linear = models[-2].solve(), models[1].solve()
     assert found.error < 0.2
     assert distance(found.value, linear.value) <= found.error + 0.01
 
 
 def test_force_of_low_roughness_needs_a_filter_and_of_high_boundary_elements():
-    assert compare(wheel(height=0.01), want="force-rms").climb.best.rung.name == "linear filter, 1D"
-    assert compare(wheel(height=0.01), want="force-spectrum").climb.best.rung.name == "linear filter, 3D"
-    high = needed(rungs_of(wheel(height=0.3), "force-spectrum", 0.1, 0), 0.1)
+    assert compare(wheel(height=0.01), quantity="force-rms").selection.best.model.name == "linear filter, 1D"
+    assert compare(wheel(height=0.01), quantity="force-spectrum").selection.best.model.name == "linear filter, 3D"
+    high = needed(models_of(wheel(height=0.3), "force-spectrum", 0.1, 0), 0.1)
     assert high.name.startswith("boundary elements")
 
 
@@ -321,8 +331,8 @@ def test_force_of_low_roughness_needs_a_filter_and_of_high_boundary_elements():
 @given(kind=st.sampled_from(KINDS), number=st.integers(0, 10**6), tolerance=st.floats(0.01, 1.0))
 def test_rungs_are_asked_in_the_order_of_their_cost(kind, number, tolerance):
     scene = random_scene(kind, number, 0)
-    for want in WANTED[kind]:
-        costs = [rung.cost().seconds for rung in rungs_of(scene, want, tolerance, 0)]
+    for quantity in WANTED[kind]:
+        costs = [model.cost().seconds for model in models_of(scene, quantity, tolerance, 0)]
         solved = costs[-3 if kind in ("punch", "sphere") else -2 :]
         assert solved == sorted(solved)
         assert costs[-1] == max(costs)
@@ -342,27 +352,27 @@ def test_no_claim_depends_on_units(power, length):
     ground = replace(other.ground, rms=0.1 * m, longest=other.ground.longest * m, shortest=other.ground.shortest * m)
     other = replace(other, radius=m, load=4 / 3 * e * m**2, modulus=e, ground=ground)
     for one, two in zip(
-        rungs_of(scene, "force-spectrum", 0.1, 0), rungs_of(other, "force-spectrum", 0.1, 0), strict=True
+        models_of(scene, "force-spectrum", 0.1, 0), models_of(other, "force-spectrum", 0.1, 0), strict=True
     ):
-        assert one.claim().error == pytest.approx(two.claim().error, rel=1e-9)
+        assert one.estimate().error == pytest.approx(two.estimate().error, rel=1e-9)
 
 
 def test_scenes_are_asked_for_what_they_have():
-    assert wants_of(punch()) == ("stiffness",)
-    assert wants_of(wheel()) == ("force-rms", "force-spectrum")
-    assert set(wants_of(wheel(mass=1.0, speed=1.0))) == set(WANTS) - {"stiffness"}
-    with pytest.raises(ValueError, match=r"^want must be one of stiffness for scene 'punch', got 'acceleration'$"):
-        compare(punch(), want="acceleration")
-    with pytest.raises(ValueError, match=r"^want must be one of force-rms, force-spectrum for scene 'wheel'"):
-        compare(wheel(), want="acceleration")
+    assert quantities_of(punch()) == ("stiffness",)
+    assert quantities_of(wheel()) == ("force-rms", "force-spectrum")
+    assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(QUANTITIES) - {"stiffness"}
+    with pytest.raises(ValueError, match=r"^quantity must be one of stiffness for scene 'punch', got 'acceleration'$"):
+        compare(punch(), quantity="acceleration")
+    with pytest.raises(ValueError, match=r"^quantity must be one of force-rms, force-spectrum for scene 'wheel'"):
+        compare(wheel(), quantity="acceleration")
 
 
 def test_what_is_told_has_result_error_cost_and_reason():
-    lines = told(compare(punch(load=30.0), tolerance=0.1))
+    lines = summary(compare(punch(load=30.0), tolerance=0.1))
     text = "\n".join(lines)
     assert lines[0] == "punch: stiffness within 10 %"
     assert "closed form" in text
-    assert "enough" in text
+    assert "accepted" in text
     assert "not needed" in text
     assert "F / (E* h L) = 30" in text
     assert "± " in text
@@ -374,8 +384,10 @@ def test_what_is_out_of_reach_is_told():
     height = np.random.default_rng(4).standard_normal((32, 32)) * 1e-3
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 32, 1 / 32)))
     found = compare(scene, tolerance=1e-6)
-    assert not found.climb.met
-    assert re.fullmatch(r"not reached: the tolerance of 0\.0001 %; the best there is leaves [\d.]+ %", told(found)[-1])
+    assert not found.selection.met
+    assert re.fullmatch(
+        r"not reached: the tolerance of 0\.0001 %; the best there is leaves [\d.]+ %", summary(found)[-1]
+    )
 
 
 # Held to account
@@ -407,7 +419,7 @@ def test_a_claim_that_is_too_bold_is_found_out(account):
 
 
 def test_every_case_states_which_rung_it_needed():
-    needs = {name: entry.needs(entry.quick) for name, entry in CASES.items()}
+    needs = {name: entry.model_needed(entry.quick) for name, entry in CASES.items()}
     assert all(needs.values())
     assert needs["hertz"] == needs["square_punch"] == "closed form"
     assert needs["ridges"] == "linear filter, 1D"
@@ -416,17 +428,17 @@ def test_every_case_states_which_rung_it_needed():
 
 
 def test_a_step_without_an_answer_leaves_everything_open():
-    step = Candidate(Fake(), "skipped", "", Claim(error=1.0, because=""))
-    assert Selection(0.1, (step,)).best is None
-    assert Selection(0.1, (step,)).spent == 0
+    candidate = Candidate(Fake(), "skipped", "", ErrorEstimate(error=1.0, reason=""))
+    assert Selection(0.1, (candidate,)).best is None
+    assert Selection(0.1, (candidate,)).spent == 0
 
 
 @pytest.mark.parametrize("name", ["sphere", "rough_punch", "rolling_wheel", "table_14_1"])
 def test_shipped_scenes_can_be_compared(name):
     scene = load_scene(name)
     assert scene.diagnose() == ()
-    for want in wants_of(scene):
-        assert rungs_of(scene, want, 0.1, 0)
+    for quantity in quantities_of(scene):
+        assert models_of(scene, quantity, 0.1, 0)
 
 
 def test_measured_heights_are_pressed_themselves():
@@ -435,23 +447,23 @@ def test_measured_heights_are_pressed_themselves():
     height = bem3d.rough_surface(rough.c2d, shape=(64, 64), spacing=1 / 64, rng=rng, rms=1e-3)
     ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64))
     scene = punch(ground=ground, load=0.1)
-    found = rungs_of(scene, "stiffness", 0.05, 0)[-1].solve()
+    found = models_of(scene, "stiffness", 0.05, 0)[-1].solve()
     half_space = bem3d.HalfSpace(shape=(64, 64), spacing=1 / 64, modulus=1.0)
     with pytest.warns(bem3d.EdgeWarning):
         contact = bem3d.solve(half_space, -ground.height, force=scene.load, tolerance=1e-4)
     assert found.value[0] == pytest.approx(contact.stiffness(), rel=1e-6)
     assert found.sample == 0
     # springs know the spectrum and not the surface
-    assert rungs_of(scene, "stiffness", 0.05, 0)[1].claim().error > 0.5
+    assert models_of(scene, "stiffness", 0.05, 0)[1].estimate().error > 0.5
 
 
 def test_a_face_that_a_spectrum_does_not_tell_is_left_to_boundary_elements():
     height = np.zeros((64, 64))
     height[20:26, 20:26] = 1e-3
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)), load=1.0)
-    closed, springs, *solvers = (rung.claim() for rung in rungs_of(scene, "stiffness", 0.3, 0))
+    closed, springs, *solvers = (model.estimate() for model in models_of(scene, "stiffness", 0.3, 0))
     assert closed.error == springs.error == math.inf
-    assert "not Gaussian" in closed.because
+    assert "not Gaussian" in closed.reason
     assert all(claim.error < 0.3 for claim in solvers)
 
 
@@ -467,7 +479,7 @@ def test_a_face_is_pressed_on_its_own_points_alone():
     half_space = bem3d.HalfSpace(shape=(256, 256), spacing=1 / 256, modulus=1.0)
     stiffness = bem3d.solve(half_space, -ground.height, force=scene.load, tolerance=1e-4).stiffness()
     for tolerance in (0.1, 0.3, 1.0):
-        best = compare(scene, tolerance=tolerance).climb.best
+        best = compare(scene, tolerance=tolerance).selection.best
         assert best is None or abs(math.log(best.answer.value[0] / stiffness)) <= best.answer.error
 
 
@@ -476,22 +488,22 @@ def test_faces_of_more_points_than_any_grid_answer_for_the_summits_that_a_mean_h
     rough = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * 32, rms=1e-3)
     height = bem3d.rough_surface(rough.c2d, shape=(128, 128), spacing=1 / 128, rng=rng, rms=1e-3)
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 128, 1 / 128)), load=0.1)
-    (fine,) = (rung.solve() for rung in rungs_of(scene, "stiffness", 0.2, 0)[2:])
+    (fine,) = (model.solve() for model in models_of(scene, "stiffness", 0.2, 0)[2:])
     monkeypatch.setattr(pressed_heights, "MANY_POINTS", 32)
-    (coarse,) = (rung.solve() for rung in rungs_of(scene, "stiffness", 0.2, 0)[2:])
+    (coarse,) = (model.solve() for model in models_of(scene, "stiffness", 0.2, 0)[2:])
     assert distance(coarse.value, fine.value) <= coarse.error
-    monkeypatch.setattr(pressed_grids.IndentationOnGrid, "_hidden", lambda *_: 0.0)
-    (blind,) = (rung.solve() for rung in rungs_of(scene, "stiffness", 0.2, 0)[2:])
+    monkeypatch.setattr(indentation_on_grids.IndentationOnGrid, "_hidden", lambda *_: 0.0)
+    (blind,) = (model.solve() for model in models_of(scene, "stiffness", 0.2, 0)[2:])
     assert blind.error < coarse.error
 
 
 def test_changes_of_one_face_that_cancel_leave_no_less_than_those_before_and_its_edge():
     height = np.random.default_rng(0).normal(size=(64, 64))
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)), load=1.0)
-    rung = pressed_grids.IndentationOnGrid(scene, 0.1, 0, 64)
-    assert rung._grid_of_one(np.array([1e-4, 1e-4, 0.4])) == pytest.approx(1.5 * 0.1)
-    assert rung._grid_of_one(np.array([1e-5, 1e-5, 1e-4])) == pytest.approx(1.5 * 0.35 / 64)
-    assert rung._grid_of_one(np.array([0.2, 0.1, 0.1])) == math.inf
+    model = indentation_on_grids.IndentationOnGrid(scene, 0.1, 0, 64)
+    assert model._grid_of_one(np.array([1e-4, 1e-4, 0.4])) == pytest.approx(1.5 * 0.1)
+    assert model._grid_of_one(np.array([1e-5, 1e-5, 1e-4])) == pytest.approx(1.5 * 0.35 / 64)
+    assert model._grid_of_one(np.array([0.2, 0.1, 0.1])) == math.inf
 
 
 def test_a_summit_beyond_four_times_the_roughness_is_under_the_sphere():
@@ -515,7 +527,7 @@ def test_a_summit_beyond_four_times_the_roughness_is_under_the_sphere():
     gap = np.add.outer(x**2, x**2) / (2 * radius) - scene.ground.height
     half_space = bem3d.HalfSpace(shape=(128, 128), spacing=spacing, modulus=1.0)
     whole = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-4)
-    (found,) = (rung.solve() for rung in rungs_of(scene, "stiffness", 0.1, 0)[2:])
+    (found,) = (model.solve() for model in models_of(scene, "stiffness", 0.1, 0)[2:])
     assert found.value[0] == pytest.approx(whole.stiffness(), rel=1e-3)
 
 
@@ -524,8 +536,8 @@ def test_short_waves_of_a_measured_track_are_no_longer_ones():
     spacing, a = 1 / 32, 1.0
     x = (np.arange(1024) + 0.5) * spacing
     height = 1e-3 * np.add.outer(np.cos(2 * np.pi * 7 * x / a), np.zeros(128))
-    question = RollingQuantity(wheel(ground=MeasuredHeights(height=height, spacing=(spacing, spacing))), "force-rms")
-    assert np.ptp(rolled.strip_of(question, 8, 0, 0)) < 0.25 * np.ptp(height)
+    quantity = RollingQuantity(wheel(ground=MeasuredHeights(height=height, spacing=(spacing, spacing))), "force-rms")
+    assert np.ptp(rolled.strip_of(quantity, 8, 0, 0)) < 0.25 * np.ptp(height)
 
 
 def track(summit=0.0, longest=8.0):
@@ -541,20 +553,22 @@ def test_linear_theory_says_nothing_of_single_summits_and_pits():
     for summit in (20.0, -20.0):
         height = 1e-3 * wheel().approach * track(summit)
         scene = wheel(ground=MeasuredHeights(height=height, spacing=(1 / 4, 1 / 4)))
-        for want in ("force-rms", "force-spectrum"):
-            claims = [rung.claim() for rung in rungs_of(scene, want, 0.3, 0) if rung.model in rungs_rolling.CHEAP]
+        for quantity in ("force-rms", "force-spectrum"):
+            claims = [
+                model.estimate() for model in models_of(scene, quantity, 0.3, 0) if model.kind in rolling_models.CHEAP
+            ]
             assert len(claims) == 3
-            assert all(claim.error == math.inf and "not Gaussian" in claim.because for claim in claims)
+            assert all(claim.error == math.inf and "not Gaussian" in claim.reason for claim in claims)
 
 
 def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
     height = 0.05 * wheel().approach * track()
-    question = RollingQuantity(wheel(ground=MeasuredHeights(height=height, spacing=(1 / 4, 1 / 4))), "force-spectrum")
-    linear = rungs_rolling.LinearSpace(question)
+    quantity = RollingQuantity(wheel(ground=MeasuredHeights(height=height, spacing=(1 / 4, 1 / 4))), "force-spectrum")
+    linear = rolling_models.LinearSpace(quantity)
     found = linear.solve()
-    rolled_over = np.exp(rolled.on_boundary_elements(question, 12, 0, 0))
+    rolled_over = np.exp(rolled.on_boundary_elements(quantity, 12, 0, 0))
     # levels by linear theory where nothing excites the force are too low by more than was measured on drawn waves
-    assert linear.claim().error < distance(found.value, rolled_over) <= found.error
+    assert linear.estimate().error < distance(found.value, rolled_over) <= found.error
 
 
 def test_a_measured_track_is_rolled_itself():
@@ -562,8 +576,8 @@ def test_a_measured_track_is_rolled_itself():
     rough = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=3.0, rms=1.0)
     height = bem3d.rough_surface(rough.c2d, shape=(192, 96), spacing=1 / 8, rng=rng, rms=2e-3)
     scene = wheel(ground=MeasuredHeights(height=height, spacing=(1 / 8, 1 / 8)))
-    rungs = rungs_of(scene, "force-rms", 0.1, 0)
-    linear, found = rungs[1].solve(), rungs[-1].solve()
+    models = models_of(scene, "force-rms", 0.1, 0)
+    linear, found = models[1].solve(), models[-1].solve()
     assert distance(found.value, linear.value) <= found.error + 0.01
     with pytest.raises(ValueError, match=r"rail.heights must be .* long"):
         wheel(ground=MeasuredHeights(height=height[:, :20], spacing=(1 / 8, 1 / 8)))
@@ -571,7 +585,7 @@ def test_a_measured_track_is_rolled_itself():
 
 @dataclass(frozen=True)
 class Finding(Fake):
-    """A rung of a model, whose answer and its cost are told."""
+    """A model of a model, whose answer and its cost are told."""
 
     model: str = "springs"
     value: tuple[float, ...] = (1.0,)
@@ -580,18 +594,18 @@ class Finding(Fake):
 
     def solve(self):
         model, grid, sample = self.parts
-        cost = Cost(work=1, unit="steps", seconds=self.spent)
+        cost = Cost(work=1, unit="candidates", seconds=self.spent)
         return Answer(value=np.array(self.value), cost=cost, model=model, grid=grid, sample=sample)
 
 
 def test_of_equal_claims_that_miss_the_tolerance_the_finest_grid_is_asked():
-    climbed = select_model([Fake(claimed=0.5, left=0.4), Fake(claimed=0.5, left=0.2)], 0.1)
-    assert fates(climbed) == ["skipped", "not enough"]
+    selection = select_model([Fake(claimed=0.5, left=0.4), Fake(claimed=0.5, left=0.2)], 0.1)
+    assert statuses(selection) == ["skipped", "not accurate enough"]
 
 
 def test_the_least_that_is_left_is_the_best_whoever_comes_last():
-    climbed = select_model([Fake(left=0.2), Fake(left=0.3)], 0.1)
-    assert climbed.best.rung is climbed.steps[0].rung
+    selection = select_model([Fake(left=0.2), Fake(left=0.3)], 0.1)
+    assert selection.best.model is selection.candidates[0].model
 
 
 PARTS = (0.1, 0.02, 0.003)
@@ -599,25 +613,25 @@ PARTS = (0.1, 0.02, 0.003)
 
 def test_a_number_is_told_with_the_parts_of_its_error():
     """12.3 % of 2e7 N/m; what was skipped and what was not needed has cost nothing, what has failed has."""
-    rungs = [
+    models = [
         Fake(claimed=9.0, seconds=2.0),
         Fake(failed="lost", seconds=4.0),
         Finding(value=(2e7,), parts=PARTS),
         Fake(seconds=8.0),
     ]
-    lines = told(Comparison(punch(load=1.0), "stiffness", select_model(rungs, 0.2)))
+    lines = summary(Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2)))
     assert "stiffness = (2.00 ± 0.25)e7 N/m (12 %: model 10 %, grid 2 %, sample 0.3 %), by fake" in lines
-    assert lines[-1].startswith("solves that were done: about 5 s by their count")
-    assert lines[-1].endswith("the rungs that were not asked would have cost 10 s")
+    assert lines[-1].startswith("solves: about 5 s by their count")
+    assert lines[-1].endswith("the models that were not asked would have cost 10 s")
 
 
-@pytest.mark.parametrize(("want", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])
-def test_bands_are_told_with_wavenumber_frequency_and_level(want, unit):
+@pytest.mark.parametrize(("quantity", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])
+def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     scene = wheel(first=1 / 20, mass=2.0, speed=400.0, radius=4.0, load=4 / 3 * 16)
-    a, bands = scene.contact_radius, RollingQuantity(scene, want).bands
+    a, bands = scene.contact_radius, RollingQuantity(scene, quantity).bands
     assert a != pytest.approx(1.0)
     levels = tuple(float(i + 1) for i in range(bands.centres.size))
-    lines = told(Comparison(scene, want, select_model([Finding(value=levels, parts=PARTS)], 0.2)))
+    lines = summary(Comparison(scene, quantity, select_model([Finding(value=levels, parts=PARTS)], 0.2)))
     at = next(i for i, line in enumerate(lines) if "one-third octaves" in line)
     # 20 lg 1.123 = 1.0 dB
     assert lines[at].endswith("± 12 %, 1 dB, over all bands (model 10 %, grid 2 %, sample 0.3 %)")
@@ -674,7 +688,7 @@ def test_the_account_prints_the_numbers_it_is_given():
 def test_what_is_saved_is_beside_what_the_referee_did(monkeypatch):
     """It was expected to take 10 s and took 25: so would fine boundary elements at the tolerance of the climb."""
     fine = Finding(model="boundary elements", claimed=9.0, seconds=10.0, spent=25.0)
-    monkeypatch.setattr(ladder, "rungs_of", lambda *_: [Finding(parts=(0.1, 0, 0), value=(1.2,), spent=0.5), fine])
+    monkeypatch.setattr(ladder, "models_of", lambda *_: [Finding(parts=(0.1, 0, 0), value=(1.2,), spent=0.5), fine])
     trial = ladder.Ladder(punches=1, tolerances=(0.2,)).trials[-1]
     found = ladder.hold_to_account(trial)
     assert {name: found[name].tolist() for name in ("fine", "spent", "claimed", "settled")} == {

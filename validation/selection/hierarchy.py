@@ -1,4 +1,4 @@
-"""The cheapest model that a scene needs: rungs from closed forms to fine boundary elements, climbed one by one."""
+"""The cheapest model that a scene needs: models from closed forms to fine boundary elements, selection one by one."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -20,20 +20,20 @@ BOUNDARY_ELEMENTS = "boundary elements"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Claim:
-    """What a rung says of itself before it has computed anything.
+class ErrorEstimate:
+    """The error that a model expects, before it has computed anything.
 
-    error: relative half-width of 95 % that it expects to leave, infinite where it claims nothing; because: the
+    error: relative half-width of 95 % that it expects to leave, infinite where it claims nothing; reason: the
     condition that this rests on, with its numbers.
     """
 
     error: float
-    because: str
+    reason: str
 
     @classmethod
-    def out_of_range(cls, because: str) -> "Claim":
+    def out_of_range(cls, reason: str) -> "ErrorEstimate":
         """None: the scene is not of those on which the error was measured, or the model cannot serve it at all."""
-        return cls(error=math.inf, because=because)
+        return cls(error=math.inf, reason=reason)
 
     @property
     def in_range(self) -> bool:
@@ -52,10 +52,10 @@ class Cost:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What a rung has found.
+    """What a model has found.
 
     value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
-    of all numbers together, see `distance`; cost: of what was done, not of what was expected; because: what the error
+    of all numbers together, see `distance`; cost: of what was done, not of what was expected; reason: what the error
     rests on; failed: why it is none, empty where it is one.
     """
 
@@ -64,7 +64,7 @@ class Answer:
     model: float = 0.0
     grid: float = 0.0
     sample: float = 0.0
-    because: str = ""
+    reason: str = ""
     failed: str = ""
 
     @property
@@ -77,7 +77,7 @@ class ContactModel(Protocol):
     """A model of a scene, with what it costs, when it claims to hold, and how to ask it."""
 
     @property
-    def model(self) -> str:
+    def kind(self) -> str:
         """What kind of model it is, its resolution apart."""
 
     @property
@@ -87,86 +87,86 @@ class ContactModel(Protocol):
     def cost(self) -> Cost:
         """Expected, before anything is computed."""
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """Expected, before anything is computed."""
 
     def solve(self) -> Answer:
         """Compute, and estimate the error from what was computed."""
 
 
-Fate = Literal["enough", "not enough", "skipped", "not needed", "failed", "out of range"]
+Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range"]
 REFUSALS = (ValueError, ArithmeticError, MemoryError)
-"""What a solve raises where it cannot serve a scene; it is a row of the table, and the other rungs go on."""
+"""What a solve raises where it cannot serve a scene; it is a row of the table, and the other models go on."""
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """A rung and what became of it."""
+    """A model of the hierarchy, and how it fared."""
 
-    rung: ContactModel
-    fate: Fate
-    because: str
-    claim: Claim
+    model: ContactModel
+    status: Status
+    reason: str
+    estimate: ErrorEstimate
     answer: Answer | None = None
 
 
 @dataclass(frozen=True)
 class Selection:
-    """All rungs, in order, up to where the tolerance was met; those above were not needed."""
+    """All models, in order, up to where the tolerance was met; those above were not needed."""
 
     tolerance: float
-    steps: tuple[Candidate, ...]
+    candidates: tuple[Candidate, ...]
 
     @property
     def met(self) -> bool:
-        """Whether some rung was enough."""
-        return any(step.fate == "enough" for step in self.steps)
+        """Whether a model is accepted."""
+        return any(candidate.status == "accepted" for candidate in self.candidates)
 
     @property
     def best(self) -> Candidate | None:
-        """The rung that was enough, or else the one that leaves the least error; None where none has an answer."""
-        solved = [step for step in self.steps if step.answer is not None and not step.answer.failed]
-        enough = [step for step in solved if step.fate == "enough"]
-        return enough[0] if enough else min(solved, key=_left, default=None)
+        """The accepted model, or else the one with the smallest error; None where none has an answer."""
+        solved = [one for one in self.candidates if one.answer is not None and not one.answer.failed]
+        accepted = [candidate for candidate in solved if candidate.status == "accepted"]
+        return accepted[0] if accepted else min(solved, key=_error, default=None)
 
     @property
     def spent(self) -> float:
-        """Seconds of all that the rungs did that were asked."""
-        return sum(step.answer.cost.seconds for step in self.steps if step.answer is not None)
+        """Seconds of all that the models did that were asked."""
+        return sum(candidate.answer.cost.seconds for candidate in self.candidates if candidate.answer is not None)
 
 
 def select_model(
-    rungs: Sequence[ContactModel], tolerance: float, *, tell: Callable[[ContactModel], None] = lambda _: None
+    models: Sequence[ContactModel], tolerance: float, *, callback: Callable[[ContactModel], None] = lambda _: None
 ) -> Selection:
-    """Ask rungs from the cheapest on, until one leaves no more than the tolerance.
+    """Solve with models from the cheapest on, until the error of one is within the tolerance.
 
-    rungs: in the order of their cost; tolerance: relative, positive; tell: is called with a rung before it is asked. A
-    rung without a claim is out of range and never asked; one that expects to miss the tolerance is skipped, one that
-    misses it is kept beside the next. Where all miss it, the skipped one that expects to leave the least is asked, too,
-    if that is less than what others left; see `Climb.met`. A solve that raises one of `REFUSALS` has failed.
+    models: in the order of their cost; tolerance: relative, positive; callback: called with each model
+    before its solve. A model without an estimate is out of range and not solved; one that expects to miss the tolerance
+    is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, if that is below the
+    errors of the others. A solve that raises one of `REFUSALS` has failed.
     Raises ValueError for a tolerance that is not finite and positive.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise ValueError(f"tolerance must be finite and positive, got {tolerance}")
-    steps: list[Candidate] = []
-    for rung in rungs:
-        claim = rung.claim()
-        if any(step.fate == "enough" for step in steps):
-            steps.append(Candidate(rung, "not needed", "a cheaper rung was enough", claim))
-        elif not claim.in_range:
-            steps.append(Candidate(rung, "out of range", claim.because, claim))
-        elif claim.error > tolerance:
-            steps.append(Candidate(rung, "skipped", claim.because, claim))
+    candidates: list[Candidate] = []
+    for model in models:
+        expected = model.estimate()
+        if any(candidate.status == "accepted" for candidate in candidates):
+            candidates.append(Candidate(model, "not needed", "a cheaper model is accurate enough", expected))
+        elif not expected.in_range:
+            candidates.append(Candidate(model, "out of range", expected.reason, expected))
+        elif expected.error > tolerance:
+            candidates.append(Candidate(model, "skipped", expected.reason, expected))
         else:
-            tell(rung)
-            steps.append(_asked(rung, claim, tolerance))
-    climbed = Selection(tolerance, tuple(steps))
-    return climbed if climbed.met else _with_the_least_claim(climbed, tell)
+            callback(model)
+            candidates.append(_solved(model, expected, tolerance))
+    selection = Selection(tolerance, tuple(candidates))
+    return selection if selection.met else _with_least_estimate(selection, callback)
 
 
-def needed(rungs: Sequence[ContactModel], tolerance: float) -> ContactModel | None:
-    """The first rung that expects to be enough, without asking it; None where none does."""
-    return next((rung for rung in rungs if rung.claim().error <= tolerance), None)
+def needed(models: Sequence[ContactModel], tolerance: float) -> ContactModel | None:
+    """The first model that expects to be enough, without asking it; None where none does."""
+    return next((model for model in models if model.estimate().error <= tolerance), None)
 
 
 def distance(value: FloatArray, other: FloatArray) -> float:
@@ -215,38 +215,36 @@ def counted(conditions: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {value:.3g}" for name, value in conditions.items())
 
 
-def answered(rung: ContactModel) -> Answer:
+def answered(model: ContactModel) -> Answer:
     """Its answer, or why there is none."""
     try:
-        return rung.solve()
+        return model.solve()
     except REFUSALS as problem:
-        return Answer(value=np.array([np.nan]), cost=rung.cost(), failed=str(problem) or type(problem).__name__)
+        return Answer(value=np.array([np.nan]), cost=model.cost(), failed=str(problem) or type(problem).__name__)
 
 
-def _asked(rung: ContactModel, claim: Claim, tolerance: float) -> Candidate:
-    answer = answered(rung)
+def _solved(model: ContactModel, expected: ErrorEstimate, tolerance: float) -> Candidate:
+    answer = answered(model)
     if answer.failed:
-        return Candidate(rung, "failed", answer.failed, claim, answer)
-    fate: Fate = "enough" if answer.error <= tolerance else "not enough"
-    return Candidate(rung, fate, answer.because, claim, answer)
+        return Candidate(model, "failed", answer.failed, expected, answer)
+    status: Status = "accepted" if answer.error <= tolerance else "not accurate enough"
+    return Candidate(model, status, answer.reason, expected, answer)
 
 
-def _with_the_least_claim(climbed: Selection, tell: Callable[[ContactModel], None]) -> Selection:
-    # of equal claims the dearest, which has the finest grid
-    skipped = [i for i, step in reversed(list(enumerate(climbed.steps))) if step.fate == "skipped"]
-    least = min(skipped, key=lambda i: climbed.steps[i].claim.error, default=None)
-    if least is None:
-        return climbed
-    step, left = climbed.steps[least], climbed.best.answer.error if climbed.best and climbed.best.answer else math.inf
-    if not step.claim.error < left:
-        return climbed
-    tell(step.rung)
-    asked = _asked(step.rung, step.claim, climbed.tolerance)
-    return Selection(climbed.tolerance, (*climbed.steps[:least], asked, *climbed.steps[least + 1 :]))
+def _with_least_estimate(selection: Selection, callback: Callable[[ContactModel], None]) -> Selection:
+    candidates = selection.candidates
+    # of equal estimates the dearest, which has the finest grid
+    skipped = [i for i in reversed(range(len(candidates))) if candidates[i].status == "skipped"]
+    least = min(skipped, key=lambda i: candidates[i].estimate.error, default=None)
+    if least is None or not candidates[least].estimate.error < (_error(selection.best) if selection.best else math.inf):
+        return selection
+    callback(candidates[least].model)
+    solved = _solved(candidates[least].model, candidates[least].estimate, selection.tolerance)
+    return Selection(selection.tolerance, (*candidates[:least], solved, *candidates[least + 1 :]))
 
 
-def _left(step: Candidate) -> float:
-    return step.answer.error if step.answer else math.inf
+def _error(candidate: Candidate) -> float:
+    return candidate.answer.error if candidate.answer else math.inf
 
 
 def _student(size: int) -> float:

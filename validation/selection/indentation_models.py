@@ -1,4 +1,4 @@
-"""Rungs for a body that is pressed: closed form, springs, boundary elements coarse and fine; the stiffness."""
+"""Models for a body that is pressed: closed form, springs, boundary elements coarse and fine; the stiffness."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -14,7 +14,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
 from validation.selection.calibrated import Ranges, outside
-from validation.selection.hierarchy import Answer, Claim, ContactModel, Cost, counted, mean_error, realisations
+from validation.selection.hierarchy import Answer, ContactModel, Cost, ErrorEstimate, counted, mean_error, realisations
 from validation.selection.indentation_on_grids import SCATTER, IndentationOnGrid
 from validation.simulation.indentation import FEW, finest_cells, ground_of, side_of
 from validation.simulation.resolution import too_few
@@ -58,7 +58,7 @@ SPRINGS_RANGES: Mapping[str, Ranges] = {"punch": {LOAD: (1e-3, math.inf), **FACE
 bodies are flat punches, whose stiffness is known; waves much longer than the contact of a sphere only move it."""
 
 
-def rungs(scene: IndentationScene, tolerance: float, seed: int) -> list[ContactModel]:
+def models(scene: IndentationScene, tolerance: float, seed: int) -> list[ContactModel]:
     """All that a scene can be asked with, the cheapest first; measured heights on their own points alone."""
     if scene.ground is None:
         return [IndentationClosedForm(scene)]
@@ -73,8 +73,8 @@ def rungs(scene: IndentationScene, tolerance: float, seed: int) -> list[ContactM
 class IndentationClosedForm:
     """2 E* a of a smooth sphere, whose roughness is the error; a rough punch is a flat one in series with its face."""
 
-    model: ClassVar = "closed form"
-    name: ClassVar = model
+    kind: ClassVar = "closed form"
+    name: ClassVar = kind
 
     scene: IndentationScene
 
@@ -82,21 +82,21 @@ class IndentationClosedForm:
         """A formula."""
         return Cost(work=1, unit="formula", seconds=FORMULA)
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """By the load or the height."""
         if self.scene.ground is None:
-            return Claim(error=0.0, because="the body is smooth, the formula exact")
+            return ErrorEstimate(error=0.0, reason="the body is smooth, the formula exact")
         if said := beyond_spectra(self.scene.ground) or _outside(self.scene, CLOSED_RANGES):
-            return Claim.out_of_range(said)
+            return ErrorEstimate.out_of_range(said)
         if self.scene.shape == "punch":
             return self._of_a_punch()
         ratio = self.scene.roughness_ratio
-        return Claim(error=SPHERE_CLOSED * ratio + SPHERE_FLOOR, because=counted({HEIGHT: ratio}))
+        return ErrorEstimate(error=SPHERE_CLOSED * ratio + SPHERE_FLOOR, reason=counted({HEIGHT: ratio}))
 
     def solve(self) -> Answer:
         """Evaluate it."""
-        claim = self.claim()
-        return Answer(value=np.array([self._stiffness]), cost=self.cost(), model=claim.error, because=claim.because)
+        expected = self.estimate()
+        return Answer(value=np.array([self._stiffness]), cost=self.cost(), model=expected.error, reason=expected.reason)
 
     @property
     def _stiffness(self) -> float:
@@ -106,22 +106,22 @@ class IndentationClosedForm:
         height = scene.ground.rms
         return rough_punch_stiffness(side=scene.size, modulus=scene.modulus, force=scene.load, height=height)
 
-    def _of_a_punch(self) -> Claim:
+    def _of_a_punch(self) -> ErrorEstimate:
         """By the load, as measured; a measured face is one of many that have its spectrum."""
         ground, load, waves = ground_of(self.scene), self.scene.reduced_load, _waves_on_a_side(self.scene)
         power, last = math.log10(load), float(PUNCH_CLOSED[0][-1])
         error = float(np.interp(power, *PUNCH_CLOSED)) * 10 ** min(last - power, 0.0)
         own = 2 * SCATTER / max(load, 1.0) ** 2 if isinstance(ground, MeasuredHeights) else 0.0
-        because = counted({LOAD: load, WAVES: waves})
-        return Claim(error=error + CLOSED_ROLL_OFF * max(waves - 1, 0.0) + own, because=because)
+        reason = counted({LOAD: load, WAVES: waves})
+        return ErrorEstimate(error=error + CLOSED_ROLL_OFF * max(waves - 1, 0.0) + own, reason=reason)
 
 
 @dataclass(frozen=True)
 class IndentationOnSprings:
     """MDR with profiles of Geike's spectrum, L_1D = L; of a measured surface, those of its spectrum."""
 
-    model: ClassVar = "springs"
-    name: ClassVar = model
+    kind: ClassVar = "springs"
+    name: ClassVar = kind
 
     scene: IndentationScene
     tolerance: float
@@ -150,26 +150,28 @@ class IndentationOnSprings:
         work = self.count * self.points
         return Cost(work=work, unit="springs", seconds=1e-3 + SPRING * work)
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """By the load, the height and the waves on a side, as measured beside boundary elements."""
         if said := beyond_spectra(ground_of(self.scene)) or _outside(self.scene, SPRINGS_RANGES):
-            return Claim.out_of_range(said)
+            return ErrorEstimate.out_of_range(said)
         if self.points > MOST_SPRINGS:
-            return Claim.out_of_range(f"a profile needs {self.points:.3g} springs, more than {MOST_SPRINGS:.3g}")
-        model, because = _springs_model(self.scene)
-        return Claim(error=model + self.tolerance / 5 + self._own_scatter, because=because)
+            return ErrorEstimate.out_of_range(
+                f"a profile needs {self.points:.3g} springs, more than {MOST_SPRINGS:.3g}"
+            )
+        model, reason = _springs_model(self.scene)
+        return ErrorEstimate(error=model + self.tolerance / 5 + self._own_scatter, reason=reason)
 
     def solve(self) -> Answer:
         """The mean stiffness of all profiles."""
         found = np.concatenate(list(self._stiffness()))
         in_contact = float(np.median(found)) / (self.scene.modulus * self.length / self.points)
-        model, because = _springs_model(self.scene)
+        model, reason = _springs_model(self.scene)
         return Answer(
             value=np.array([found.mean()]),
             cost=self.cost(),
             model=model + self._own_scatter,
             sample=mean_error(found[:, np.newaxis] / found.mean()),
-            because=because,
+            reason=reason,
             failed=too_few(in_contact, "springs"),
         )
 
@@ -233,5 +235,5 @@ def beyond_spectra(ground: Roughness | MeasuredHeights) -> str:
     return f"knows the spectrum alone, and {beyond[0]}" if beyond else ""
 
 
-CHEAP = (IndentationClosedForm.model, IndentationOnSprings.model)
+CHEAP = (IndentationClosedForm.kind, IndentationOnSprings.kind)
 """The models below boundary elements, by their names."""

@@ -16,8 +16,8 @@ from validation.selection.hierarchy import (
     BOUNDARY_ELEMENTS,
     STUDENT,
     Answer,
-    Claim,
     Cost,
+    ErrorEstimate,
     grid_error,
     mean_error,
     realisations,
@@ -48,7 +48,7 @@ class IndentationOnGrid:
     A measured surface is itself; on a coarser grid, the mean of its points in each cell.
     """
 
-    model: ClassVar = BOUNDARY_ELEMENTS
+    kind: ClassVar = BOUNDARY_ELEMENTS
 
     scene: IndentationScene
     tolerance: float
@@ -58,7 +58,7 @@ class IndentationOnGrid:
     @property
     def name(self) -> str:
         """With the cells of its grid."""
-        return f"{self.model} {self.cells}²"
+        return f"{self.kind} {self.cells}²"
 
     @property
     def measured(self) -> bool:
@@ -79,12 +79,14 @@ class IndentationOnGrid:
         """Operator applications times cells, on this grid and for some surfaces on the next coarser one."""
         return self._cost(self.count, min(self.count, FEWEST))
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """The sample's part: only a solve tells what the grid leaves."""
         if not holds_waves(self.scene, self._grids[-1]):
-            return Claim.out_of_range(f"a grid of {self._grids[-1]}² cells, beside which it is judged, holds no wave")
+            return ErrorEstimate.out_of_range(
+                f"a grid of {self._grids[-1]}² cells, beside which it is judged, holds no wave"
+            )
         sample = 0.0 if self.measured else max(self.tolerance / 2, STUDENT * self._scatter / math.sqrt(MOST))
-        return Claim(error=sample, because="the grid is judged by coarser ones, once all are solved")
+        return ErrorEstimate(error=sample, reason="the grid is judged by coarser ones, once all are solved")
 
     def solve(self) -> Answer:
         """The mean stiffness, surface by surface until the sample leaves half of the tolerance."""
@@ -97,15 +99,15 @@ class IndentationOnGrid:
             failed = f"{len(lost)} of {len(contacts)} contacts {lost[0]}"
             return Answer(value=np.array([np.nan]), cost=cost, failed=failed)
         fine = np.array([contact.stiffness for contact in found])
-        grid, because = self._left_by_the_grid(found, coarse)
+        grid, reason = self._left_by_the_grid(found, coarse)
         return Answer(
             value=np.array([fine.mean()]),
             cost=cost,
             grid=grid,
             sample=0.0 if self.measured else mean_error(fine[:, np.newaxis] / fine.mean()),
-            because=f"{because}, surfaces: {fine.size}",
+            reason=f"{reason}, surfaces: {fine.size}",
             failed=too_few(float(np.median([contact.cells for contact in found])), "cells")
-            or ("" if math.isfinite(grid) else f"{because}, no less than by the step before: no error bar"),
+            or ("" if math.isfinite(grid) else f"{reason}, no less than by the step before: no error bar"),
         )
 
     def _left_by_the_grid(

@@ -1,4 +1,4 @@
-"""Which rung of the ladder each case needed: asked of the ladder itself, for the scenes of the case."""
+"""Which model of the ladder each case needed: asked of the ladder itself, for the scenes of the case."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -9,7 +9,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection.compare import rungs_of
+from validation.selection.compare import models_of
 from validation.selection.hierarchy import needed
 from validation.simulation.rough_punch import PunchRoughness as Band
 
@@ -18,20 +18,20 @@ TURN = 2 * math.pi
 BEM = "boundary elements"
 
 
-def rung_of(scene: Scene, want: str) -> str:
-    """The first rung that expects to be enough, grids of boundary elements not told apart."""
-    rung = needed(rungs_of(scene, want, TOLERANCE, 0), TOLERANCE)
-    return "none" if rung is None else BEM if rung.name.startswith(BEM) else rung.name
+def rung_of(scene: Scene, quantity: str) -> str:
+    """The first model that expects to be enough, grids of boundary elements not told apart."""
+    model = needed(models_of(scene, quantity, TOLERANCE, 0), TOLERANCE)
+    return "none" if model is None else BEM if model.name.startswith(BEM) else model.name
 
 
-def along(name: str, scenes: Sequence[tuple[float, Scene]], want: str) -> str:
-    """Rungs along a knob, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
-    found = [(value, rung_of(scene, want)) for value, scene in scenes]
+def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> str:
+    """Models along a knob, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
+    found = [(value, rung_of(scene, quantity)) for value, scene in scenes]
     pieces = []
-    for rung, group in groupby(found, key=lambda pair: pair[1]):
+    for model, group in groupby(found, key=lambda pair: pair[1]):
         values = [value for value, _ in group]
         span = f"{values[0]:.2g}" if len(values) == 1 else f"{values[0]:.2g} to {values[-1]:.2g}"
-        pieces.append(f"{rung} for {name} {span}" if len(scenes) > len(values) else rung)
+        pieces.append(f"{model} for {name} {span}" if len(scenes) > len(values) else model)
     return "; ".join(pieces)
 
 
@@ -98,6 +98,6 @@ def wheel(case: Any) -> str:
     return rung_of(RollingScene.of_wheel(scene), "acceleration")
 
 
-def always(rung: str) -> Callable[[Any], str]:
+def always(model: str) -> Callable[[Any], str]:
     """Of a case that has no scene of its own."""
-    return lambda case: rung
+    return lambda case: model

@@ -1,4 +1,4 @@
-"""Rungs for a wheel that rolls: linear filters in one dimension and in three, springs, boundary elements."""
+"""Models for a wheel that rolls: linear filters in one dimension and in three, springs, boundary elements."""
 
 import math
 from dataclasses import dataclass
@@ -14,9 +14,9 @@ from validation.selection.calibrated import Ranges, outside
 from validation.selection.hierarchy import (
     BOUNDARY_ELEMENTS,
     Answer,
-    Claim,
     ContactModel,
     Cost,
+    ErrorEstimate,
     counted,
     distance,
     mean_error,
@@ -31,7 +31,7 @@ from validation.simulation.rolling_levels import (
     springs_to_a_radius,
     strip_of,
 )
-from validation.simulation.rolling_quantity import RollingQuantity, Want
+from validation.simulation.rolling_quantity import QuantityName, RollingQuantity
 from validation.theory.rolling import contact_lost
 
 FloatArray = NDArray[np.float64]
@@ -71,20 +71,20 @@ RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), 
 in wider bands is taken from Table 14.1 alone."""
 
 
-def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[ContactModel]:
-    """All that a scene can be asked with, the cheapest first. Raises ValueError for a question without an answer."""
-    question = RollingQuantity(scene, want)
-    radii = question.q_max * scene.contact_radius / (2 * math.pi)
+def models(scene: RollingScene, quantity: QuantityName, tolerance: float, seed: int) -> list[ContactModel]:
+    """All that a scene can be asked with, the cheapest first. Raises ValueError for a quantity without an answer."""
+    asked = RollingQuantity(scene, quantity)
+    radii = asked.q_max * scene.contact_radius / (2 * math.pi)
     coarse = min(max(LEAST, math.ceil(COARSE * radii)), MOST_CELLS * 2 // 3)
     fine = min(max(math.ceil(1.5 * coarse), math.ceil(FINE * radii)), MOST_CELLS)
-    linear: list[ContactModel] = [LinearFilter(question)]
-    if want != "force-rms" or isinstance(scene.ground, MeasuredHeights):
-        linear.append(LinearSpace(question))
+    linear: list[ContactModel] = [LinearFilter(asked)]
+    if quantity != "force-rms" or isinstance(scene.ground, MeasuredHeights):
+        linear.append(LinearSpace(asked))
     return [
         *linear,
-        RollingOnSprings(question, tolerance, seed),
-        RollingOnGrid(question, tolerance, seed, coarse, beside=fine),
-        RollingOnGrid(question, tolerance, seed, fine, beside=coarse),
+        RollingOnSprings(asked, tolerance, seed),
+        RollingOnGrid(asked, tolerance, seed, coarse, beside=fine),
+        RollingOnGrid(asked, tolerance, seed, fine, beside=coarse),
     ]
 
 
@@ -92,119 +92,123 @@ def rungs(scene: RollingScene, want: Want, tolerance: float, seed: int) -> list[
 class LinearFilter:
     """(14.12) with Geike's spectrum: exact over ridges; over isotropic ground in the variance of the force alone."""
 
-    model: ClassVar = "linear filter, 1D"
-    name: ClassVar = model
+    kind: ClassVar = "linear filter, 1D"
+    name: ClassVar = kind
 
-    question: RollingQuantity
+    quantity: RollingQuantity
 
     def cost(self) -> Cost:
         """A formula at each node."""
-        return Cost(work=self.question.nodes, unit="nodes", seconds=FORMULA * self.question.nodes)
+        return Cost(work=self.quantity.nodes, unit="nodes", seconds=FORMULA * self.quantity.nodes)
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """By the height, and what Geike's spectrum makes of levels along the track."""
-        if said := beyond_spectra(self.question.scene.ground) or _outside(self.question):
-            return Claim.out_of_range(said)
-        own = MEASURED_SCATTER if isinstance(self.question.scene.ground, MeasuredHeights) else 0.0
-        if self.question.want == "force-rms":
-            error, because = _claimed(LINEAR_RMS, self.question)
-            return Claim(error=error + own, because=f"{because}; Geike's rule keeps the variance of the force")
-        error, because = _claimed(GEIKE_BANDS, self.question)
-        return Claim(error=error + own, because=f"{because}; Geike's rule does not keep levels along a track")
+        if said := beyond_spectra(self.quantity.scene.ground) or _outside(self.quantity):
+            return ErrorEstimate.out_of_range(said)
+        own = MEASURED_SCATTER if isinstance(self.quantity.scene.ground, MeasuredHeights) else 0.0
+        if self.quantity.name == "force-rms":
+            error, reason = _claimed(LINEAR_RMS, self.quantity)
+            return ErrorEstimate(error=error + own, reason=f"{reason}; Geike's rule keeps the variance of the force")
+        error, reason = _claimed(GEIKE_BANDS, self.quantity)
+        return ErrorEstimate(error=error + own, reason=f"{reason}; Geike's rule does not keep levels along a track")
 
     def solve(self) -> Answer:
         """By quadrature."""
-        claim = self.claim()
-        value = self.question.expected(one_dimensional=True)
-        model = claim.error + _left_out(self.question, value)
-        return Answer(value=value, cost=self.cost(), model=model, because=claim.because)
+        expected = self.estimate()
+        value = self.quantity.expected(one_dimensional=True)
+        model = expected.error + _left_out(self.quantity, value)
+        return Answer(value=value, cost=self.cost(), model=model, reason=expected.reason)
 
 
 @dataclass(frozen=True)
 class LinearSpace:
     """The spectrum of the force on the half-space, for a contact that keeps its radius; of heights, on themselves."""
 
-    model: ClassVar = "linear filter, 3D"
-    name: ClassVar = model
+    kind: ClassVar = "linear filter, 3D"
+    name: ClassVar = kind
 
-    question: RollingQuantity
+    quantity: RollingQuantity
 
     def cost(self) -> Cost:
         """A quadrature across the track at each node."""
-        return Cost(work=self.question.nodes, unit="quadratures", seconds=NODE * self.question.nodes)
+        return Cost(work=self.quantity.nodes, unit="quadratures", seconds=NODE * self.quantity.nodes)
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """By the height."""
-        if said := _single_summits(self.question) or _outside(self.question):
-            return Claim.out_of_range(said)
-        error, because = _claimed(LINEAR_RMS if self.question.want == "force-rms" else LINEAR_BANDS, self.question)
-        return Claim(error=error, because=because)
+        if said := _single_summits(self.quantity) or _outside(self.quantity):
+            return ErrorEstimate.out_of_range(said)
+        error, reason = _claimed(LINEAR_RMS if self.quantity.name == "force-rms" else LINEAR_BANDS, self.quantity)
+        return ErrorEstimate(error=error, reason=reason)
 
     def solve(self) -> Answer:
         """By quadrature, or on the heights themselves."""
-        question, claim = self.question, self.claim()
-        if isinstance(question.scene.ground, MeasuredHeights):
-            cells = max(LEAST, math.ceil(FINE * question.q_max * question.scene.contact_radius / (2 * math.pi)))
-            spacing = question.scene.contact_radius / cells
-            value = by_linear_theory(question, strip_of(question, cells, 0, 0), spacing)
+        quantity, expected = self.quantity, self.estimate()
+        if isinstance(quantity.scene.ground, MeasuredHeights):
+            cells = max(LEAST, math.ceil(FINE * quantity.q_max * quantity.scene.contact_radius / (2 * math.pi)))
+            spacing = quantity.scene.contact_radius / cells
+            value = by_linear_theory(quantity, strip_of(quantity, cells, 0, 0), spacing)
         else:
-            value = question.expected(one_dimensional=False)
+            value = quantity.expected(one_dimensional=False)
         if not (value > 0).all():
             return Answer(value=value, cost=self.cost(), failed="the heights have no waves in some band")
-        model = claim.error + _left_out(question, value)
-        return Answer(value=value, cost=self.cost(), model=model, because=claim.because)
+        model = expected.error + _left_out(quantity, value)
+        return Answer(value=value, cost=self.cost(), model=model, reason=expected.reason)
 
 
 @dataclass(frozen=True)
 class RollingOnSprings:
     """One-sided springs, over what the linear filter has on the same tracks, times what linear theory expects."""
 
-    model: ClassVar = "springs"
-    name: ClassVar = model
+    kind: ClassVar = "springs"
+    name: ClassVar = kind
 
-    question: RollingQuantity
+    quantity: RollingQuantity
     tolerance: float
     seed: int
 
     def cost(self) -> Cost:
         """Positions of all tracks, and what linear theory expects."""
-        work = TRACKS * RollingGrid.of(self.question, 1).along * springs_to_a_radius(self.question)
-        nodes = 0 if self.question.want == "force-rms" else self.question.nodes
+        work = TRACKS * RollingGrid.of(self.quantity, 1).along * springs_to_a_radius(self.quantity)
+        nodes = 0 if self.quantity.name == "force-rms" else self.quantity.nodes
         return Cost(work=work, unit="positions", seconds=SPRING * work + NODE * nodes)
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """By the height."""
-        if said := beyond_spectra(self.question.scene.ground) or _outside(self.question):
-            return Claim.out_of_range(said)
+        if said := beyond_spectra(self.quantity.scene.ground) or _outside(self.quantity):
+            return ErrorEstimate.out_of_range(said)
         springs = self.cost().work
         if springs > MOST_ON_TRACKS:
-            return Claim.out_of_range(f"{TRACKS} tracks need {springs:.2g} springs, more than {MOST_ON_TRACKS:.2g}")
+            return ErrorEstimate.out_of_range(
+                f"{TRACKS} tracks need {springs:.2g} springs, more than {MOST_ON_TRACKS:.2g}"
+            )
         own = self._own_scatter + self.tolerance / 10
-        if self.question.want == "force-rms":
-            error, because = _claimed(SPRINGS_RMS, self.question)
-            return Claim(error=error + own, because=because)
-        error, because = _claimed(FED_BANDS, self.question)
-        return Claim(error=error + own, because=f"{because}; springs have the right level only in the mean over bands")
+        if self.quantity.name == "force-rms":
+            error, reason = _claimed(SPRINGS_RMS, self.quantity)
+            return ErrorEstimate(error=error + own, reason=reason)
+        error, reason = _claimed(FED_BANDS, self.quantity)
+        return ErrorEstimate(
+            error=error + own, reason=f"{reason}; springs have the right level only in the mean over bands"
+        )
 
     def solve(self) -> Answer:
         """The mean of logarithms over all tracks."""
-        claim = self.claim()
-        change = on_springs(self.question, TRACKS, self.seed)
+        expected = self.estimate()
+        change = on_springs(self.quantity, TRACKS, self.seed)
         if not np.isfinite(change).all():
             failed = "a wheel was thrown farther than sums are exact for"
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=failed)
-        value = self.question.expected(one_dimensional=self.question.want == "force-rms") * np.exp(change.mean(axis=0))
+        value = self.quantity.expected(one_dimensional=self.quantity.name == "force-rms") * np.exp(change.mean(axis=0))
         return Answer(
             value=value,
             cost=self.cost(),
-            model=claim.error + _left_out(self.question, value),
+            model=expected.error + _left_out(self.quantity, value),
             sample=mean_error(change),
-            because=claim.because,
+            reason=expected.reason,
         )
 
     @property
     def _own_scatter(self) -> float:
-        return MEASURED_SCATTER if isinstance(self.question.scene.ground, MeasuredHeights) else 0.0
+        return MEASURED_SCATTER if isinstance(self.quantity.scene.ground, MeasuredHeights) else 0.0
 
 
 @dataclass(frozen=True)
@@ -214,9 +218,9 @@ class RollingOnGrid:
     beside: the grid that is asked, on one strip, what the cells leave open.
     """
 
-    model: ClassVar = BOUNDARY_ELEMENTS
+    kind: ClassVar = BOUNDARY_ELEMENTS
 
-    question: RollingQuantity
+    quantity: RollingQuantity
     tolerance: float
     seed: int
     cells: int
@@ -225,24 +229,26 @@ class RollingOnGrid:
     @property
     def name(self) -> str:
         """With the cells of its grid."""
-        return f"{self.model}, a = {self.cells} cells"
+        return f"{self.kind}, a = {self.cells} cells"
 
     def cost(self) -> Cost:
         """Cells of the window times applications times positions, of all strips and the one beside."""
         strips = realisations(self._scatter, self.tolerance / 2, least=FEWEST_STRIPS, most=MOST_STRIPS)
         return self._cost(1 if self._measured else strips, 1)
 
-    def claim(self) -> Claim:
+    def estimate(self) -> ErrorEstimate:
         """Of the sample what as many strips as there may be leave at the least; only a solve tells of the grid."""
-        if said := self.question.unsteady or self._too_large():
-            return Claim.out_of_range(said)
+        if said := self.quantity.unsteady or self._too_large():
+            return ErrorEstimate.out_of_range(said)
         sample = 0.0 if self._measured else self._scatter / math.sqrt(MOST_STRIPS)
-        return Claim(error=sample, because=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted")
+        return ErrorEstimate(
+            error=sample, reason=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted"
+        )
 
     @property
     def _scatter(self) -> float:
         """Of one strip over linear theory on itself, about."""
-        return (STRIP_RMS if self.question.whole else STRIP_BANDS) * self.question.scene.roughness_ratio
+        return (STRIP_RMS if self.quantity.whole else STRIP_BANDS) * self.quantity.scene.roughness_ratio
 
     def solve(self) -> Answer:
         """Strip by strip, until the sample leaves half of the tolerance."""
@@ -255,18 +261,18 @@ class RollingOnGrid:
             return Answer(value=np.array([np.nan]), cost=cost, failed="some contact along a strip did not converge")
         mean, apart = np.mean(change, axis=0), distance(np.exp(change[0]), np.exp(other))
         return Answer(
-            value=np.exp(mean) * (1.0 if self._measured else self.question.expected(one_dimensional=False)),
+            value=np.exp(mean) * (1.0 if self._measured else self.quantity.expected(one_dimensional=False)),
             cost=cost,
             grid=apart * (OF_COARSE if self.beside > self.cells else OF_FINE),
             sample=0.0 if self._measured else mean_error(np.array(change)),
-            because=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change it by "
+            reason=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change it by "
             f"{apart:.1%}; strips: {len(change)}",
         )
 
     @property
     def _measured(self) -> bool:
         """Whether there is one strip, as it was measured."""
-        return isinstance(self.question.scene.ground, MeasuredHeights)
+        return isinstance(self.quantity.scene.ground, MeasuredHeights)
 
     def _enough(self, change: list[FloatArray]) -> bool:
         """Whether the sample leaves half of the tolerance, or there is no more of it, or no use in more."""
@@ -279,8 +285,8 @@ class RollingOnGrid:
     def _cost(self, strips: int, beside: int) -> Cost:
         """Cells of the window times applications times positions, of strips on this grid and on the other."""
         rolled = (
-            (strips, RollingGrid.of(self.question, self.cells)),
-            (beside, RollingGrid.of(self.question, self.beside)),
+            (strips, RollingGrid.of(self.quantity, self.cells)),
+            (beside, RollingGrid.of(self.quantity, self.beside)),
         )
         work, positions = sum(n * grid.work for n, grid in rolled), sum(n * grid.along for n, grid in rolled)
         return Cost(work=work, unit="cell applications", seconds=CELL * work + POSITION * positions)
@@ -290,7 +296,7 @@ class RollingOnGrid:
         waves = min(self.cells, self.beside) / self.cells * self._waves
         if waves < 2:
             return f"the shortest wave has {waves:.2g} cells on the finest grids that are offered, fewer than 2"
-        grid = RollingGrid.of(self.question, max(self.cells, self.beside))
+        grid = RollingGrid.of(self.quantity, max(self.cells, self.beside))
         if grid.along * grid.across > MOST_ON_A_STRIP:
             return f"a strip needs {grid.along} x {grid.across} cells, more than {MOST_ON_A_STRIP:.2g}"
         return ""
@@ -298,52 +304,52 @@ class RollingOnGrid:
     @property
     def _waves(self) -> float:
         """Cells to the shortest wave."""
-        return 2 * math.pi * self.cells / (self.question.q_max * self.question.scene.contact_radius)
+        return 2 * math.pi * self.cells / (self.quantity.q_max * self.quantity.scene.contact_radius)
 
     def _rolled(self, realisation: int, cells: int) -> FloatArray:
         """ln of levels over those of linear theory on the same strip; of heights, of the levels themselves."""
-        return on_boundary_elements(self.question, cells, realisation, self.seed)
+        return on_boundary_elements(self.quantity, cells, realisation, self.seed)
 
 
-def _outside(question: RollingQuantity) -> str:
+def _outside(quantity: RollingQuantity) -> str:
     """Why the errors of cheap models are not known for a scene; empty where they are."""
-    if said := question.unsteady:
+    if said := quantity.unsteady:
         return said
-    scene, ground = question.scene, question.scene.ground
-    first, last = (q * scene.contact_radius for q in (ground.q_min, question.q_max))
+    scene, ground = quantity.scene, quantity.scene.ground
+    first, last = (q * scene.contact_radius for q in (ground.q_min, quantity.q_max))
     conditions = {HEIGHT: scene.roughness_ratio, LONG: first, SHORT: last, RATIO: last / first}
     if isinstance(ground, Roughness):
         conditions[HURST] = ground.hurst
     return outside(conditions, RANGES)
 
 
-def _single_summits(question: RollingQuantity) -> str:
+def _single_summits(quantity: RollingQuantity) -> str:
     """Why the contact that linear theory loses is not that of Gaussian heights; empty where it is."""
-    ground = question.scene.ground
+    ground = quantity.scene.ground
     return ground.not_gaussian() if isinstance(ground, MeasuredHeights) else ""
 
 
-def _left_out(question: RollingQuantity, value: FloatArray) -> float:
+def _left_out(quantity: RollingQuantity, value: FloatArray) -> float:
     """Error of bands in which measured heights have next to no waves: what linear theory leaves out fills them.
 
     That is h/d of the level of all bands, in each of them; a drawn band has waves of its own throughout.
     """
-    if not isinstance(question.scene.ground, MeasuredHeights) or value.size == 1:
+    if not isinstance(quantity.scene.ground, MeasuredHeights) or value.size == 1:
         return 0.0
-    other = question.scene.roughness_ratio * float(np.linalg.norm(value))
+    other = quantity.scene.roughness_ratio * float(np.linalg.norm(value))
     return distance(np.hypot(value, other), value)
 
 
-def _claimed(rule: Rule, question: RollingQuantity) -> tuple[float, str]:
+def _claimed(rule: Rule, quantity: RollingQuantity) -> tuple[float, str]:
     """The error by a rule, and what it rests on."""
-    scene, ratio = question.scene, question.scene.roughness_ratio * question.amplification
+    scene, ratio = quantity.scene, quantity.scene.roughness_ratio * quantity.amplification
     lost = contact_lost(
         scene.ground.c2d, edges=scene.ground.edges, contact_radius=scene.contact_radius, radius=scene.radius
     )
     error = float(np.dot(rule, (lost, ratio, 1.0)))
-    height = "h/d, by the resonance" if question.amplification > 1 else "h/d"
+    height = "h/d, by the resonance" if quantity.amplification > 1 else "h/d"
     return error, counted({"contact that linear theory loses": lost, height: ratio})
 
 
-CHEAP = (LinearFilter.model, LinearSpace.model, RollingOnSprings.model)
+CHEAP = (LinearFilter.kind, LinearSpace.kind, RollingOnSprings.kind)
 """The models below boundary elements, by their names."""

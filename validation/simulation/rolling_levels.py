@@ -44,12 +44,12 @@ class RollingGrid:
     cells: int
 
     @classmethod
-    def of(cls, question: RollingQuantity, cells: int) -> "RollingGrid":
+    def of(cls, quantity: RollingQuantity, cells: int) -> "RollingGrid":
         """Long enough for some of the longest waves, or as long as what was measured, there and back.
 
         A dynamic wheel comes back in the middle of a turn of its resonance, where free vibration is least excited.
         """
-        scene, ground = question.scene, question.scene.ground
+        scene, ground = quantity.scene, quantity.scene.ground
         a = scene.contact_radius
         spacing = a / cells
         if isinstance(ground, MeasuredHeights):
@@ -58,7 +58,7 @@ class RollingGrid:
         longest = 2 * math.pi / ground.q_min
         # whole radii, so that all grids draw the same surface
         length = max(LONGEST * longest, RADII * a)
-        if question.dynamic:
+        if quantity.dynamic:
             turn = 2 * math.pi * (scene.speed or 0.0) / scene.body.eigenfrequency
             length = (math.ceil(length / turn) + 0.5) * turn
         wide = max(ACROSS * longest, WIDE * a)
@@ -74,9 +74,9 @@ APPLICATIONS = 7
 """Of the operator, a position."""
 
 
-def strip_of(question: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
+def strip_of(quantity: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
     """Heights at the centres of cells; drawn, or those that were measured, there and back [m]."""
-    grid, ground = RollingGrid.of(question, cells), question.scene.ground
+    grid, ground = RollingGrid.of(quantity, cells), quantity.scene.ground
     if isinstance(ground, MeasuredHeights):
         there = _resampled(ground, grid)
         return np.concatenate([there, there[::-1]])
@@ -92,76 +92,76 @@ def strip_of(question: RollingQuantity, cells: int, realisation: int, seed: int)
         )
 
 
-def by_linear_theory(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
+def by_linear_theory(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip, for a contact that keeps its radius."""
-    return _levels(question, _linear(question, surface, spacing), spacing, question.transfer)
+    return _levels(quantity, _linear(quantity, surface, spacing), spacing, quantity.transfer)
 
 
-def by_boundary_elements(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
+def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip; NaN where a contact did not converge."""
-    scene = question.scene
-    if question.dynamic:
-        return _accelerated(question, surface, spacing)
+    scene = quantity.scene
+    if quantity.dynamic:
+        return _accelerated(quantity, surface, spacing)
     found = bem3d.roll(
         narrowed(surface, spacing, scene.body),
         spacing=spacing,
         radius=scene.radius,
         modulus=scene.modulus,
         approach=scene.approach,
-        tolerance=_tolerance(question),
+        tolerance=_tolerance(quantity),
         raise_on_failure=False,
     )
     if not found.converged.all():
-        return np.full(len(question.bands.edges) - 1, np.nan)
+        return np.full(len(quantity.bands.edges) - 1, np.nan)
     if few := too_few(float(np.median(found.area)) / spacing**2, "cells"):
         raise ValueError(few)
-    return _levels(question, found.force, spacing)
+    return _levels(quantity, found.force, spacing)
 
 
-def on_boundary_elements(question: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
+def on_boundary_elements(quantity: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
     """ln of levels over those of linear theory on the same strip; of measured heights, of the levels themselves."""
-    surface, spacing = strip_of(question, cells, realisation, seed), question.scene.contact_radius / cells
-    found = np.log(by_boundary_elements(question, surface, spacing))
-    if isinstance(question.scene.ground, MeasuredHeights):
+    surface, spacing = strip_of(quantity, cells, realisation, seed), quantity.scene.contact_radius / cells
+    found = np.log(by_boundary_elements(quantity, surface, spacing))
+    if isinstance(quantity.scene.ground, MeasuredHeights):
         return found
-    return np.asarray(found - np.log(by_linear_theory(question, surface, spacing)))
+    return np.asarray(found - np.log(by_linear_theory(quantity, surface, spacing)))
 
 
-def on_springs(question: RollingQuantity, tracks: int, seed: int) -> FloatArray:
+def on_springs(quantity: RollingQuantity, tracks: int, seed: int) -> FloatArray:
     """ln of levels of one-sided springs over what linear theory expects, (tracks, bands).
 
     Of the rms of the force, on tracks of Geike's spectrum and over the linear filter on them; else on tracks that are
     fed for rolling, over the half-space.
     """
-    scene = question.scene
-    height, spacing = _tracks(question, tracks, seed)
-    if question.dynamic:
-        return _springs_accelerated(question, height, spacing)
+    scene = quantity.scene
+    height, spacing = _tracks(quantity, tracks, seed)
+    if quantity.dynamic:
+        return _springs_accelerated(quantity, height, spacing)
     roll = partial(mdr.roll, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
     with warnings.catch_warnings():
         # how far a linear contact is off is what both are compared for
         warnings.simplefilter("ignore", mdr.LinearityWarning)
-        found = _levels(question, np.array([roll(track).force for track in height.T]), spacing)
-        if question.want == "force-rms":
+        found = _levels(quantity, np.array([roll(track).force for track in height.T]), spacing)
+        if quantity.name == "force-rms":
             linear = np.array([roll(track, contact="linear").force for track in height.T])
-            return np.asarray(np.log(found) - np.log(_levels(question, linear, spacing)))
-    return np.asarray(np.log(found) - np.log(question.expected(one_dimensional=False)))
+            return np.asarray(np.log(found) - np.log(_levels(quantity, linear, spacing)))
+    return np.asarray(np.log(found) - np.log(quantity.expected(one_dimensional=False)))
 
 
-def springs_to_a_radius(question: RollingQuantity) -> int:
+def springs_to_a_radius(quantity: RollingQuantity) -> int:
     """Four to the shortest wave, and 32 at least."""
-    scene = question.scene
+    scene = quantity.scene
     return max(SPRINGS, math.ceil(4 * scene.ground.q_max * scene.contact_radius / (2 * math.pi)))
 
 
-def _tracks(question: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
+def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
     """Heights, (points, tracks), and their spacing [m]."""
-    scene, ground = question.scene, question.scene.ground
-    coarse = RollingGrid.of(question, 1)
+    scene, ground = quantity.scene, quantity.scene.ground
+    coarse = RollingGrid.of(quantity, 1)
     a = scene.contact_radius
-    springs = springs_to_a_radius(question)
+    springs = springs_to_a_radius(quantity)
     points, spacing = coarse.along * springs, a / springs
-    geike = question.want == "force-rms"
+    geike = quantity.name == "force-rms"
     feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_feed(ground, a)
     drawn = [
         mdr.rough_profile(
@@ -176,45 +176,45 @@ def _tracks(question: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArr
     return np.array(drawn).T, spacing
 
 
-def _springs_accelerated(question: RollingQuantity, height: FloatArray, spacing: float) -> FloatArray:
-    body = question.scene.body
+def _springs_accelerated(quantity: RollingQuantity, height: FloatArray, spacing: float) -> FloatArray:
+    body = quantity.scene.body
     try:
-        found = _rolled_on(question, SpringsLaw(body, height, spacing), filtered(body, height, spacing), spacing)
+        found = _rolled_on(quantity, SpringsLaw(body, height, spacing), filtered(body, height, spacing), spacing)
     except ArithmeticError:
-        return np.full((height.shape[1], len(question.bands.edges) - 1), np.nan)
-    return np.asarray(np.log(_levels(question, found.T, spacing)) - np.log(question.expected(one_dimensional=False)))
+        return np.full((height.shape[1], len(quantity.bands.edges) - 1), np.nan)
+    return np.asarray(np.log(_levels(quantity, found.T, spacing)) - np.log(quantity.expected(one_dimensional=False)))
 
 
-def _accelerated(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
+def _accelerated(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Of a wheel with boundary elements in the time loop."""
-    body = question.scene.body
-    law = BoundaryElementsLaw(body, [narrowed(surface, spacing, body)], spacing, tolerance=_tolerance(question))
-    linear = Linear(body, (_linear(question, surface, spacing) - body.load)[:, np.newaxis])
+    body = quantity.scene.body
+    law = BoundaryElementsLaw(body, [narrowed(surface, spacing, body)], spacing, tolerance=_tolerance(quantity))
+    linear = Linear(body, (_linear(quantity, surface, spacing) - body.load)[:, np.newaxis])
     try:
-        found = _rolled_on(question, law, linear, spacing)
+        found = _rolled_on(quantity, law, linear, spacing)
     except bem3d.ConvergenceError:
-        return np.full(len(question.bands.edges) - 1, np.nan)
-    return _levels(question, found[:, 0], spacing)
+        return np.full(len(quantity.bands.edges) - 1, np.nan)
+    return _levels(quantity, found[:, 0], spacing)
 
 
-def _linear(question: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
+def _linear(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """The force along the middle of a strip [N]."""
-    scene = question.scene
+    scene = quantity.scene
     return linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
 
 
-def _rolled_on(question: RollingQuantity, law: ContactLaw, linear: Linear, spacing: float) -> FloatArray:
+def _rolled_on(quantity: RollingQuantity, law: ContactLaw, linear: Linear, spacing: float) -> FloatArray:
     """Acceleration of wheels over one round, (steps, wheels), begun on the linear motion that repeats itself."""
-    assert question.scene.speed is not None  # a dynamic question has a speed
-    time_step = spacing / question.scene.speed
+    assert quantity.scene.speed is not None  # a dynamic quantity has a speed
+    time_step = spacing / quantity.scene.speed
     approach, velocity = linear.steady(time_step)
     start = law.at_rest(0) + approach - linear.at_rest(0)
-    body, steps = question.scene.body, len(linear.change)
+    body, steps = quantity.scene.body, len(linear.change)
     return simulate(body, law, time_step=time_step, steps=steps, approach=start, velocity=velocity).acceleration
 
 
 def _levels(
-    question: RollingQuantity,
+    quantity: RollingQuantity,
     series: FloatArray,
     spacing: float,
     transfer: Callable[[FloatArray], FloatArray] | None = None,
@@ -223,12 +223,12 @@ def _levels(
     found = waves(series, spacing=spacing)
     if transfer is not None:
         found = type(found)(found.q, found.amplitude * transfer(found.q))
-    return np.asarray(np.sqrt(2 * levels(found, question.bands)))
+    return np.asarray(np.sqrt(2 * levels(found, quantity.bands)))
 
 
-def _tolerance(question: RollingQuantity) -> float:
+def _tolerance(quantity: RollingQuantity) -> float:
     """The lower the roughness, the less its waves change the force, and the finer the residual."""
-    return float(np.clip(1e-4 * question.scene.roughness_ratio, 1e-7, 3e-5))
+    return float(np.clip(1e-4 * quantity.scene.roughness_ratio, 1e-7, 3e-5))
 
 
 def _resampled(heights: MeasuredHeights, grid: RollingGrid) -> FloatArray:

@@ -15,7 +15,7 @@ from validation.scenes.steadiness import force_on_the_way
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 
 FloatArray = NDArray[np.float64]
-Want = Literal["force-rms", "force-spectrum", "acceleration", "acceleration-rms"]
+QuantityName = Literal["force-rms", "force-spectrum", "acceleration", "acceleration-rms"]
 
 NODES = 8
 """Of Gauss and Legendre, on half a wave of sin^2."""
@@ -34,12 +34,12 @@ class RollingQuantity:
     """
 
     scene: RollingScene
-    want: Want
+    name: QuantityName
 
     @property
     def dynamic(self) -> bool:
         """Whether the wheel has a mass."""
-        return self.want.startswith("acceleration")
+        return self.name.startswith("acceleration")
 
     @cached_property
     def unsteady(self) -> str:
@@ -62,7 +62,7 @@ class RollingQuantity:
     @property
     def whole(self) -> bool:
         """Whether all bands are one."""
-        return self.want.endswith("rms")
+        return self.name.endswith("rms")
 
     @property
     def q_max(self) -> float:
@@ -73,7 +73,7 @@ class RollingQuantity:
     @cached_property
     def bands(self) -> Bands:
         """Of wavenumbers along the track [rad/m]; ValueError where there is none."""
-        if self.want == "force-rms":
+        if self.name == "force-rms":
             return Bands((0.0, math.inf))
         ground, body = self.scene.ground, self.scene.body
         first = WAVES * ground.q_min if isinstance(ground, MeasuredHeights) else ground.q_min
@@ -83,7 +83,7 @@ class RollingQuantity:
         if len(found.edges) < 2:
             raise ValueError(
                 f"scene must leave a one-third octave of waves between {first:.3g} and {self.q_max:.3g} rad/m for "
-                f"{self.want}, got none"
+                f"{self.name}, got none"
             )
         return Bands((found.edges[0], found.edges[-1])) if self.whole else found
 
@@ -99,7 +99,7 @@ class RollingQuantity:
         """Levels by linear theory, of the spectrum [N] or [m/s^2]; the variance of the force is the same in both."""
         scene, ground = self.scene, self.scene.ground
         contact = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
-        if self.want == "force-rms":
+        if self.name == "force-rms":
             return np.array([math.sqrt(force_variance(ground.c2d, edges=ground.edges, **contact))])
         found = []
         for low, high in zip(self.bands.edges, self.bands.edges[1:], strict=False):
@@ -114,7 +114,7 @@ class RollingQuantity:
     @property
     def nodes(self) -> int:
         """Of the quadrature over all bands."""
-        if self.want == "force-rms":
+        if self.name == "force-rms":
             return NODES
         pairs = zip(self.bands.edges, self.bands.edges[1:], strict=False)
         return sum(_nodes(low, high, self.scene.contact_radius)[0].size for low, high in pairs)

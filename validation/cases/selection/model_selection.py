@@ -15,7 +15,7 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.selection import indentation_models as rungs_pressed
 from validation.selection import rolling_models as rungs_rolling
-from validation.selection.compare import rungs_of
+from validation.selection.compare import models_of
 from validation.selection.hierarchy import BOUNDARY_ELEMENTS, ContactModel, answered, distance, select_model
 
 GOAL_COVERED, GOAL_SAVED = 0.95, 50.0
@@ -100,11 +100,11 @@ def hold_to_account(trial: CalibrationTrial) -> Outcome:
     converge.
     """
     scene = random_scene(trial.kind, trial.number, trial.seed)
-    finest = rungs_of(scene, trial.want, REFEREE, trial.seed + OTHER_SEED)[-1]
+    finest = models_of(scene, trial.want, REFEREE, trial.seed + OTHER_SEED)[-1]
     referee = answered(finest)
     taken = referee.cost.seconds / finest.cost().seconds
     rows = np.array([_climbed(trial, tolerance, referee.value, taken) for tolerance in trial.tolerances])
-    rungs = rungs_of(scene, trial.want, REFEREE, trial.seed)
+    rungs = models_of(scene, trial.want, REFEREE, trial.seed)
     every = np.array([_asked(rungs, name, referee.value) for name in RUNGS])
     punch = isinstance(scene, IndentationScene) and scene.shape == "punch"
     return {
@@ -121,19 +121,19 @@ def hold_to_account(trial: CalibrationTrial) -> Outcome:
 def _climbed(trial: CalibrationTrial, tolerance: float, truth: np.ndarray, taken: float) -> tuple[float, ...]:
     """taken: what the referee did over what it expected."""
     scene = random_scene(trial.kind, trial.number, trial.seed)
-    rungs = rungs_of(scene, trial.want, tolerance, trial.seed)
+    rungs = models_of(scene, trial.want, tolerance, trial.seed)
     climbed = select_model(rungs, tolerance)
     best, fine = climbed.best, rungs[-1].cost().seconds * taken
     if best is None or best.answer is None:
         return -1.0, math.nan, math.nan, climbed.spent, fine, 0.0
     true = distance(best.answer.value, truth) if np.isfinite(truth).all() else math.nan
-    index = RUNGS.index(_rung_of(best.rung, rungs))
+    index = RUNGS.index(_rung_of(best.model, rungs))
     return float(index), best.answer.error, true, climbed.spent, fine, float(climbed.met)
 
 
 def _rung_of(rung: ContactModel, rungs: Sequence[ContactModel]) -> str:
     """Which of RUNGS it is. Raises ValueError for a model that is none of them: its claims would not be tested."""
-    name = (FINE if rung is rungs[-1] else COARSE) if rung.model == BOUNDARY_ELEMENTS else rung.model
+    name = (FINE if rung is rungs[-1] else COARSE) if rung.kind == BOUNDARY_ELEMENTS else rung.kind
     if name not in RUNGS:
         raise ValueError(f"the model of a rung must be one of {', '.join((*CHEAP, BOUNDARY_ELEMENTS))}, got {name}")
     return name
@@ -142,7 +142,7 @@ def _rung_of(rung: ContactModel, rungs: Sequence[ContactModel]) -> str:
 def _asked(rungs: Sequence[ContactModel], name: str, truth: np.ndarray) -> tuple[float, float]:
     """Claimed and true error of a rung below boundary elements; NaN where the scene has none, or it claims nothing."""
     rung = next((rung for rung in rungs if _rung_of(rung, rungs) == name), None)
-    if name not in CHEAP or rung is None or not rung.claim().in_range:
+    if name not in CHEAP or rung is None or not rung.estimate().in_range:
         return math.nan, math.nan
     answer = answered(rung)
     return (math.nan, math.nan) if answer.failed else (answer.error, distance(answer.value, truth))
