@@ -1,4 +1,4 @@
-"""Scene files: quantities with units, what follows from them, and everything that is refused by name."""
+"""Scene files: what follows from them, and everything that is refused by its key and value."""
 
 import math
 import re
@@ -6,8 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
 from scipy.fft import next_fast_len
 
 import mdr
@@ -15,19 +13,12 @@ from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_whe
 from validation.scenes.material import Material
 from validation.scenes.reader import SCENES, bundled
 from validation.scenes.roughness import Roughness
-from validation.scenes.units import UNITS, quantity
 
 IN_FILE = r"scene \S+scene\.toml: "
 TABLE = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")
 WHEELS = ("rough_wheel", "table_14_1")
 STEEL = Material(youngs_modulus=210e9, poisson_ratio=1 / 3, counterface="rigid")
 ROUGH = Roughness(rms=0.5e-6, hurst=0.7, longest=0.01, shortest=0.2e-3)
-
-# what a unit is in SI, written down here once more
-TIMES = {"m": 1, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "km": 1e3}
-TIMES |= {"kg": 1, "g": 1e-3, "t": 1e3, "N": 1, "kN": 1e3, "MN": 1e6, "mN": 1e-3}
-TIMES |= {"Pa": 1, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "m/s": 1, "mm/s": 1e-3, "km/h": 1 / 3.6}
-EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit in units]
 
 
 def scene(**changes):
@@ -42,118 +33,6 @@ def written(tmp_path, *changes, text=TABLE):
     path = tmp_path / "scene.toml"
     path.write_text(text, encoding="utf-8")
     return path
-
-
-# Quantities
-
-
-@pytest.mark.parametrize(
-    ("text", "dimension", "value"),
-    [
-        ("0.5 um", "length", 5e-07),
-        ("0.5 µm", "length", 5e-07),
-        ("0.5 \N{GREEK SMALL LETTER MU}m", "length", 5e-07),
-        ("  +0.5   um ", "length", 5e-07),
-        ("500 nm", "length", 5e-07),
-        ("5e-4 mm", "length", 5e-07),
-        ("0.2 mm", "length", 0.0002),
-        ("0.3 mm", "length", 0.0003),
-        ("0.65 km", "length", 650.0),
-        ("0.1 g", "mass", 0.0001),
-        ("0.5 t", "mass", 500.0),
-        ("4.9 kN", "force", 4900.0),
-        ("3 mN", "force", 0.003),
-        ("3 MN", "force", 3e6),
-        ("210 GPa", "pressure", 210e9),
-        ("0.1 MPa", "pressure", 1e5),
-        ("1.1 kPa", "pressure", 1100.0),
-        ("72 km/h", "speed", 20.0),
-        ("1 km/h", "speed", 1 / 3.6),
-        ("7 mm/s", "speed", 0.007),
-        ("-2 m/s", "speed", -2.0),
-        ("0 m", "length", 0.0),
-    ],
-)
-def test_a_quantity_is_the_nearest_float(text, dimension, value):
-    assert quantity("it", text, dimension) == value
-
-
-def test_every_unit_is_known_here():
-    assert {unit for _, unit in EVERY_UNIT} == set(TIMES)
-
-
-@pytest.mark.parametrize(("dimension", "unit"), EVERY_UNIT)
-@given(value=st.floats(1e-200, 1e200))
-@example(value=0.1)
-@example(value=1e22)
-def test_a_quantity_is_the_same_number_in_any_unit(dimension, unit, value):
-    # dividing here, the unit here, and the reading each round once: 2^-53 times three, to first order
-    assert quantity("it", f"{value / TIMES[unit]!r} {unit}", dimension) == pytest.approx(value, rel=4 * 2**-53, abs=0)
-
-
-@given(digits=st.integers(-(10**17), 10**17))
-def test_metric_prefixes_do_not_round(digits):
-    assert quantity("it", f"{digits} um", "length") == float(f"{digits}e-6")
-    assert quantity("it", f"{digits} GPa", "pressure") == float(f"{digits}e9")
-
-
-@pytest.mark.parametrize(
-    ("given_text", "shown"),
-    [
-        (0.5, "0.5"),
-        (1, "1"),
-        (True, "True"),
-        (None, "None"),
-        (["0.5 m"], "['0.5 m']"),
-        ("0.5", '"0.5"'),
-        ("0.5m", '"0.5m"'),
-        ("m", '"m"'),
-        ("", '""'),
-        ("0.5 kg", '"0.5 kg"'),
-        ("0.5 inch", '"0.5 inch"'),
-        ("0.5 M", '"0.5 M"'),
-        ("half m", '"half m"'),
-        ("0,5 m", '"0,5 m"'),
-        ("0x10 m", '"0x10 m"'),
-        ("1 m 2 mm", '"1 m 2 mm"'),
-        ("1\n2", r'"1\n2"'),
-    ],
-)
-def test_other_forms_are_refused_in_one_sentence(given_text, shown):
-    sentence = f'wheel.radius must be a length, as "0.5 m", in one of m, mm, um, µm, nm, km, got {shown}'
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
-        quantity("wheel.radius", given_text, "length")
-
-
-@pytest.mark.parametrize(("dimension", "unit"), EVERY_UNIT)
-def test_units_of_other_dimensions_are_refused(dimension, unit):
-    for other in UNITS:
-        if other != dimension:
-            with pytest.raises(
-                ValueError, match=rf'^it must be a {other}, as "[\d.]+ \S+", in one of .*, got "1 {unit}"$'
-            ):
-                quantity("it", f"1 {unit}", other)
-
-
-@pytest.mark.parametrize("dimension", UNITS)
-def test_the_example_in_a_refusal_is_accepted(dimension):
-    with pytest.raises(ValueError, match="must be") as refusal:
-        quantity("it", 1, dimension)
-    example_given = re.search('as "(.*?)"', str(refusal.value))
-    assert quantity("it", example_given.group(1), dimension) > 0
-
-
-@pytest.mark.parametrize("number", ["nan", "-nan", "snan", "inf", "-inf", "1e400", "1e999999999", "-1e400"])
-def test_quantities_that_are_not_finite_are_refused(number):
-    with pytest.raises(ValueError, match=f'^wheel.mass must be finite, got "{number} t"$'):
-        quantity("wheel.mass", f"{number} t", "mass")
-
-
-@pytest.mark.parametrize("number", ["0", "-0.0", "-1", "1e-400", "-1e-999999999"])
-def test_quantities_that_are_not_positive_are_refused_where_they_must_be(number):
-    assert quantity("wheel.mass", f"{number} kg", "mass") <= 0
-    with pytest.raises(ValueError, match=f'^wheel.mass must be positive, got "{number} kg"$'):
-        quantity("wheel.mass", f"{number} kg", "mass", positive=True)
 
 
 # Table 14.1
@@ -310,86 +189,69 @@ def test_without_roughness_the_rail_is_smooth(tmp_path, rail):
 # Refusals
 
 
+MISSING = {
+    "wheel.radius": 'radius = "0.5 m"',
+    "wheel.mass": 'mass = "500 kg"',
+    "material.poisson_ratio": "poisson_ratio = 0.3333333333333333",
+    "simulation.springs": "springs = 100",
+    "rail.roughness.hurst": "hurst = 0.7",
+    "name": 'name = "Table 14.1"',
+}
+UNKNOWN = {
+    "stuff": ("[material]", "[stuff]"),
+    "wheel.diameter": ("radius =", "diameter ="),
+    "rail.waves": ("[rail.roughness]", "[rail.waves]"),
+    "rail.roughness.Hurst": ("hurst =", "Hurst ="),
+    "rail.x": ("[rail.roughness]", "[rail]\nroughness = 1\n[rail.x]"),
+}
+
+
+@pytest.mark.parametrize("key", MISSING)
+def test_a_key_that_is_missing_is_named(tmp_path, key):
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} is missing"):
+        load_wheel_scene(written(tmp_path, (MISSING[key], "")))
+
+
+@pytest.mark.parametrize("key", UNKNOWN)
+def test_a_key_that_is_unknown_is_named_with_those_that_are_known(tmp_path, key):
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} is unknown, .* must be made of (name, wheel|radius|rms|ro)"):
+        load_wheel_scene(written(tmp_path, UNKNOWN[key]))
+
+
 @pytest.mark.parametrize(
-    ("old", "new", "sentence"),
+    ("key", "old", "new", "got"),
     [
-        ('radius = "0.5 m"', "", "wheel.radius is missing, wheel must have it"),
-        ('mass = "500 kg"', "", "wheel.mass is missing, wheel must have it"),
-        ("poisson_ratio = 0.3333333333333333", "", "material.poisson_ratio is missing, material must have it"),
-        ("springs = 100", "", "simulation.springs is missing, simulation must have it"),
-        ("hurst = 0.7", "", "rail.roughness.hurst is missing, rail.roughness must have it"),
-        ('name = "Table 14.1"', "", "name is missing, a scene must have it"),
-        ("[material]", "[stuff]", "stuff is unknown, a scene must be made of name, wheel, material, rail, simulation"),
-        (
-            "radius =",
-            "diameter =",
-            "wheel.diameter is unknown, wheel must be made of radius, mass, load, speed, roughness",
-        ),
-        ("[rail.roughness]", "[rail.waves]", "rail.waves is unknown, rail must be made of roughness"),
-        (
-            "hurst =",
-            "Hurst =",
-            "rail.roughness.Hurst is unknown, rail.roughness must be made of rms, hurst, longest, shortest",
-        ),
-        ('name = "Table 14.1"', "name = 14.1", "name must be a text that is not blank, got 14.1"),
-        ('name = "Table 14.1"', 'name = " "', "name must be a text that is not blank, got ' '"),
-        ("[rail.roughness]", "[rail]\nroughness = 1\n[rail.x]", "rail.x is unknown, rail must be made of roughness"),
-        (
-            '"0.5 m"',
-            "0.5",
-            'wheel.radius must be a length, as "0.5 m", in one of m, mm, um, µm, nm, km, got 0.5',
-        ),
-        (
-            '"500 kg"',
-            '"4905 N"',
-            'wheel.mass must be a mass, as "500 kg", in one of kg, g, t, got "4905 N"',
-        ),
-        (
-            '"20 m/s"',
-            '"20 m"',
-            'wheel.speed must be a speed, as "20 m/s", in one of m/s, mm/s, km/h, got "20 m"',
-        ),
-        (
-            '"210 GPa"',
-            '"210 GN"',
-            'material.youngs_modulus must be a pressure, as "210 GPa", in one of Pa, kPa, MPa, GPa, got "210 GN"',
-        ),
-        ('"4905 N"', '"-1 N"', 'wheel.load must be positive, got "-1 N"'),
-        ('"0.5 um"', '"0 um"', 'rail.roughness.rms must be positive, got "0 um"'),
-        ('"0.65 m"', '"inf m"', 'simulation.distance must be finite, got "inf m"'),
-        ("hurst = 0.7", 'hurst = "0.7"', "rail.roughness.hurst must be a real number, got '0.7'"),
-        ("hurst = 0.7", "hurst = true", "rail.roughness.hurst must be a real number, got True"),
-        ("hurst = 0.7", "hurst = nan", "rail.roughness.hurst must be finite, got nan"),
-        ("hurst = 0.7", "hurst = 1" + 400 * "0", "rail.roughness.hurst must be finite, got a number of 401 digits"),
-        ("hurst = 0.7", "hurst = 7", "rail.roughness.hurst must lie in (0, 1.2], got 7.0"),
-        ("springs = 100", "springs = 1.5", "simulation.springs must be a whole number, got 1.5"),
-        ("springs = 100", "springs = 0", "simulation.springs must be at least 1, got 0"),
-        ("0.3333333333333333", "0.6", "material.poisson_ratio must lie in [0, 0.5], got 0.6"),
-        (
-            "0.3333333333333333",
-            "2026-01-01",
-            "material.poisson_ratio must be a real number, got datetime.date(2026, 1, 1)",
-        ),
+        ("name", '"Table 14.1"', "14.1", "14.1"),
+        ("name", '"Table 14.1"', '" "', "' '"),
+        ("wheel.radius", '"0.5 m"', "0.5", "0.5"),
+        ("wheel.mass", '"500 kg"', '"4905 N"', '"4905 N"'),
+        ("wheel.speed", '"20 m/s"', '"20 m"', '"20 m"'),
+        ("material.youngs_modulus", '"210 GPa"', '"210 GN"', '"210 GN"'),
+        ("wheel.load", '"4905 N"', '"-1 N"', '"-1 N"'),
+        ("rail.roughness.rms", '"0.5 um"', '"0 um"', '"0 um"'),
+        ("simulation.distance", '"0.65 m"', '"inf m"', '"inf m"'),
+        ("rail.roughness.hurst", "0.7", '"0.7"', "'0.7'"),
+        ("rail.roughness.hurst", "0.7", "true", "True"),
+        ("rail.roughness.hurst", "0.7", "nan", "nan"),
+        ("rail.roughness.hurst", "0.7", "1" + 400 * "0", "a number of 401 digits"),
+        ("rail.roughness.hurst", "0.7", "7", "7.0"),
+        ("simulation.springs", "springs = 100", "springs = 1.5", "1.5"),
+        ("simulation.springs", "springs = 100", "springs = 0", "0"),
+        ("material.poisson_ratio", "0.3333333333333333", "0.6", "0.6"),
+        ("material.poisson_ratio", "0.3333333333333333", "2026-01-01", "datetime.date(2026, 1, 1)"),
     ],
 )
-def test_files_are_refused_by_the_key(tmp_path, old, new, sentence):
-    with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
+def test_files_are_refused_by_key_and_value(tmp_path, key, old, new, got):
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} must .*, got {re.escape(got)}$"):
         load_wheel_scene(written(tmp_path, (old, new)))
 
 
-@pytest.mark.parametrize(
-    ("line", "sentence"),
-    [
-        ("rail = 3", "rail must be a table, got 3"),
-        ("rail = [{}]", "rail must be a table, got [{}]"),
-        ("rail.roughness = 'none'", "rail.roughness must be a table, got 'none'"),
-    ],
-)
-def test_what_must_be_a_table_is_refused_otherwise(tmp_path, line, sentence):
+@pytest.mark.parametrize(("key", "got"), [("rail", "3"), ("rail", "[{}]"), ("rail.roughness", "'none'")])
+def test_what_must_be_a_table_is_refused_otherwise(tmp_path, key, got):
     start, _, rest = TABLE.partition("[rail.roughness]")
     # keys of the file itself stand before its tables
-    path = written(tmp_path, text=f"{line}\n{start}[simulation]{rest.partition('[simulation]')[2]}")
-    with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
+    path = written(tmp_path, text=f"{key} = {got}\n{start}[simulation]{rest.partition('[simulation]')[2]}")
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} must be a table, got {re.escape(got)}$"):
         load_wheel_scene(path)
 
 
@@ -421,113 +283,78 @@ def test_unknown_names_are_answered_with_the_shipped_ones(name):
 
 
 @pytest.mark.parametrize(
-    ("changes", "error", "sentence"),
+    ("key", "changes", "numbers"),
     [
-        ({"name": ""}, ValueError, "name must be a text that is not blank, got ''"),
-        ({"radius": "0.5 m"}, TypeError, "wheel.radius must be a real number, got '0.5 m'"),
-        ({"radius": 0.0}, ValueError, "wheel.radius must be positive, got 0.0"),
-        ({"mass": -1.0}, ValueError, "wheel.mass must be positive, got -1.0"),
-        ({"load": math.nan}, ValueError, "wheel.load must be finite, got nan"),
-        ({"speed": math.inf}, ValueError, "wheel.speed must be finite, got inf"),
-        ({"material": 210e9}, TypeError, "material must be a Material, got 210000000000.0"),
-        ({"distance": 0}, ValueError, "simulation.distance must be positive, got 0.0"),
-        ({"springs": 99.0}, TypeError, "simulation.springs must be a whole number, got 99.0"),
-        ({"springs": True}, TypeError, "simulation.springs must be a whole number, got True"),
-        ({"springs": -3}, ValueError, "simulation.springs must be at least 1, got -3"),
-        ({"rail": 1e-6}, TypeError, "rail.roughness must be a Roughness or None, got 1e-06"),
-        ({"rail": {"rms": None}}, TypeError, "rail.roughness.rms must be a real number, got None"),
-        ({"wheel": {"rms": -1.0}}, ValueError, "wheel.roughness.rms must be positive, got -1.0"),
-        ({"wheel": {"hurst": 1.3}}, ValueError, "wheel.roughness.hurst must lie in (0, 1.2], got 1.3"),
-        ({"rail": {"longest": 0.0}}, ValueError, "rail.roughness.longest must be positive, got 0.0"),
-        ({"rail": {"shortest": math.inf}}, ValueError, "rail.roughness.shortest must be finite, got inf"),
+        ("name", {"name": ""}, ["''"]),
+        ("wheel.radius", {"radius": "0.5 m"}, ["'0.5 m'"]),
+        ("wheel.radius", {"radius": 0.0}, ["0.0"]),
+        ("wheel.mass", {"mass": -1.0}, ["-1.0"]),
+        ("wheel.load", {"load": math.nan}, ["nan"]),
+        ("wheel.speed", {"speed": math.inf}, ["inf"]),
+        ("material", {"material": 210e9}, ["210000000000.0"]),
+        ("simulation.distance", {"distance": 0}, ["0.0"]),
+        ("simulation.springs", {"springs": 99.0}, ["99.0"]),
+        ("simulation.springs", {"springs": True}, ["True"]),
+        ("simulation.springs", {"springs": -3}, ["-3"]),
+        ("rail.roughness", {"rail": 1e-6}, ["1e-06"]),
+        ("rail.roughness.rms", {"rail": {"rms": None}}, ["None"]),
+        ("wheel.roughness.rms", {"wheel": {"rms": -1.0}}, ["-1.0"]),
+        ("wheel.roughness.hurst", {"wheel": {"hurst": 1.3}}, ["1.3"]),
+        ("rail.roughness.longest", {"rail": {"longest": 0.0}}, ["0.0"]),
+        ("rail.roughness.shortest", {"rail": {"shortest": math.inf}}, ["inf"]),
+        # the limit that a value breaks stands before it
+        ("rail.roughness.shortest", {"rail": {"shortest": 0.01}}, ["0.01 m", "0.01 m"]),
+        ("simulation.distance", {"distance": 0.003, "rail": None}, ["0.00396396 m", "0.003 m"]),
+        ("simulation.distance", {"distance": 0.01}, ["rail.roughness.longest, 0.01 m", "0.01 m"]),
+        ("simulation.distance", {"distance": 0.02, "wheel": {"longest": 0.03}}, ["wheel.", "longest, 0.03 m", "0.02"]),
+        ("rail.roughness.shortest", {"springs": 10}, ["two springs, 0.000396396 m", "0.0002 m"]),
         (
-            {"rail": {"shortest": 0.01}},
-            ValueError,
-            "rail.roughness.shortest must be below the longest wave, 0.01 m, got 0.01 m",
-        ),
-        (
-            {"distance": 0.003, "rail": None},
-            ValueError,
-            "simulation.distance must be longer than the contact, 0.00396396 m, got 0.003 m",
-        ),
-        (
-            {"distance": 0.01},
-            ValueError,
-            "simulation.distance must be longer than rail.roughness.longest, 0.01 m, got 0.01 m",
-        ),
-        (
-            {"distance": 0.02, "wheel": {"longest": 0.03}},
-            ValueError,
-            "simulation.distance must be longer than wheel.roughness.longest, 0.03 m, got 0.02 m",
-        ),
-        (
-            {"springs": 10},
-            ValueError,
-            "rail.roughness.shortest must hold two springs, 0.000396396 m, got 0.0002 m",
-        ),
-        (
+            "rail.roughness.shortest",
             {"distance": 0.011, "rail": {"longest": 0.0099, "shortest": 0.0098}},
-            ValueError,
-            "rail.roughness.shortest must leave a wave that fits a period of 0.0110",
+            ["a period of 0.0110", "0.0098 m"],
         ),
         (
+            "wheel.roughness.shortest",
             {"distance": 10.0, "wheel": {"longest": 5.0, "shortest": 4.0}},
-            ValueError,
-            "wheel.roughness.shortest must leave a wave that fits a period of 3.141",
+            ["a period of 3.141", "4 m"],
         ),
-        ({"load": 1e15}, ValueError, "wheel.load must leave a contact smaller than the wheel, 0.5 m, got 11.665 m"),
-        ({"springs": 10**400}, ValueError, "simulation.springs must be at most 630884 on such a track, got 1000"),
+        ("wheel.load", {"load": 1e15}, ["0.5 m", "11.665 m"]),
+        ("simulation.springs", {"springs": 10**400}, ["630884", "1000"]),
     ],
 )
-def test_scenes_are_refused_by_the_key(changes, error, sentence):
-    rough = {key: replace(ROUGH, **value) for key, value in changes.items() if isinstance(value, dict)}
-    with pytest.raises(error, match=f"^{re.escape(sentence)}"):
+def test_scenes_are_refused_by_key_and_value(key, changes, numbers):
+    rough = {name: replace(ROUGH, **value) for name, value in changes.items() if isinstance(value, dict)}
+    with pytest.raises((ValueError, TypeError), match=f"^{key} must .*{'.*'.join(map(re.escape, numbers))}"):
         scene(**{**changes, **rough})
 
 
 # Doubts
 
 
-@pytest.mark.parametrize(
-    ("doubtful", "beyond_doubt", "sentence"),
-    [
-        (
-            {"springs": 39},
-            {"springs": 40},
-            "rail.roughness.shortest holds 3.94 springs, fewer than 4: its waves are not resolved.",
-        ),
-        (
-            {"wheel": replace(ROUGH, longest=1.6), "distance": 20.0},
-            {"wheel": replace(ROUGH, longest=1.5), "distance": 20.0},
-            "wheel.roughness.longest is 1.6 m, more than half of the circumference of 3.14 m: "
-            "a wheel carries whole waves only.",
-        ),
-        (
-            {"speed": 0.13},
-            {"speed": 0.14},
-            "a time step is 0.209 over the eigenfrequency, more than 0.2, and 2 is unstable: "
-            "roll slower or take more springs.",
-        ),
-        (
-            {"distance": 0.09},
-            {"distance": 0.11},
-            "simulation.distance holds 9 waves of rail.roughness.longest, fewer than 10: "
-            "the low end of a spectrum rests on few waves.",
-        ),
-        (
-            {"load": 1e9, "springs": 10000, "distance": 2.0, "rail": replace(ROUGH, rms=1.1e-4)},
-            {"load": 1e9, "springs": 10000, "distance": 2.0, "rail": replace(ROUGH, rms=0.9e-4)},
-            "rail.roughness.rms is 0.00011 m, more than 0.0001 m: is its unit right?",
-        ),
-        (
-            {"load": 1e9, "springs": 5000},
-            {"load": 5e7, "springs": 5000},
-            "the contact radius is 0.233 of wheel.radius, more than a tenth: "
-            "no half-space; are the units of wheel.load and material.youngs_modulus right?",
-        ),
-    ],
-)
-def test_doubts_come_with_their_numbers_and_go_with_their_cause(doubtful, beyond_doubt, sentence):
-    assert sentence in scene(**doubtful).diagnose()
-    what = sentence.rpartition(": ")[2]
-    assert not [doubt for doubt in scene(**beyond_doubt).diagnose() if doubt.endswith(what)]
+HEAVY = {"load": 1e9, "springs": 10000, "distance": 2.0}
+LONG_WAVE = {"wheel": replace(ROUGH, longest=1.6), "distance": 20.0}
+SHORTER_WAVE = {"wheel": replace(ROUGH, longest=1.5), "distance": 20.0}
+DOUBTS = [
+    ({"springs": 39}, {"springs": 40}, ["rail.roughness.shortest", "3.94 springs", "4"]),
+    (LONG_WAVE, SHORTER_WAVE, ["wheel.roughness.longest", "1.6 m", "circumference of 3.14 m"]),
+    ({"speed": 0.13}, {"speed": 0.14}, ["time step", "0.209", "0.2"]),
+    ({"distance": 0.09}, {"distance": 0.11}, ["simulation.distance", "9 waves of rail.roughness.longest", "10"]),
+    (
+        {**HEAVY, "rail": replace(ROUGH, rms=1.1e-4)},
+        {**HEAVY, "rail": replace(ROUGH, rms=0.9e-4)},
+        ["rail.roughness.rms", "0.00011 m", "0.0001 m", "unit"],
+    ),
+    (
+        {"load": 1e9, "springs": 5000},
+        {"load": 5e7, "springs": 5000},
+        ["contact radius", "0.233", "a tenth", "units of wheel.load and material.youngs_modulus"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("doubtful", "beyond_doubt", "words"), DOUBTS)
+def test_doubts_come_with_their_numbers_and_go_with_their_cause(doubtful, beyond_doubt, words):
+    pattern = re.compile(".*".join(map(re.escape, words)))
+    assert any(pattern.search(doubt) for doubt in scene(**doubtful).diagnose())
+    cause = re.compile(f"{re.escape(words[0])}.*{re.escape(words[-1])}")
+    assert not any(cause.search(doubt) for doubt in scene(**beyond_doubt).diagnose())

@@ -1,0 +1,124 @@
+"""Quantities with units: the nearest float, the same number in any unit, and other forms refused by name."""
+
+import re
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from validation.scenes.printable import quoted
+from validation.scenes.units import UNITS, quantity
+
+# what a unit is in SI, written down here once more
+TIMES = {"m": 1, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "km": 1e3}
+TIMES |= {"kg": 1, "g": 1e-3, "t": 1e3, "N": 1, "kN": 1e3, "MN": 1e6, "mN": 1e-3}
+TIMES |= {"Pa": 1, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "m/s": 1, "mm/s": 1e-3, "km/h": 1 / 3.6}
+EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit in units]
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("0.5 um", "length", 5e-07),
+        ("0.5 µm", "length", 5e-07),
+        ("0.5 \N{GREEK SMALL LETTER MU}m", "length", 5e-07),
+        ("  +0.5   um ", "length", 5e-07),
+        ("500 nm", "length", 5e-07),
+        ("5e-4 mm", "length", 5e-07),
+        ("0.2 mm", "length", 0.0002),
+        ("0.3 mm", "length", 0.0003),
+        ("0.65 km", "length", 650.0),
+        ("0.1 g", "mass", 0.0001),
+        ("0.5 t", "mass", 500.0),
+        ("4.9 kN", "force", 4900.0),
+        ("3 mN", "force", 0.003),
+        ("3 MN", "force", 3e6),
+        ("210 GPa", "pressure", 210e9),
+        ("0.1 MPa", "pressure", 1e5),
+        ("1.1 kPa", "pressure", 1100.0),
+        ("72 km/h", "speed", 20.0),
+        ("1 km/h", "speed", 1 / 3.6),
+        ("7 mm/s", "speed", 0.007),
+        ("-2 m/s", "speed", -2.0),
+        ("0 m", "length", 0.0),
+    ],
+)
+def test_a_quantity_is_the_nearest_float(text, dimension, value):
+    assert quantity("it", text, dimension) == value
+
+
+def test_every_unit_is_known_here():
+    assert {unit for _, unit in EVERY_UNIT} == set(TIMES)
+
+
+@pytest.mark.parametrize(("dimension", "unit"), EVERY_UNIT)
+@given(value=st.floats(1e-200, 1e200))
+@example(value=0.1)
+@example(value=1e22)
+def test_a_quantity_is_the_same_number_in_any_unit(dimension, unit, value):
+    # dividing here, the unit here, and the reading each round once: 2^-53 times three, to first order
+    assert quantity("it", f"{value / TIMES[unit]!r} {unit}", dimension) == pytest.approx(value, rel=4 * 2**-53, abs=0)
+
+
+@given(digits=st.integers(-(10**17), 10**17))
+def test_metric_prefixes_do_not_round(digits):
+    assert quantity("it", f"{digits} um", "length") == float(f"{digits}e-6")
+    assert quantity("it", f"{digits} GPa", "pressure") == float(f"{digits}e9")
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        0.5,
+        1,
+        True,
+        None,
+        ["0.5 m"],
+        "0.5",
+        "0.5m",
+        "m",
+        "",
+        "0.5 kg",
+        "0.5 inch",
+        "0.5 M",
+        "half m",
+        "0,5 m",
+        "0x1 m",
+        "1 m 2 mm",
+    ],
+)
+def test_other_forms_are_refused_with_an_example_and_the_units(wrong):
+    with pytest.raises(
+        ValueError, match=r'^wheel.radius must be a length, as "0.5 m", in one of m, .*, km, got '
+    ) as no:
+        quantity("wheel.radius", wrong, "length")
+    assert str(no.value).endswith(f"got {quoted(wrong)}")
+
+
+@pytest.mark.parametrize(("dimension", "unit"), EVERY_UNIT)
+def test_units_of_other_dimensions_are_refused(dimension, unit):
+    for other in UNITS:
+        if other != dimension:
+            with pytest.raises(ValueError, match=f"^it must be a {other}, as .*{unit}"):
+                quantity("it", f"1 {unit}", other)
+
+
+@pytest.mark.parametrize("dimension", UNITS)
+def test_the_example_in_a_refusal_is_accepted(dimension):
+    with pytest.raises(ValueError, match="must be") as refusal:
+        quantity("it", 1, dimension)
+    example_given = re.search('as "(.*?)"', str(refusal.value))
+    assert quantity("it", example_given.group(1), dimension) > 0
+
+
+@pytest.mark.parametrize("number", ["nan", "-nan", "snan", "inf", "-inf", "1e400", "1e999999999", "-1e400"])
+def test_quantities_that_are_not_finite_are_refused(number):
+    with pytest.raises(ValueError, match=f'^wheel.mass must be finite, got "{number} t"$'):
+        quantity("wheel.mass", f"{number} t", "mass")
+
+
+@pytest.mark.parametrize("number", ["0", "-0.0", "-1", "1e-400", "-1e-999999999"])
+def test_quantities_that_are_not_positive_are_refused_where_they_must_be(number):
+    assert quantity("wheel.mass", f"{number} kg", "mass") <= 0
+    with pytest.raises(ValueError, match=f'^wheel.mass must be positive, got "{number} kg"$'):
+        quantity("wheel.mass", f"{number} kg", "mass", positive=True)
