@@ -224,7 +224,7 @@ def test_what_is_timed_is_timed_anew(problems, tmp_path):
         assert alone.workers == 1
         alone.map(toy, problems)
         ours = sorted(path.name for path in tmp_path.glob("*.npz") if path.name != kept)
-        others = [ours[0].replace("test_ensemble", "test"), "test_ensemble.npz", "test_ensemble-toy-abc.npz", "a.txt"]
+        others = [ours[0].replace("test_engine", "test"), "test_engine.npz", "test_engine-toy-abc.npz", "a.txt"]
         for name in others:
             (tmp_path / name).write_bytes((tmp_path / ours[0]).read_bytes())
         (tmp_path / ours[1]).write_bytes(b"mine")
