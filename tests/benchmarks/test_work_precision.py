@@ -47,7 +47,7 @@ from validation.report import contents
 from validation.report.contents import TIMED
 from validation.simulation.motion import simulate
 from validation.simulation.rolling_strip import HERTZ
-from validation.simulation.wheel_on_half_space import linear_contact
+from validation.simulation.wheel_on_half_space import linear_law_3d
 from validation.theory.closed_forms import westergaard_approach, westergaard_full_pressure, westergaard_half_width
 
 # --- who is the cheapest, of hand-made data ---
@@ -557,9 +557,9 @@ STRIP = WheelProblem(strips=3, wheels=6, cells=(6, 12), fixed=6)
 
 def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():
     strip = STRIP.strip(0, 6, 1e-5)
-    linear = linear_contact(strip, strip.surface())
+    linear = linear_law_3d(strip, strip.surface())
     time_step = strip.spacing / strip.scene.speed
-    approach, velocity = linear.steady(time_step)
+    approach, velocity = linear.steady_state(time_step)
     steps = len(linear.change)
     motion = simulate(linear.wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
     expected = steady_acceleration(linear, time_step)

@@ -141,15 +141,18 @@ FAULTS = {
         (wheel_scene.WheelScene, "circumference_points", property(half_of_the_circumference)),
         test_wheel_cases.test_the_roughness_of_a_wheel_repeats_after_its_circumference,
     ),
-    "a closed track taken as open": (
+    "a periodic track taken as open": (
         (wheel_ensemble.WheelEnsemble, "places", property(always_open)),
         functools.partial(
-            test_wheel_cases.test_closed_tracks_hold_whole_turns_and_steady_ones_a_half_more, "steady", 0.5, 0.16
+            test_wheel_cases.test_periodic_tracks_take_whole_natural_periods,
+            "steady-state",
+            0.5,
+            0.16,
         ),
     ),
     "Geike's spectrum for the rolling-equivalent one": (
         (wheel_ensemble.WheelEnsemble, "heights", by_geike),
-        test_wheel_cases.test_rolling_feed_has_long_waves_and_geike_has_none,
+        test_wheel_cases.test_the_rolling_spectrum_has_long_waves_and_geikes_has_none,
     ),
     "no resonator in the linear spectrum": (
         (wheel_theory, "acceleration_over_force", without_resonance),

@@ -198,7 +198,7 @@ FAULTS = {
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
     ),
     "Geike's spectrum for springs that roll": (
-        (rolled, "rolling_feed", geike_for_what_rolls),
+        (rolled, "rolling_input", geike_for_what_rolls),
         functools.partial(
             test_claims.test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands, "force-spectrum"
         ),

@@ -52,7 +52,7 @@ def held_at_the_edge(energy):
 
 
 def without_a_jump(motion):
-    return motion.onward - motion.onward
+    return motion.next_acceleration - motion.next_acceleration
 
 
 def one_copy(wheel, law, **settings):
@@ -164,11 +164,11 @@ FAULTS = {
         functools.partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
     ),
     "shooting without a correction": (
-        (test_wheel_motion, "repeating", one_copy),
+        (test_wheel_motion, "periodic_motion", one_copy),
         test_wheel_motion.test_the_linear_motion_that_repeats_itself_is_the_steady_one,
     ),
     "a steady motion in continuous time": (
-        (contact_laws.Linear, "steady", softer_steady),
+        (contact_laws.LinearLaw, "steady_state", softer_steady),
         functools.partial(
             test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1
         ),

@@ -13,9 +13,9 @@ from tests.oracles import free_vibration_by_small_steps
 from validation.analysis.spectra import waves
 from validation.scenes.wheel_body import Wheel
 from validation.simulation import integrators
-from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, Linear, SpringsLaw
+from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw, SpringsLaw
 from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
-from validation.simulation.motion import repeating, simulate, turns
+from validation.simulation.motion import natural_periods, periodic_motion, simulate
 from validation.theory import wheel as wheel_theory
 from validation.theory.rolling import linear_force
 
@@ -72,7 +72,7 @@ class Counted:
     ("law", "each"),
     [
         (HertzLaw(WHEEL, 2), 4 * ULP),
-        (Linear(WHEEL, np.zeros((7, 2))), 4 * ULP),
+        (LinearLaw(WHEEL, np.zeros((7, 2))), 4 * ULP),
         (springs_law(np.zeros((100, 2)), 12.5), quantum(12.5)),
         # the contact ends upon a spring
         (springs_law(np.zeros((100, 2)), 10.0), quantum(10.0)),
@@ -91,7 +91,7 @@ def test_on_a_smooth_track_a_wheel_stays_at_rest(law, each):
 
 
 def test_at_rest_the_wheel_bears_its_load():
-    for law in (HertzLaw(WHEEL, 2), Linear(WHEEL, track(40, 2, 0.3)), springs_law(track(40, 2, 0.3), 12.5)):
+    for law in (HertzLaw(WHEEL, 2), LinearLaw(WHEEL, track(40, 2, 0.3)), springs_law(track(40, 2, 0.3), 12.5)):
         for place in (0, 3, 17):
             assert law.force(place, law.at_rest(place)) == pytest.approx(4 / 3, rel=4 * quantum(12.5))
 
@@ -101,7 +101,7 @@ def test_at_rest_the_wheel_bears_its_load():
 
 def laws(points=200):
     height = track(points, 3, 0.2)
-    return {"springs": springs_law(height, 12.5), "linear": Linear(WHEEL, height), "Hertz": HertzLaw(WHEEL, 3)}
+    return {"springs": springs_law(height, 12.5), "linear": LinearLaw(WHEEL, height), "Hertz": HertzLaw(WHEEL, 3)}
 
 
 @pytest.mark.parametrize("name", ["springs", "linear", "Hertz"])
@@ -160,7 +160,7 @@ def test_a_wheel_moves_the_same_to_the_last_bit_whoever_rolls_beside_it(name):
     height = track(300, 4, 0.3)
     make = {
         "springs": lambda which: springs_law(height[:, which], 12.5),
-        "linear": lambda which: Linear(WHEEL, height[:, which]),
+        "linear": lambda which: LinearLaw(WHEEL, height[:, which]),
         "Hertz": lambda which: HertzLaw(WHEEL, len(which)),
     }[name]
     start, speed = np.array([1.0, 1.3, 0.4, 1.1]), np.array([0.0, 0.5, -1.0, 0.1])
@@ -173,7 +173,7 @@ def test_a_wheel_moves_the_same_to_the_last_bit_whoever_rolls_beside_it(name):
     together = run([0, 1, 2, 3])
     for which in ([0], [2], [3, 1], [2, 0, 1]):
         some = run(which)
-        for field in ("lowest", "highest", "airborne", "approach", "velocity", "onward", "jump"):
+        for field in ("lowest", "highest", "airborne", "approach", "velocity", "next_acceleration", "jump"):
             assert np.array_equal(getattr(some, field), getattr(together, field)[which]), field
         assert np.array_equal(some.acceleration, together.acceleration[:, which])
         assert np.array_equal(some.path, together.path[:, which])
@@ -218,7 +218,7 @@ def test_units_of_time_and_mass_that_are_powers_of_two_change_no_bit(turn, mass)
 @pytest.mark.parametrize("turn", [0.01, 0.3, 1.0, 1.9, 1.999])
 def test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog(turn):
     """d_n = d_N + A cos(n W), cos(W) = 1 - (omega dt)^2 / 2; rounding grows by 1 / sin(W) a step."""
-    law, steps = Linear(WHEEL, np.zeros((1, 1))), 2000
+    law, steps = LinearLaw(WHEEL, np.zeros((1, 1))), 2000
     found = simulate(WHEEL, law, time_step=turn, steps=steps, approach=np.array([1.25]), path=True).path[:, 0]
     angle = 2 * math.asin(turn / 2)
     expected = 1 + 0.25 * np.cos(angle * np.arange(steps))
@@ -237,9 +237,9 @@ def steady_by_a_dense_solve(change, time_step):
 @pytest.mark.parametrize(("points", "time_step"), [(50, 0.1), (51, 0.7), (64, 1.7), (7, 0.3), (2, 0.3)])
 def test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself(points, time_step):
     change = np.random.default_rng(points).normal(size=(points, 2))
-    law = Linear(WHEEL, change)
+    law = LinearLaw(WHEEL, change)
     expected, condition = steady_by_a_dense_solve(change, time_step)
-    d, v = law.steady(time_step)
+    d, v = law.steady_state(time_step)
     rounding = 16 * ULP * condition * (1 + np.abs(expected).max())
     assert np.abs(d - 1 - expected[0]).max() <= rounding
     assert np.abs(v - (expected[1 % points] - expected[-1]) / (2 * time_step)).max() <= rounding / time_step
@@ -254,7 +254,7 @@ def test_a_track_that_resonates_has_no_steady_motion():
     """2 sin(omega dt / 2) / dt = omega_eigen of the second wave."""
     omega_dt = 2 * np.pi * 2 / 40
     with pytest.raises(ValueError, match="resonance"):
-        Linear(WHEEL, np.ones((40, 1))).steady(2 * math.sin(omega_dt / 2))
+        LinearLaw(WHEEL, np.ones((40, 1))).steady_state(2 * math.sin(omega_dt / 2))
 
 
 SPRINGS = 200.5
@@ -271,13 +271,13 @@ def one_wave(height):
     response = dx * math.sin(SPRINGS * q_dx) / math.sin(q_dx / 2)
     assert response == pytest.approx(2 * math.sin(q_dx * SPRINGS) / (q_dx * SPRINGS), rel=q_dx**2 / 20)
     assert abs(response) > 0.1
-    return springs_law(height * np.cos(phase), SPRINGS), Linear(WHEEL, response * height * np.cos(phase))
+    return springs_law(height * np.cos(phase), SPRINGS), LinearLaw(WHEEL, response * height * np.cos(phase))
 
 
 def beyond_linear(height):
     """How far the motion on springs is off that of the linear law, both begun alike."""
     springs, linear = one_wave(height)
-    d, v = linear.steady(STEP)
+    d, v = linear.steady_state(STEP)
     rest = springs_law(np.zeros((POINTS, 1)), SPRINGS).at_rest(0)
     settings = {"time_step": STEP, "steps": POINTS, "velocity": v, "path": True}
     found = simulate(WHEEL, springs, approach=d - 1 + rest, **settings).path - rest
@@ -362,7 +362,7 @@ def test_explicit_euler_gains_energy_at_its_rate():
     dt, steps = 0.01, 3000
     motion = simulate(
         WHEEL,
-        Linear(WHEEL, np.zeros((1, 1))),
+        LinearLaw(WHEEL, np.zeros((1, 1))),
         time_step=dt,
         steps=steps,
         approach=np.array([1.001]),
@@ -377,7 +377,7 @@ def test_a_step_below_the_limit_is_bounded_and_one_above_is_not(name):
     """Bounded by an ellipse whose axes differ as 1 / sqrt(1 - omega dt / 2); beyond, by acosh((omega dt)^2 / 2 - 1)."""
     limit = SCHEMES[name].limit
     assert limit == 2.0
-    law = Linear(WHEEL, np.zeros((1, 1)))
+    law = LinearLaw(WHEEL, np.zeros((1, 1)))
     below = simulate(WHEEL, law, time_step=1.999, steps=20_000, approach=np.array([1.01]), integrator=SCHEMES[name])
     # from the invariant x^2 + v^2 - omega dt x v of symplectic Euler
     ratio = 1 / (1 - 1.999**2 / 4)
@@ -501,7 +501,7 @@ def test_eigenfrequency():
     rise = np.diff(HertzLaw(wheel).force(0, wheel.approach + np.array([-e, e]))) / (2 * e)
     assert math.sqrt(rise[0] / wheel.mass) == pytest.approx(found, rel=1e-6)
     assert HertzLaw(wheel).force(0, np.array([wheel.approach])) == pytest.approx(4905.0, rel=1e-14)
-    assert turns(wheel, 2.0, 20.0) == pytest.approx(found * 0.1 / (2 * math.pi), rel=1e-14)
+    assert natural_periods(wheel, 2.0, 20.0) == pytest.approx(found * 0.1 / (2 * math.pi), rel=1e-14)
 
 
 # --- lift-off ---------------------------------------------------------------------------------------------------------
@@ -555,12 +555,12 @@ def test_steps_without_contact_are_counted_on_rough_tracks():
 def test_the_linear_motion_that_repeats_itself_is_the_steady_one():
     """Shooting is exact in one round for a linear contact, but for its derivative by differences: 1e-16 / 1e-6."""
     change, dt = track(120, 3, 0.4), 0.08
-    law = Linear(WHEEL, change)
+    law = LinearLaw(WHEEL, change)
     start = np.array([1.3, 0.8, 1.0]), np.array([0.2, -0.3, 0.0])
-    d, v, left = repeating(
-        WHEEL, lambda n: Linear(WHEEL, np.tile(change, (1, n))), time_step=dt, steps=120, start=start, tolerance=0.0
+    d, v, left = periodic_motion(
+        WHEEL, lambda n: LinearLaw(WHEEL, np.tile(change, (1, n))), time_step=dt, steps=120, start=start, tolerance=0.0
     )
-    expected = law.steady(dt)
+    expected = law.steady_state(dt)
     # differences of the state are worth as much, as far as a turn and half of the resonance keeps them apart
     gain = 1 / (2 * abs(math.sin(0.5 * 120 * 2 * math.asin(dt / 2))))
     rounding = 64 * ULP * 120 * dt * gain
@@ -575,18 +575,18 @@ def test_the_linear_motion_that_repeats_itself_is_the_steady_one():
 def test_a_motion_on_springs_repeats_itself_within_what_is_left(rms, rounds):
     """What is left is what a round changes, to the last bit; each further round leaves a part of it."""
     height, dt, points = track(300, 3, rms), 0.035, 300
-    assert turns(WHEEL, 300 / 12.5, 1 / (12.5 * dt)) == pytest.approx(points * dt / (2 * np.pi))
+    assert natural_periods(WHEEL, 300 / 12.5, 1 / (12.5 * dt)) == pytest.approx(points * dt / (2 * np.pi))
 
     def law(n):
         return springs_law(np.tile(height, (1, n)), 12.5)
 
-    start = Linear(WHEEL, 0 * height).steady(dt)
+    start = LinearLaw(WHEEL, 0 * height).steady_state(dt)
     settings = {"time_step": dt, "steps": points}
-    d, v, left = repeating(WHEEL, law, **settings, start=start, rounds=rounds, tolerance=0.0)
+    d, v, left = periodic_motion(WHEEL, law, **settings, start=start, rounds=rounds, tolerance=0.0)
     motion = simulate(WHEEL, law(1), **settings, approach=d, velocity=v)
     change = np.maximum(np.abs(motion.approach - d), np.abs(motion.velocity - v))
     assert np.abs(left - change).max() <= 4 * ULP
-    _, _, before = repeating(WHEEL, law, **settings, start=start, rounds=1, tolerance=0.0)
+    _, _, before = periodic_motion(WHEEL, law, **settings, start=start, rounds=1, tolerance=0.0)
     assert (left <= 0.5 ** (rounds - 1) * before + drift(points, dt, quantum(12.5))).all()
     assert (left <= rms / 10).all()
     # to be what repeats itself is more than rolling a round: another start leaves what it was off by
@@ -596,9 +596,9 @@ def test_a_motion_on_springs_repeats_itself_within_what_is_left(rms, rounds):
 
 def test_shooting_ends_where_its_tolerance_is_met_and_says_so_where_it_is_not():
     height, settings = track(300, 2, 0.1), {"time_step": 0.035, "steps": 300}
-    start = Linear(WHEEL, 0 * height).steady(0.035)
+    start = LinearLaw(WHEEL, 0 * height).steady_state(0.035)
     for rounds, met in ((12, True), (1, False)):
-        _, _, left = repeating(
+        _, _, left = periodic_motion(
             WHEEL,
             lambda n: springs_law(np.tile(height, (1, n)), 12.5),
             **settings,
@@ -617,8 +617,8 @@ def test_a_motion_that_repeats_itself_has_the_same_bits_whoever_rolls_beside_it(
         def law(n):
             return springs_law(np.tile(height[:, which], (1, n)), 12.5)
 
-        start = Linear(WHEEL, 0 * height[:, which]).steady(0.035)
-        return repeating(WHEEL, law, time_step=0.035, steps=300, start=start)
+        start = LinearLaw(WHEEL, 0 * height[:, which]).steady_state(0.035)
+        return periodic_motion(WHEEL, law, time_step=0.035, steps=300, start=start)
 
     together = shot([0, 1])
     for i in range(2):
@@ -636,8 +636,8 @@ def periodogram(record, time_step):
 def test_a_motion_that_repeats_itself_does_not_leak():
     """Between the waves of the track there is nothing but rounding; from static equilibrium, the resonance leaks."""
     change, dt, count = track(400, 1, 0.4, longest=20, shortest=30), 0.05, 400
-    law = Linear(WHEEL, change)
-    d, v = law.steady(dt)
+    law = LinearLaw(WHEEL, change)
+    d, v = law.steady_state(dt)
     steady = simulate(WHEEL, law, time_step=dt, steps=count, approach=d, velocity=v)
     free = simulate(WHEEL, law, time_step=dt, steps=count)
     empty = np.r_[40:200]
@@ -703,8 +703,8 @@ def test_acceleration_over_force_is_that_of_a_steady_motion():
     rng = np.random.default_rng(1)
     for n in used:
         change[:, 0] += rng.uniform(0.5, 1) * np.cos(2 * np.pi * n * np.arange(count) / count + rng.uniform(0, 6))
-    law = Linear(WHEEL, change)
-    d, v = law.steady(dt)
+    law = LinearLaw(WHEEL, change)
+    d, v = law.steady_state(dt)
     motion = simulate(WHEEL, law, time_step=dt, steps=count, approach=d, velocity=v)
     frequency, force = periodogram(change[:, 0], dt)
     _, found = periodogram(motion.acceleration[:, 0], dt)
@@ -735,8 +735,8 @@ def three_dimensional(cells, height, steps=30, dt=0.1):
     """Motion on boundary elements and that of the linear law with the 3D filter, both over their motion at rest."""
     strip = strips(cells, height)[0]
     change = linear_force(strip, spacing=1 / cells, radius=1.0, modulus=1.0, approach=1.0) - 4 / 3
-    law = Linear(WHEEL, change[:, np.newaxis])
-    d, v = law.steady(dt)
+    law = LinearLaw(WHEEL, change[:, np.newaxis])
+    d, v = law.steady_state(dt)
     settings = {"time_step": dt, "steps": steps, "velocity": v, "path": True}
     rest = BoundaryElementsLaw(WHEEL, [0 * strip], 1 / cells, tolerance=1e-6).at_rest(0)
     solved = BoundaryElementsLaw(WHEEL, [strip], 1 / cells, tolerance=1e-6)

@@ -152,6 +152,16 @@ class WheelScene:
         return self.spacing / self.speed
 
     @property
+    def period_length(self) -> float:
+        """2 pi v0 / omega_eigen, rolled in a natural period [m]."""
+        return 2 * math.pi * self.speed / self.eigenfrequency
+
+    @property
+    def oscillation_period(self) -> float:
+        """pi v0 / a, of sin^2(q a) in the spectrum [rad/s]."""
+        return math.pi * self.speed / self.contact_radius
+
+    @property
     def circumference_points(self) -> int:
         """2 pi R / dx, rounded."""
         return round(2 * math.pi * self.radius / self.spacing)

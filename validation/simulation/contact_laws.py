@@ -43,7 +43,7 @@ class HertzLaw:
 
 
 @dataclass(frozen=True)
-class Linear:
+class LinearLaw:
     """F = F_N + k (d - d_N) + dF(x): a contact that keeps its radius.
 
     change: dF of the roughness at the approach d_N, shape (places, wheels) [N]. It may pull.
@@ -61,7 +61,7 @@ class Linear:
         """d_N - dF / k."""
         return np.asarray(self.wheel.approach - self.change[place % len(self.change)] / self.wheel.stiffness)
 
-    def steady(self, time_step: float) -> tuple[FloatArray, FloatArray]:
+    def steady_state(self, time_step: float) -> tuple[FloatArray, FloatArray]:
         """Approach and velocity at place 0 of the motion that repeats itself with the track, exactly in leapfrog steps.
 
         d = d_N + sum_j y_j exp(i omega_j t), y_j = -dF_j / (k - M (2 sin(omega_j dt / 2) / dt)^2); no free vibration.

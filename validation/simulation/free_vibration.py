@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from validation.engine.engine import Outcome
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import ContactLaw, HertzLaw, Linear
+from validation.simulation.contact_laws import ContactLaw, HertzLaw, LinearLaw
 from validation.simulation.integrators import (
     EXPLICIT_EULER,
     INTEGRATORS,
@@ -78,7 +78,7 @@ def march(scheme: Integrator, law: ContactLaw, turn: float, d: FloatArray, steps
 
 def vibrate(problem: Vibrations) -> Outcome:
     """Growth and angle of a step, of each step, and the largest change of the energy in the first turn."""
-    scheme, law, rows = SCHEMES[problem.scheme], Linear(WHEEL, np.zeros((1, 1))), []
+    scheme, law, rows = SCHEMES[problem.scheme], LinearLaw(WHEEL, np.zeros((1, 1))), []
     for x in problem.steps:
         steps = max(24, math.ceil(problem.turns * 2 * math.pi / x))
         u, v = march(scheme, law, x, np.array([2 * WHEEL.approach]), steps)

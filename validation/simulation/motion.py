@@ -18,10 +18,10 @@ FloatArray = NDArray[np.float64]
 class Motion:
     """Wheels at the beginning of each step.
 
-    acceleration: z'' upward, shape (steps, wheels) [m/s^2]; time_step: of the record [s]; lowest, highest: approach met
-    by each wheel [m]; airborne: steps of each wheel without contact; started: d' at first [m/s]; approach, velocity,
-    onward: d [m], d' [m/s] and z'' [m/s^2] after the last step; path: d at each step, shape (steps, wheels), None where
-    it was not asked for.
+    acceleration: z'' upward, shape (steps, wheels) [m/s^2]; time_step: of the record [s]; lowest, highest: approach of
+    each wheel [m]; airborne: steps of each wheel without contact; initial_velocity: d' at first [m/s]; approach,
+    velocity, next_acceleration: d [m], d' [m/s] and z'' [m/s^2] after the last step; path: d at each step, shape
+    (steps, wheels), None unless it was asked for.
     """
 
     acceleration: FloatArray
@@ -29,10 +29,10 @@ class Motion:
     lowest: FloatArray
     highest: FloatArray
     airborne: NDArray[np.int64]
-    started: FloatArray
+    initial_velocity: FloatArray
     approach: FloatArray
     velocity: FloatArray
-    onward: FloatArray
+    next_acceleration: FloatArray
     path: FloatArray | None = None
 
     @property
@@ -43,7 +43,7 @@ class Motion:
     @property
     def jump(self) -> FloatArray:
         """Of the acceleration, from the record continued to its beginning: what leaks, of each wheel [m/s^2]."""
-        return np.asarray(self.onward - self.acceleration[0])
+        return np.asarray(self.next_acceleration - self.acceleration[0])
 
 
 def simulate(
@@ -66,7 +66,7 @@ def simulate(
     Raises ValueError for a step at or past the limit of the integrator, omega_eigen dt, before it begins.
     """
     step = integrator.cells * _positive("time_step", time_step)
-    _stable(wheel, step, integrator)
+    _check_stable(wheel, step, integrator)
     if steps < 1:
         raise ValueError(f"steps must be at least 1, got {steps}")
     d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
@@ -79,7 +79,7 @@ def simulate(
         return np.asarray(gravity - law.force(place, d) / wheel.mass)
 
     states = integrator.march(acceleration, d, v, time_step)
-    found, started = np.empty((steps, d.size)), v
+    found, initial_velocity = np.empty((steps, d.size)), v
     kept = np.empty((steps, d.size)) if path else None
     lowest, highest = d, d
     for n in range(steps):
@@ -96,15 +96,15 @@ def simulate(
         lowest=lowest,
         highest=highest,
         airborne=airborne,
-        started=started,
+        initial_velocity=initial_velocity,
         approach=d,
         velocity=v,
-        onward=-a,
+        next_acceleration=-a,
         path=kept,
     )
 
 
-def repeating(
+def periodic_motion(
     wheel: Wheel,
     law: Callable[[int], ContactLaw],
     *,
@@ -114,14 +114,15 @@ def repeating(
     tolerance: float = 1e-9,
     rounds: int = 12,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Approach and velocity over the first cell of the motion that repeats itself with the track: no free vibration.
+    """Initial approach and velocity of the motion that has the period of the track: without free vibration.
 
-    By shooting: the state after one round less that before it is to vanish. Its derivative comes from two neighbours of
-    each wheel, rolled beside it once, and is kept.
-    law(n): the contact of n copies of all wheels, copy after copy; start: a state to begin with; tolerance: of what is
-    left over of the approach, over d_N; rounds: at most, after the first.
-    Returns both, and what was left over of each wheel: who is not within the tolerance has not converged.
-    Best conditioned where the track takes a whole and a half turns of the resonance.
+    By shooting: the change of the state over one round of the track must vanish. Its derivative, by differences from
+    two neighbours of each wheel, is computed once.
+    law(n): the contact of n copies of all wheels, copy after copy; start: first guess; tolerance: of the residual;
+    rounds: at most, after the first.
+    Returns approach, velocity and residual of each wheel, the change over a round over d_N; a wheel whose residual
+    exceeds the tolerance has not converged.
+    Best conditioned where a round takes a whole number of natural periods and a half.
     """
     d, v = (np.array(x, dtype=np.float64) for x in start)
     small = 1e-6 * wheel.approach
@@ -133,36 +134,36 @@ def repeating(
 
     v = v / omega
     near = after(3, np.concatenate([d, d + small, d]), np.concatenate([v, v, v + small]))
-    turn = np.moveaxis((near[:, 1:] - near[:, :1]) / small, -1, 0)
-    correction = np.linalg.inv(np.eye(2) - turn)
+    derivative = np.moveaxis((near[:, 1:] - near[:, :1]) / small, -1, 0)
+    newton = np.moveaxis(np.linalg.inv(np.eye(2) - derivative), 0, -1)
     state, image = np.stack([d, v]), near[:, 0]
-    left = np.abs(image - state).max(axis=0) / wheel.approach
+    residual = np.abs(image - state).max(axis=0) / wheel.approach
     for _ in range(rounds):
-        if (left <= tolerance).all():
+        if (residual <= tolerance).all():
             break
-        (r, s), ((a, b), (c, e)) = image - state, np.moveaxis(correction, 0, -1)
+        (r, s), ((a, b), (c, e)) = image - state, newton
         step = np.clip(np.stack([a * r + b * s, c * r + e * s]), -wheel.approach / 2, wheel.approach / 2)
-        # who is there stays there, whoever else goes on
-        state = np.where(left > tolerance, state + step, state)
+        # a wheel that has converged stays as it is, so that its bits do not depend on the others
+        state = np.where(residual > tolerance, state + step, state)
         image = after(1, *state)[:, 0]
-        left = np.abs(image - state).max(axis=0) / wheel.approach
-    return state[0], omega * state[1], left
+        residual = np.abs(image - state).max(axis=0) / wheel.approach
+    return state[0], omega * state[1], residual
 
 
-def turns(wheel: Wheel, length: float, speed: float) -> float:
-    """Of the resonance while the wheel rolls that far."""
+def natural_periods(wheel: Wheel, length: float, speed: float) -> float:
+    """Natural periods that pass while the wheel rolls a length [-]."""
     return wheel.eigenfrequency * length / speed / (2 * math.pi)
 
 
-def _stable(wheel: Wheel, step: float, integrator: Integrator) -> None:
-    turn, limit = wheel.eigenfrequency * step, max(integrator.limit, 2.0)
-    if turn >= limit:
+def _check_stable(wheel: Wheel, step: float, integrator: Integrator) -> None:
+    omega_dt, limit = wheel.eigenfrequency * step, max(integrator.limit, 2.0)
+    if omega_dt >= limit:
         why = "the motion would grow without bound"
         if not integrator.limit:
-            why = "the motion grows at any step, and from 2 on it is refused, since nothing is left of it"
+            why = "the motion grows at any step, and from 2 on nothing would be left of it"
         raise ValueError(
             f"time_step must be below {limit:.6g} / omega_eigen = {limit / wheel.eigenfrequency:.6g} s for "
-            f"{integrator.name}, got {step:.6g} s: omega_eigen dt = {turn:.6g}, and {why}"
+            f"{integrator.name}, got {step:.6g} s: omega_eigen dt = {omega_dt:.6g}, and {why}"
         )
 
 

@@ -14,12 +14,12 @@ import mdr
 from validation.analysis.spectra import levels, waves
 from validation.engine.engine import random_generator
 from validation.scenes.measured import MeasuredHeights
-from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, Linear, SpringsLaw
+from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import simulate
 from validation.simulation.resolution import too_few
 from validation.simulation.rolling_quantity import RollingQuantity
-from validation.simulation.wheel_on_half_space import narrowed
-from validation.simulation.wheel_on_springs import filtered, rolling_feed
+from validation.simulation.wheel_on_half_space import crop_to_reach
+from validation.simulation.wheel_on_springs import linear_law_1d, rolling_input
 from validation.theory.rolling import linear_force
 
 FloatArray = NDArray[np.float64]
@@ -103,7 +103,7 @@ def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing
     if quantity.dynamic:
         return _accelerated(quantity, surface, spacing)
     found = bem3d.roll(
-        narrowed(surface, spacing, scene.body),
+        crop_to_reach(surface, spacing, scene.body),
         spacing=spacing,
         radius=scene.radius,
         modulus=scene.modulus,
@@ -162,7 +162,7 @@ def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArr
     springs = springs_to_a_radius(quantity)
     points, spacing = coarse.along * springs, a / springs
     geike = quantity.name == "force-rms"
-    feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_feed(ground, a)
+    feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_input(ground, a)
     drawn = [
         mdr.rough_profile(
             feed,
@@ -179,7 +179,7 @@ def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArr
 def _springs_accelerated(quantity: RollingQuantity, height: FloatArray, spacing: float) -> FloatArray:
     body = quantity.scene.body
     try:
-        found = _rolled_on(quantity, SpringsLaw(body, height, spacing), filtered(body, height, spacing), spacing)
+        found = _rolled_on(quantity, SpringsLaw(body, height, spacing), linear_law_1d(body, height, spacing), spacing)
     except ArithmeticError:
         return np.full((height.shape[1], len(quantity.bands.edges) - 1), np.nan)
     return np.asarray(np.log(_levels(quantity, found.T, spacing)) - np.log(quantity.expected(one_dimensional=False)))
@@ -188,8 +188,8 @@ def _springs_accelerated(quantity: RollingQuantity, height: FloatArray, spacing:
 def _accelerated(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Of a wheel with boundary elements in the time loop."""
     body = quantity.scene.body
-    law = BoundaryElementsLaw(body, [narrowed(surface, spacing, body)], spacing, tolerance=_tolerance(quantity))
-    linear = Linear(body, (_linear(quantity, surface, spacing) - body.load)[:, np.newaxis])
+    law = BoundaryElementsLaw(body, [crop_to_reach(surface, spacing, body)], spacing, tolerance=_tolerance(quantity))
+    linear = LinearLaw(body, (_linear(quantity, surface, spacing) - body.load)[:, np.newaxis])
     try:
         found = _rolled_on(quantity, law, linear, spacing)
     except bem3d.ConvergenceError:
@@ -203,11 +203,11 @@ def _linear(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> F
     return linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
 
 
-def _rolled_on(quantity: RollingQuantity, law: ContactLaw, linear: Linear, spacing: float) -> FloatArray:
+def _rolled_on(quantity: RollingQuantity, law: ContactLaw, linear: LinearLaw, spacing: float) -> FloatArray:
     """Acceleration of wheels over one round, (steps, wheels), begun on the linear motion that repeats itself."""
     assert quantity.scene.speed is not None  # a dynamic quantity has a speed
     time_step = spacing / quantity.scene.speed
-    approach, velocity = linear.steady(time_step)
+    approach, velocity = linear.steady_state(time_step)
     start = law.at_rest(0) + approach - linear.at_rest(0)
     body, steps = quantity.scene.body, len(linear.change)
     return simulate(body, law, time_step=time_step, steps=steps, approach=start, velocity=velocity).acceleration

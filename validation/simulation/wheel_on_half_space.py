@@ -12,28 +12,28 @@ from validation.engine.engine import Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import BoundaryElementsLaw, Linear
+from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw
 from validation.simulation.motion import Motion, simulate
 from validation.theory.rolling import linear_force
 
 FloatArray = NDArray[np.float64]
 
 STRIPS = 4
-"""The spawn key of surfaces."""
+"""Key of the random numbers of surfaces."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class WheelStrip:
-    """One wheel over one surface, periodic, as long as some turns of the resonance and a half.
+    """One wheel over one periodic surface, which lasts a whole number of natural periods and a half.
 
-    scene, whose rail alone is rough; realisation; turns: whole, of the resonance, to which a half is added; width: of
-    the surface over the longest wave; cells: to a contact radius, a multiple of `shared`; shared: cells to a contact
-    radius of which sides are whole multiples, so that other grids are as long; tolerance: residual of contacts; seed.
+    scene: only its rail is rough; realisation; natural_periods: whole, before the half; width: of the surface over the
+    longest wave; cells: to a contact radius, a multiple of `shared`; shared: divisor of `cells` on all grids, so that
+    their surfaces are equally long; tolerance: residual of contacts; seed.
     """
 
     scene: WheelScene
     realisation: int
-    turns: int
+    natural_periods: int
     width: int
     cells: int
     shared: int
@@ -56,8 +56,7 @@ class WheelStrip:
         """Cells along and across the whole surface."""
         scene, refined = self.scene, self.cells // self.shared
         unit = scene.contact_radius / self.shared
-        turn = 2 * math.pi * scene.speed / scene.eigenfrequency
-        along = round((self.turns + 0.5) * turn / unit)
+        along = round((self.natural_periods + 0.5) * scene.period_length / unit)
         return refined * along, refined * math.ceil(self.width * self.roughness.longest / unit)
 
     @property
@@ -69,7 +68,7 @@ class WheelStrip:
     def surface(self) -> FloatArray:
         """Heights at the centres of the cells [m]; the same surface on every grid."""
         with warnings.catch_warnings():
-            # what few cells to a wave cost is measured
+            # the error of few cells to a wave is part of what the grids measure
             warnings.simplefilter("ignore", bem3d.ResolutionWarning)
             return bem3d.rough_surface(
                 self.roughness.spectrum.c2d,
@@ -80,25 +79,24 @@ class WheelStrip:
             )
 
 
-def roll_strip(strip: WheelStrip) -> Outcome:
+def simulate_strip(strip: WheelStrip) -> Outcome:
     """z'' of a wheel on boundary elements and on the linear contact, over one round of the same surface [m/s^2].
 
-    Both begin on the motion of the linear contact that repeats itself with the track, boundary elements at the force
-    that it has there. applications: of the operator, a step; lowest, highest: approach over d; failed: one if a contact
-    did not converge.
+    Both begin in the steady state of the linear contact, boundary elements at its force there. applications: of the
+    operator, a step; lowest, highest: approach over d; failed: one if a contact did not converge.
     """
     scene = strip.scene
     wheel = scene.body
     surface, time_step = strip.surface(), strip.spacing / scene.speed
-    linear = linear_contact(strip, surface)
-    approach, velocity = linear.steady(time_step)
+    linear = linear_law_3d(strip, surface)
+    approach, velocity = linear.steady_state(time_step)
     steps = len(surface)
     contact = BoundaryElementsLaw(
-        wheel, [narrowed(surface, strip.spacing, wheel)], strip.spacing, tolerance=strip.tolerance
+        wheel, [crop_to_reach(surface, strip.spacing, wheel)], strip.spacing, tolerance=strip.tolerance
     )
     beside = simulate(wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
     try:
-        motion = by_boundary_elements(contact, linear, time_step, steps)
+        motion = simulate_on_half_space(contact, linear, time_step, steps)
     except bem3d.ConvergenceError:
         motion = None
     found = motion.acceleration[:, 0] if motion else np.full(steps, np.nan)
@@ -113,22 +111,22 @@ def roll_strip(strip: WheelStrip) -> Outcome:
     }
 
 
-def linear_contact(strip: WheelStrip, surface: FloatArray) -> Linear:
+def linear_law_3d(strip: WheelStrip, surface: FloatArray) -> LinearLaw:
     """A contact that keeps its radius, with the force of linear theory along this surface."""
     wheel = strip.scene.body
     smooth = {"spacing": strip.spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
-    return Linear(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
+    return LinearLaw(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
 
 
-def by_boundary_elements(contact: BoundaryElementsLaw, linear: Linear, time_step: float, steps: int) -> Motion:
-    """A wheel that begins as the linear one that repeats its motion, at the force that this has there."""
-    approach, velocity = linear.steady(time_step)
+def simulate_on_half_space(contact: BoundaryElementsLaw, linear: LinearLaw, time_step: float, steps: int) -> Motion:
+    """A wheel that begins in the steady state of the linear law, at its velocity and its force."""
+    approach, velocity = linear.steady_state(time_step)
     start = contact.at_rest(0) + approach - linear.at_rest(0)
     return simulate(contact.wheel, contact, time_step=time_step, steps=steps, approach=start, velocity=velocity)
 
 
-def narrowed(surface: FloatArray, spacing: float, wheel: Wheel) -> FloatArray:
-    """The middle of a surface: no wider than cells that overlap with the wheel, a quarter deeper than at rest."""
+def crop_to_reach(surface: FloatArray, spacing: float, wheel: Wheel) -> FloatArray:
+    """The middle of a surface: cells that can touch the wheel where it is a quarter deeper than at rest."""
     reach = math.sqrt(2 * wheel.radius * (1.25 * wheel.approach + max(float(surface.max()), 0.0)))
     side = min(math.ceil(reach / spacing) + 1, surface.shape[1] // 2)
     middle = surface.shape[1] // 2

@@ -1,4 +1,4 @@
-"""Wheels of a scene on springs, each over a track of its own, all in step: one solve of every case about them."""
+"""Ensembles of wheels on springs, each wheel on a track of its own, simulated together."""
 
 import math
 from collections.abc import Callable
@@ -17,42 +17,41 @@ from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import ContactLaw, Linear, SpringsLaw
-from validation.simulation.motion import Motion, repeating, simulate
+from validation.simulation.contact_laws import ContactLaw, LinearLaw, SpringsLaw
+from validation.simulation.motion import Motion, periodic_motion, simulate
 from validation.theory.rolling import response
 
 FloatArray = NDArray[np.float64]
-Track = Literal["open", "closed", "steady"]
+TrackKind = Literal["open", "periodic", "steady-state"]
 InputSpectrum = Literal["geike", "rolling"]
 
 RAIL, WHEEL = 1, 2
-"""The spawn keys under which the roughness of each draws."""
-LEFT = 1e-7
-"""Of the approach, over d, after a round of a motion that repeats itself."""
-APART = 30
-"""Longest waves between the end of an open track and its beginning: with a band that begins sharply, forces are still
-correlated at a few."""
-PARTS = 12
-"""Bands to an octave, of which each wheel's levels are kept."""
+"""Keys of the random numbers of either roughness."""
+STEADY_TOLERANCE = 1e-7
+"""Change of the approach over d from one round of a track to the next: a motion that changes more is not periodic."""
+WAVES_APART = 30
+"""Longest waves between the end of an open track and its beginning: a band with a sharp lower end keeps forces
+correlated over several waves."""
+BANDS_PER_OCTAVE = 12
 
 
 @dataclass(frozen=True, kw_only=True)
 class WheelEnsemble:
-    """Some wheels of an ensemble, each with a rail and a roughness of its own.
+    """Wheels of one scene, each on a track of its own.
 
-    scene; first, count: which of its realisations; groups: of them, whose mean spectra are kept apart; seed: zero or
-    positive; release: how much deeper than in equilibrium they begin, over the smooth approach;
-    linear: the filter (14.11) in place of springs; input_spectrum: the spectrum that springs get for the isotropic
-    surface: Geike's, or `mdr.rolling_spectrum`, with which they have the force level of the half-space;
-    track: "open": the end is far from the beginning; "closed": the end is the beginning, after a whole
-    number of turns of the resonance; "steady": closed, and the motion repeats itself, after a number and a half.
+    scene; first, count: the realisations; groups: of wheels, whose mean spectra are kept; seed: zero or positive;
+    release: approach at the beginning beyond that of equilibrium, over d; linear: whether the contact is the filter
+    (14.11) in place of springs; input_spectrum: of the tracks, by Geike's rule, or `mdr.rolling_spectrum`, with which
+    springs have the force level of the half-space; track: "open": its end is far from its beginning; "periodic": its
+    end is its beginning, after a whole number of natural periods; "steady-state": periodic like its motion, after a
+    whole number of natural periods and a half.
     """
 
     scene: WheelScene
     first: int = 0
     count: int = 1
     groups: int = 1
-    track: Track = "open"
+    track: TrackKind = "open"
     linear: bool = False
     input_spectrum: InputSpectrum = "geike"
     release: float = 0.0
@@ -64,13 +63,14 @@ class WheelEnsemble:
 
     @property
     def steps(self) -> int:
-        """Cells that are rolled over, about the distance of the scene."""
+        """Cells that the wheels roll over, about the distance of the scene."""
         if self.track == "open":
             return self.scene.points
-        turn = 2 * math.pi / (self.scene.eigenfrequency * self.scene.time_step)
-        turns = self.scene.points / turn
-        whole = round(turns) if self.track == "closed" else math.floor(turns) + 0.5
-        return round(max(whole, 0.5 if self.track == "steady" else 1.0) * turn)
+        period = 2 * math.pi / (self.scene.eigenfrequency * self.scene.time_step)
+        periods = self.scene.points / period
+        if self.track == "periodic":
+            return round(max(round(periods), 1) * period)
+        return round((math.floor(periods) + 0.5) * period)
 
     @property
     def places(self) -> int:
@@ -78,7 +78,7 @@ class WheelEnsemble:
         if self.track != "open":
             return self.steps
         longest = max((r.longest for r in (self.scene.rail, self.scene.wheel) if r), default=0.0)
-        return int(next_fast_len(self.steps + math.ceil(APART * longest / self.scene.spacing)))
+        return int(next_fast_len(self.steps + math.ceil(WAVES_APART * longest / self.scene.spacing)))
 
     def heights(self) -> FloatArray:
         """Roughness of rail and wheel together, shape (places, count)."""
@@ -89,17 +89,17 @@ class WheelEnsemble:
                 height[:, i] += self._drawn(scene.rail, self.places, RAIL, number)
             if scene.wheel:
                 around = self._drawn(scene.wheel, self._circumference, WHEEL, number)
-                height[:, i] += around[self._under % self._circumference]
+                height[:, i] += around[self._rolled % self._circumference]
         return height
 
     @property
     def _circumference(self) -> int:
-        """Cells after which the wheel meets the rail with the same spot: 2 pi R, or the whole of a closed track."""
+        """Cells to a revolution of the wheel; a periodic track is one revolution."""
         return self.scene.circumference_points if self.track == "open" else self.places
 
     @property
-    def _under(self) -> NDArray[np.int64]:
-        """Cells rolled when each place is below; the last places of an open track lie behind the first."""
+    def _rolled(self) -> NDArray[np.int64]:
+        """Cells rolled when the wheel is over each place; the last places of an open track lie behind the first."""
         place = np.arange(self.places)
         middle = (self.steps + self.places) // 2
         return np.where(place > middle, place - self.places, place)
@@ -107,7 +107,7 @@ class WheelEnsemble:
     def _drawn(self, roughness: Roughness, points: int, kind: int, number: int) -> FloatArray:
         geike = self.input_spectrum == "geike"
         return mdr.rough_profile(
-            roughness.spectrum.c1d if geike else rolling_feed(roughness, self.scene.contact_radius),
+            roughness.spectrum.c1d if geike else rolling_input(roughness, self.scene.contact_radius),
             length=points * self.scene.spacing,
             points=points,
             rng=random_generator(self.seed, kind, number),
@@ -116,8 +116,8 @@ class WheelEnsemble:
 
 
 @cache
-def rolling_feed(ground: Roughness | MeasuredHeights, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
-    """C_1D(q) for springs that roll, of an isotropic spectrum; values are kept, since each is a quadrature."""
+def rolling_input(ground: Roughness | MeasuredHeights, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
+    """`mdr.rolling_spectrum` of a surface as a callable C_1D(q); values are kept, since each is a quadrature."""
 
     @cache
     def values(q: tuple[float, ...]) -> FloatArray:
@@ -126,21 +126,21 @@ def rolling_feed(ground: Roughness | MeasuredHeights, contact_radius: float) -> 
     return lambda q: values(tuple(q.tolist()))
 
 
-def roll_wheels(rides: WheelEnsemble) -> Outcome:
-    """Spectra of the accelerations of wheels on springs.
+def simulate_ensemble(ensemble: WheelEnsemble) -> Outcome:
+    """Spectra of the accelerations of wheels.
 
     omega: frequencies; plain, hann: A of (14.17) without window and with Hann's, means of each group, (groups,
     frequencies); bands: their edges; levels: means of A in each band without window, (bands, wheels); jump, mean,
-    square: of each wheel, its acceleration, and the square of that; lowest, highest: approach over d; airborne: share
-    of steps; failed: wheels whose motion was to repeat itself and does not; balance: see there.
+    square: of each wheel's acceleration; lowest, highest: approach over d; airborne: share of steps; failed: wheels
+    whose motion is not periodic and should be; balance: see there.
     """
     try:
-        motion, left = _motion(rides)
+        motion, residual = _motion(ensemble)
     except ArithmeticError:
-        # a wheel that was thrown so far that sums would round: nothing of this ensemble is trusted
-        return {"failed": np.array(float(rides.count))}
+        # a wheel flew so high that sums would be rounded: the whole ensemble is lost
+        return {"failed": np.array(float(ensemble.count))}
     plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
-    scene, groups = rides.scene, np.arange(rides.count).reshape(rides.groups, -1)
+    scene, groups = ensemble.scene, np.arange(ensemble.count).reshape(ensemble.groups, -1)
     bands = band_edges(plain.omega)
     return {
         "omega": plain.omega,
@@ -154,40 +154,38 @@ def roll_wheels(rides: WheelEnsemble) -> Outcome:
         "lowest": motion.lowest / scene.approach,
         "highest": motion.highest / scene.approach,
         "airborne": motion.airborne / len(motion.acceleration),
-        "failed": np.array(float(np.count_nonzero(left > LEFT))),
+        "failed": np.array(float(np.count_nonzero(residual > STEADY_TOLERANCE))),
         "balance": balance(motion),
         "time step": np.array(motion.time_step),
         "duration": np.array(motion.duration),
     }
 
 
-def _motion(rides: WheelEnsemble) -> tuple[Motion, FloatArray]:
-    scene, wheel = rides.scene, rides.scene.body
-    height = rides.heights()
-    law: ContactLaw = (
-        filtered(wheel, height, scene.spacing) if rides.linear else SpringsLaw(wheel, height, scene.spacing)
-    )
-    start, velocity = law.at_rest(0) + rides.release * scene.approach, np.zeros(rides.count)
-    left = np.zeros(rides.count)
-    if rides.track == "steady" and isinstance(law, Linear):
-        start, velocity = law.steady(scene.time_step)
-    elif rides.track == "steady":
-        start, velocity, left = repeating(
+def _motion(ensemble: WheelEnsemble) -> tuple[Motion, FloatArray]:
+    """The motion, and what is left of a change from round to round where it should be periodic."""
+    scene, wheel, height = ensemble.scene, ensemble.scene.body, ensemble.heights()
+    law: ContactLaw = (linear_law_1d if ensemble.linear else SpringsLaw)(wheel, height, scene.spacing)
+    approach, velocity = law.at_rest(0) + ensemble.release * scene.approach, np.zeros(ensemble.count)
+    residual = np.zeros(ensemble.count)
+    if ensemble.track == "steady-state" and isinstance(law, LinearLaw):
+        approach, velocity = law.steady_state(scene.time_step)
+    elif ensemble.track == "steady-state":
+        approach, velocity, residual = periodic_motion(
             wheel,
             lambda n: SpringsLaw(wheel, np.tile(height, (1, n)), scene.spacing),
             time_step=scene.time_step,
-            steps=rides.steps,
-            start=(start, velocity),
+            steps=ensemble.steps,
+            start=(approach, velocity),
         )
-    motion = simulate(wheel, law, time_step=scene.time_step, steps=rides.steps, approach=start, velocity=velocity)
-    return motion, left
+    motion = simulate(wheel, law, time_step=scene.time_step, steps=ensemble.steps, approach=approach, velocity=velocity)
+    return motion, residual
 
 
-def filtered(wheel: Wheel, height: FloatArray, spacing: float) -> Linear:
+def linear_law_1d(wheel: Wheel, height: FloatArray, spacing: float) -> LinearLaw:
     """The linear contact of wheels on tracks: dF = sum over q of 2 E* sin(q a) / q h(q) exp(i q x), (14.11)."""
     q = 2 * np.pi * np.fft.rfftfreq(len(height), spacing)[:, np.newaxis]
     factor = response(q, contact_radius=wheel.contact_radius, modulus=wheel.modulus)
-    return Linear(wheel, np.fft.irfft(factor * np.fft.rfft(height, axis=0), len(height), axis=0))
+    return LinearLaw(wheel, np.fft.irfft(factor * np.fft.rfft(height, axis=0), len(height), axis=0))
 
 
 def balance(motion: Motion) -> FloatArray:
@@ -195,14 +193,14 @@ def balance(motion: Motion) -> FloatArray:
 
     For velocity Verlet sum (a_n + a_(n+1)) dt / 2 = v_N - v_0 holds to rounding; z upward, v downward.
     """
-    a, ends = motion.acceleration, (motion.onward - motion.acceleration[0]) / 2
-    change = -(motion.velocity - motion.started) / motion.time_step
+    a, ends = motion.acceleration, (motion.next_acceleration - motion.acceleration[0]) / 2
+    change = -(motion.velocity - motion.initial_velocity) / motion.time_step
     return np.asarray((a.sum(axis=0) + ends - change) / (len(a) * np.sqrt(np.mean(a**2, axis=0))))
 
 
 def band_edges(omega: FloatArray) -> FloatArray:
-    """Twelfths of an octave where each holds a line or more, single lines below."""
-    single = math.ceil(1 / (2 ** (1 / PARTS) - 1))
+    """Edges of twelfths of an octave that hold a line or more, and of single lines below."""
+    single = math.ceil(1 / (2 ** (1 / BANDS_PER_OCTAVE) - 1))
     lines = omega[0] * (np.arange(single) + 0.5)
-    above = omega[0] * (single + 0.5) * 2 ** (np.arange(0, PARTS * math.log2(len(omega) / (single + 0.5))) / PARTS)
-    return np.concatenate([lines, above])
+    above = np.arange(0, BANDS_PER_OCTAVE * math.log2(len(omega) / (single + 0.5))) / BANDS_PER_OCTAVE
+    return np.concatenate([lines, omega[0] * (single + 0.5) * 2**above])

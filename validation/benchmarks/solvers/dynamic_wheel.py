@@ -15,7 +15,7 @@ from validation.engine.engine import Engine, Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
-from validation.simulation.wheel_on_half_space import narrowed
+from validation.simulation.wheel_on_half_space import crop_to_reach
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
 FloatArray = NDArray[np.float64]
@@ -173,7 +173,7 @@ def _measure_half_space(problem: OnHalfSpace) -> Outcome:
             rng=random_generator(problem.seed),
             rms=rough.rms,
         )
-    law = BoundaryElementsLaw(wheel, [narrowed(surface, spacing, wheel)], spacing, tolerance=problem.tolerance)
+    law = BoundaryElementsLaw(wheel, [crop_to_reach(surface, spacing, wheel)], spacing, tolerance=problem.tolerance)
     time_step = spacing / scene.speed
 
     def roll() -> int:

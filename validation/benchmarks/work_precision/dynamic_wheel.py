@@ -26,10 +26,10 @@ from validation.benchmarks.work_precision.measurement import (
 from validation.benchmarks.work_precision.rolling import log_levels
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import BoundaryElementsLaw, Linear, SpringsLaw
-from validation.simulation.motion import Motion, repeating, simulate
-from validation.simulation.wheel_on_half_space import WheelStrip, by_boundary_elements, linear_contact, narrowed
-from validation.simulation.wheel_on_springs import LEFT, InputSpectrum, WheelEnsemble, filtered
+from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
+from validation.simulation.motion import Motion, periodic_motion, simulate
+from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d, simulate_on_half_space
+from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, InputSpectrum, WheelEnsemble, linear_law_1d
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
@@ -78,7 +78,7 @@ class WheelProblem(Refined):
         return WheelStrip(
             scene=self.scene,
             realisation=realisation,
-            turns=self.turns,
+            natural_periods=self.turns,
             width=self.width,
             cells=cells,
             shared=self.shared,
@@ -137,7 +137,7 @@ class Beside:
     """A surface, and what linear theory has on it: its contact, levels, and their mean over all phases of its waves."""
 
     surface: FloatArray
-    linear: Linear
+    linear: LinearLaw
     time_step: float
     level: FloatArray
     mean: FloatArray
@@ -147,18 +147,18 @@ def beside(scene: WheelProblem, realisation: int, cells: int, tolerance: float) 
     """One strip, drawn."""
     strip = scene.strip(realisation, cells, tolerance)
     surface, time_step = strip.surface(), strip.spacing / scene.scene.speed
-    linear = linear_contact(strip, surface)
+    linear = linear_law_3d(strip, surface)
     found = scene.levels(steady_acceleration(linear, time_step), time_step)[0]
     return Beside(surface, linear, time_step, found, mean_levels(scene, surface, strip.spacing, time_step))
 
 
 def transfer(wheel: Wheel, omega: NDArray[np.floating], time_step: float) -> FloatArray:
-    """z'' over dF in leapfrog steps, -s^2 / (k - M s^2), s = 2 sin(omega dt / 2) / dt; see `Linear.steady`."""
+    """z'' over dF in leapfrog steps, -s^2 / (k - M s^2), s = 2 sin(omega dt / 2) / dt; see `LinearLaw.steady_state`."""
     square = (2 * np.sin(omega * time_step / 2) / time_step) ** 2
     return np.asarray(-square / (wheel.stiffness - wheel.mass * square))
 
 
-def steady_acceleration(linear: Linear, time_step: float) -> FloatArray:
+def steady_acceleration(linear: LinearLaw, time_step: float) -> FloatArray:
     """z'' of the motion on a linear contact that repeats itself, by one filter, shape (places, wheels)."""
     count = len(linear.change)
     omega = 2 * np.pi * np.fft.rfftfreq(count, time_step)[:, np.newaxis]
@@ -241,10 +241,10 @@ class WheelOnSprings(Configuration):
     def prepare(self) -> Draw:
         """Tracks of all wheels."""
         scene, count = self.scene, self.scene.wheels
-        input_spectrum: InputSpectrum = "rolling" if self.line == FED else "geike"
+        spectrum: InputSpectrum = "rolling" if self.line == FED else "geike"
         distance = scene.duration * scene.scene.speed
         on = replace(scene.scene, distance=distance, springs=round(self.value))
-        rides = WheelEnsemble(scene=on, count=count, track="steady", input_spectrum=input_spectrum, seed=scene.seed)
+        rides = WheelEnsemble(scene=on, count=count, track="steady-state", input_spectrum=spectrum, seed=scene.seed)
         heights = rides.heights()
         roll = _filter(rides, heights) if self.line == FILTER_1D else _springs(rides, heights)
 
@@ -256,7 +256,7 @@ class WheelOnSprings(Configuration):
 
 def _filter(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
     def roll() -> tuple[FloatArray, float]:
-        linear = filtered(rides.scene.body, heights, rides.scene.spacing)
+        linear = linear_law_1d(rides.scene.body, heights, rides.scene.spacing)
         return steady_acceleration(linear, rides.scene.time_step), float(heights.size)
 
     return roll
@@ -275,9 +275,9 @@ def _springs(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[Fl
 
         first = law(1)
         start = first.at_rest(0), np.zeros(rides.count)
-        approach, velocity, left = repeating(wheel, law, **settings, start=start)  # type: ignore[arg-type]
-        if (left > LEFT).any():
-            raise RuntimeError(f"{np.count_nonzero(left > LEFT)} wheels do not repeat their motion")
+        approach, velocity, left = periodic_motion(wheel, law, **settings, start=start)  # type: ignore[arg-type]
+        if (left > STEADY_TOLERANCE).any():
+            raise RuntimeError(f"{np.count_nonzero(left > STEADY_TOLERANCE)} wheels do not repeat their motion")
         motion: Motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)  # type: ignore[arg-type]
         return motion.acceleration, float(sum(each.looked for each in laws))
 
@@ -299,7 +299,7 @@ class WheelFiltered(Configuration):
             strip = scene.strip(realisation, cells, scene.tight)
 
             def solve() -> FloatArray:
-                return steady_acceleration(linear_contact(strip, known.surface), known.time_step)[:, 0]
+                return steady_acceleration(linear_law_3d(strip, known.surface), known.time_step)[:, 0]
 
             return TimedSolve(solve, lambda found: scene.read(found, known, known.surface.size))
 
@@ -322,7 +322,7 @@ class InTheLoop(Configuration):
         def draw(realisation: int) -> TimedSolve:
             known = beside(scene, realisation, self.cells, self.tolerance)
             contact = BoundaryElementsLaw(
-                wheel, [narrowed(known.surface, spacing, wheel)], spacing, tolerance=self.tolerance
+                wheel, [crop_to_reach(known.surface, spacing, wheel)], spacing, tolerance=self.tolerance
             )
             # frames and their plans belong to a strip: they are made over its beginning
             for place in range(min(WARM, len(known.surface))):
@@ -330,7 +330,7 @@ class InTheLoop(Configuration):
 
             def solve() -> FloatArray:
                 contact.operator_applications = 0
-                motion = by_boundary_elements(contact, known.linear, known.time_step, len(known.surface))
+                motion = simulate_on_half_space(contact, known.linear, known.time_step, len(known.surface))
                 return motion.acceleration[:, 0]
 
             def read(acceleration: FloatArray) -> SolveResult:

@@ -8,7 +8,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.roughness import Roughness
-from validation.simulation.wheel_on_springs import Track, WheelEnsemble, roll_wheels
+from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
 
 TABLE = load_wheel_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
@@ -58,13 +58,13 @@ class WheelDistance:
         """Every way to end a track."""
         return {
             "springs, open": self.ending(SPRINGS, "open", self.causes),
-            "springs, whole turns": self.ending(SPRINGS, "closed", self.causes),
-            "springs, repeating": self.ending(SPRINGS, "steady", self.causes),
+            "springs, whole turns": self.ending(SPRINGS, "periodic", self.causes),
+            "springs, repeating": self.ending(SPRINGS, "steady-state", self.causes),
             "linear, open": self.ending(LINEAR, "open", self.causes),
-            "linear, repeating": self.ending(LINEAR, "steady", self.causes),
+            "linear, repeating": self.ending(LINEAR, "steady-state", self.causes),
         }
 
-    def ending(self, law: str, track: Track, count: int, height: float = 1.0) -> WheelEnsemble:
+    def ending(self, law: str, track: TrackKind, count: int, height: float = 1.0) -> WheelEnsemble:
         """One of these, at a height."""
         return WheelEnsemble(
             scene=scaled(self.scene, height),
@@ -77,7 +77,7 @@ class WheelDistance:
 
     def sweep(self) -> dict[tuple[str, float], WheelEnsemble]:
         """Open springs, repeating springs and the open linear contact at each height."""
-        kinds: tuple[tuple[str, Track], ...] = ((SPRINGS, "open"), (SPRINGS, "steady"), (LINEAR, "open"))
+        kinds: tuple[tuple[str, TrackKind], ...] = ((SPRINGS, "open"), (SPRINGS, "steady-state"), (LINEAR, "open"))
         return {
             (f"{law}, {track}", height): self.ending(law, track, self.rough, height)
             for law, track in kinds
@@ -139,7 +139,7 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> DistanceResult:
     distances = case.distances()
     # the longest first, so that no worker is left with it alone
     rides = [*distances[::-1], *ends.values(), *sweep.values(), *ended.values(), *vibrations.values()]
-    outcomes = engine.map(roll_wheels, rides)
+    outcomes = engine.map(simulate_ensemble, rides)
     lost = tuple(
         f"{int(o['failed'])} of {r.count} wheels do not repeat themselves, h₀ = {r.scene.rms:.3g} m"
         for r, o in zip(rides, outcomes, strict=True)

@@ -23,10 +23,10 @@ from validation.cases.wheel.features import BREAK, FLOOR, PEAK, PREDICTED, Spect
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
-from validation.simulation.wheel_on_springs import APART
+from validation.simulation.wheel_on_springs import WAVES_APART as APART
 from validation.theory import wheel as wheel_theory
 
-OPEN, STEADY, LINEAR_OPEN = f"{SPRINGS}, open", f"{SPRINGS}, steady", f"{LINEAR}, open"
+OPEN, STEADY, LINEAR_OPEN = f"{SPRINGS}, open", f"{SPRINGS}, steady-state", f"{LINEAR}, open"
 WINDOWS = ("plain", "plain")
 QUARTER, WHOLE = 0.25, 1.0
 """Heights over h_0 between which growth is told."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
-from validation.simulation.wheel_on_half_space import WheelStrip, roll_strip
-from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, roll_wheels
+from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
+from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, simulate_ensemble
 
 TABLE = load_wheel_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
@@ -48,7 +48,7 @@ class Wheel3D:
         return WheelStrip(
             scene=self.scene,
             realisation=realisation,
-            turns=turns,
+            natural_periods=turns,
             width=self.width,
             cells=cells,
             shared=self.shared,
@@ -77,7 +77,7 @@ class Wheel3D:
                 first=i * count,
                 count=count,
                 groups=self.groups,
-                track="steady",
+                track="steady-state",
                 input_spectrum=input_spectrum,
                 seed=self.seed,
             )
@@ -98,7 +98,7 @@ class Result3D:
 def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
     """Roll all wheels. Raises NotConvergedError where fewer than three strips of the ensemble are whole."""
     strips = case.strips_of()
-    outcomes = engine.map(roll_strip, [strip for some in strips.values() for strip in some])
+    outcomes = engine.map(simulate_strip, [strip for some in strips.values() for strip in some])
     rolled = iter(outcomes)
     found = {name: [next(rolled) for _ in some] for name, some in strips.items()}
     lost = tuple(
@@ -110,10 +110,10 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
     whole = sum(not outcome["failed"] for outcome in found[FINEST])
     if whole < 3 or any(outcome["failed"] for name in (COARSER, LOOSE, TIGHT) for outcome in found[name]):
         raise NotConvergedError(f"{whole} strips converged on {case.cells} cells to a radius, 3 are needed", lost)
-    rides = {name: case.rides(name) for name in INPUT_SPECTRA}
-    rode = iter(engine.map(roll_wheels, [ride for some in rides.values() for ride in some]))
-    springs = {name: [next(rode) for _ in some] for name, some in rides.items()}
-    astray = [name for name, some in springs.items() if any(outcome["failed"] for outcome in some)]
+    rides = {feed: case.rides(feed) for feed in INPUT_SPECTRA}
+    rode = iter(engine.map(simulate_ensemble, [ride for some in rides.values() for ride in some]))
+    springs = {feed: [next(rode) for _ in some] for feed, some in rides.items()}
+    astray = [feed for feed, some in springs.items() if any(outcome["failed"] for outcome in some)]
     if astray:
         raise NotConvergedError("wheels on springs do not repeat themselves", astray)
     return Result3D(case, found, springs, lost)

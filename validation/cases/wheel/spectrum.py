@@ -16,7 +16,7 @@ from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
-from validation.simulation.wheel_on_springs import WheelEnsemble, roll_wheels
+from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 
 FloatArray = NDArray[np.float64]
 
@@ -90,7 +90,7 @@ def run(case: WheelSpectrum, engine: Engine = SERIAL) -> WheelResult:
     if case.scene.rail is None and case.scene.wheel is None:
         raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
     rides = {name: case.rides(scene, case.of(name)) for name, scene in case.variations().items()}
-    outcomes = iter(engine.map(roll_wheels, [ride for batches in rides.values() for ride in batches]))
+    outcomes = iter(engine.map(simulate_ensemble, [ride for batches in rides.values() for ride in batches]))
     found = {name: [next(outcomes) for _ in batches] for name, batches in rides.items()}
     lost = [name for name, batches in found.items() if any(batch["failed"] for batch in batches)]
     if lost:

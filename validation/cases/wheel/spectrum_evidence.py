@@ -38,7 +38,7 @@ from validation.cases.wheel.spectrum import TABLE, WheelResult, WheelSpectrum, r
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
-from validation.simulation.wheel_on_springs import APART as OPEN_WAVES
+from validation.simulation.wheel_on_springs import WAVES_APART as OPEN_WAVES
 from validation.theory import wheel as wheel_theory
 
 SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
