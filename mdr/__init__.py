@@ -1,22 +1,18 @@
-"""The method of dimensionality reduction: contact as a one-dimensional foundation of independent springs.
+"""Contact as a one-dimensional foundation of independent springs: the method of dimensionality reduction (MDR).
 
-All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
+All lengths are in metres, forces in newtons; ``modulus`` is always the contact modulus E*. Examples assume
+``import mdr`` and ``import numpy as np``.
 """
 
 from mdr.diagnostics import LinearityWarning, SpringContactWarning, SpringResolutionWarning, SpringUnitsWarning
-from mdr.foundation import (
-    LoadCurve,
-    LoadPoint,
-    SphereContact,
-    load_curve,
-    press_sphere,
-    stiffness_under,
-)
-from mdr.profile import rough_profile, rough_profiles, sphere_profile
-from mdr.rolling import RollingTrack, roll, rolling_force
+from mdr.foundation import LoadCurve, LoadPoint, load_curve, stiffness_under
+from mdr.profile import rough_profile, rough_profiles
+from mdr.rolling import roll, rolling_force
 from mdr.rolling_ensemble import RollingEnsemble
 from mdr.rolling_spectrum import rolling_spectrum
+from mdr.rolling_track import RollingTrack
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
+from mdr.sphere import SphereContact, press_sphere, sphere_profile
 
 # names of 0.1, for one release
 ContactWarning, ResolutionWarning, UnitsWarning = SpringContactWarning, SpringResolutionWarning, SpringUnitsWarning

@@ -14,19 +14,68 @@ LARGEST_PART = 0.1
 
 
 class SpringContactWarning(UserWarning):
-    """A problem was answered as it was put, but it may not be the one that was meant."""
+    """A result of springs may not be the one that was meant.
+
+    The base class of the warnings of `mdr`: the problem was solved as it was given. ``mdr.ContactWarning`` in 0.1.
+
+    Examples
+    --------
+    >>> issubclass(mdr.LinearityWarning, mdr.SpringContactWarning)
+    True
+    """
 
 
 class SpringResolutionWarning(SpringContactWarning):
-    """Too few springs: in the contact, or to the shortest wave."""
+    """Too few springs: in the contact, or to the shortest wave.
+
+    With n springs in a stretch of contact its stiffness is wrong by up to 1 / n. With n springs to a wave the force
+    of the wave is wrong by a factor (pi / n) / sin(pi / n). ``mdr.ResolutionWarning`` in 0.1.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> curve = mdr.load_curve(-np.linspace(-1e-3, 1e-3, 101) ** 2 / 0.5, length=2e-3, modulus=2e11)
+    >>> with warnings.catch_warnings(record=True) as found:
+    ...     warnings.simplefilter("always")
+    ...     few = curve.at_approach(1e-8)
+    >>> found[0].category.__name__
+    'SpringResolutionWarning'
+    """
 
 
 class LinearityWarning(SpringContactWarning):
-    """A contact that keeps its length, under roughness that would change it."""
+    """A contact of constant length, under roughness that would change its length.
+
+    Given by `mdr.roll` with ``contact="linear"`` or ``"full"`` where the ends of the contact move so far that, to
+    second order, more than a tenth of the fluctuation of the force is left out. ``contact="one-sided"`` has no such
+    limit.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> track = 3e-6 * np.sin(2 * np.pi * np.arange(512) / 32)
+    >>> with warnings.catch_warnings(record=True) as found:
+    ...     warnings.simplefilter("always")
+    ...     rolled = mdr.roll(track, spacing=1e-4, radius=0.5, modulus=2e11, approach=2e-6, contact="linear")
+    >>> found[0].category.__name__
+    'LinearityWarning'
+    """
 
 
 class SpringUnitsWarning(SpringContactWarning):
-    """A load that a body of these units would hardly bear, as where a modulus in GPa is taken as one in Pa."""
+    """A contact larger than its sphere: units are probably wrong, as where a modulus in GPa is given for one in Pa.
+
+    ``mdr.UnitsWarning`` in 0.1.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> with warnings.catch_warnings(record=True) as found:
+    ...     warnings.simplefilter("always")
+    ...     contact = mdr.press_sphere(radius=0.01, modulus=200, force=100.0)
+    >>> str(found[0].message)
+    'the radius of contact is 15.5 times that of the sphere: are the units right?'
+    """
 
 
 Diagnostic = tuple[type[SpringContactWarning], str]

@@ -7,8 +7,8 @@ from typing import Generic, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, doubles, finite, finite_array, held, not_negative, positive, stiffness_of_springs
-from mdr.diagnostics import diagnose_load, diagnose_units, warn
+from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
+from mdr.diagnostics import diagnose_load, warn
 from mdr.read_only import ReadOnlyArrays
 
 Value = TypeVar("Value", float, FloatArray)
@@ -16,7 +16,23 @@ Value = TypeVar("Value", float, FloatArray)
 
 @dataclass(frozen=True)
 class LoadPoint(ReadOnlyArrays, Generic[Value]):
-    """One state of a load curve (or an array of states): approach [m], force [N], stiffness dF/dd [N/m]."""
+    """State of a load curve, or an array of states.
+
+    Attributes
+    ----------
+    approach : float or ndarray
+        Rigid approach d [m].
+    force : float or ndarray
+        Normal force F, shape of ``approach`` [N].
+    stiffness : float or ndarray
+        dF/dd = E* dx times the number of springs in contact, shape of ``approach`` [N/m].
+
+    Examples
+    --------
+    >>> point = mdr.load_curve(np.zeros(100), length=1e-3, modulus=1e9).at_approach(1e-6)
+    >>> print(f"{point.force:.4g} N, {point.stiffness:.4g} N/m")
+    1 N, 1e+06 N/m
+    """
 
     approach: Value
     force: Value
@@ -25,12 +41,29 @@ class LoadPoint(ReadOnlyArrays, Generic[Value]):
 
 @dataclass(frozen=True, eq=False)
 class LoadCurve(ReadOnlyArrays):
-    """Force of a rigid rough profile on the spring foundation, exact at every approach.
+    """Load curve of a rigid rough profile on springs, exact at every approach. Made by `load_curve`.
 
-    F(d) = E* dx sum_i max(d + h_i, 0): linear between the breakpoints d = -h_i, where one more spring is met.
-    approach, force, stiffness: at the breakpoints, ascending, shape (points,) [m, N, N/m]; stiffness counts the
-    springs that carry load, so entry i has i of them and the first entry is the first touch.
-    A state of few springs in contact is warned of (ResolutionWarning), unless these are all.
+    Attributes
+    ----------
+    approach, force, stiffness : ndarray, shape (points,)
+        State at each first touch of a spring, d = -h_i, ascending [m, N, N/m]. The stiffness counts the springs that
+        carry load: entry i has i of them, and the first entry is the first touch.
+    spring : float
+        Stiffness of one spring, E* dx [N/m].
+
+    Notes
+    -----
+    F(d) = E* dx sum_i max(d + h_i, 0): linear between d = -h_i and the next [1]_.
+
+    References
+    ----------
+    .. [1] Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, chapter 10.
+
+    Examples
+    --------
+    >>> curve = mdr.load_curve([-1e-6, -2e-6, -3e-6], length=3e-3, modulus=1e9)
+    >>> curve.approach * 1e6, curve.force
+    (array([1., 2., 3.]), array([0., 1., 3.]))
     """
 
     approach: FloatArray
@@ -43,7 +76,34 @@ class LoadCurve(ReadOnlyArrays):
     @overload
     def at_approach(self, approach: FloatArray) -> LoadPoint[FloatArray]: ...
     def at_approach(self, approach: float | FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:
-        """The state at a rigid approach [m], a number or an array; zero force before the first touch."""
+        """State at a rigid approach.
+
+        Parameters
+        ----------
+        approach : float or array_like
+            Of any sign, counted from the plane of height zero [m]. Below the first touch the force is zero.
+
+        Returns
+        -------
+        LoadPoint
+            Numbers, or arrays of the shape of ``approach``.
+
+        Raises
+        ------
+        ValueError
+            If an approach is not finite, or its force is not a number that a double can hold.
+
+        Warns
+        -----
+        SpringResolutionWarning
+            If fewer than 16 springs are in contact, and these are not all springs.
+
+        Examples
+        --------
+        >>> curve = mdr.load_curve(np.zeros(100), length=1e-3, modulus=1e9)
+        >>> curve.at_approach(np.array([-1e-6, 1e-6])).force
+        array([0., 1.])
+        """
         d = finite_array("approach", approach)
         deepest = float(np.max(d, initial=-math.inf))
         pressed = np.searchsorted(self.approach, d, side="left")
@@ -61,7 +121,34 @@ class LoadCurve(ReadOnlyArrays):
     @overload
     def at_force(self, force: FloatArray) -> LoadPoint[FloatArray]: ...
     def at_force(self, force: float | FloatArray) -> LoadPoint[float] | LoadPoint[FloatArray]:
-        """The state under a normal force >= 0 [N], a number or an array; zero force is the first touch."""
+        """State under a normal force.
+
+        Parameters
+        ----------
+        force : float or array_like
+            Zero or positive [N]. At zero force the state is the first touch.
+
+        Returns
+        -------
+        LoadPoint
+            Numbers, or arrays of the shape of ``force``.
+
+        Raises
+        ------
+        ValueError
+            If a force is negative or not finite.
+
+        Warns
+        -----
+        SpringResolutionWarning
+            If fewer than 16 springs are in contact, and these are not all springs.
+
+        Examples
+        --------
+        >>> curve = mdr.load_curve(np.zeros(100), length=1e-3, modulus=1e9)
+        >>> print(f"{curve.at_force(2.0).approach:.4g} m")
+        2e-06 m
+        """
         given = finite_array("force", force)
         if (given < 0).any():
             raise ValueError(f"force must be zero or positive, got {given.min()}")
@@ -76,14 +163,46 @@ class LoadCurve(ReadOnlyArrays):
 
 
 def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve:
-    """The whole load curve of a rough profile from one sort.
+    """Load curve of a rough profile, from one sort of its heights.
 
-    With i springs in contact k = i E* dx, dx = length / points; F grows by k from breakpoint to breakpoint.
+    Parameters
+    ----------
+    height : array_like, shape (points,)
+        Heights h_i of the rigid profile, positive towards the springs [m].
+    length : float
+        Length L of the profile [m].
+    modulus : float
+        Contact modulus E* [Pa].
 
-    height: shape (points,), positive towards the other body [m]; length: of the profile [m]; modulus: E* [Pa].
-    The approach is zero where the plane height = 0 is met, so the first touch is at -max(height).
-    Raises ValueError for an empty or non-finite profile, a length or modulus that is not positive.
-    Source: Popov and Hess, chapter 10: rough profiles on the foundation.
+    Returns
+    -------
+    LoadCurve
+        Force and stiffness at every approach. The approach is zero where the plane of height zero touches, so contact
+        begins at ``-max(height)``.
+
+    Raises
+    ------
+    ValueError
+        If ``height`` is empty or not finite, or ``length`` or ``modulus`` is not positive.
+    TypeError
+        If an argument is not a real number.
+
+    Notes
+    -----
+    F(d) = E* dx sum_i max(d + h_i, 0), dx = L / points [1]_. With i springs in contact dF/dd = i E* dx.
+
+    References
+    ----------
+    .. [1] Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, chapter 10.
+
+    Examples
+    --------
+    A parabola x^2 / R stands for a sphere of radius R. Hertz has F = 4/3 E* sqrt(R) d^(3/2) = 0.2667 N:
+
+    >>> x = (np.arange(2000) - 999.5) * 1e-6
+    >>> curve = mdr.load_curve(-mdr.sphere_profile(x, radius=0.04), length=2e-3, modulus=1e9)
+    >>> print(f"{curve.at_approach(1e-6).force:.4f} N")
+    0.2667 N
     """
     heights = finite_array("height", height, ndim=1)
     spring = _spring(modulus, length, heights.size)
@@ -97,12 +216,40 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
 
 
 def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: float) -> FloatArray:
-    """dF/dd of many rough profiles under one force, shape (profiles,) [N/m]: what `load_curve` has of each.
+    """Stiffness of many rough profiles under one force.
 
-    Springs are in contact whose breakpoints lie below the force, F_i = E* dx sum_{j<=i} (h_j - h_i), descending.
+    Parameters
+    ----------
+    force : float
+        Normal force, positive [N].
+    height : array_like, shape (profiles, points)
+        Heights of rigid profiles, positive towards the springs [m].
+    length : float
+        Length L of each profile [m].
+    modulus : float
+        Contact modulus E* [Pa].
 
-    force: positive [N]; height: shape (profiles, points) [m]; length: of a profile [m]; modulus: E* [Pa].
-    Raises ValueError for what is not finite or out of range.
+    Returns
+    -------
+    ndarray, shape (profiles,)
+        dF/dd of each profile [N/m]: ``load_curve(height[i], ...).at_force(force).stiffness``.
+
+    Raises
+    ------
+    ValueError
+        If a value is not finite or out of range.
+
+    Notes
+    -----
+    Spring i, in descending order of heights, touches at the force F_i = E* dx sum_{j <= i} (h_j - h_i), so the
+    springs in contact are those with F_i < F: one sort of each profile, no iteration.
+
+    Examples
+    --------
+    >>> rng = np.random.default_rng(1)
+    >>> k = mdr.stiffness_under(1.0, 1e-6 * rng.standard_normal((2, 100)), length=1e-3, modulus=1e9)
+    >>> k / 1e4  # E* dx = 1e4 N/m
+    array([85., 81.])
     """
     heights = finite_array("height", height, ndim=2)
     points = heights.shape[1]
@@ -115,42 +262,6 @@ def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: 
         stiffness = np.asarray(spring * (1 + np.count_nonzero(np.cumsum(steps, axis=1) < wanted, axis=1)))
         held(stiffness)
     return stiffness
-
-
-@dataclass(frozen=True)
-class SphereContact:
-    """A smooth sphere on the foundation: approach [m], force [N], stiffness [N/m], contact_radius [m]."""
-
-    approach: float
-    force: float
-    stiffness: float
-    contact_radius: float
-
-
-def press_sphere(
-    *, radius: float, modulus: float, approach: float | None = None, force: float | None = None
-) -> SphereContact:
-    """A smooth sphere on the continuous foundation, by approach or by force.
-
-    F = E* int_{-a}^{a} (d - x^2/R) dx = 4/3 E* sqrt(R) d^(3/2),  a = sqrt(R d),  k = 2 E* a.
-
-    radius: R [m]; modulus: E* [Pa]; exactly one of approach (zero or less: no contact) [m] and force (>= 0) [N].
-    Raises ValueError if both or neither are given, or one is out of range.
-    Asks whether the units are right (UnitsWarning) where the radius of contact is above that of the sphere.
-    Source: Popov and Hess, (14.2), (14.4) and (14.5) without roughness; equal to Hertz.
-    """
-    radius, modulus = positive("radius", radius), positive("modulus", modulus)
-    if (approach is None) == (force is None):
-        raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
-    load = not_negative("force", force) if approach is None else finite("approach", approach)
-    with doubles(radius=radius, modulus=modulus, **{"force" if approach is None else "approach": load}):
-        d = math.cbrt(0.75 * load / modulus) ** 2 / math.cbrt(radius) if approach is None else load
-        a = math.sqrt(radius * max(d, 0.0))
-        contact = SphereContact(d, 4 / 3 * modulus * a * max(d, 0.0), 2 * modulus * a, a)
-        held(d)
-        held(contact.force, contact.stiffness, a, positive=load > 0)
-    warn(diagnose_units(approach=d, radius=radius))
-    return contact
 
 
 def _spring(modulus: float, length: float, points: int) -> float:

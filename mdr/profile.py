@@ -1,30 +1,16 @@
-"""Rough profiles drawn from a spectrum; the wheel's parabola."""
+"""Rough profiles drawn from a spectrum."""
 
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, Spectrum, density, doubles, finite_array, held, positive
+from mdr.checks import FloatArray, Spectrum, density, doubles, held, positive
 from mdr.checks import count as whole
 from mdr.diagnostics import Diagnostic, diagnose_waves, warn
 from mdr.memory import fits
 
 BYTES_A_POINT = 40
 """At the height of a draw, measured: five times what it returns."""
-
-
-def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
-    """The one-dimensional profile that stands for a sphere of the given radius: x^2 / R, not x^2 / 2R.
-
-    x: distance from the centre of the contact [m]; radius: of the sphere, positive [m]. Returns [m].
-    Source: Popov and Hess, (14.2).
-    """
-    given, radius = finite_array("x", x), positive("radius", radius)
-    with doubles(x=float(np.abs(given).max(initial=0.0)), radius=radius):
-        profile: FloatArray = given**2 / radius
-        held(profile)
-    return profile
 
 
 def rough_profile(
@@ -36,24 +22,64 @@ def rough_profile(
     rms: float | None = None,
     amplitudes: Literal["fixed", "gaussian"] = "fixed",
 ) -> FloatArray:
-    """A periodic rough profile with a given spectrum.
+    """Draw a periodic rough profile with a given spectrum.
 
-    h(x_i) = sum_q B(q) exp(i (q x_i + phi(q))),  B(q) = sqrt(2 pi C_1D(q) / L),  x_i = (i + 1/2) L / points,
-    over the waves q = 2 pi j / L that the points can carry, phi uniform in [0, 2 pi), phi(-q) = -phi(q), mean zero.
+    Parameters
+    ----------
+    c1d : callable
+        Two-sided power spectral density C_1D(q) [m^3] of wavenumbers q > 0 [rad/m]: an array in, an array of the same
+        shape out. It must vanish beyond the Nyquist wavenumber, pi points / L.
+    length : float
+        Period L [m].
+    points : int
+        Number of heights, at least 2.
+    rng : numpy.random.Generator
+        Source of the phases. Waves take their random numbers in the order of q, so that the same seed on more points
+        draws the same profile.
+    rms : float, optional
+        Root mean square height [m]. All amplitudes are scaled by one number that makes it exact (fixed amplitudes) or
+        expected (Gaussian amplitudes). By default the amplitudes follow the spectrum.
+    amplitudes : {"fixed", "gaussian"}, optional
+        "fixed": every draw has the mean square of the sum over its waves. "gaussian": only the expectation has.
 
-    c1d: callable, two-sided density, zero beyond the Nyquist wavenumber pi points / L [m^3]; length: period L [m];
-    rng: the source of the phases. Waves take their random numbers in order of q, so that the same generator on
-    more points draws the same profile, if its band ends below the Nyquist wavenumber of fewer.
-    amplitudes: "fixed", where every draw has the same mean square, sum_q 2 pi C_1D(q) / L, exactly (the sum over
-    the waves of the period, which exceeds int C_1D dq when the band begins at 2 pi / L); or "gaussian", where
-    only its expectation has.
-    rms: where given, all amplitudes are scaled by one constant that makes this root mean square exact (fixed) or
-    expected (gaussian) [m].
-    Returns height, shape (points,), positive towards the other body [m].
-    Warns (ResolutionWarning) of a shortest wave of fewer than four springs.
-    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the points can carry;
-    MemoryError for more points than this machine has room for.
-    Source: Popov and Hess, (14.8), and (14.9) with the root over all of it.
+    Returns
+    -------
+    ndarray, shape (points,)
+        Heights at x_i = (i + 1/2) L / points, of mean zero, positive towards the other body [m].
+
+    Raises
+    ------
+    ValueError
+        If the spectrum has power beyond the Nyquist wavenumber, or none at a wave of the period, or an argument is
+        out of range.
+    TypeError
+        If ``c1d`` is not callable, or ``rng`` is not a generator.
+    MemoryError
+        If ``points`` need more memory than there is.
+
+    Warns
+    -----
+    SpringResolutionWarning
+        If the shortest wave has fewer than four points.
+
+    Notes
+    -----
+    h(x) = sum_q B(q) exp(i (q x + phi(q))), B(q) = sqrt(2 pi C_1D(q) / L), over all waves q = 2 pi j / L, with phi
+    uniform in [0, 2 pi) and phi(-q) = -phi(q) [1]_. The mean square is sum_q 2 pi C_1D(q) / L over these waves. That
+    exceeds int C_1D dq where the band begins at 2 pi / L.
+
+    References
+    ----------
+    .. [1] Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, (14.8), and (14.9)
+       with the root over all of it.
+
+    Examples
+    --------
+    >>> rough = mdr.SelfAffine(hurst=0.8, q_min=1e4, q_max=1e5, rms=1e-6)
+    >>> height = mdr.rough_profile(rough.c1d, length=2e-3, points=512, rng=np.random.default_rng(1), rms=rough.rms)
+    >>> height.shape, print(f"rms = {height.std():.4g} m")
+    rms = 1e-06 m
+    ((512,), None)
     """
     length, points = positive("length", length), whole("points", points, least=2)
     _check_draw(rng, amplitudes)
@@ -72,9 +98,45 @@ def rough_profiles(
     rng: np.random.Generator,
     rms: float | None = None,
 ) -> FloatArray:
-    """So many profiles at once, shape (count, points): those that as many calls of `rough_profile` draw.
+    """Draw several periodic rough profiles at once, with fixed amplitudes.
 
-    Amplitudes are fixed; everything else as there.
+    Parameters
+    ----------
+    c1d : callable
+        Two-sided power spectral density C_1D(q) [m^3], as in `rough_profile`.
+    length : float
+        Period L [m].
+    points : int
+        Number of heights of each profile, at least 2.
+    count : int
+        Number of profiles, at least 1.
+    rng : numpy.random.Generator
+        Source of the phases.
+    rms : float, optional
+        Root mean square height of each profile [m], as in `rough_profile`.
+
+    Returns
+    -------
+    ndarray, shape (count, points)
+        The profiles that ``count`` calls of `rough_profile` with the same generator draw [m].
+
+    Raises
+    ------
+    ValueError, TypeError, MemoryError
+        As `rough_profile`.
+
+    Warns
+    -----
+    SpringResolutionWarning
+        If the shortest wave has fewer than four points.
+
+    Examples
+    --------
+    >>> rough = mdr.SelfAffine(hurst=0.8, q_min=1e4, q_max=1e5, rms=1e-6)
+    >>> draw = {"length": 2e-3, "points": 512, "rms": rough.rms}
+    >>> many = mdr.rough_profiles(rough.c1d, count=3, rng=np.random.default_rng(1), **draw)
+    >>> bool((many[0] == mdr.rough_profile(rough.c1d, rng=np.random.default_rng(1), **draw)).all())
+    True
     """
     length, points = positive("length", length), whole("points", points, least=2)
     count = whole("count", count, least=1)

@@ -1,7 +1,6 @@
 """The wheel on the spring foundation: contact force along a periodic rough track."""
 
 import math
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -11,7 +10,7 @@ from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.checks import FloatArray, doubles, finite_array, held, positive
 from mdr.diagnostics import Diagnostic, diagnose_linearity, warn
-from mdr.read_only import ReadOnlyArrays
+from mdr.rolling_track import RollingTrack
 from mdr.spring_track import SpringTrack
 
 BLOCK = 1024
@@ -21,20 +20,6 @@ FARTHEST = 2**15
 """Springs to each side of a wheel, pressed to the lowest, beyond which steps from there take longer than sorting."""
 
 Contact = Literal["one-sided", "full", "linear"]
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class RollingTrack(ReadOnlyArrays):
-    """A wheel at each point of its track: arrays of shape (points,).
-
-    force [N]; approach: to the plane of height zero [m]; stiffness: dF/dd of the springs in contact [N/m];
-    examined: springs of each position that were looked at one by one, since they might or might not touch.
-    """
-
-    force: FloatArray
-    approach: FloatArray
-    stiffness: FloatArray
-    examined: FloatArray
 
 
 def roll(
@@ -47,26 +32,71 @@ def roll(
     force: float | None = None,
     contact: Contact = "one-sided",
 ) -> RollingTrack:
-    """Roll a wheel of profile x^2 / R along a rough track of springs, quasi-statically.
+    """Roll a wheel along a rough track of springs, quasi-statically.
 
-    F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0), the wheel over each of the springs in turn.
+    Parameters
+    ----------
+    height : array_like, shape (points,)
+        Heights of the periodic track, positive towards the wheel [m].
+    spacing : float
+        Distance dx of the springs [m].
+    radius : float
+        Radius R of the wheel, whose profile is x^2 / R [m].
+    modulus : float
+        Contact modulus E* [Pa].
+    approach : float or array_like, shape (points,), optional
+        Approach of the smooth wheel to the plane of height zero [m]: one positive number, or one of any sign at each
+        point. Give either ``approach`` or ``force``.
+    force : float, optional
+        Normal force, positive [N].
+    contact : {"one-sided", "full", "linear"}, optional
+        "one-sided": springs do not pull. "full": all springs within the Hertz radius a = sqrt(R d) of the smooth
+        wheel, and no others. "linear": the filter of the same radius, with the transfer function 2 E* sin(q a) / q
+        from height to force.
 
-    height: shape (points,), positive towards the wheel, periodic [m]; spacing: dx of the springs [m]; radius: R [m];
-    modulus: E* [Pa]; exactly one of approach, positive [m], or one at each point, of any sign; and force, positive [N];
-    contact: "one-sided", as above: springs pull nowhere;
-    "full": all springs within the Hertz radius a = sqrt(R d) of the smooth wheel, and no others, (14.5);
-    "linear": the filter (14.11) with that radius, whose transfer function from height to force is 2 E* sin(q a) / q.
+    Returns
+    -------
+    RollingTrack
+        Force, approach and stiffness with the wheel over each spring in turn.
 
-    Under a prescribed force the approach of the one-sided contact is found by Newton's method, since the force is
-    convex and piecewise linear in the approach; and where rounding keeps that from an end, by sorting the springs.
-    Springs that must touch come from prefix sums, springs that cannot are left out, springs that stand out, like a
-    spike, concern the positions that they reach; `examined` counts all but the first kind.
-    Raises ValueError for a track that is not longer than the contact of the smooth wheel, for values out of range, and
-    for more than 2^28 springs to a side of the wheel.
-    Warns of a smooth contact of few springs (ResolutionWarning), of roughness for which a linear or full contact
-    leaves out too much (LinearityWarning), and of a smooth contact as `press_sphere` does (UnitsWarning).
-    Where the roughness makes the contact longer than that, it meets the same roughness again.
-    Source: Popov and Hess, (14.2), (14.5) and (14.11).
+    Raises
+    ------
+    ValueError
+        If a value is out of range, the track is not longer than the contact of the smooth wheel, or the wheel
+        overlaps more than 2^28 springs on a side.
+    TypeError
+        If an argument is not a real number.
+
+    Warns
+    -----
+    SpringResolutionWarning
+        If the contact of the smooth wheel has fewer than 16 springs.
+    LinearityWarning
+        If roughness moves the ends of a "full" or "linear" contact by too much.
+    SpringUnitsWarning
+        If the radius of contact is larger than the wheel.
+
+    Notes
+    -----
+    F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0) [1]_.
+
+    At a given force the approach is found by Newton's method: the force is convex and piecewise linear in the
+    approach. Where rounding keeps Newton's method from an end, the springs are sorted. Springs that must touch enter
+    by prefix sums, and springs that cannot touch are left out. If roughness makes the contact longer than the track,
+    it meets the same roughness again.
+
+    References
+    ----------
+    .. [1] Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, (14.2), (14.5),
+       (14.11).
+
+    Examples
+    --------
+    >>> track = 1e-7 * np.cos(2 * np.pi * np.arange(256) / 64)
+    >>> wheel = {"spacing": 1e-4, "radius": 0.5, "modulus": 2e11, "approach": 2e-6}
+    >>> rolled = mdr.roll(track, **wheel)
+    >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
+    499.3 to 567.0 N
     """
     track = SpringTrack(height, spacing, radius, modulus)
     rolled, diagnostics = _within_doubles(track, approach, force, contact)
@@ -77,7 +107,38 @@ def roll(
 def rolling_force(
     height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
 ) -> FloatArray:
-    """The force of one-sided springs at a prescribed approach, shape (points,) [N]: see `roll`."""
+    """Force of one-sided springs along a rough track, at a given approach.
+
+    Parameters
+    ----------
+    height : array_like, shape (points,)
+        Heights of the periodic track, positive towards the wheel [m].
+    spacing, radius, modulus : float
+        Distance of the springs [m], radius of the wheel [m] and contact modulus E* [Pa].
+    approach : float or array_like, shape (points,)
+        Approach of the smooth wheel to the plane of height zero [m], as in `roll`.
+
+    Returns
+    -------
+    ndarray, shape (points,)
+        ``roll(...).force`` [N], which may be written to.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As `roll`.
+
+    Warns
+    -----
+    SpringResolutionWarning, SpringUnitsWarning
+        As `roll`.
+
+    Examples
+    --------
+    >>> force = mdr.rolling_force(np.zeros(256), spacing=1e-4, radius=0.5, modulus=2e11, approach=2e-6)
+    >>> print(f"{force[0]:.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
+    532 N, by Hertz 533 N
+    """
     track = SpringTrack(height, spacing, radius, modulus)
     rolled, diagnostics = _within_doubles(track, approach, None, "one-sided")
     warn(diagnostics)

@@ -22,15 +22,60 @@ MOST_STEPS = 200
 
 
 class RollingEnsemble:
-    """The contact of rigid wheels of profile x^2 / R with one-sided springs, one periodic track a wheel.
+    """Contact of several wheels with one-sided springs, each wheel on a periodic track of its own.
 
-    F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0), for each wheel over the i-th spring of its track.
+    Parameters
+    ----------
+    height : array_like, shape (points, wheels)
+        Heights of the tracks, positive towards the wheel [m].
+    spacing : float
+        Distance dx of the springs [m].
+    radius : float
+        Radius R of the wheels, whose profile is x^2 / R [m].
+    modulus : float
+        Contact modulus E* [Pa].
+    force : float
+        Mean force under which the wheels roll, positive [N]. Its smooth approach d sets the quantum.
 
-    Heights, profile and approach of a wheel are rounded to whole multiples of its quantum, so that no sum rounds: it
-    feels the same force to the last bit whoever rolls beside it, in whatever order springs are added. The quantum is
-    5 (d + s)^(3/2) d^(-1/2) (2 a / dx + 512) 2^-53, with the smooth approach d and the span s of the heights: the force
-    is off that of springs that are not rounded by (3/4) quantum / d of it, 5e-13 where a / dx = 100 and s = d / 2.
-    Springs that must touch, whichever wheel, come from prefix sums; those that cannot are left out.
+    Attributes
+    ----------
+    points, wheels : int
+        Springs of a track, number of tracks.
+    smooth_approach : float
+        Approach d of the smooth wheel under ``force`` [m].
+    quantum : ndarray, shape (wheels,)
+        Unit in which the heights and approaches of each wheel are whole numbers [m].
+
+    Raises
+    ------
+    ValueError
+        If a value is out of range, or a track is not longer than the contact of the smooth wheel.
+
+    Warns
+    -----
+    SpringResolutionWarning
+        If the contact of the smooth wheel has fewer than 16 springs.
+    SpringUnitsWarning
+        If the radius of contact is larger than the wheel.
+
+    Notes
+    -----
+    F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0), for each wheel over spring i of its track.
+
+    Heights, profile and approach of a wheel are rounded to whole multiples of its quantum, so that no sum rounds: the
+    force is the same to the last bit in any order of the springs and with any other wheels in the ensemble. The
+    quantum is 5 (d + s)^(3/2) d^(-1/2) (2 a / dx + 512) 2^-53, s the span of the heights. It changes the force by a
+    relative (3/4) quantum / d: 5e-13 where a / dx = 100 and s = d / 2.
+
+    ``mdr.Wheels`` in 0.1.
+
+    Examples
+    --------
+    >>> tracks = 1e-7 * np.random.default_rng(1).standard_normal((256, 3))
+    >>> ensemble = mdr.RollingEnsemble(tracks, spacing=1e-4, radius=0.5, modulus=2e11, force=1e3)
+    >>> approach = ensemble.approach(0, 1e3)
+    >>> ensemble.force(0, approach)
+    array([1000., 1000., 1000.])
     """
 
     def __init__(self, height: ArrayLike, *, spacing: float, radius: float, modulus: float, force: float):
@@ -75,12 +120,26 @@ class RollingEnsemble:
         held(self._height, self._margin * self.radius)
 
     def force(self, place: int, approach: ArrayLike) -> FloatArray:
-        """The force of each wheel over a spring of its track, at its approach of any sign, shape (wheels,) [N].
+        """Force of each wheel over one spring of its track.
 
-        place: which spring, a whole number from zero; beyond the last the track begins again; approach: one a wheel,
-        to the plane of height zero [m].
-        Raises ValueError or TypeError for what is no place or no finite approach a wheel, and ArithmeticError for
-        approaches so deep that sums would round.
+        Parameters
+        ----------
+        place : int
+            Number of the spring, from zero; beyond the last spring the track begins again.
+        approach : array_like, shape (wheels,)
+            Approach of each wheel to the plane of height zero, of any sign [m].
+
+        Returns
+        -------
+        ndarray, shape (wheels,)
+            Normal forces [N].
+
+        Raises
+        ------
+        ValueError, TypeError
+            If ``place`` or ``approach`` is out of range or of another shape.
+        ArithmeticError
+            If an approach is so deep that sums would round.
         """
         if type(place) is not int:
             place = count("place", place, least=0)
@@ -110,10 +169,27 @@ class RollingEnsemble:
         return np.asarray(total)
 
     def approach(self, place: int, force: float) -> FloatArray:
-        """The approach at which each wheel bears a force over a spring of its track, shape (wheels,) [m].
+        """Approach at which each wheel bears a force over one spring of its track.
 
-        By Newton's method from deeper, which ends, since the force is convex and piecewise linear in the approach.
-        Raises ValueError or TypeError for what is no place or no positive force.
+        Parameters
+        ----------
+        place : int
+            Number of the spring, from zero.
+        force : float
+            Normal force, positive [N].
+
+        Returns
+        -------
+        ndarray, shape (wheels,)
+            Approaches to the plane of height zero [m], by Newton's method from deeper ones: the force is convex and
+            piecewise linear in the approach.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If ``place`` or ``force`` is out of range.
+        ArithmeticError
+            If the force is so large that sums would round.
         """
         place = count("place", place, least=0)
         with doubles(force=positive("force", force), modulus=self.modulus, spacing=self.spacing):

@@ -16,25 +16,53 @@ WIDEST = 1.4
 def rolling_spectrum(
     q: ArrayLike, c2d: Spectrum, *, edges: Sequence[float], contact_radius: float = math.inf
 ) -> FloatArray:
-    """The 1D spectrum with which (14.12) has the level, along the track, of an isotropic surface on the half-space.
+    """Input spectrum with which springs have the force level of an isotropic surface on the half-space.
 
-    C_1D(q) = int_{-inf}^{inf} e(s a) / e(q a) C_2D(s) dk,  s^2 = q^2 + k^2,  e(t) = 1 / (1 + t^2).
+    Parameters
+    ----------
+    q : array_like
+        Wavenumbers along the track, of any sign [rad/m]. Zero needs a finite ``contact_radius``.
+    c2d : callable
+        Isotropic spectrum C_2D(q) of the surface [m^4], smooth between the ``edges``, zero outside.
+    edges : sequence of float
+        Ends of the band and of its smooth pieces, ascending, positive [rad/m].
+    contact_radius : float, optional
+        Radius of contact a of the smooth wheel, positive [m]. Infinite by default: all waves are short beside it.
 
-    A wave of wavenumber s that crosses the track at an angle shows a longer one, q, along it, but acts on the circle of
-    contact as what it is, sin^2(s a) / s^2, where a spring model sees sin^2(q a) / q^2. Over their oscillation both go
-    from a^2 for long waves to a half of 1/s^2 for short ones, for which a^2 e stands: exact in level where both waves
-    are long, which is the line trace, or both are short, which is q^2 / s^2 under the integral: the default, which
-    needs no radius and for an unbounded power law is Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)) times Geike's. Between
-    the rule depends on the radius, and is a compromise: where all waves are short, s a >> 1, and are seen along the
-    track as long ones, q a << 1, it leaves out the half and is 3 dB too high; 1 / (1 + 2 t^2) would be right there and
-    3 dB too low where waves of s a = 1 are seen so.
-    It keeps neither the height nor the gradient: it is for rolling alone.
+    Returns
+    -------
+    ndarray
+        C_1D, shape of ``q`` [m^3]. It is for rolling alone: it keeps neither the height nor the gradient of the
+        surface.
 
-    q: along the track, any sign, not zero unless there is a contact radius [rad/m]; c2d: callable of |q|, smooth
-    between the edges, zero outside [m^4]; edges: of its band and of its pieces, ascending, positive [rad/m];
-    contact_radius: a, positive, or infinite [m].
-    Returns C_1D, shape of q [m^3]. Raises ValueError for values out of range.
-    Source: linear elasticity of a fixed circle of contact, by reciprocity with the flat punch; ours.
+    Raises
+    ------
+    ValueError
+        If a value is out of range.
+    TypeError
+        If ``c2d`` is not callable.
+
+    Notes
+    -----
+    C_1D(q) = int_{-inf}^{inf} e(s a) / e(q a) C_2D(s) dk, s^2 = q^2 + k^2, e(t) = 1 / (1 + t^2).
+
+    A wave of wavenumber s that crosses the track at an angle appears along it as a longer wave q. On the half-space
+    its force goes as sin^2(s a) / s^2; that of the springs goes as sin^2(q a) / q^2. Averaged over their oscillation
+    both go from a^2 for long waves to 1 / (2 s^2) for short ones; a^2 e stands for that average. The result is exact
+    in level where both waves are long (then it is the line trace) or both short (then it is the integral of q^2 / s^2
+    C_2D, the default). For an unbounded power law the default is Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)) times
+    Geike's spectrum. Between these limits it is a compromise. Where s a >> 1 and q a << 1 it is 3 dB too high; e = 1
+    / (1 + 2 t^2) would be right there, and 3 dB too low where waves of s a = 1 appear so.
+
+    Source: linear elasticity of a circular contact of constant radius, by reciprocity with the flat punch; derived
+    here.
+
+    Examples
+    --------
+    >>> rough = mdr.SelfAffine(hurst=0.8, q_min=1e3, q_max=1e5, rms=1e-6)
+    >>> q = np.array([2e3, 1e4, 5e4])
+    >>> mdr.rolling_spectrum(q, rough.c2d, edges=(rough.q_min, rough.q_max)) / rough.c1d(q)
+    array([0.3926, 0.3926, 0.3863])
     """
     wavenumber, ends = np.abs(finite_array("q", q)), _ascending(edges)
     if contact_radius != math.inf:

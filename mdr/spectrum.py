@@ -1,4 +1,4 @@
-"""Self-affine spectra; Geike's rule, its inverse; the line trace.
+"""Self-affine spectra, Geike's rule and its inverse, the line trace.
 
 Power spectral densities are two-sided: <h^2> = int_{-inf}^{inf} C_1D dq = 2 pi int_0^inf q C_2D dq.
 """
@@ -20,14 +20,38 @@ FLAT = 1e-8
 
 
 def geike(q: ArrayLike, c2d: ArrayLike | Spectrum) -> FloatArray:
-    """The 1D spectrum that keeps every moment of an isotropic 2D spectrum.
+    """Geike's rule: the 1D spectrum with every moment of an isotropic 2D spectrum.
 
-    C_1D(q) = pi |q| C_2D(|q|), so that int |q|^n C_1D dq = int |q|^n C_2D d^2q for every n.
+    Parameters
+    ----------
+    q : array_like
+        Angular wavenumbers, of any sign [rad/m].
+    c2d : array_like or callable
+        Isotropic spectrum C_2D [m^4]: values at ``q``, or a callable of abs(q).
 
-    q: angular wavenumbers, any sign [rad/m]; c2d: densities at q, or a callable of |q| [m^4].
-    Returns C_1D, shape of q and c2d broadcast [m^3].
-    Raises ValueError for negative densities, NaN or infinities.
-    Source: rule of Geike; Popov and Hess, (10.12).
+    Returns
+    -------
+    ndarray
+        C_1D [m^3], of the shape to which ``q`` and ``c2d`` broadcast.
+
+    Raises
+    ------
+    ValueError
+        If a density is negative, a value is not finite, or shapes do not match.
+
+    Notes
+    -----
+    C_1D(q) = pi abs(q) C_2D(abs(q)) [1]_, so that int abs(q)^n C_1D dq = int q^n C_2D d^2q for every n: the height
+    and the gradient of the surface are kept.
+
+    References
+    ----------
+    .. [1] Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, (10.12).
+
+    Examples
+    --------
+    >>> mdr.geike([1.0, -2.0], [1.0, 1.0])
+    array([3.1416, 6.2832])
     """
     wavenumber = np.abs(finite_array("q", q))
     values = _values("c2d", c2d, wavenumber)
@@ -38,14 +62,35 @@ def geike(q: ArrayLike, c2d: ArrayLike | Spectrum) -> FloatArray:
 
 
 def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
-    """The isotropic 2D spectrum whose Geike transform is the given 1D spectrum.
+    """Isotropic 2D spectrum whose 1D spectrum by Geike's rule is given.
 
-    C_2D(q) = C_1D(q) / (pi |q|), q != 0.
+    Parameters
+    ----------
+    q : array_like
+        Angular wavenumbers, not zero [rad/m].
+    c1d : array_like or callable
+        Spectrum C_1D [m^3]: values at ``q``, or a callable of abs(q).
 
-    q: angular wavenumbers, not zero [rad/m]; c1d: densities at q, or a callable of |q| [m^3].
-    Returns C_2D [m^4].
-    Raises ValueError for q = 0, negative densities, NaN or infinities.
-    Source: Popov and Hess, (10.12), solved for C_2D.
+    Returns
+    -------
+    ndarray
+        C_2D(q) = C_1D(q) / (pi abs(q)) [m^4], of the shape to which ``q`` and ``c1d`` broadcast.
+
+    Raises
+    ------
+    ValueError
+        If a wavenumber is zero, a density is negative, a value is not finite, or shapes do not match.
+
+    Notes
+    -----
+    Source: Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, (10.12), solved for
+    C_2D.
+
+    Examples
+    --------
+    >>> q = np.array([1.0, 2.0])
+    >>> mdr.inverse_geike(q, mdr.geike(q, [3.0, 5.0]))
+    array([3., 5.])
     """
     wavenumber = np.abs(finite_array("q", q))
     if (wavenumber == 0).any():
@@ -58,15 +103,45 @@ def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
 
 
 def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -> FloatArray:
-    """The spectrum along a straight line cut through an isotropic surface.
+    """Spectrum along a straight line through an isotropic surface.
 
-    C_line(q) = int C_2D(sqrt(q^2 + k^2)) dk = 2 int_q^inf C_2D(s) s / sqrt(s^2 - q^2) ds,
-    by Gauss-Legendre quadrature over k, where the integrand has no singularity.
+    Parameters
+    ----------
+    q : array_like
+        Angular wavenumbers along the line, of any sign [rad/m].
+    c2d : callable
+        Isotropic spectrum C_2D(q) [m^4], smooth up to ``q_max`` and zero beyond.
+    q_max : float
+        End of the spectrum [rad/m].
+    nodes : int, optional
+        Nodes of the quadrature, at least 2.
 
-    q: along the line [rad/m]; c2d: callable, smooth up to q_max and zero beyond [m^4]; nodes: of the quadrature.
-    A spectrum with jumps inside the band converges slowly: use `SelfAffine.line` for a power law with cut-offs.
-    Returns C_line, shape of q [m^3].
-    Source: the spectrum of a section is that of the surface, integrated across it; s^2 = q^2 + k^2.
+    Returns
+    -------
+    ndarray
+        C_line, shape of ``q`` [m^3].
+
+    Raises
+    ------
+    ValueError
+        If a value is not finite or out of range, or a density is negative.
+
+    See Also
+    --------
+    SelfAffine.line : The closed form for a power law with cut-offs, for which this quadrature converges slowly.
+
+    Notes
+    -----
+    C_line(q) = int C_2D(sqrt(q^2 + k^2)) dk = 2 int_q^inf C_2D(s) s / sqrt(s^2 - q^2) ds. The quadrature is that of
+    Gauss and Legendre over k, where the integrand has no singularity. A line keeps the height of the surface, and
+    half of its mean square gradient.
+
+    Examples
+    --------
+    A constant spectrum up to q_max has C_line = 2 sqrt(q_max^2 - q^2):
+
+    >>> mdr.line_trace([0.0, 0.6], lambda q: np.where(q <= 1, 1.0, 0.0), q_max=1.0)
+    array([2. , 1.6])
     """
     wavenumber = np.abs(finite_array("q", q))
     q_max, (node, weight) = positive("q_max", q_max), _gauss_legendre(count("nodes", nodes, least=2))
@@ -81,13 +156,33 @@ def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -
 
 @dataclass(frozen=True, kw_only=True)
 class SelfAffine:
-    """Isotropic self-affine roughness between two cut-offs, no roll-off.
+    """Isotropic self-affine roughness between two cut-offs, without roll-off.
 
-    C_2D(q) = A q^(-2H-2) for q_min <= q <= q_max, else 0;  A = H rms^2 / (pi (q_min^(-2H) - q_max^(-2H))).
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, in (0, 1.2].
+    q_min, q_max : float
+        Cut-off wavenumbers, q_min < q_max [rad/m]. They belong to the band, within a relative 1e-9.
+    rms : float
+        Root mean square height h [m].
 
-    hurst: H in (0, 1.2]; q_min < q_max: angular wavenumbers [rad/m]; rms: root mean square height [m].
-    The edges of the band belong to it, within a relative 1e-9.
-    Raises ValueError naming the argument that is out of range.
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of range; the message names it.
+
+    Notes
+    -----
+    C_2D(q) = A q^(-2H-2) for q_min <= q <= q_max, else 0, with A = H h^2 / (pi (q_min^(-2H) - q_max^(-2H))). The
+    two-sided spectrum has <h^2> = 2 pi int q C_2D dq.
+
+    Examples
+    --------
+    >>> rough = mdr.SelfAffine(hurst=0.8, q_min=1e4, q_max=1e5, rms=1e-6)
+    >>> q = np.linspace(1e4, 1e5, 20001)
+    >>> print(f"{np.sqrt(np.trapezoid(2 * rough.c1d(q), q)):.4g} m")
+    1e-06 m
     """
 
     hurst: float
@@ -107,21 +202,22 @@ class SelfAffine:
             held(self._level, positive=True)
 
     def c2d(self, q: ArrayLike) -> FloatArray:
-        """C_2D(|q|) [m^4]."""
+        """Isotropic spectrum C_2D(abs(q)) of the surface, shape of ``q`` [m^4]."""
         q, inside = self._in_band(q)
         power = (np.where(inside, q, self.q_min) / self.q_min) ** (-2 * self.hurst - 2)
         return np.where(inside, self._level * power, 0.0)
 
     def c1d(self, q: ArrayLike) -> FloatArray:
-        """C_1D(q) = pi |q| C_2D(|q|), Geike's rule (10.12) [m^3]."""
+        """Spectrum of Geike's rule, C_1D(q) = pi abs(q) C_2D(abs(q)), shape of ``q`` [m^3]."""
         return geike(q, self.c2d)
 
     def line(self, q: ArrayLike) -> FloatArray:
-        """Spectrum along a straight line through the surface [m^3].
+        """Spectrum along a straight line through the surface, shape of ``q`` [m^3].
 
-        C_line(q) = A |q|^(-2H-1) int t^(H-1/2) (1-t)^(-1/2) dt over (q/q_max)^2 < t < min(1, (q/q_min)^2),
-        with t = (q/s)^2: an incomplete beta function. Below q_min it is a plateau, not zero.
-        Source: `line_trace`, with C_2D inserted.
+        Notes
+        -----
+        `line_trace` of C_2D: C_line(q) = A abs(q)^(-2H-1) int t^(H-1/2) (1-t)^(-1/2) dt, t = (q/s)^2, over
+        (q/q_max)^2 < t < min(1, (q/q_min)^2): an incomplete beta function. Below q_min it is a plateau, not zero.
         """
         q, _ = self._in_band(q)
         flat = q < FLAT * self.q_min

@@ -9,7 +9,7 @@ import numpy as np
 import bem3d
 import mdr
 from bem3d import surface
-from mdr import foundation
+from mdr import foundation, sphere
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
 from mdr import rolling_ensemble as wheels_in_step
@@ -229,7 +229,7 @@ FAULTS = {
         functools.partial(test_rolling_springs.test_a_light_wheel_over_a_spike, 0.1),
     ),
     "a contact wider than its sphere that nobody asks about": (
-        (foundation, "diagnose_units", lambda **_: ()),
+        (sphere, "diagnose_units", lambda **_: ()),
         functools.partial(test_doubts_of_springs.test_units_of_a_sphere_are_asked_about, 1.0, 1.21, 1),
     ),
 }
