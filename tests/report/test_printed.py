@@ -114,7 +114,7 @@ def test_rows_of_the_page_are_their_numbers():
         "Difference",
         "± grid",
         "± sample",
-        "Tolerance, and why",
+        "Tolerance and its reason",
     ]
     assert rows["agrees"][1:] == [
         ["✓ agree"],
