@@ -6,10 +6,12 @@ RUN := $(VENV)/bin/python -m
 READY := $(VENV)/ready
 PEERS := $(VENV)/peers
 STRENGTH := $(VENV)/strength
+OLDEST_PYTHON ?= python3.11
+OLDEST := .venv-oldest
 RECORD := .coverage-times.xml
 RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference race test thorough coverage verdicts mutation lint types format clean
+.PHONY: report full-report reference race check fast test oldest thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -23,8 +25,17 @@ reference: $(PEERS)  ## the committed one, with the race: reports/reference/inde
 race: $(PEERS)  ## beside the peers, which it installs: reports/race-quick/index.html
 	$(RUN) validation race $(ARGS)
 
+check: lint types fast  ## for the loop while one works, a minute: lint, types and the tests not marked slow
+
+fast: $(READY)
+	$(RUN) pytest -q -n auto -m "not slow" $(ARGS)
+
 test: $(READY)  ## all tests
 	$(RUN) pytest -n auto $(ARGS)
+
+oldest: $(OLDEST)/ready  ## the tests not marked slow, on the oldest versions that pyproject.toml allows
+	# an old library says of its own imports that they are deprecated
+	$(OLDEST)/bin/python -m pytest -q -n auto -m "not slow" -W ignore::DeprecationWarning $(ARGS)
 
 thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
@@ -71,6 +82,13 @@ $(READY): pyproject.toml
 	$(RUN) pip install --quiet --editable . --group dev
 	touch $@
 
+$(OLDEST)/ready: pyproject.toml .ci/oldest.py
+	$(OLDEST_PYTHON) -m venv $(OLDEST)
+	$(OLDEST)/bin/python -m pip install --quiet --upgrade "pip>=25.1"
+	$(OLDEST)/bin/python .ci/oldest.py > $(OLDEST)/oldest.txt
+	$(OLDEST)/bin/python -m pip install --quiet --constraint $(OLDEST)/oldest.txt --editable . --group test
+	touch $@
+
 $(PEERS): $(READY)
 	$(RUN) pip install --quiet --editable ".[peers]"
 	touch $@
@@ -80,4 +98,4 @@ $(STRENGTH): $(READY)
 	touch $@
 
 clean:
-	rm -rf $(VENV) .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS) .mutation-killers.json
+	rm -rf $(VENV) $(OLDEST) .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS) .mutation-killers.json

@@ -50,6 +50,7 @@ def test_named_tests_are_those_of_the_suite():
     assert [fault for fault, (_, named_test) in FAULTS.items() if not is_in_the_suite(named_test)] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_named_test_catches(fault, monkeypatch):
     (places, name, wrong), named_test = FAULTS[fault]
