@@ -125,7 +125,7 @@ def test_wheels_that_do_not_repeat_themselves_are_counted(monkeypatch):
     assert wheel_ensemble.STEADY_TOLERANCE < 1e-3
 
 
-@pytest.mark.parametrize("solver", ["solve", "solve_plain"])
+@pytest.mark.parametrize("solver", ["solve", "solve_polonsky_keer"])
 def test_a_grid_that_does_not_converge_is_flagged_at_each_residual(solver):
     grid = Grid(scene="sphere", solver=solver, cells=12, tolerances=(1e-3, 1e-30), seed=1, true=False)
     with np.errstate(all="ignore"):
@@ -291,7 +291,7 @@ def swept_through(problem, lost):
         failed = np.zeros(len(problem.tolerances))
         failed[-1] = lost
         return {"failed": failed, "iterations": np.ones(2), "applications": np.ones(2)}
-    parts = {"knob": np.ones(3), "error": np.ones(3), "border": np.array(1.0), "said": np.array(["", "", ""])}
+    parts = {"values": np.ones(3), "error": np.ones(3), "threshold": np.array(1.0), "messages": np.array([""] * 3)}
     found = {f"{limit.name} {part}": value for limit in limits.LIMITS for part, value in parts.items()}
     return {**found, "failed": np.array(2.0 * lost)}
 
@@ -301,9 +301,9 @@ def test_a_solve_that_is_lost_in_a_sweep_is_a_line_of_the_result():
     assert limits.run(case, Given(swept_through, lambda _: False)).unconverged == ()
     first = case.problems()[0]
     assert limits.run(case, Given(swept_through, lambda p: p == first)).unconverged == (f"{type(first).__name__}: 2",)
-    grid = next(g for g in case.judged_grids() if g.solver == "solve_plain")
+    grid = next(g for g in case.judged_grids() if g.solver == "solve_polonsky_keer")
     lost = limits.run(case, Given(swept_through, lambda p: p == grid)).unconverged
-    assert lost == (f"{grid.scene}, {grid.cells}² cells, solve_plain to {grid.tolerances[-1]:g}",)
+    assert lost == (f"{grid.scene}, {grid.cells}² cells, solve_polonsky_keer to {grid.tolerances[-1]:g}",)
 
 
 def test_a_referee_that_is_lost_is_a_line_of_the_result():

@@ -1,4 +1,4 @@
-"""Where each method fails: on its side of its border, and with the words that the software has for it."""
+"""Where each method fails: on its side of the predicted threshold, and with the warnings of the software."""
 
 from dataclasses import replace
 
@@ -9,12 +9,11 @@ from scipy import special
 import bem3d
 import mdr
 from tests.oracles import dense_operator
-from validation.analysis.evidence import Verdict
-from validation.cases.limits import boundary_elements as limits_bem
+from validation.analysis.evidence import Verdict, numbers_with
 from validation.cases.limits import evidence as limits_evidence
+from validation.cases.limits import isotropy, linear_filter, spheres, time_stepping
 from validation.cases.limits import limits as case
-from validation.cases.limits import springs as limits_mdr
-from validation.cases.limits import time_stepping as limits_time
+from validation.cases.limits.numbers import EXPECTED_EXPONENTS, threshold_number, warnings_number
 from validation.cases.limits.sweep import Limit, Sweep, call_and_record_warnings, swept
 from validation.report.figures import limits as figures
 from validation.simulation.contact_laws import HertzLaw
@@ -42,11 +41,11 @@ STEEP = Limit(
     name="steep",
     method="none",
     title="x to the second",
-    knob="x",
+    parameter="x",
     error="y",
-    against="nothing",
+    reference="nothing",
     condition="x = 2",
-    failing="above",
+    failing_side="above",
     tolerance=4.0,
     factor=1.5,
 )
@@ -61,22 +60,6 @@ def found(result, name):
     return next(sweep for sweep in result.sweeps if sweep.limit.name == name)
 
 
-def changed(result, name, **changes):
-    """The result with one sweep changed."""
-    return replace(result, sweeps=tuple(replace(s, **changes) if s.limit.name == name else s for s in result.sweeps))
-
-
-def verdicts(result, name, part):
-    limit = found(result, name).limit
-    numbers = [
-        n
-        for n in limits_evidence.evidence(result).numbers
-        if n.label.startswith(f"{limit.method}, {limit.title}:") and part in n.label
-    ]
-    assert len(numbers) == 1
-    return numbers[0].verdict
-
-
 def test_all_criteria_are_met(result):
     evidence = limits_evidence.evidence(result)
     assert [n.sentence for n in evidence.numbers if not n.met] == []
@@ -89,63 +72,69 @@ def test_names_are_unique():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_each_limit_fails_on_its_side(result, name):
-    """More beyond the border than on the good side, and past the tolerance there."""
+    """More past the threshold than before it, and past the tolerance there."""
     sweep = found(result, name)
-    assert (np.diff(sweep.knob) > 0).all()
-    good, failed = sweep.error[sweep.within], sweep.error[sweep.beyond]
+    assert (np.diff(sweep.values) > 0).all()
+    good, failed = sweep.error[sweep.before_threshold], sweep.error[sweep.past_threshold]
     assert good.size and failed.size
     assert np.median(failed) > max(np.median(good), sweep.limit.tolerance)
 
 
 @pytest.mark.parametrize("name", DERIVED)
-def test_borders_of_theory_are_where_it_says(result, name):
-    assert found(result, name).predicted
-    assert verdicts(result, name, "octaves") is Verdict.AGREE
+def test_thresholds_are_where_theory_says(result, name):
+    sweep = found(result, name)
+    assert sweep.predicted
+    number = threshold_number(sweep)
+    assert number.verdict is Verdict.AGREE
+    assert number in limits_evidence.evidence(result).numbers
 
 
 @pytest.mark.parametrize("name", DERIVED)
-def test_a_border_elsewhere_is_noticed(result, name):
+def test_a_threshold_elsewhere_is_noticed(result, name):
     sweep = found(result, name)
     for shift in (2 * sweep.limit.factor**2, 0.5 / sweep.limit.factor**2):
-        assert verdicts(changed(result, name, border=shift * sweep.border), name, "octaves") is Verdict.DIFFER
+        elsewhere = replace(sweep, predicted_threshold=shift * sweep.predicted_threshold)
+        assert threshold_number(elsewhere).verdict is Verdict.DIFFER
 
 
 @pytest.mark.parametrize("name", WARNED)
-def test_who_goes_too_far_is_told(result, name):
-    assert found(result, name).verdict == "told"
-    assert verdicts(result, name, "told") is Verdict.AGREE
+def test_a_user_past_the_threshold_is_warned(result, name):
+    sweep = found(result, name)
+    assert sweep.verdict == "warned"
+    number = warnings_number(sweep)
+    assert number.verdict is Verdict.AGREE
+    assert number in limits_evidence.evidence(result).numbers
 
 
 @pytest.mark.parametrize("name", WARNED)
 def test_silence_and_crying_wolf_are_noticed(result, name):
     sweep = found(result, name)
-    for words in ("", "wolf"):
-        wrong = changed(result, name, said=(words,) * sweep.knob.size)
-        assert verdicts(wrong, name, "told") is Verdict.DIFFER
-    assert found(changed(result, name, said=("",) * sweep.knob.size), name).verdict == "not told"
+    silent, wolf = (replace(sweep, messages=(words,) * sweep.values.size) for words in ("", "wolf"))
+    assert {warnings_number(wrong).verdict for wrong in (silent, wolf)} == {Verdict.DIFFER}
+    assert silent.verdict == "not warned"
 
 
-def test_captured_words_are_those_of_the_code(result):
-    """The very sentences, asked for once more."""
-    body, gap = limits_bem.half_space(8, 1 / 1.2), limits_bem.sphere(8, 1 / 1.2, 0.0625)
+def test_recorded_messages_are_those_of_the_code(result):
+    """The same calls once more."""
+    body, gap = spheres.half_space(8, 1 / 1.2), spheres.sphere(8, 1 / 1.2, 0.0625)
     with pytest.warns(bem3d.ResolutionWarning) as caught:
         bem3d.solve(body, gap, approach=1.0)
-    assert found(result, "cells").said[2] == f"ResolutionWarning: {caught[0].message}"
+    assert found(result, "cells").messages[2] == f"ResolutionWarning: {caught[0].message}"
     with pytest.raises(ValueError, match="time_step") as refused:
         simulate(WHEEL, HertzLaw(WHEEL), time_step=3.0 / WHEEL.eigenfrequency, steps=1)
-    assert found(result, "step").said[-1] == f"ValueError: {refused.value}"
-    assert any("), which touches alone, carries" in words for words in found(result, "spike").said)
-    assert found(result, "huge force").said[-1].startswith("ConvergenceError: residual")
-    assert found(result, "full contact").said[-1].startswith("ValueError: approach must stay below the mean gap")
-    assert found(result, "edge").said[0].startswith("EdgeWarning: ")
-    assert found(result, "strip").said[0].startswith("ValueError: height must be wider than the contact")
-    assert found(result, "spacing").said[0].startswith("ValueError: c1d must vanish beyond the Nyquist")
+    assert found(result, "step").messages[-1] == f"ValueError: {refused.value}"
+    assert any("), which touches alone, carries" in words for words in found(result, "spike").messages)
+    assert found(result, "huge force").messages[-1].startswith("ConvergenceError: residual")
+    assert found(result, "full contact").messages[-1].startswith("ValueError: approach must stay below the mean gap")
+    assert found(result, "edge").messages[0].startswith("EdgeWarning: ")
+    assert found(result, "strip").messages[0].startswith("ValueError: height must be wider than the contact")
+    assert found(result, "spacing").messages[0].startswith("ValueError: c1d must vanish beyond the Nyquist")
     assert (
         found(result, "spacing")
-        .said[1]
+        .messages[1]
         .startswith("SpringResolutionWarning: the shortest wave of the spectrum has 2.2 s")
     )
-    assert found(result, "linear").said[-1].startswith("LinearityWarning: roughness of h_rms / d = 1 ")
+    assert found(result, "linear").messages[-1].startswith("LinearityWarning: roughness of h_rms / d = 1 ")
 
 
 def test_figures_are_drawn_from_tables(result):
@@ -155,21 +144,21 @@ def test_figures_are_drawn_from_tables(result):
     assert len(figures.draw_solver(evidence).axes) == 4
 
 
-@pytest.mark.parametrize("failing", ["above", "below"])
-def test_crossings_of_a_power_law(failing):
+@pytest.mark.parametrize("side", ["above", "below"])
+def test_crossings_of_a_power_law(side):
     """y = x^2 is past 4 from x = 2 on; mirrored, y = 16 / x^2 up to there."""
     x = np.geomspace(0.1, 30, 12)
-    error = x**2 if failing == "above" else 16 / x**2
-    limit = replace(STEEP, failing=failing)
+    error = x**2 if side == "above" else 16 / x**2
+    limit = replace(STEEP, failing_side=side)
     sweep = Sweep(limit, x, error, 2.0, tuple("words" if e > 4 else "" for e in error))
     where, half = sweep.crossing
     assert where == pytest.approx(2.0, rel=1e-9)
     assert half == pytest.approx(np.log2(x[1] / x[0]) / 2)
     assert sweep.predicted
-    assert (sweep.told, sweep.verdict, sweep.sentence) == (1.0, "told", "words")
-    far = replace(sweep, border=20.0 if failing == "above" else 0.2)
+    assert (sweep.share_of_correct_warnings, sweep.verdict, sweep.first_message) == (1.0, "warned", "words")
+    far = replace(sweep, predicted_threshold=20.0 if side == "above" else 0.2)
     assert not far.predicted
-    assert far.told < 1
+    assert far.share_of_correct_warnings < 1
 
 
 def test_sweeps_without_a_crossing():
@@ -179,20 +168,20 @@ def test_sweeps_without_a_crossing():
     refused = Sweep(STEEP, x, np.array([1.0, 1.0, np.inf, np.inf]), 2.0, ("", "", "no", "no"))
     assert refused.crossing[0] == pytest.approx(np.sqrt(1.9 * 2.1))
     assert refused.predicted
-    assert refused.verdict == "told"
-    assert replace(refused, said=("", "", "", "no")).verdict == "told"
-    assert replace(refused, said=("no", "", "", "no")).verdict == "told at 1 of 1, too early"
+    assert refused.verdict == "warned"
+    assert replace(refused, messages=("", "", "", "no")).verdict == "warned"
+    assert replace(refused, messages=("no", "", "", "no")).verdict == "warned at 1 of 1, too early"
 
 
 def test_sweeps_are_put_in_order():
-    outcome = swept("steep", [3.0, 1.0, 2.0], [9.0, 1.0, 4.0], 2.0, ["c", "a", "b"])
+    outcome = swept(STEEP, [3.0, 1.0, 2.0], [(9.0, "c"), (1.0, "a"), (4.0, "b")], 2.0)
     sweep = Sweep.of(STEEP, outcome)
-    assert sweep.knob.tolist() == [1.0, 2.0, 3.0]
+    assert sweep.values.tolist() == [1.0, 2.0, 3.0]
     assert sweep.error.tolist() == [1.0, 4.0, 9.0]
-    assert sweep.said == ("a", "b", "c")
+    assert sweep.messages == ("a", "b", "c")
 
 
-def test_who_is_heard():
+def test_warnings_and_refusals_are_recorded():
     band = mdr.SelfAffine(hurst=0.7, q_min=7.0, q_max=50.0, rms=1e-6)
     draw = {"length": 1.0, "rng": np.random.default_rng(0)}
     assert call_and_record_warnings(lambda: mdr.rough_profile(band.c1d, points=64, **draw))[1] == ""
@@ -211,20 +200,20 @@ def test_sum_over_the_lattice_by_ewald():
     i = np.arange(-6, 7)
     n = np.hypot(i[:, np.newaxis], i)
     n = n[n > 0]
-    assert 2 * np.sum(special.erfc(np.sqrt(np.pi) * n) / n) - 4 == pytest.approx(-limits_bem.LATTICE, rel=1e-6)
+    assert 2 * np.sum(special.erfc(np.sqrt(np.pi) * n) / n) - 4 == pytest.approx(-spheres.LATTICE, rel=1e-6)
 
 
 def test_stiffness_of_a_lone_cell():
     body = bem3d.HalfSpace(shape=(1, 1), spacing=0.3, modulus=2.0)
     k = 0.3**2 / dense_operator(body)[0, 0]
-    assert k / (2.0 * 0.3) == pytest.approx(limits_bem.LONE_CELL, rel=1e-9)
+    assert k / (2.0 * 0.3) == pytest.approx(spheres.LONE_CELL, rel=1e-9)
 
 
 def test_images_err_as_the_lattice_sum_says():
     """1.655 a / L, but for (a / L)^3 of the forces of images that are no points, and the kernels of the cells."""
-    spheres = limits_bem.Spheres(coarse=(), places=1, periods=(6, 12, 24), fine=8, sides=(), finer=1, heights=())
-    found = limits_bem._images(spheres)
-    expected = limits_bem.LATTICE * 4 / (3 * np.pi) / found["images knob"]
+    small = spheres.Spheres(coarse=(), places=1, periods=(6, 12, 24), fine=8, sides=(), finer=1, heights=())
+    found = spheres.sweep_period(small)
+    expected = spheres.LATTICE * 4 / (3 * np.pi) / found["images values"]
     assert found["images error"] == pytest.approx(expected, rel=0.025)
 
 
@@ -232,10 +221,10 @@ def test_a_stretched_surface_by_another_quadrature():
     """Isotropic it is force_variance; of short waves the variance does not depend on the ratio."""
     long, short = self_affine(0.7, 0.5, 4.0), self_affine(0.7, 100.0, 400.0)
     exact = force_variance(long.c2d, edges=long.edges, contact_radius=1.0, modulus=1.0)
-    assert limits_mdr.stretched_variance(long, 1.0) == pytest.approx(exact, rel=1e-5)
-    one, four = (limits_mdr.stretched_variance(short, ratio, lines=6000) for ratio in (1.0, 4.0))
+    assert isotropy.stretched_variance(long, 1.0) == pytest.approx(exact, rel=1e-5)
+    one, four = (isotropy.stretched_variance(short, ratio, lines=6000) for ratio in (1.0, 4.0))
     assert four == pytest.approx(one, rel=0.02)
-    nothing = limits_mdr.stretched_variance(self_affine(0.7, 1e-3, 2e-3), 4.0)
+    nothing = isotropy.stretched_variance(self_affine(0.7, 1e-3, 2e-3), 4.0)
     assert nothing == pytest.approx(4.0, rel=1e-4)
 
 
@@ -243,32 +232,35 @@ def test_slope_of_a_power_law():
     """<q^2> = 2 pi int q^3 C_2D dq over 2 pi int q C_2D dq with C_2D ~ q^-3.4."""
     spectrum = self_affine(0.7, 1.0, 8.0)
     moments = (8.0**0.6 - 1) / 0.6 / ((1 - 8.0**-1.4) / 1.4)
-    assert limits_mdr.rms_slope(spectrum) ** 2 == pytest.approx(moments, rel=1e-4)
+    assert linear_filter.rms_slope(spectrum) ** 2 == pytest.approx(moments, rel=1e-4)
 
 
 def test_theory_of_small_changes_of_energy():
-    """Borders of explicit Euler and of Runge-Kutta, from the product of their factors over a turn."""
-    outcome = limits_time.step_out(limits_time.TimeSteps(verlet=(1.0,), euler=(0.01, 0.02), kutta=(0.9, 1.1), turns=6))
-    x = float(outcome["Euler border"])
-    assert (1 + x**2) ** (2 * np.pi / x) - 1 == pytest.approx(limits_time.EULER.tolerance, rel=2 * x)
-    x = float(outcome["Runge-Kutta border"])
-    assert 1 - (1 - x**6 / 72) ** (2 * np.pi / x) == pytest.approx(limits_time.KUTTA.tolerance, rel=x**6 / 72)
+    """Thresholds of explicit Euler and of Runge-Kutta, from the product of their factors over a turn."""
+    outcome = time_stepping.sweep_time_step(
+        time_stepping.TimeSteps(verlet=(1.0,), euler=(0.01, 0.02), kutta=(0.9, 1.1), turns=6)
+    )
+    x = float(outcome["Euler threshold"])
+    assert (1 + x**2) ** (2 * np.pi / x) - 1 == pytest.approx(time_stepping.EULER.tolerance, rel=2 * x)
+    x = float(outcome["Runge-Kutta threshold"])
+    assert 1 - (1 - x**6 / 72) ** (2 * np.pi / x) == pytest.approx(time_stepping.KUTTA.tolerance, rel=x**6 / 72)
 
 
 def test_a_residual_that_forgives_is_noticed(result):
     forgiving = [(grid, {**found, "residual": 1e-3 * found["residual"]}) for grid, found in result.judged]
     numbers = limits_evidence.evidence(replace(result, judged=forgiving)).numbers
-    assert {n.verdict for n in numbers if n.label.startswith("error of the")} == {Verdict.DIFFER}
+    assert {n.verdict for n in numbers_with(numbers, "true error over residual, largest")} == {Verdict.DIFFER}
 
 
 def test_iterations_that_grow_are_noticed(result):
     growing = [(g, {**found, "iterations": found["iterations"] * g.cells}) for g, found in result.iterated]
     numbers = limits_evidence.evidence(replace(result, iterated=growing)).numbers
-    assert Verdict.AGREE not in {n.verdict for n in numbers if n.label.startswith("solve")}
+    found = [n for solver in EXPECTED_EXPONENTS for n in numbers_with(numbers, model=solver)]
+    assert len(found) == 6 and Verdict.AGREE not in {n.verdict for n in found}
 
 
 def test_input_without_an_answer_is_refused(result):
-    answers = {str(row["asked"]): str(row["answer"]) for row in result.unanswered}
+    answers = {str(row["call"]): str(row["answer"]) for row in result.unanswered}
     assert answers["bem3d.solve, zero force"] == "force 0, stiffness 0"
     assert answers["bem3d.solve, infinite force"] == "ValueError: force must be finite, got inf"
     assert answers["bem3d.solve, one NaN cell"].startswith("ValueError: gap must be finite, got 1 NaN or infinite")

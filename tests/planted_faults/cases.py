@@ -13,7 +13,7 @@ from tests.cases import test_flags, test_fractal_punch, test_limits, test_wheel_
 from tests.planted_faults.wrong import scaled
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict
-from validation.cases.limits import springs as limits_mdr
+from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import fractal_punch, fractal_punch_decades
 from validation.cases.selection import model_selection as ladder_on_trial
@@ -163,11 +163,11 @@ FAULTS = {
         test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
     "a limit read on its good side": (
-        (limits.Sweep, "beyond", limits.Sweep.within),
+        (limits.Sweep, "past_threshold", limits.Sweep.before_threshold),
         functools.partial(test_limits.test_crossings_of_a_power_law, "above"),
     ),
     "factor 4 lost over a stretched surface": (
-        (limits_mdr, "response", scaled(rolling_theory.response, 0.5)),
+        (isotropy, "response", scaled(rolling_theory.response, 0.5)),
         test_limits.test_a_stretched_surface_by_another_quadrature,
     ),
     "factor 2 lost in the periodic symbol, seen by images": (

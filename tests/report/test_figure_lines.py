@@ -483,11 +483,11 @@ def plain_axis():
 
 
 def test_lines_of_iterations():
-    keys = {"solver": np.repeat(["solve", "solve_plain"], 4), "scene": np.tile(np.repeat(["a", "b"], 2), 2)}
+    keys = {"solver": np.repeat(["solve", "solve_polonsky_keer"], 4), "scene": np.tile(np.repeat(["a", "b"], 2), 2)}
     table = Made({**keys, "cells": [32, 64] * 4})
     residual = Made(keys)
     axes = limits.draw_solver(made(iterations=table, residual=residual)).axes
-    pairs = [(solver, scene) for solver in ("solve", "solve_plain") for scene in ("a", "b")]
+    pairs = [(solver, scene) for solver in ("solve", "solve_polonsky_keer") for scene in ("a", "b")]
     drawn(axes[0], **{f"{v}, {s}": table.where(solver=v, scene=s)["iterations"] for v, s in pairs})
     for axis, measure in zip(axes[1:], ("load", "stiffness", "pressure"), strict=True):
         assert axis.get_title() == f"true error: {measure}"

@@ -27,6 +27,7 @@ from validation.analysis.evidence import (
 from validation.analysis.statistics import Estimate
 from validation.benchmarks.work_precision.pareto import in_unit, said
 from validation.cases.limits import evidence as limits_evidence
+from validation.cases.limits import numbers as limits_numbers
 from validation.cases.punch import area_gap_rolloff as mdr_limits
 from validation.cases.punch import fractal_punch_decades
 from validation.cases.punch.fractal_punch import FractalPunch
@@ -385,18 +386,18 @@ def test_the_interface_prints_the_numbers_it_is_given():
 
 
 def test_limits_print_the_numbers_they_are_given():
-    n = number(0.123, quantity="solve, sphere: iterations ~ cells on a side to the power of", sample=0.0456)
-    assert limits_evidence._of_iterations([n]).endswith("to the power of: solve, sphere 0.12 ± 0.05.")
+    n = number(0.123, quantity="exponent", model="solve", where={"scene": "sphere"}, sample=0.0456)
+    assert limits_evidence._on_iterations([n]).endswith("to the power of: solve, sphere 0.12 ± 0.05.")
     residuals = table_of(
         "residual",
         [
             {"solver": solver, "residual": 1e-3, **{f"error of the {m}": f * 1e-3 for m in limits_evidence.MEASURES}}
-            for solver, f in (("solve", 2.0), ("solve_plain", 7.0))
+            for solver, f in (("solve", 2.0), ("solve_polonsky_keer", 7.0))
         ],
     )
-    honest = [limits_evidence._honest(residuals, measure) for measure in limits_evidence.MEASURES]
+    honest = [limits_numbers.residual_number(residuals, measure) for measure in limits_evidence.MEASURES]
     assert [n.value for n in honest] == pytest.approx([7.0] * 3)
-    text = limits_evidence._of_residuals(residuals, honest)
+    text = limits_evidence._on_residuals(residuals, honest)
     assert "c = load 7, stiffness 7, pressure 7" in text and "alone load 2, stiffness 2, pressure 2." in text
 
 

@@ -1,4 +1,4 @@
-"""Iterations on finer and finer grids, the residual beside the true error, and input that has no answer."""
+"""Iterations on finer and finer grids, the residual against the true error, and input that has no answer."""
 
 import math
 from collections.abc import Callable
@@ -10,7 +10,8 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.cases.limits.boundary_elements import distance, sphere
+from validation.cases.limits.periodic_waves import distance
+from validation.cases.limits.spheres import sphere
 from validation.cases.limits.sweep import call_and_record_warnings
 from validation.engine.engine import Outcome
 from validation.simulation.rough_punch import PunchRoughness
@@ -18,7 +19,10 @@ from validation.simulation.rough_punch import PunchRoughness
 Row = dict[str, object]
 
 SCENES = ("sphere", "rough punch", "rough, periodic")
-SOLVERS: dict[str, Callable[..., bem3d.Contact]] = {"solve": bem3d.solve, "solve_plain": bem3d.solve_polonsky_keer}
+SOLVERS: dict[str, Callable[..., bem3d.Contact]] = {
+    "solve": bem3d.solve,
+    "solve_polonsky_keer": bem3d.solve_polonsky_keer,
+}
 MEASURES = ("load", "stiffness", "pressure")
 TRUE = 1e-11
 """The residual of what stands for the truth."""
@@ -36,8 +40,8 @@ class Grid:
     true: bool = False
 
 
-def put(scene: str, cells: int, seed: int) -> tuple[bem3d.HalfSpace, np.ndarray, dict[str, Any]]:
-    """The problem: half-space, gap, and what is prescribed; the same surface on every grid."""
+def setup_problem(scene: str, cells: int, seed: int) -> tuple[bem3d.HalfSpace, np.ndarray, dict[str, Any]]:
+    """Half-space, gap, and the prescribed force or approach; the same surface on every grid."""
     if scene == "sphere":
         body = bem3d.HalfSpace(shape=(cells, cells), spacing=3 / cells, modulus=1.0)
         return body, sphere(cells, 3 / cells), {"approach": 1.0}
@@ -49,11 +53,11 @@ def put(scene: str, cells: int, seed: int) -> tuple[bem3d.HalfSpace, np.ndarray,
 
 
 def press_grid(grid: Grid) -> Outcome:
-    """Iterations and applications to each residual; and, where the truth is asked for, the errors that are left.
+    """Iterations and applications to each residual; and, with grid.true, the errors that are left.
 
     load: of the force at an approach, of the approach at a force, over the overlap; stiffness; pressure in L2.
     """
-    body, gap, load = put(grid.scene, grid.cells, grid.seed)
+    body, gap, load = setup_problem(grid.scene, grid.cells, grid.seed)
     true = bem3d.solve(body, gap, **load, tolerance=TRUE, raise_on_failure=False) if grid.true else None
     rows = []
     for tolerance in grid.tolerances:
@@ -75,14 +79,14 @@ def _errors(contact: bem3d.Contact, true: bem3d.Contact) -> tuple[float, float, 
 
 
 def without_an_answer() -> list[Row]:
-    """Input for which there is no contact problem, or no figure: asked, and what was said."""
+    """Input for which there is no contact problem, or no figure: the call, and its answer or message."""
     body, gap = bem3d.HalfSpace(shape=(24, 24), spacing=1 / 8, modulus=1.0), sphere(24, 1 / 8)
     wave = bem3d.HalfSpace(shape=(24, 24), spacing=1 / 8, modulus=1.0, periodic=True)
     broken, endless = gap.copy(), gap.copy()
     broken[3, 4], endless[3, 4] = np.nan, np.inf
     heights = np.sin(np.arange(64.0))
     curve = mdr.load_curve(heights, length=1.0, modulus=1.0)
-    asked: dict[str, Callable[[], Any]] = {
+    calls: dict[str, Callable[[], Any]] = {
         "bem3d.solve, zero force": partial(bem3d.solve, body, gap, force=0.0),
         "bem3d.solve, infinite force": partial(bem3d.solve, body, gap, force=math.inf),
         "bem3d.solve, one NaN cell": partial(bem3d.solve, body, broken, approach=1.0),
@@ -93,13 +97,12 @@ def without_an_answer() -> list[Row]:
         "mdr at_force, zero": partial(curve.at_force, 0.0),
         "mdr at_force, infinite": partial(curve.at_force, math.inf),
     }
-    return [{"asked": words, "answer": _answered(call)} for words, call in asked.items()]
+    return [{"call": name, "answer": _answer_of(call)} for name, call in calls.items()]
 
 
-def _answered(call: Callable[[], Any]) -> str:
-    answer, words = call_and_record_warnings(call)
+def _answer_of(call: Callable[[], Any]) -> str:
+    answer, message = call_and_record_warnings(call)
     if answer is None:
-        return words
+        return message
     stiffness = answer.stiffness() if isinstance(answer, bem3d.Contact) else answer.stiffness
-    said = f"; {words}" if words else ""
-    return f"force {answer.force:g}, stiffness {stiffness:g}{said}"
+    return f"force {answer.force:g}, stiffness {stiffness:g}" + (f"; {message}" if message else "")

@@ -1,4 +1,4 @@
-"""A limit of a method, and a sweep through it: the error, the border that was predicted, what the software says."""
+"""A limit of a method, and a sweep through it: the error, the threshold that is predicted, what the software says."""
 
 import math
 import warnings
@@ -14,6 +14,8 @@ import mdr
 from validation.engine.engine import Outcome
 
 FloatArray = NDArray[np.float64]
+Point = tuple[float, str]
+"""The error at one value of the parameter, and the message of the software, empty where it gives none."""
 T = TypeVar("T")
 REFUSALS = (ValueError, ArithmeticError, bem3d.ConvergenceError)
 
@@ -22,20 +24,21 @@ REFUSALS = (ValueError, ArithmeticError, bem3d.ConvergenceError)
 class Limit:
     """What is swept and measured, and where it must fail.
 
-    name: of the sweep; method: that fails; title: in a few words; knob, error: what is changed, and what comes of it,
-    with units; against: what is better; condition: of the border; failing: its bad side; tolerance: of the error, above
-    zero; factor: above one, within which the border is predicted; derived: whether the border follows from theory alone
-    and must be met, or is an estimate; warned: whether the software must speak beyond it, and nowhere else.
+    name: of the sweep; method: that fails; title: in a few words; parameter, error: what is changed and what is
+    measured, with units; reference: what the error is measured against; condition: of the threshold; failing_side: of
+    it; tolerance: of the error, above zero; factor: above one, within which the threshold is predicted; derived:
+    whether the threshold follows from theory alone and must be met, or is an estimate; warned: whether the software
+    must warn or refuse past it, and nowhere else.
     """
 
     name: str
     method: str
     title: str
-    knob: str
+    parameter: str
     error: str
-    against: str
+    reference: str
     condition: str
-    failing: Literal["above", "below"]
+    failing_side: Literal["above", "below"]
     tolerance: float
     factor: float
     derived: bool = False
@@ -44,114 +47,117 @@ class Limit:
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """A limit, swept: values of the knob, ascending, the error at each, infinite where there is no answer, the border
-    of its condition, and what the software said at each value, nothing where it was silent.
+    """A limit, swept: values of its parameter, ascending; the error at each, infinite where there is no answer; the
+    threshold by its condition; the message of the software at each value, empty where it gives none.
     """
 
     limit: Limit
-    knob: FloatArray
+    values: FloatArray
     error: FloatArray
-    border: float
-    said: tuple[str, ...]
+    predicted_threshold: float
+    messages: tuple[str, ...]
 
     @classmethod
     def of(cls, limit: Limit, outcome: Outcome) -> "Sweep":
-        """The sweep of that name in what a solve has found."""
-        knob, error, border, said = (outcome[f"{limit.name} {part}"] for part in ("knob", "error", "border", "said"))
-        return cls(limit, knob, error, float(border), tuple(str(words) for words in said))
+        """The sweep of that name in the outcome of a solve."""
+        parts = ("values", "error", "threshold", "messages")
+        values, error, threshold, messages = (outcome[f"{limit.name} {part}"] for part in parts)
+        return cls(limit, values, error, float(threshold), tuple(str(message) for message in messages))
 
     @property
-    def beyond(self) -> NDArray[np.bool_]:
-        """Values on the failing side, further from the border than the factor."""
-        factor = self.limit.factor
-        if self.limit.failing == "above":
-            return np.asarray(self.knob > self.border * factor)
-        return np.asarray(self.knob < self.border / factor)
+    def past_threshold(self) -> NDArray[np.bool_]:
+        """Values on the failing side, further from the threshold than the factor."""
+        threshold, factor = self.predicted_threshold, self.limit.factor
+        if self.limit.failing_side == "above":
+            return np.asarray(self.values > threshold * factor)
+        return np.asarray(self.values < threshold / factor)
 
     @property
-    def within(self) -> NDArray[np.bool_]:
-        """Values on the good side, further from the border than the factor."""
-        factor = self.limit.factor
-        if self.limit.failing == "above":
-            return np.asarray(self.knob < self.border / factor)
-        return np.asarray(self.knob > self.border * factor)
+    def before_threshold(self) -> NDArray[np.bool_]:
+        """Values on the other side, further from the threshold than the factor."""
+        threshold, factor = self.predicted_threshold, self.limit.factor
+        if self.limit.failing_side == "above":
+            return np.asarray(self.values < threshold / factor)
+        return np.asarray(self.values > threshold * factor)
 
     @property
-    def spoke(self) -> NDArray[np.bool_]:
+    def warned(self) -> NDArray[np.bool_]:
         """Where the software warned or refused."""
-        return np.array([bool(words) for words in self.said])
+        return np.array([bool(message) for message in self.messages])
 
     @property
     def predicted(self) -> bool:
-        """Whether the error is past its tolerance everywhere beyond the border, and nowhere on the good side."""
-        failed, good = self.error[self.beyond], self.error[self.within]
+        """Whether the error exceeds its tolerance everywhere past the threshold, and nowhere before it."""
+        failed, good = self.error[self.past_threshold], self.error[self.before_threshold]
         tolerance = self.limit.tolerance
         return bool(failed.size and good.size and (failed > tolerance).all() and (good <= tolerance).all())
 
     @property
     def refused(self) -> bool:
-        """Whether there is no answer anywhere beyond the border, so that no error is seen there."""
-        return not np.isfinite(self.error[self.beyond]).any()
+        """Whether there is no answer anywhere past the threshold, so that no error is seen there."""
+        return not np.isfinite(self.error[self.past_threshold]).any()
 
     @property
-    def told(self) -> float:
-        """The part of the values beyond the border, and of those on the good side, where it spoke and was silent."""
-        return float(np.concatenate([self.spoke[self.beyond], ~self.spoke[self.within]]).mean())
+    def share_of_correct_warnings(self) -> float:
+        """Of the values past the threshold and before it: where a message was given, and where there was none."""
+        return float(np.concatenate([self.warned[self.past_threshold], ~self.warned[self.before_threshold]]).mean())
 
     @property
     def verdict(self) -> str:
-        """Whether a user was told."""
-        spoke, early = self.spoke[self.beyond], self.spoke[self.within]
-        if spoke.size and spoke.all() and not early.any():
-            return "told"
-        if not spoke.any():
-            return "not told"
-        return f"told at {np.count_nonzero(spoke)} of {spoke.size}" + (", too early" if early.any() else "")
+        """Whether a user was warned."""
+        warned, early = self.warned[self.past_threshold], self.warned[self.before_threshold]
+        if warned.size and warned.all() and not early.any():
+            return "warned"
+        if not warned.any():
+            return "not warned"
+        return f"warned at {np.count_nonzero(warned)} of {warned.size}" + (", too early" if early.any() else "")
 
     @property
     def crossing(self) -> tuple[float, float] | None:
         """Where the error passes its tolerance, on a logarithmic scale, and half of the step it lies in, in octaves.
 
-        Going from the good side on, for the last time; None where it does not.
+        From the good side on, for the last time; None where it does not.
         """
-        order = slice(None) if self.limit.failing == "above" else slice(None, None, -1)
-        knob, error = np.log2(self.knob[order]), self.error[order]
+        order = slice(None) if self.limit.failing_side == "above" else slice(None, None, -1)
+        values, error = np.log2(self.values[order]), self.error[order]
         good = np.flatnonzero(error <= self.limit.tolerance)
         if not good.size or good[-1] == error.size - 1:
             return None
         last = slice(int(good[-1]), int(good[-1]) + 2)
-        (x, y), (low, high) = knob[last], np.maximum(error[last], 1e-3 * self.limit.tolerance)
+        (x, y), (low, high) = values[last], np.maximum(error[last], 1e-3 * self.limit.tolerance)
         part = math.log(self.limit.tolerance / low) / math.log(high / low) if math.isfinite(high) else 0.5
         return float(2 ** (x + part * (y - x))), abs(float(y - x)) / 2
 
-    def at_the_ends(self) -> tuple[float, float]:
-        """The largest error on the good side and the smallest beyond the border; NaN where the sweep has none."""
-        good, failed = self.error[self.within], self.error[self.beyond]
+    @property
+    def extreme_errors(self) -> tuple[float, float]:
+        """The largest error before the threshold and the smallest past it; NaN where the sweep has none."""
+        good, failed = self.error[self.before_threshold], self.error[self.past_threshold]
         return float(good.max()) if good.size else math.nan, float(failed.min()) if failed.size else math.nan
 
     @property
-    def sentence(self) -> str:
-        """The first thing that was said beyond the border, or nothing."""
-        spoken = [words for words, beyond in zip(self.said, self.beyond, strict=True) if words and beyond]
-        return (spoken[-1] if self.limit.failing == "below" else spoken[0]) if spoken else ""
+    def first_message(self) -> str:
+        """The message nearest to the threshold on its failing side, empty where there is none."""
+        given = [m for m, past in zip(self.messages, self.past_threshold, strict=True) if m and past]
+        return (given[-1] if self.limit.failing_side == "below" else given[0]) if given else ""
 
 
-def swept(name: str, knob: ArrayLike, error: ArrayLike, border: float, said: Sequence[str]) -> Outcome:
-    """What a solve has found of a limit, in ascending order of the knob."""
-    order = np.argsort(np.asarray(knob, dtype=np.float64))
+def swept(limit: Limit, values: ArrayLike, points: Sequence[Point], threshold: float) -> Outcome:
+    """The outcome of a solve that has swept a limit, in ascending order of its parameter."""
+    x = np.asarray(values, dtype=np.float64)
+    order = np.argsort(x)
     return {
-        f"{name} knob": np.asarray(knob, dtype=np.float64)[order],
-        f"{name} error": np.asarray(error, dtype=np.float64)[order],
-        f"{name} border": np.array(float(border)),
+        f"{limit.name} values": x[order],
+        f"{limit.name} error": np.array([points[i][0] for i in order], dtype=np.float64),
+        f"{limit.name} threshold": np.array(float(threshold)),
         # a stored outcome keeps words as well as numbers
-        f"{name} said": cast(FloatArray, np.array([said[i] for i in order], dtype=np.str_)),
+        f"{limit.name} messages": cast(FloatArray, np.array([points[i][1] for i in order], dtype=np.str_)),
     }
 
 
 def call_and_record_warnings(call: Callable[[], T]) -> tuple[T | None, str]:
-    """What a call answers, None where it refuses, and what it says: its warnings, or the reason of its refusal.
+    """The answer of a call, None where it refuses, and its message: its warnings, or the reason of its refusal.
 
-    Whether units are right is asked of spikes and pits on either side of a limit, and is no word about it.
+    Warnings about units are left out: sweeps of spikes and pits give them on either side of a threshold.
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -159,5 +165,5 @@ def call_and_record_warnings(call: Callable[[], T]) -> tuple[T | None, str]:
             answer = call()
         except REFUSALS as error:
             return None, f"{type(error).__name__}: {error}"
-    said = [w for w in caught if not issubclass(w.category, (mdr.SpringUnitsWarning, bem3d.UnitsWarning))]
-    return answer, "; ".join(f"{w.category.__name__}: {w.message}" for w in said)
+    given = [w for w in caught if not issubclass(w.category, (mdr.SpringUnitsWarning, bem3d.UnitsWarning))]
+    return answer, "; ".join(f"{w.category.__name__}: {w.message}" for w in given)

@@ -1,4 +1,4 @@
-"""Figures of where each method fails: one panel a limit; iterations on finer grids; the residual beside the truth."""
+"""Figures of where each method fails: one panel a limit; iterations on finer grids; residual against true error."""
 
 import textwrap
 
@@ -17,7 +17,7 @@ FEWER = {"left": 0.06, "right": 0.985, "bottom": 0.08, "top": 0.87, "wspace": 0.
 FOUR = {"left": 0.08, "right": 0.985, "bottom": 0.08, "top": 0.95, "wspace": 0.24, "hspace": 0.32}
 COUNTS = (10, 20, 50, 100, 200)
 OPEN = {"markerfacecolor": "white", "linestyle": "--"}
-BORDER: Style = {"color": "#000000", "linestyle": "--", "linewidth": 1.0}
+THRESHOLD: Style = {"color": "#000000", "linestyle": "--", "linewidth": 1.0}
 FLOOR = 1e-3
 """Errors so far below the tolerance are drawn there."""
 
@@ -47,11 +47,11 @@ def _explain(figure: Figure) -> None:
     """What all panels have in common, above them."""
     mark: Style = {"linestyle": "none", "marker": "o", "markersize": 5, "color": "#333333"}
     handles = [
-        Line2D([], [], **mark, label="the software was silent"),
-        Line2D([], [], **{**mark, "markerfacecolor": "white"}, label="it warned or refused"),
+        Line2D([], [], **mark, label="no message"),
+        Line2D([], [], **{**mark, "markerfacecolor": "white"}, label="the software warned or refused"),
         Line2D([], [], **{**mark, "marker": "x"}, label="no answer"),
-        Line2D([], [], **BORDER, label="border that was predicted"),
-        Patch(color="#000000", alpha=0.08, linewidth=0, label="factor claimed for it"),
+        Line2D([], [], **THRESHOLD, label="predicted threshold"),
+        Patch(color="#000000", alpha=0.08, linewidth=0, label="factor of the prediction"),
         Patch(color="#D55E00", alpha=0.12, linewidth=0, label="must fail"),
         Line2D([], [], **GUIDE, label="tolerance"),
     ]
@@ -59,31 +59,32 @@ def _explain(figure: Figure) -> None:
 
 
 def _panel(axis: Axes, limit: Table, rows: Table) -> None:
-    """Error against knob; open marks where the software spoke."""
-    (method,), (title,), (border,), (factor,) = (limit[name] for name in ("method", "title", "border", "factor"))
-    (tolerance,), (side,), (knob,), (error,) = (limit[name] for name in ("tolerance", "fails", "knob", "error"))
-    x, y, spoke = rows["value"], rows["error"], rows["spoke"] > 0
+    """Error against the parameter; open marks where the software warned."""
+    (method,), (title,), (parameter,), (error,) = (limit[name] for name in ("method", "title", "parameter", "error"))
+    (threshold,), (side,) = limit["predicted threshold"], limit["failing side"]
+    (tolerance,), (factor,) = limit["tolerance"], limit["factor"]
+    x, y, warned = rows["value"], rows["error"], rows["warned"] > 0
     answered = np.isfinite(y)
     low, high = _range(y[answered], tolerance)
     drawn = np.clip(np.where(answered, y, high), low, high)
     style = MDR if method.startswith("MDR") else BEM
     color, marker = style["color"], style["marker"]
     axis.plot(x[answered], drawn[answered], color=color, linewidth=0.9)
-    for some, face in ((answered & ~spoke, color), (answered & spoke, "white")):
+    for some, face in ((answered & ~warned, color), (answered & warned, "white")):
         axis.plot(
             x[some], drawn[some], linestyle="none", marker=marker, color=color, markerfacecolor=face, markersize=5
         )
     axis.plot(x[~answered], drawn[~answered], **{**EXACT, "linestyle": "none", "marker": "x", "markersize": 6})
     axis.axhline(tolerance, **GUIDE)
-    axis.axvline(border, **BORDER)
-    axis.axvspan(border / factor, border * factor, color="#000000", alpha=0.06, linewidth=0)
+    axis.axvline(threshold, **THRESHOLD)
+    axis.axvspan(threshold / factor, threshold * factor, color="#000000", alpha=0.06, linewidth=0)
     axis.set(xscale="log", yscale="log", ylim=(low / 1.6, high * 1.6))
     first, last = axis.get_xlim()
-    ends = (border, last) if side == "above" else (first, border)
+    ends = (threshold, last) if side == "above" else (first, threshold)
     axis.axvspan(*ends, color="#D55E00", alpha=0.08, linewidth=0)
     axis.set_xlim(first, last)
     _ticks(axis, last / first)
-    axis.set_xlabel(textwrap.fill(knob, 34), fontsize=8)
+    axis.set_xlabel(textwrap.fill(parameter, 34), fontsize=8)
     axis.set_ylabel(textwrap.fill(error, 30), fontsize=8)
     axis.set_title(f"{method}:\n{title}", fontsize=8.5)
     axis.tick_params(labelsize=7.5)
@@ -96,7 +97,7 @@ def _range(errors: np.ndarray, tolerance: float) -> tuple[float, float]:
 
 
 def _ticks(axis: Axes, span: float) -> None:
-    """Plain numbers where the knob spans little more than a decade; of the error, powers of ten alone."""
+    """Plain numbers where the parameter spans little more than a decade; of the error, powers of ten alone."""
     axis.yaxis.set_minor_formatter(NullFormatter())
     if span > 200:
         return
