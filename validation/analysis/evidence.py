@@ -63,7 +63,12 @@ class Number:
     def label(self) -> str:
         """Its key as a person reads it: "springs over bem3d: level, h/d = 0.1, low band"."""
         what = f"{self.model}: {self.quantity}" if self.model else self.quantity
-        return ", ".join([what, *(_placed(name, value) for name, value in self.where.items())])
+        return f"{what}, {self.conditions}" if self.where else what
+
+    @property
+    def conditions(self) -> str:
+        """The last part of its key: "h/d = 0.1, low band"."""
+        return ", ".join(_placed(name, value) for name, value in self.where.items())
 
     def matches(self, quantity: str | None = None, model: str | None = None, **where: Place) -> bool:
         """Whether its key has these parts. Names of conditions with other letters: `matches(**{"h/d": 0.1})`."""

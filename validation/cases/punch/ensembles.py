@@ -1,0 +1,107 @@
+"""Ensembles of rough square punches: the settings that all cases about them share, and how they are pressed."""
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeVar
+
+from validation.analysis.statistics import Estimate
+from validation.engine.engine import Engine, Outcome
+from validation.simulation.rough_punch import (
+    FEW_CELLS,
+    Profiles,
+    PunchRoughness,
+    Surface,
+    force_levels,
+    describe_failures,
+    press_profiles,
+    press_surface,
+    stack_rows,
+)
+
+Row = dict[str, float]
+K = TypeVar("K", bound=Hashable)
+J = TypeVar("J", bound=Hashable)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PunchEnsembles:
+    """Rigid square punches of side L under equal forces, by both methods.
+
+    Both are normalised alike, in units of L = E* = 1: Fbar = F / (E* h L), kbar = k / (E* L), h the rms height.
+
+    cells: on a side; surfaces, profiles: realisations; decades: powers of ten of the first and the last Fbar;
+    per_decade: steps of force in one; points: springs of a profile; height: h / L; tolerance: residual of the solver;
+    seed: zero or positive.
+    """
+
+    cells: int = 128
+    surfaces: int
+    profiles: int = 200
+    decades: tuple[int, int] = (-2, 0)
+    per_decade: int = 3
+    points: int = 2048
+    height: float = 1e-3
+    tolerance: float = 1e-4
+    seed: int
+
+    @property
+    def forces(self) -> tuple[float, ...]:
+        """Levels of Fbar, ascending."""
+        return force_levels(self.decades, self.per_decade)
+
+    @property
+    def first_forces(self) -> tuple[float, ...]:
+        """The first Fbar of each decade."""
+        return tuple(10.0**power for power in range(*self.decades))
+
+    def band(
+        self,
+        hurst: float,
+        first: int = 1,
+        amplitudes: Literal["fixed", "gaussian"] = "fixed",
+        normalised: Literal["each", "ensemble"] = "each",
+    ) -> PunchRoughness:
+        """Self-affine from `first` waves on a side to four cells a wave, the same on every grid and by both methods."""
+        return PunchRoughness(
+            hurst=hurst,
+            waves=(first, self.cells // 4),
+            height=self.height,
+            amplitudes=amplitudes,
+            normalised=normalised,
+            seed=self.seed,
+        )
+
+    def surface_of(
+        self, roughness: PunchRoughness, realisation: int, cells: int, forces: tuple[float, ...]
+    ) -> Surface:
+        """One surface, to be pressed by boundary elements."""
+        return Surface(
+            roughness=roughness, realisation=realisation, cells=cells, forces=forces, tolerance=self.tolerance
+        )
+
+    def profiles_of(self, roughness: PunchRoughness, points: int, length: float = 1.0) -> Profiles:
+        """All profiles, to be pressed in a 1D model of length L_1D."""
+        return Profiles(
+            roughness=roughness, realisations=self.profiles, points=points, length=length, forces=self.forces
+        )
+
+
+def press(
+    engine: Engine, surfaces: Mapping[K, Sequence[Surface]], profiles: Mapping[J, Profiles]
+) -> tuple[dict[K, Outcome], dict[J, Outcome], tuple[str, ...]]:
+    """Outcomes of each group, one row a realisation; a line for each load that did not converge."""
+    pressed = engine.map_groups(press_surface, surfaces)
+    unconverged = [line for key, group in surfaces.items() for line in describe_failures(list(group), pressed[key])]
+    springs = zip(profiles, engine.map(press_profiles, list(profiles.values())), strict=True)
+    return {key: stack_rows(rows) for key, rows in pressed.items()}, dict(springs), tuple(unconverged)
+
+
+def interval_columns(name: str, found: Estimate, value: Callable[[float], float]) -> Row:
+    """A statistic and both ends of its 95 % interval, in columns of a table."""
+    return {f"{name}{end}": float(value(v)) for end, v in zip(("", " low", " high"), found.interval, strict=True)}
+
+
+def cells_in_contact(contact_fraction: float, cells: int) -> Row:
+    """The mean contact in cells, and whether these are too few to resolve it."""
+    count = contact_fraction * cells**2
+    return {"bem3d cells in contact": count, "bem3d few cells": count < FEW_CELLS}
