@@ -34,8 +34,9 @@ from validation.benchmarks.work_precision.exact_problem import logarithm
 from validation.benchmarks.work_precision.measurement import Quantity
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits.sweep import Limit, Sweep, swept
-from validation.cases.punch import area_gap_rolloff as mdr_limits
 from validation.cases.punch import fractal_punch, fractal_punch_decades
+from validation.cases.punch.area_gap_rolloff_numbers import RollOffSamples
+from validation.cases.punch.ensembles import interval_columns
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import input_spectrum as rolling_input
@@ -330,19 +331,19 @@ def test_intervals_of_where_mdr_must_fail():
     rng = np.random.default_rng(1)
     coarse, fine = on_grids(rng, 12)
     other = 2.0 + 0.2 * rng.standard_normal((40, 1))
-    mine = mdr_limits.RollOffSamples(
+    mine = RollOffSamples(
         1,
         {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
         {"gap": paired_samples(coarse[:4], fine[:4], rng)},
     )
     statistic = at_level(0, log_mean)
-    number = mine.apart("gap", "gap", statistic)
+    number = mine.over_bem("mean gap", "gap", statistic, 0.1)
     finer = mine.grids["gap"].estimate(difference_of_halves(statistic))
     bem, springs = (mine.by_method[method, "gap"].estimate(statistic) for method in (BEM, MDR))
     assert number.grid == pytest.approx(DECIBEL * (abs(finer.value) + 2 * finer.half_width))
     assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width)
     assert number.value == pytest.approx(DECIBEL * (springs.value - bem.value - 2 * finer.value))
-    row = mdr_limits._interval("gap", bem, unit=1e-3)
+    row = interval_columns("gap", bem, lambda log: math.exp(log) / 1e-3)
     assert row["gap"] == pytest.approx(1e3 * coarse.mean())
     assert row["gap high"] / row["gap"] == pytest.approx(row["gap"] / row["gap low"])
     assert math.log(row["gap high"] / row["gap"]) == pytest.approx(bem.half_width)

@@ -9,7 +9,7 @@ import numpy as np
 import mdr
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import test_rough_punches, test_wheel_motion
-from validation.cases.punch import area_gap_rolloff as mdr_limits
+from validation.cases.punch.rough_interface import Layer
 from validation.simulation import contact_laws, integrators
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.rough_punch import PunchRoughness
@@ -85,11 +85,11 @@ FAULTS = {
         functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
     ),
     "interface and half-space in series": (
-        (mdr_limits.Layer, "log_kappa", lambda layer, stiffness: -np.log(1 / stiffness - 1 / layer.flat)),
+        (Layer, "log_kappa", lambda layer, stiffness: -np.log(1 / stiffness - 1 / layer.flat)),
         functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
     ),
     "the punch taken for its interface": (
-        (mdr_limits.Layer, "log_kappa", lambda layer, stiffness: np.log(stiffness)),
+        (Layer, "log_kappa", lambda layer, stiffness: np.log(stiffness)),
         functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
     ),
     "E for E* in the force, not in the approach at rest": (

@@ -28,8 +28,7 @@ from validation.analysis.statistics import Estimate
 from validation.benchmarks.work_precision.pareto import in_unit, said
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import numbers as limits_numbers
-from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import fractal_punch_decades
+from validation.cases.punch import area_gap_rolloff_evidence, fractal_punch_decades
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
@@ -380,7 +379,9 @@ def test_bands_within_1_and_3_db_are_counted(monkeypatch):
 
 def test_the_interface_prints_the_numbers_it_is_given():
     """With ends that are those of value and half-width, as ratios."""
-    text = mdr_limits._with_interval(Estimate(math.log(2.0), 0.1, 10**6), 0.05, 1e-1)
+    text = area_gap_rolloff_evidence._with_interval(
+        Estimate(math.log(2.0), 0.1, 10**6), 0.05, lambda v: 10 * math.exp(v)
+    )
     half = 0.05 + Estimate(0.0, 0.1, 10**6).half_width
     assert text == f"20 ({20 * math.exp(-half):.2g} to {20 * math.exp(half):.2g})"
 

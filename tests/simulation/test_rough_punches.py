@@ -8,10 +8,10 @@ import pytest
 
 import bem3d
 from tests.oracles import dense_operator, rms_scatter_of_gaussian_draws
-from validation.analysis.evidence import Verdict
-from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import normalisation
+from validation.analysis.evidence import Verdict, numbers_with
+from validation.cases.punch import area_gap_rolloff_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
+from validation.cases.punch.area_gap_rolloff_numbers import AREA, EXPONENT, ROLL_OFF
 from validation.cases.punch.normalisation import EACH, ENSEMBLE, FIXED, Normalisation
 from validation.simulation.rough_punch import METHODS, Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.theory import closed_forms
@@ -107,25 +107,26 @@ def synthetic(exponent, *, area=1.0, refined=1.0):
     bem = {r: outcome(stiffness_on_a_layer(kappa, LIMITS.cells), LIMITS.surfaces) for r in LIMITS.roll_offs}
     finer = {r: {n: refined * v[: LIMITS.refined] for n, v in bem[r].items()} for r in bem}
     mdr = {r: outcome(1 / (1 / kappa + 1), LIMITS.profiles) for r in LIMITS.roll_offs}
-    return mdr_limits.evidence(MdrLimitsResult(LIMITS, bem, finer, mdr, ()))
+    return area_gap_rolloff_evidence.evidence(MdrLimitsResult(LIMITS, bem, finer, mdr, ()))
 
 
 @pytest.mark.parametrize("exponent", [1.0, 0.8])
 def test_the_exponent_of_the_interface_is_found_behind_the_punch(exponent):
     """For the roll-off that is wide enough, in both decades, by both methods; interpolation costs some 1e-3."""
-    found = [n for n in synthetic(exponent).numbers if n.label.startswith("exponent of the interface")]
+    found = numbers_with(synthetic(exponent).numbers, EXPONENT)
     assert len(found) == 2 * 2
     for n in found:
-        assert "q_r L / 2π = 4" in n.label
+        assert n.where[ROLL_OFF] == 4
         assert n.value == pytest.approx(exponent, abs=3e-3)
         assert n.verdict is (Verdict.AGREE if exponent == 1 else Verdict.DIFFER)
 
 
 def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
-    for n, plain in zip(synthetic(1.0, refined=1.05).numbers, synthetic(1.0).numbers, strict=True):
-        if n.label.startswith("contact fraction"):
-            assert n.value == pytest.approx(plain.value - 2 * 20 * np.log10(1.05), abs=1e-6)
-            assert n.grid == pytest.approx(20 * np.log10(1.05), rel=1e-6)
+    finer, plain = (numbers_with(synthetic(1.0, refined=factor).numbers, AREA) for factor in (1.05, 1.0))
+    assert len(finer) == 2 * 2
+    for n, same in zip(finer, plain, strict=True):
+        assert n.value == pytest.approx(same.value - 2 * 20 * np.log10(1.05), abs=1e-6)
+        assert n.grid == pytest.approx(20 * np.log10(1.05), rel=1e-6)
 
 
 def test_a_lost_surface_is_named():

@@ -94,8 +94,9 @@ def _at_one_force(result: MdrLimitsResult, mine: RollOffSamples) -> str:
 
     def both(measured: str, statistic: Statistic = log_mean) -> str:
         value = value_of(case, measured)
+        bem, grid = mine.extrapolated(measured, at_level(level, statistic))
         springs = mine.by_method[MDR, measured].estimate(at_level(level, statistic))
-        return f"{_with_interval(*mine.extrapolated(measured, at_level(level, statistic)), value)} and {value(springs.value):.3g}"
+        return f"{_with_interval(bem, grid, value)} and {value(springs.value):.3g}"
 
     return (
         f"{ROLL_OFF} = {mine.roll_off}, Fbar = {case.forces[level]:.2g}, boundary elements (extrapolated, with their "

@@ -16,10 +16,9 @@ from validation.analysis.statistics import (
     Sample,
     Statistic,
     at_level,
-    difference_of_halves,
-    weighted_mean,
     decade_slope,
     decade_weights,
+    difference_of_halves,
     extrapolated,
     local_slope,
     log_deviation_over,
@@ -27,6 +26,7 @@ from validation.analysis.statistics import (
     log_relative_deviation,
     paired_samples,
     sample,
+    weighted_mean,
 )
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
 from validation.cases.punch.ensembles import Row, cells_in_contact, interval_columns

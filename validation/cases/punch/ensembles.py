@@ -11,11 +11,11 @@ from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
     Surface,
-    force_levels,
     describe_failures,
+    force_levels,
     press_profiles,
     press_surface,
-    stack_rows,
+    stacked,
 )
 
 Row = dict[str, float]
@@ -71,9 +71,7 @@ class PunchEnsembles:
             seed=self.seed,
         )
 
-    def surface_of(
-        self, roughness: PunchRoughness, realisation: int, cells: int, forces: tuple[float, ...]
-    ) -> Surface:
+    def surface_of(self, roughness: PunchRoughness, realisation: int, cells: int, forces: tuple[float, ...]) -> Surface:
         """One surface, to be pressed by boundary elements."""
         return Surface(
             roughness=roughness, realisation=realisation, cells=cells, forces=forces, tolerance=self.tolerance
@@ -93,7 +91,7 @@ def press(
     pressed = engine.map_groups(press_surface, surfaces)
     unconverged = [line for key, group in surfaces.items() for line in describe_failures(list(group), pressed[key])]
     springs = zip(profiles, engine.map(press_profiles, list(profiles.values())), strict=True)
-    return {key: stack_rows(rows) for key, rows in pressed.items()}, dict(springs), tuple(unconverged)
+    return {key: stacked(rows) for key, rows in pressed.items()}, dict(springs), tuple(unconverged)
 
 
 def interval_columns(name: str, found: Estimate, value: Callable[[float], float]) -> Row:

@@ -6,7 +6,6 @@ from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
 from validation.report.style import GUIDE, graded, panels
-from validation.simulation.rough_punch import FEW_CELLS
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -48,7 +47,7 @@ def _draw(axis: Axes, curves: Table, name: str, over_force: bool = False) -> Non
         value, low, high = (mine[f"bem3d {name}{end}"] / unit for end in ("", " low", " high"))
         points = {**style, "linestyle": "none"}
         bars = [value - low, high - value]
-        few = mine["bem3d cells in contact"] < FEW_CELLS
+        few = mine["bem3d few cells"]
         for drawn, face in ((~few, style["color"]), (few, "white")):
             label = f"boundary elements, q_r L / 2π = {roll_off:g}" if face != "white" else "_"
             some = {**points, "markerfacecolor": face}
