@@ -44,7 +44,7 @@ from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import roughness as wheel_stability_roughness
 from validation.cases.stability import vibration as wheel_stability_vibration
 from validation.cases.wheel import distance as wheel_distance
-from validation.cases.wheel import distance_evidence as wheel_distance_evidence
+from validation.cases.wheel import distance_levels, distance_numbers
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
@@ -520,7 +520,7 @@ def test_levels_of_groups_of_wheels_cover_their_truth(groups):
     band = (5.0, 20.0)
 
     def drawn():
-        return ends(wheel_distance_evidence.level(grouped(rng, groups, 2.0, spread=0.1), band))
+        return ends(distance_levels.level(grouped(rng, groups, 2.0, spread=0.1), band))
 
     assert holds(covered(drawn, math.log(2)), short=0.01, wide=0.01)
 
@@ -534,14 +534,14 @@ def test_ratios_of_groups_of_wheels_cover_their_truth(shared):
         other = {**one, "plain": 3 * one["plain"]} if shared else grouped(rng, 8, 3.0, spread=0.1)
         if shared:
             other["plain"] = other["plain"] * (1 + 0.02 * rng.standard_normal((8, 1)))
-        return ends(wheel_distance_evidence.ratio(other, one, (5.0, 20.0)))
+        return ends(distance_levels.ratio(other, one, (5.0, 20.0)))
 
     assert holds(covered(drawn, math.log(3)), short=0.01)
 
 
 def test_shared_tracks_leave_no_error_of_a_ratio():
     one = grouped(np.random.default_rng(0), 5)
-    assert wheel_distance_evidence.ratio({**one, "plain": 3 * one["plain"]}, one, (5.0, 20.0)).error < 1e-15
+    assert distance_levels.ratio({**one, "plain": 3 * one["plain"]}, one, (5.0, 20.0)).error < 1e-15
 
 
 def test_the_law_of_the_break_covers_its_truth():
@@ -554,7 +554,7 @@ def test_the_law_of_the_break_covers_its_truth():
         breaks = 1e4 * duration**0.4 * np.exp(own * rng.standard_normal(5))
         seen = own * breaks * np.sqrt(rng.chisquare(case.groups - 1, 5) / (case.groups - 1))
         columns = {"duration [s]": duration, "break [rad/s]": breaks, "standard error [rad/s]": seen}
-        number = wheel_distance_evidence._law(case, columns)
+        number = distance_numbers.break_law(case, columns)
         return number.value, number.sample
 
     assert holds(covered(drawn, 0.4), short=0.02, wide=0.03)
@@ -568,21 +568,21 @@ def test_the_rms_jump_covers_its_truth():
     def drawn():
         rms = np.array([math.sqrt(np.mean(rng.standard_normal(n) ** 2)) for n in wheels])
         breaks = {"rms jump [m/s2]": rms, "of linear theory [m/s2]": np.ones(5), "wheels": wheels}
-        number = wheel_distance_evidence._jump(breaks)
+        number = distance_numbers.rms_jump(breaks)
         return number.value, number.sample
 
     assert holds(covered(drawn, 1.0), wide=0.01)
 
 
-def test_the_mean_square_beside_the_repeating_one_counts_the_scatter_of_both():
+def test_the_mean_square_over_that_of_the_steady_state_counts_the_scatter_of_both():
     rng = np.random.default_rng(2)
 
     def drawn():
         squares = {
-            wheel_distance_evidence.OPEN: {"square": 1.5 * rng.gamma(50, 1 / 50, 8)},
-            "springs, repeating": {"square": rng.gamma(50, 1 / 50, 8)},
+            wheel_distance.OPEN: {"square": 1.5 * rng.gamma(50, 1 / 50, 8)},
+            wheel_distance.STEADY: {"square": rng.gamma(50, 1 / 50, 8)},
         }
-        number = wheel_distance_evidence._start(SimpleNamespace(ends=squares))
+        number = distance_numbers.mean_square(SimpleNamespace(ends=squares))
         return number.value, number.sample
 
     assert holds(covered(drawn, 1.5), short=0.01)

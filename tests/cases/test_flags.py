@@ -235,7 +235,7 @@ LOST = {
         wheel_distance.run,
         wheel_distance.WheelDistance(),
         lambda p: p.track == "steady-state" and p.scene.rms == wheel_distance.SHORT.rms and p.linear,
-        "1 of 20 wheels do not repeat themselves, h₀ = 5e-07 m",
+        "1 of 20 wheels do not repeat their motion, h₀ = 5e-07 m",
     ),
 }
 

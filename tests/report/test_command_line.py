@@ -146,7 +146,7 @@ def test_two_runs_give_equal_bytes(small, tmp_path):
     assert one.keys() == two.keys()
     tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 3}
     tables |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
-    tables |= {"wheel": 6, "wheel_distance": 5, "wheel_3d": 2, "wheel_stability": 6, "limits": 4, "ladder": 2}
+    tables |= {"wheel": 6, "wheel_distance": 7, "wheel_3d": 2, "wheel_stability": 6, "limits": 4, "ladder": 2}
     # so many figures more than one of each case, twice each
     assert len(one) == 1 + sum(tables.values()) + 2 * (MORE_FIGURES + len(tables))
     for name in one:

@@ -13,7 +13,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Number, Table, table_of
+from validation.analysis.evidence import Table, table_of
 from validation.cases.rolling.input_spectrum import NAMES
 from validation.report.figures import (
     fractal_punch,
@@ -389,18 +389,17 @@ def test_lines_of_one_parameter_at_a_time():
 def test_lines_of_fig_14_5():
     distances = Made({"distance [m]": np.repeat([0.1, 0.2], 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 2})
     breaks = Made({"distance [m]": [0.1, 0.2], "duration [s]": np.array([1.0, 2.0]), "break [rad/s]": [1.5, 2.5]})
-    law = Number(quantity="break against duration", value=0.4, reference=0.4, source="s", tolerance=0.1, reason="r")
-    spectra, found = wheel_distance.draw(made((law,), distances=distances, breaks=breaks)).axes
+    law = Made({"duration [s]": np.array([1.0, 2.0]), "exponent": [0.4, 0.4]})
+    spectra, found = wheel_distance.draw(made(distances=distances, breaks=breaks, law=law)).axes
     for name in (0.1, 0.2):
         mine = distances.where(**{"distance [m]": name})
         np.testing.assert_allclose(series(spectra)[f"{name:.2g} m"][0], mine["A [(m/s2)2 s]"])
-    middle = np.exp(np.mean(np.log([1.5, 2.5]) - 0.4 * np.log([1, 2])))
     drawn(
         found,
         **{
             "found": (np.array([1.5, 2.5]), (breaks["± break [rad/s]"],) * 2),
             "by the jumps of the records": breaks["break by its jumps [rad/s]"],
-            "T^0.400": middle * np.array([1, 2]) ** 0.4,
+            "T^0.400": law["break [rad/s]"],
         },
     )
 
@@ -408,23 +407,26 @@ def test_lines_of_fig_14_5():
 def test_lines_of_the_causes():
     ends, plateau = Made({"x": np.arange(5)}), Made({"h / d": np.array([0.1, 0.2, 0.4])})
     vibrations = Made({"release / d": np.array([0.0, 0.4])})
-    ways, region, peak = wheel_distance.draw_cause(made(endings=ends, plateau=plateau, vibrations=vibrations)).axes
-    names = ("springs, repeating", "springs, open", "springs, whole turns", "springs, open, Hann", "linear, open")
-    drawn(ways, **{name: ends[name] for name in names})
+    hertz = Made({"release / d": np.array([0.1, 0.2, 0.3])})
+    tables = {"endings": ends, "plateau": plateau, "vibrations": vibrations, "hertz": hertz}
+    spectra, region, peak = wheel_distance.draw_cause(made(**tables)).axes
+    names = ("springs, steady-state", "springs, open", "springs, periodic", "springs, open, Hann", "linear, open")
+    drawn(spectra, **{name: ends[name] for name in names})
     found = series(region)
     for label, kind in (
         ("springs, open", "springs, open"),
         ("linear, open: leakage", "linear, open"),
-        ("springs, repeating: nonlinearity", "springs, steady"),
+        ("springs, steady-state: nonlinearity", "springs, steady-state"),
     ):
         y, half = plateau[f"{kind} [dB]"], plateau[f"± {kind} [dB]"]
         np.testing.assert_allclose(found[label][0], y)
         np.testing.assert_allclose(found[label][1].T, [y - half, y + half])
-    for label, kind, order in (("h^2", "linear, open", 2), ("h^4", "springs, steady", 4)):
+    for label, kind, order in (("h^2", "linear, open", 2), ("h^4", "springs, steady-state", 4)):
         expected = plateau[f"{kind} [dB]"][0] + 10 * np.log10(np.array([1.0, 2.0, 4.0]) ** order)
         np.testing.assert_allclose(found[label][0], expected)
     bars = next(c for c in peak.containers if isinstance(c, ErrorbarContainer))
     np.testing.assert_allclose(bars.lines[0].get_ydata(), vibrations["peak over omega_eigen"])
+    np.testing.assert_allclose(series(peak)["Hertz, quadrature"][0], hertz["peak over omega_eigen"])
 
 
 def test_lines_of_the_wheel_in_three_dimensions():

@@ -34,6 +34,7 @@ from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
+from validation.cases.wheel import distance_numbers, distance_tables
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
@@ -404,13 +405,13 @@ def test_limits_print_the_numbers_they_are_given():
 
 def test_the_plateau_is_told_in_shares_of_its_power():
     """10 lg: -10 dB is a tenth."""
-    names = (f"{kind} [dB]" for kind in ("springs, open", "linear, open", "springs, steady"))
+    names = (f"{kind} [dB]" for kind in ("springs, open", "linear, open", "springs, steady-state"))
     plateau = Table(
         "plateau", {"h / h0": [1.0], "h / d": [0.063], **dict(zip(names, ([-20.0], [-30.0], [-21.0]), strict=True))}
     )
-    shown = wheel_distance_evidence._shown_plateau(plateau)
+    shown = distance_tables.shown_plateau(plateau)
     assert shown.columns["leakage: linear, open"] == ["10 %"]
-    assert shown.columns["nonlinearity: springs, repeating"] == ["79 %"]
+    assert shown.columns["nonlinearity: springs, steady-state"] == ["79 %"]
     assert shown.columns["springs, open [dB]"] == ["-20.0"]
 
 
@@ -425,7 +426,7 @@ def test_the_table_of_breaks_prints_its_intervals():
         "floor over predicted": [0.9876],
         "± sample": [0.0321],
     }
-    shown = wheel_distance_evidence._shown_breaks(Table("breaks", columns))
+    shown = distance_tables.shown_breaks(Table("breaks", columns))
     assert [column[0] for column in shown.columns.values()] == [
         "0.1",
         20,
@@ -493,44 +494,46 @@ def spectrum_of(level):
 
 
 def test_fig_14_5_prints_the_numbers_it_is_given():
-    case = wheel_distance.WheelDistance()
+    case, at = wheel_distance.WheelDistance(), distance_numbers
     phases = dict(zip(case.phases, (1e-6, 1e-3), strict=True))
     result = SimpleNamespace(
         case=case,
-        ends={wheel_distance_evidence.OPEN: spectrum_of(1.0)},
-        ended={(wheel_distance.LINEAR, phase): spectrum_of(level) for phase, level in phases.items()},
+        ends={wheel_distance.OPEN: spectrum_of(1.0)},
+        ended={(wheel_distance.LINEAR_OPEN, phase): spectrum_of(level) for phase, level in phases.items()},
     )
-    law = number(0.417, reference=0.4167, quantity="break against duration", unit="-")
+    law = number(0.417, reference=0.4167, quantity=at.BREAK_LAW, unit="-")
 
-    def ratio(label, value):
-        return number(value, quantity=label, reference=0.0, tolerance=1.0, sample=0.1)
+    def ratio(kind, region, value):
+        key = {"quantity": at.LEVEL, "model": f"{kind}, over springs, open", "where": {"region": region}}
+        return number(value, **key, reference=0.0, tolerance=1.0, sample=0.1)
 
     numbers = [
-        ratio("region 4: springs, open, Hann's window, over", -31.3),
-        ratio("region 4: springs, repeating, over", -42.6),
-        ratio("region 4: linear, open, over", 0.2),
-        ratio("region 2: linear, open, over", -10.0),
-        ratio("region 2: springs, repeating, over", -20.0),
-        number(0.95, quantity="floor over J², 0.1 m", reference=1.0),
-        number(1.034, quantity="floor over J², 0.2 m", reference=1.0),
-        number(1.05, quantity="rms jump", reference=1.0, sample=0.02),
-        number(0.97, quantity="peak over ω_eigen, released 0.4 d below equilibrium", reference=0.971, unit="-"),
-        number(1.52, quantity="mean square acceleration", reference=1.5, sample=0.03),
-        number(3.87, quantity="region 2, springs, steady: d ln A / d ln h₀", reference=4.0, tolerance=0.3, sample=0.05),
+        law,
+        ratio("springs, open, Hann's window", "region 4", -31.3),
+        ratio("springs, steady-state", "region 4", -42.6),
+        ratio("linear, open", "region 4", 0.2),
+        ratio("linear, open", "region 2", -10.0),
+        ratio("springs, steady-state", "region 2", -20.0),
+        number(0.95, quantity=at.FLOOR, where={"distance [m]": 0.1}, reference=1.0),
+        number(1.034, quantity=at.FLOOR, where={"distance [m]": 0.2}, reference=1.0),
+        number(1.05, quantity=at.JUMP, reference=1.0, sample=0.02),
+        number(0.97, quantity=at.PEAK, where={"release / d": 0.4}, reference=0.971, unit="-"),
+        number(1.52, quantity=at.SQUARE, reference=1.5, sample=0.03),
+        number(3.87, quantity=at.ORDER, reference=4.0, tolerance=0.3, sample=0.05),
     ]
-    text = wheel_distance_evidence._conclusions(result, law, numbers)
-    told = [
-        f"exponent {with_reference(law)}",
+    text = wheel_distance_evidence.conclusions(result, numbers)
+    printed = [
+        with_reference(law),
         "at all 2 distances, to 5.0 %",
-        "rms over all distances 1.050 ± 0.020 of it",
-        "Hann's window lowers it by 31.3 dB, a motion that repeats itself by 42.6 dB",
-        "has 10 % of its power; springs that leak nothing have 1 %",
-        "is 1.52 ± 0.03 times",
+        "1.050 ± 0.020",
+        "Hann's window lowers it by 31.3 dB, steady-state motion by 42.6 dB",
+        "has 10 % of its power; springs in the steady state, which leak nothing, have 1 %",
+        "1.52 ± 0.03 times",
         "0.4 d below equilibrium: 0.9700 beside 0.9710",
     ]
-    for sentence, part in zip(text, told, strict=True):
+    for sentence, part in zip(text, printed, strict=True):
         assert part in sentence
     assert "between -60 and -30 dB" in text[4] and "as h₀^3.87 (agree with h₀⁴ within 0.3)" in text[4]
-    turns = 0.1 * case.scene.eigenfrequency / (2 * math.pi)
-    assert f"{turns:.2f} turns" in text[4]
+    periods = 0.1 * case.scene.eigenfrequency / (2 * math.pi)
+    assert f"{periods:.2f} natural periods" in text[4]
     assert not any(sentence.startswith("Not confirmed") for sentence in text)

@@ -1,6 +1,5 @@
 """Fig. 14.5: distances, the break, and what is real in the plateau; the peak at large amplitudes."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -12,24 +11,34 @@ from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, sim
 
 TABLE = load_wheel_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
-LEAST_JUMP, LEAST_PERIODS = 4.0, 5.0
-"""Over the eigenfrequency, and behind the jump, for regions that can be told apart."""
-SPRINGS, LINEAR = "springs", "linear"
+MIN_JUMP, MIN_PERIODS = 4.0, 5.0
+"""q_min v0 over the eigenfrequency, and periods of the oscillation behind it: with less, regions cannot be told apart.
+"""
+OPEN, PERIODIC, STEADY = "springs, open", "springs, periodic", "springs, steady-state"
+LINEAR_OPEN, LINEAR_STEADY = "linear, open", "linear, steady-state"
+KINDS: dict[str, tuple[bool, TrackKind]] = {
+    OPEN: (False, "open"),
+    PERIODIC: (False, "periodic"),
+    STEADY: (False, "steady-state"),
+    LINEAR_OPEN: (True, "open"),
+    LINEAR_STEADY: (True, "steady-state"),
+}
+"""Of contact and track: whether the contact is linear, and the track."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class WheelDistance:
-    """Wheels of one scene on springs, which roll more or less far, on open and closed tracks, over more or less height.
+    """Wheels of one scene on springs over several distances, contacts and tracks, heights and amplitudes.
 
-    scene; turns: of the resonance on the shortest distance, whole; doublings: of it; wheels: to a distance up to the
-    middle one, half as many for each doubling beyond, fewest at least; causes: wheels for each way to end a track;
-    rough: wheels for each height; heights: factors on h_0, ascending, with a quarter and one among them;
-    phases: turns over whole ones at which records end, of `rough` wheels; releases: amplitudes of free vibration over
-    d, of `released` wheels each; groups: of wheels, for errors; seed: zero or more.
+    scene; periods: natural periods in the shortest distance, whole; doublings: of it; wheels: to a distance up to the
+    middle one, half as many for each doubling beyond, fewest at least; causes: wheels for each contact and track;
+    rough: wheels for each height; heights: factors on h_0, ascending, with a quarter and one among them; phases:
+    natural periods beyond a whole number after which records end, of `rough` wheels each; releases: amplitudes of free
+    vibration over d, of `released` wheels each; groups: of wheels, for errors; seed: zero or more.
     """
 
     scene: WheelScene = SHORT
-    turns: int = 1
+    periods: int = 1
     doublings: int = 4
     wheels: int = 60
     fewest: int = 20
@@ -43,73 +52,61 @@ class WheelDistance:
     seed: int = 147
 
     def distances(self) -> list[WheelEnsemble]:
-        """Open tracks, each twice as long as the one before."""
-        rides = []
-        for i in range(self.doublings + 1):
-            # all end in the same phase of free vibration: the jump at their end is as large
-            turn = 2 * math.pi * self.scene.speed / self.scene.eigenfrequency
-            scene = replace(self.scene, distance=self.turns * turn * 2**i)
-            count = max(self.fewest, min(self.wheels, round(self.wheels * 2 ** (self.doublings / 2 - i))))
-            count -= count % self.groups
-            rides.append(WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed))
-        return rides
+        """Open tracks, each twice as long as the one before: all end in the same phase of free vibration, so that the
+        jump at their end is equally large.
+        """
+        counts = [round(self.wheels * 2 ** (self.doublings / 2 - i)) for i in range(self.doublings + 1)]
+        counts = [max(self.fewest, min(self.wheels, count)) // self.groups * self.groups for count in counts]
+        return [
+            WheelEnsemble(
+                scene=replace(self.scene, distance=self.periods * self.scene.period_length * 2**i),
+                count=count,
+                groups=self.groups,
+                seed=self.seed,
+            )
+            for i, count in enumerate(counts)
+        ]
+
+    def ensemble(self, kind: str, count: int, height: float = 1.0) -> WheelEnsemble:
+        """Wheels of a contact and a track, at a height."""
+        linear, track = KINDS[kind]
+        scene = scaled(self.scene, height)
+        return WheelEnsemble(scene=scene, count=count, groups=self.groups, track=track, linear=linear, seed=self.seed)
 
     def ends(self) -> dict[str, WheelEnsemble]:
-        """Every way to end a track."""
-        return {
-            "springs, open": self.ending(SPRINGS, "open", self.causes),
-            "springs, whole turns": self.ending(SPRINGS, "periodic", self.causes),
-            "springs, repeating": self.ending(SPRINGS, "steady-state", self.causes),
-            "linear, open": self.ending(LINEAR, "open", self.causes),
-            "linear, repeating": self.ending(LINEAR, "steady-state", self.causes),
-        }
-
-    def ending(self, law: str, track: TrackKind, count: int, height: float = 1.0) -> WheelEnsemble:
-        """One of these, at a height."""
-        return WheelEnsemble(
-            scene=scaled(self.scene, height),
-            count=count,
-            groups=self.groups,
-            track=track,
-            linear=law == LINEAR,
-            seed=self.seed,
-        )
+        """Every contact and track."""
+        return {kind: self.ensemble(kind, self.causes) for kind in KINDS}
 
     def sweep(self) -> dict[tuple[str, float], WheelEnsemble]:
-        """Open springs, repeating springs and the open linear contact at each height."""
-        kinds: tuple[tuple[str, TrackKind], ...] = ((SPRINGS, "open"), (SPRINGS, "steady-state"), (LINEAR, "open"))
-        return {
-            (f"{law}, {track}", height): self.ending(law, track, self.rough, height)
-            for law, track in kinds
-            for height in self.heights
-        }
+        """What makes region 2, at each height."""
+        kinds = (OPEN, STEADY, LINEAR_OPEN)
+        return {(kind, height): self.ensemble(kind, self.rough, height) for kind in kinds for height in self.heights}
 
     def ended(self) -> dict[tuple[str, float], WheelEnsemble]:
-        """Open tracks of springs and of the linear contact that end in several phases of the resonance."""
-        turn = 2 * math.pi * self.scene.speed / self.scene.eigenfrequency
-        whole = max(round(self.scene.length / turn), 1)
+        """Open tracks that end in several phases of the natural period."""
+        period = self.scene.period_length
+        whole = max(round(self.scene.length / period), 1)
         return {
-            (law, phase): replace(
-                self.ending(law, "open", self.rough), scene=replace(self.scene, distance=(whole + phase) * turn)
+            (kind, phase): replace(
+                self.ensemble(kind, self.rough), scene=replace(self.scene, distance=(whole + phase) * period)
             )
-            for law in (SPRINGS, LINEAR)
+            for kind in (OPEN, LINEAR_OPEN)
             for phase in self.phases
         }
 
     def vibrations(self) -> dict[float, WheelEnsemble]:
         """Wheels that begin so much deeper than in equilibrium."""
         scene = replace(self.scene, distance=2 * self.scene.distance)
+        count = self.released
         return {
-            release: WheelEnsemble(
-                scene=scene, count=self.released, groups=self.released, release=release, seed=self.seed
-            )
+            release: WheelEnsemble(scene=scene, count=count, groups=count, release=release, seed=self.seed)
             for release in self.releases
         }
 
 
 @dataclass(frozen=True)
 class DistanceResult:
-    """One outcome for each distance, each ending, each height and each release."""
+    """One outcome for each distance, each contact and track, each height, each phase and each release."""
 
     case: WheelDistance
     distances: list[Outcome]
@@ -130,48 +127,50 @@ def scaled(scene: WheelScene, factor: float) -> WheelScene:
 
 
 def run(case: WheelDistance, engine: Engine = SERIAL) -> DistanceResult:
-    """Roll all wheels.
+    """Simulate all wheels.
 
-    Raises ValueError for a scene without plateau or without region 3, NotConvergedError where nothing repeats itself.
+    Raises ValueError for a scene without plateau or without region 3, NotConvergedError where most wheels of an
+    ensemble do not converge.
     """
-    _has_regions(case.scene)
+    _check_regions(case.scene)
     ends, sweep, ended, vibrations = case.ends(), case.sweep(), case.ended(), case.vibrations()
-    distances = case.distances()
-    # the longest first, so that no worker is left with it alone
-    rides = [*distances[::-1], *ends.values(), *sweep.values(), *ended.values(), *vibrations.values()]
-    outcomes = engine.map(simulate_ensemble, rides)
-    lost = tuple(
-        f"{int(o['failed'])} of {r.count} wheels do not repeat themselves, h₀ = {r.scene.rms:.3g} m"
-        for r, o in zip(rides, outcomes, strict=True)
-        if o["failed"]
+    # the longest first, so that no worker is left alone with it
+    groups = [case.distances()[::-1], *([*some.values()] for some in (ends, sweep, ended, vibrations))]
+    outcomes = engine.map_groups(simulate_ensemble, dict(enumerate(groups)))
+    failed = [
+        (ensemble, int(outcome["failed"]))
+        for i, group in enumerate(groups)
+        for ensemble, outcome in zip(group, outcomes[i], strict=True)
+        if outcome["failed"]
+    ]
+    unconverged = tuple(
+        f"{count} of {one.count} wheels do not repeat their motion, h₀ = {one.scene.rms:.3g} m" for one, count in failed
     )
-    if any(o["failed"] > r.count / 2 for r, o in zip(rides, outcomes, strict=True)):
-        raise NotConvergedError("most wheels of an ensemble do not repeat themselves", lost)
-    left = iter(outcomes)
-    found = [next(left) for _ in distances][::-1]
+    if any(count > one.count / 2 for one, count in failed):
+        raise NotConvergedError("most wheels of an ensemble do not repeat their motion", unconverged)
     return DistanceResult(
         case,
-        found,
-        {name: next(left) for name in ends},
-        {key: next(left) for key in sweep},
-        {key: next(left) for key in ended},
-        {release: next(left) for release in vibrations},
-        lost,
+        outcomes[0][::-1],
+        dict(zip(ends, outcomes[1], strict=True)),
+        dict(zip(sweep, outcomes[2], strict=True)),
+        dict(zip(ended, outcomes[3], strict=True)),
+        dict(zip(vibrations, outcomes[4], strict=True)),
+        unconverged,
     )
 
 
-def _has_regions(scene: WheelScene) -> None:
-    """Refuse what has no plateau to take apart, or too little behind it."""
+def _check_regions(scene: WheelScene) -> None:
+    """Refuse a scene without a plateau, or with too few periods of the oscillation behind it."""
     if scene.rail is None and scene.wheel is None:
         raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
-    if scene.jump < LEAST_JUMP * scene.eigenfrequency:
+    if scene.jump < MIN_JUMP * scene.eigenfrequency:
         raise ValueError(
-            f"scene must have q_min v0 of at least {LEAST_JUMP:g} omega_eigen, {LEAST_JUMP * scene.eigenfrequency:.4g} "
+            f"scene must have q_min v0 of at least {MIN_JUMP:g} omega_eigen, {MIN_JUMP * scene.eigenfrequency:.4g} "
             f"rad/s, for a plateau between, got {scene.jump:.4g} rad/s"
         )
-    period = math.pi * scene.speed / scene.contact_radius
-    if scene.cutoff < scene.jump + LEAST_PERIODS * period:
+    least = scene.jump + MIN_PERIODS * scene.oscillation_period
+    if scene.cutoff < least:
         raise ValueError(
-            f"scene must have q_max v0 of at least {scene.jump + LEAST_PERIODS * period:.4g} rad/s, {LEAST_PERIODS:g} "
-            f"periods pi v0 / a behind q_min v0, got {scene.cutoff:.4g} rad/s"
+            f"scene must have q_max v0 of at least {least:.4g} rad/s, {MIN_PERIODS:g} periods pi v0 / a behind "
+            f"q_min v0, got {scene.cutoff:.4g} rad/s"
         )

@@ -1,13 +1,14 @@
 """What an ensemble of wheels shows: each feature of its mean spectrum with its error, and what theory expects of it."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
+from validation.analysis.spectra import band_means
 from validation.analysis.statistics import Estimate, jackknife_error
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
@@ -18,7 +19,6 @@ from validation.theory import wheel as wheel_theory
 FloatArray = NDArray[np.float64]
 
 PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
-FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK)
 PREDICTED = " over predicted"
 """Of floor and break, which the same records predict by their jumps: as ratios they err less."""
 AFTER, BEFORE, HALF = 1.1, 0.9, 0.5
@@ -73,6 +73,19 @@ def roughness(scene: WheelScene) -> Callable[[FloatArray], FloatArray]:
     return lambda q: np.asarray(sum((s.c1d(q) for s in both), np.zeros_like(q)))
 
 
+def sixths_of_an_octave(low: float, high: float) -> FloatArray:
+    """Edges of bands."""
+    return np.asarray(low * 2 ** (np.arange(0, 6 * math.log2(high / low)) / 6))
+
+
+def spectrum_rows(omega: FloatArray, density: FloatArray, low: float, high: float) -> Iterator[dict[str, object]]:
+    """Means of A in sixths of an octave that hold a line: rows of a table."""
+    edges = sixths_of_an_octave(low, high)
+    for centre, mean in zip(np.sqrt(edges[1:] * edges[:-1]), band_means(omega, density, edges), strict=True):
+        if np.isfinite(mean):
+            yield {"omega [rad/s]": float(centre), "A [(m/s2)2 s]": float(mean)}
+
+
 def found(spectrum: Spectrum) -> dict[str, Estimate]:
     """All features that there are, each with its standard error by leaving out one group of wheels after the other."""
     groups = len(spectrum.plain)
@@ -104,7 +117,7 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
         -2 * rough.hurst - 3,
         float(np.mean((spectrum.jumps if jumps is None else jumps) ** 2)) / spectrum.duration,
     )
-    period = math.pi * scene.speed / scene.contact_radius
+    period = scene.oscillation_period
     # sin^2 in the mean: (14.14) through the resonator, far above the resonance
     power = wheel_theory.over_frequency(
         rolling_theory.mean_force_spectrum_1d(scene.cutoff / scene.speed, roughness(scene), modulus=scene.modulus),

@@ -115,5 +115,5 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
     springs = {feed: [next(rode) for _ in some] for feed, some in rides.items()}
     astray = [feed for feed, some in springs.items() if any(outcome["failed"] for outcome in some)]
     if astray:
-        raise NotConvergedError("wheels on springs do not repeat themselves", astray)
+        raise NotConvergedError("wheels on springs do not repeat their motion", astray)
     return Result3D(case, found, springs, lost)

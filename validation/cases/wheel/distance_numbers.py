@@ -1,0 +1,214 @@
+"""Numbers of Fig. 14.5: the law of the break, its cause, what is real in the plateau, and the peak by amplitude."""
+
+import math
+from functools import partial
+
+import numpy as np
+
+from validation.analysis.difference import difference
+from validation.analysis.evidence import Number, Role, Table
+from validation.analysis.statistics import Estimate, ratio_of_means
+from validation.cases.wheel.distance import (
+    LINEAR_OPEN,
+    LINEAR_STEADY,
+    OPEN,
+    PERIODIC,
+    STEADY,
+    DistanceResult,
+    WheelDistance,
+)
+from validation.cases.wheel.distance_levels import FOURTH, PLATEAU, THIRD, level, peaks, ratio, regions_of
+from validation.theory import wheel as wheel_theory
+
+BREAK_LAW, FLOOR, JUMP, LEVEL = (
+    "d ln ω_break / d ln T",
+    "floor over J² / (ω² T)",
+    "rms jump over linear theory",
+    "level",
+)
+ORDER, SQUARE, PEAK = "d ln A / d ln h₀", "mean square acceleration", "peak over ω_eigen"
+HANN = f"{OPEN}, Hann's window"
+QUARTER, WHOLE = 0.25, 1.0
+"""Heights over h_0 between which the order of growth is measured."""
+
+finding = partial(Number, role=Role.FINDING)
+
+
+def numbers_of(result: DistanceResult, breaks: Table) -> list[Number]:
+    """All numbers of the case."""
+    return [
+        *outside_the_roughness(result),
+        break_law(result.case, breaks),
+        *floors(breaks),
+        rms_jump(breaks),
+        *causes(result),
+        *shares(result),
+        order_in_height(result),
+        mean_square(result),
+        *peak_frequencies(result),
+    ]
+
+
+def outside_the_roughness(result: DistanceResult) -> list[Number]:
+    """A linear contact has nothing at frequencies without waves, once nothing leaks."""
+    bands, steady = regions_of(result.case.scene), result.ends[LINEAR_STEADY]
+    third = level(steady, bands[THIRD]).value
+    return [
+        Number(
+            quantity="level over that in region 3",
+            model=LINEAR_STEADY,
+            where={"region": region},
+            value=math.exp(level(steady, bands[region]).value - third),
+            reference=0.0,
+            source="no waves outside of q_min to q_max",
+            tolerance=1e-18,
+            reason="rounding of the acceleration, 1e-16 of its size, squared, and spread over all frequencies",
+        )
+        for region in (PLATEAU, FOURTH)
+    ]
+
+
+def break_law(case: WheelDistance, breaks: Table) -> Number:
+    """d ln omega_break / d ln T by weighted least squares."""
+    x, y = np.log(breaks["duration [s]"]), np.log(breaks["break [rad/s]"])
+    weights = breaks["break [rad/s]"] / breaks["standard error [rad/s]"]
+    (slope, _), covariance = np.polyfit(x, y, 1, w=weights, cov="unscaled")
+    estimate = Estimate(float(slope), math.sqrt(covariance[0, 0]), case.groups)
+    return finding(
+        quantity=BREAK_LAW,
+        model=OPEN,
+        where={"durations": f"over a factor of {2**case.doublings}"},
+        value=estimate.value,
+        reference=wheel_theory.break_exponent(hurst(case)),
+        source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
+        tolerance=0.1,
+        reason="0.1: tells the law from none, 0, and from the one of a slope as in region 1, 1/2 and more",
+        sample=estimate.half_width,
+    )
+
+
+def hurst(case: WheelDistance) -> float:
+    """H of the rail, or of the wheel where the rail is smooth."""
+    rough = case.scene.rail or case.scene.wheel
+    return rough.hurst if rough else math.nan
+
+
+def floors(breaks: Table) -> list[Number]:
+    """The level of region 4 over that which the jumps of the same records make, by distance."""
+    rows = zip(breaks["distance [m]"], breaks["floor over predicted"], breaks["± sample"], strict=True)
+    return [
+        finding(
+            quantity=FLOOR,
+            model=OPEN,
+            where={"distance [m]": float(distance)},
+            value=value,
+            reference=1.0,
+            source="the jump of a(t) from the end of each record to its beginning",
+            tolerance=0.1,
+            reason="10 %: 0.4 dB of a level",
+            sample=half,
+        )
+        for distance, value, half in rows
+    ]
+
+
+def rms_jump(breaks: Table) -> Number:
+    """The jump beside linear theory, over all distances; the error of a mean square of so many Gaussian values."""
+    squares, wheels = (breaks["rms jump [m/s2]"] / breaks["of linear theory [m/s2]"]) ** 2, breaks["wheels"]
+    return finding(
+        quantity=JUMP,
+        model=OPEN,
+        where={"distances": "all distances"},
+        value=math.sqrt(float(np.average(squares, weights=wheels))),
+        reference=1.0,
+        source="(1 + cos²(ω_eigen T)) int A df of (14.12) through the resonator, from static equilibrium",
+        tolerance=0.1,
+        reason="10 %: 0.8 dB; nonlinearity adds a part of order h₀/d",
+        sample=2 / math.sqrt(2 * float(wheels.sum())),
+    )
+
+
+def causes(result: DistanceResult) -> list[Number]:
+    """Region 4 of springs without a jump at the end, and of the linear contact, over springs on open tracks."""
+    ends, band = result.ends, regions_of(result.case.scene)[FOURTH]
+    ratios = {HANN: ratio(ends[OPEN], ends[OPEN], band, "hann")}
+    ratios |= {kind: ratio(ends[kind], ends[OPEN], band) for kind in (PERIODIC, STEADY, LINEAR_OPEN)}
+    return [
+        difference(
+            value,
+            quantity=LEVEL,
+            model=f"{kind}, over {OPEN}",
+            where={"region": FOURTH},
+            source="no change, if region 4 were real",
+            tolerance=1.0,
+            reason="1 dB: the scatter of a few wheels",
+        )
+        for kind, value in ratios.items()
+    ]
+
+
+def shares(result: DistanceResult) -> list[Number]:
+    """Region 2 of leakage alone, and of nonlinearity alone, over springs on open tracks."""
+    ends, band = result.ends, regions_of(result.case.scene)[PLATEAU]
+    return [
+        difference(
+            ratio(ends[kind], ends[OPEN], band),
+            quantity=LEVEL,
+            model=f"{kind}, over {OPEN}",
+            where={"region": PLATEAU, "cause": cause},
+            source="the whole plateau",
+            tolerance=1.0,
+            reason="1 dB: a fifth of its power",
+        )
+        for kind, cause in ((LINEAR_OPEN, "leakage alone"), (STEADY, "nonlinearity alone"))
+    ]
+
+
+def order_in_height(result: DistanceResult) -> Number:
+    """The power of h_0 with which the nonlinear part of region 2 grows; leakage of a linear contact grows as h_0^2."""
+    band, step = regions_of(result.case.scene)[PLATEAU], math.log(WHOLE / QUARTER)
+    growth = ratio(result.sweep[STEADY, WHOLE], result.sweep[STEADY, QUARTER], band)
+    return finding(
+        quantity=ORDER,
+        model=STEADY,
+        where={"region": PLATEAU, "h / h₀": (QUARTER, WHOLE)},
+        value=growth.value / step,
+        reference=4.0,
+        source="products of two waves, each linear in h₀",
+        tolerance=0.3,
+        reason="0.3: tells 2 from 3 and 3 from 4",
+        sample=growth.half_width / step,
+    )
+
+
+def mean_square(result: DistanceResult) -> Number:
+    """Mean square of the acceleration from static equilibrium over that without free vibration."""
+    squares = ratio_of_means(result.ends[OPEN]["square"], result.ends[STEADY]["square"])
+    return finding(
+        quantity=SQUARE,
+        model=f"{OPEN}, over {STEADY}",
+        value=squares.value,
+        reference=1.5,
+        source="1 + 1/2: the free vibration begins with the amplitude dF / M that cancels the forced acceleration",
+        tolerance=0.15,
+        reason="10 %: waves far above the resonance, a few wheels",
+        sample=squares.half_width,
+    )
+
+
+def peak_frequencies(result: DistanceResult) -> list[Number]:
+    """The peak by the amplitude of free vibration, beside that on a Hertz contact."""
+    return [
+        finding(
+            quantity=PEAK,
+            model=OPEN,
+            where={"release / d": release},
+            value=estimate.value,
+            reference=1 / wheel_theory.hertz_period(1 + release) if release else 1.0,
+            source="period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)",
+            tolerance=0.005,
+            reason="0.5 %: roughness makes a part of the amplitude, and bears a part of the load",
+            sample=estimate.half_width,
+        )
+        for release, estimate in peaks(result).items()
+    ]
