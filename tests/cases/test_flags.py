@@ -29,9 +29,10 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, random_generator
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.selection.hierarchy import Answer, Cost, ErrorEstimate, select_model
+from validation.selection.hierarchy import Answer, select_model
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.track_spectrum import self_affine
 
 ROOT = Path(__file__).parents[2]

@@ -13,6 +13,7 @@ from tests.selection import test_claims, test_selection
 from tests.selection import test_model_hierarchy as test_ladder
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.engine import engine as ensemble
+from validation.scenes import measured
 from validation.selection import compare
 from validation.selection import hierarchy as hierarchy
 from validation.selection import indentation_models as indentation_models
@@ -41,9 +42,8 @@ def one_standard_error(ratios):
 drawn_on_a_grid = pressed_heights._drawn
 
 
-def at_points(heights, grid):
-    along, across = ((np.arange(n) - (n - 1) / 2) * grid.spacing for n in (grid.along // 2, grid.across))
-    return heights.at(along, across)
+def at_points(heights, shape, cell):
+    return heights.at(*((np.arange(n) - (n - 1) / 2) * cell for n in shape))
 
 
 def other_waves_on_every_grid(ground, shortest, cells, side, rng):
@@ -114,7 +114,7 @@ FAULTS = {
         functools.partial(test_ladder.test_the_whole_is_the_root_of_the_sum_of_its_bands, False),
     ),
     "measured heights at points, not over cells": (
-        (rolled, "_resampled", at_points),
+        (measured.MeasuredHeights, "mean_over_cells", at_points),
         test_ladder.test_short_waves_of_a_measured_track_are_no_longer_ones,
     ),
     "other waves on every grid of the ladder": (

@@ -18,11 +18,12 @@ from validation.selection import hierarchy as hierarchy
 from validation.selection import indentation_models as indentation_models
 from validation.selection import indentation_on_grids as indentation_on_grids
 from validation.selection import rolling_models as rolling_models
-from validation.selection.calibrated import outside
 from validation.selection.compare import compare, models_of, quantities_of, summary
-from validation.selection.hierarchy import Answer, Cost, grid_error, mean_error, select_model
+from validation.selection.hierarchy import Answer, grid_error, mean_error, select_model
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
+from validation.simulation.calibrated_range import outside
+from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.resolution import too_few
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.theory.rolling import contact_lost
@@ -205,7 +206,7 @@ def test_a_model_out_of_range_is_never_asked():
             return Cost(work=1, unit="candidates", seconds=1.0)
 
         def estimate(self):
-            return hierarchy.ErrorEstimate.out_of_range("never measured")
+            return ErrorEstimate.out_of_range("never measured")
 
         def solve(self):
             raise AssertionError("asked all the same")
@@ -301,12 +302,12 @@ def test_every_model_has_its_claims_tested(kind):
 
 
 def test_a_model_that_the_case_does_not_know_is_an_error():
-    class New(indentation_models.IndentationClosedForm):
+    class New(indentation_models.IndentationOnSprings):
         kind = name = "a new closed form"
 
-    models = [New(punch()), *models_of(punch(), "stiffness", 0.1, 0)]
+    models = [New(punch(), 0.1, 0), *models_of(punch(), "stiffness", 0.1, 0)]
     with pytest.raises(
-        ValueError, match=r"^the model of a model must be one of closed form, .*, got a new closed form$"
+        ValueError, match=r"^the kind of a model must be one of closed form, .*, got a new closed form$"
     ):
         ladder._asked(models, "closed form", np.array([1.0]))
 

@@ -29,8 +29,6 @@ from validation.selection.compare import QUANTITIES, Comparison, compare, models
 from validation.selection.hierarchy import (
     Answer,
     Candidate,
-    Cost,
-    ErrorEstimate,
     Selection,
     distance,
     mean_error,
@@ -40,6 +38,7 @@ from validation.selection.hierarchy import (
 )
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
+from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.rolling_quantity import RollingQuantity
 
 ROUGH = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)

@@ -5,9 +5,8 @@ import math
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material
-from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
-from validation.scenes.roughness import Roughness
+from validation.scenes.roughness import RoughSurface
 from validation.scenes.units import in_unit
 
 AnyScene = IndentationScene | RollingScene | WheelScene
@@ -68,7 +67,7 @@ def _of_motion(scene: RollingScene | WheelScene) -> Pairs:
     return (("motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, undamped"),)
 
 
-def _of_ground(scene: IndentationScene | RollingScene, ground: Roughness | MeasuredHeights | None) -> Pairs:
+def _of_ground(scene: IndentationScene | RollingScene, ground: RoughSurface | None) -> Pairs:
     if ground is None:
         return (("roughness", "none"),)
     return (_height(ground.rms, scene.approach), _slope(ground.slope_along, scene), ("waves", _waves(ground, scene)))
@@ -106,11 +105,7 @@ def _slope(slope: float, scene: AnyScene) -> tuple[str, str]:
     return "rms slope h'", f"{slope:.3g}, in one direction, h' a/d = {lost:.3g}"
 
 
-def _waves(ground: Roughness | MeasuredHeights, scene: AnyScene) -> str:
-    if isinstance(ground, MeasuredHeights):
-        sides = " x ".join(in_unit(side, "length") for side in ground.sides)
-        return f"measured, {ground.height.shape[0]} x {ground.height.shape[1]} points on {sides}"
-    found = f"{in_unit(ground.longest, 'length')} to {in_unit(ground.shortest, 'length')}, Hurst exponent "
-    found += f"{ground.hurst:.3g}"
-    speed = None if isinstance(scene, IndentationScene) else scene.speed
-    return found if speed is None else f"{found}, {ground.q_min * speed:.4g} to {ground.q_max * speed:.4g} rad/s"
+def _waves(ground: RoughSurface, scene: AnyScene) -> str:
+    if isinstance(scene, IndentationScene) or scene.speed is None or ground.is_single:
+        return ground.waves
+    return f"{ground.waves}, {ground.q_min * scene.speed:.4g} to {ground.q_max * scene.speed:.4g} rad/s"

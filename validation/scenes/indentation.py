@@ -8,11 +8,10 @@ from mdr.checks import positive
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.reader import nonblank_text
-from validation.scenes.roughness import Roughness, check_band
+from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.theory import closed_forms
 
 Shape = Literal["sphere", "punch"]
-Ground = Roughness | MeasuredHeights
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +28,7 @@ class IndentationScene:
     size: float
     load: float
     modulus: float
-    ground: Ground | None = None
+    ground: RoughSurface | None = None
     material: Material | None = None
 
     def __post_init__(self) -> None:
@@ -74,7 +73,7 @@ class IndentationScene:
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        found = self.ground.notes() if isinstance(self.ground, MeasuredHeights) else ()
+        found = self.ground.notes() if self.ground else ()
         if self.shape == "sphere" and self.contact_radius > self.size / 10:
             return (
                 *found,
@@ -90,7 +89,7 @@ class IndentationScene:
                 f"roughness.longest must not exceed the side of the punch, {self.size:g} m, got {rough.longest:g} m"
             )
 
-    def _check_measured(self, heights: MeasuredHeights) -> None:
+    def _check_measured(self, heights: object) -> None:
         if not isinstance(heights, MeasuredHeights):
             raise TypeError(f"ground must be Roughness, MeasuredHeights or None, got {heights!r}")
         longest, shortest = max(heights.sides), min(heights.sides)

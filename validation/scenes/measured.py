@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,7 @@ from scipy import interpolate, stats
 
 from mdr.checks import positive
 from validation.scenes.printable import shortened
-from validation.scenes.units import UNITS, quantity
+from validation.scenes.units import UNITS, in_unit, quantity
 
 FloatArray = NDArray[np.float64]
 
@@ -35,6 +35,9 @@ class MeasuredHeights:
     Raises ValueError for fewer than 16 points along a side, values that are masked or not finite, or a plane, TypeError
     for values that are no real numbers.
     """
+
+    is_single: ClassVar = True
+    hurst: ClassVar = None
 
     height: FloatArray
     spacing: tuple[float, float]
@@ -82,6 +85,16 @@ class MeasuredHeights:
         """Of the last ring, at the Nyquist wavenumber of the coarser axis [rad/m]."""
         return self.edges[-1]
 
+    @property
+    def longest(self) -> float:
+        """Longest wave [m]."""
+        return 2 * math.pi / self.q_min
+
+    @property
+    def q_resolved(self) -> float:
+        """Of waves with four points [rad/m]."""
+        return self.q_max / 2
+
     def c2d(self, q: ArrayLike) -> FloatArray:
         """C_2D as the mean over all directions, constant in each ring, of the mean square of the heights [m^4]."""
         edges, level = np.array(self.edges), np.array(self._rings[1])
@@ -94,6 +107,18 @@ class MeasuredHeights:
         ends = self.places
         inside = [np.clip(places, end[0], end[-1]) for places, end in zip((x, y), ends, strict=True)]
         return np.asarray(interpolate.RectBivariateSpline(*ends, self.height, kx=1, ky=1)(*inside))
+
+    @property
+    def waves(self) -> str:
+        """Points and sides, in words."""
+        sides = " x ".join(in_unit(side, "length") for side in self.sides)
+        return f"measured, {self.height.shape[0]} x {self.height.shape[1]} points on {sides}"
+
+    def mean_over_cells(self, shape: tuple[int, int], cell: float) -> FloatArray:
+        """Mean heights over square cells about the middle, so that short waves are no longer ones [m]."""
+        parts = max(1, math.ceil(cell / min(self.spacing) * (1 - 1e-9)))
+        x, y = ((np.arange(parts * n) - (parts * n - 1) / 2) * cell / parts for n in shape)
+        return np.asarray(self.at(x, y).reshape(shape[0], parts, shape[1], parts).mean(axis=(1, 3)))
 
     @cached_property
     def texture(self) -> float:

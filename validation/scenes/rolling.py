@@ -8,11 +8,9 @@ from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.reader import nonblank_text
-from validation.scenes.roughness import Roughness, check_band
+from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import Wheel
-
-Ground = Roughness | MeasuredHeights
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +27,7 @@ class RollingScene:
     radius: float
     load: float
     modulus: float
-    ground: Ground
+    ground: RoughSurface
     mass: float | None = None
     speed: float | None = None
     material: Material | None = None
@@ -88,7 +86,7 @@ class RollingScene:
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        found = list(self.ground.notes()) if isinstance(self.ground, MeasuredHeights) else []
+        found = list(self.ground.notes())
         if self.roughness_ratio > 1 / 3:
             found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
         if self.mass is not None:

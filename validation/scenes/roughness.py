@@ -1,7 +1,8 @@
-"""Isotropic self-affine roughness, as scenes have it."""
+"""What is rough: one protocol of a rough surface, and isotropic self-affine roughness, as scenes have it."""
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,6 +10,42 @@ from numpy.typing import ArrayLike, NDArray
 from mdr import SelfAffine
 from mdr.checks import positive
 from validation.scenes.reader import LENGTH, NUMBER, Reader, table
+from validation.scenes.units import in_unit
+
+
+class RoughSurface(Protocol):
+    """Roughness that is drawn from its spectrum, or one surface that was measured.
+
+    c2d: isotropic spectrum [m^4], zero outside of q_min to q_max [rad/m], smooth between edges; q_resolved: largest
+    wavenumber that counts; rms: height [m]; longest: wave [m]; slope_along: rms slope along x; hurst: None where
+    there is none; waves: in words; is_single: whether there is one realisation.
+    """
+
+    is_single: ClassVar[bool]
+
+    @property
+    def rms(self) -> float: ...
+    @property
+    def hurst(self) -> float | None: ...
+    @property
+    def longest(self) -> float: ...
+    @property
+    def q_min(self) -> float: ...
+    @property
+    def q_max(self) -> float: ...
+    @property
+    def q_resolved(self) -> float: ...
+    @property
+    def edges(self) -> tuple[float, ...]: ...
+    @property
+    def slope_along(self) -> float: ...
+    @property
+    def waves(self) -> str: ...
+    def __hash__(self) -> int: ...
+    def c2d(self, q: ArrayLike) -> NDArray[np.float64]: ...
+    def notes(self) -> tuple[str, ...]: ...
+    def beyond_a_spectrum(self) -> tuple[str, ...]: ...
+    def not_gaussian(self) -> str: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,6 +54,8 @@ class Roughness:
 
     rms: root mean square height [m]; hurst: H; longest, shortest: wavelengths between which it is rough [m].
     """
+
+    is_single: ClassVar = False
 
     rms: float
     hurst: float
@@ -32,6 +71,11 @@ class Roughness:
     def q_max(self) -> float:
         """2 pi over the shortest wave [rad/m]."""
         return 2 * math.pi / self.shortest
+
+    @property
+    def q_resolved(self) -> float:
+        """All of its waves count [rad/m]."""
+        return self.q_max
 
     @property
     def slope_along(self) -> float:
@@ -54,6 +98,24 @@ class Roughness:
     def c2d(self, q: ArrayLike) -> NDArray[np.float64]:
         """C_2D of the spectrum [m^4]."""
         return self.spectrum.c2d(q)
+
+    @property
+    def waves(self) -> str:
+        """Wavelengths and Hurst exponent, in words."""
+        longest, shortest = (in_unit(wave, "length") for wave in (self.longest, self.shortest))
+        return f"{longest} to {shortest}, Hurst exponent {self.hurst:.3g}"
+
+    def notes(self) -> tuple[str, ...]:
+        """Nothing is wrong about it."""
+        return ()
+
+    def beyond_a_spectrum(self) -> tuple[str, ...]:
+        """The spectrum tells all of it."""
+        return ()
+
+    def not_gaussian(self) -> str:
+        """Its heights are Gaussian."""
+        return ""
 
 
 def roughness_of(name: str, given: object) -> Roughness:

@@ -10,13 +10,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.scenes.measured import MeasuredHeights
-from validation.scenes.roughness import Roughness
+from validation.scenes.roughness import RoughSurface
 from validation.scenes.wheel_body import Wheel
 from validation.theory.rolling import force_spectrum_1d
 
 FloatArray = NDArray[np.float64]
-Ground = Roughness | MeasuredHeights
 
 MOST_FORCE = 0.25
 """Root mean square of the force by linear theory, over the load, from where on wheels leave the track."""
@@ -28,7 +26,7 @@ NODES, RATIO = 16, 1.4
 """Of Gauss and Legendre on a panel; of the ends of a panel, from the resonance, at the most."""
 
 
-def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> str:
+def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]) -> str:
     """Why the level of the motion depends on the distance, in a sentence; empty where it does not.
 
     Of three conditions the first that holds:
@@ -71,7 +69,7 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> s
     return ""
 
 
-def diagnose_short_waves(wheel: Wheel, grounds: Sequence[Ground]) -> tuple[str, ...]:
+def diagnose_short_waves(wheel: Wheel, grounds: Sequence[RoughSurface]) -> tuple[str, ...]:
     """Whether waves shorter than the contact, too high for linear theory, feed the free vibration from beat to beat.
 
     Measured as in `no_steady_answer`: the acceleration grows, for waves of 2 to 0.5 mm, h/d = 0.1, 0.2, 0.3, by 1.2,
@@ -87,7 +85,7 @@ def diagnose_short_waves(wheel: Wheel, grounds: Sequence[Ground]) -> tuple[str, 
     )
 
 
-def force_on_the_way(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> float:
+def force_on_the_way(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]) -> float:
     """Root mean square change of the force on a wheel that moves, by linear theory [N].
 
     sigma^2 = 2 int C_F(q) / (1 - (omega_eigen / (q v_0))^2)^2 dq, C_F of (14.12) with Geike's spectrum.
@@ -96,7 +94,7 @@ def force_on_the_way(wheel: Wheel, speed: float, grounds: Sequence[Ground]) -> f
     return math.hypot(*(_of_one(wheel, wheel.eigenfrequency / speed, ground) for ground in grounds))
 
 
-def _of_one(wheel: Wheel, resonance: float, ground: Ground) -> float:
+def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
     if ground.q_min <= resonance <= ground.q_max:
         return math.inf
     q, weight = _nodes(resonance, ground, math.pi / wheel.contact_radius)
@@ -106,7 +104,7 @@ def _of_one(wheel: Wheel, resonance: float, ground: Ground) -> float:
     return math.sqrt(2 * float(np.sum(weight * force / (1 - (resonance / q) ** 2) ** 2)))
 
 
-def _nodes(resonance: float, ground: Ground, period: float) -> tuple[FloatArray, FloatArray]:
+def _nodes(resonance: float, ground: RoughSurface, period: float) -> tuple[FloatArray, FloatArray]:
     """Of a quadrature on panels that shrink towards the resonance, none longer than a period of sin^2."""
     low, high = sorted(abs(q - resonance) for q in (ground.q_min, ground.q_max))
     powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(RATIO)))

@@ -9,7 +9,9 @@ from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.selection import indentation_models, rolling_models
+from validation.selection.found_models import with_found_models
 from validation.selection.hierarchy import Candidate, ContactModel, Selection, select_model
+from validation.simulation.model import all_models
 from validation.simulation.rolling_quantity import RollingQuantity
 
 PRESSED = ("stiffness",)
@@ -53,8 +55,15 @@ def models_of(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[
             f"quantity must be one of {', '.join(quantities_of(scene))} for scene {scene.name!r}, got {quantity!r}"
         )
     if isinstance(scene, IndentationScene):
-        return indentation_models.models(scene, tolerance, seed)
-    return rolling_models.models(scene, quantity, tolerance, seed)  # type: ignore[arg-type]  # one of its own, as checked
+        return with_found_models(indentation_models.models(scene, tolerance, seed), scene, quantity)
+    models = rolling_models.models(scene, quantity, tolerance, seed)  # type: ignore[arg-type]  # as checked
+    return with_found_models(models, scene, quantity)
+
+
+def kinds_below_boundary_elements() -> tuple[str, ...]:
+    """Names of all models below boundary elements."""
+    found = (model.name for model in all_models())
+    return tuple(dict.fromkeys((*found, *rolling_models.CHEAP, indentation_models.IndentationOnSprings.kind)))
 
 
 def compare(

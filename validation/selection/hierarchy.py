@@ -1,13 +1,15 @@
-"""The cheapest model that a scene needs: models from closed forms to fine boundary elements, selection one by one."""
+"""The cheapest model that a scene needs, from closed forms to fine boundary elements."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
+
+from validation.simulation.model import Cost, ErrorEstimate
 
 FloatArray = NDArray[np.float64]
 
@@ -17,37 +19,6 @@ SLOWEST = 0.8
 """Largest ratio of two changes that a sample may feign: four times the last change is then left."""
 BOUNDARY_ELEMENTS = "boundary elements"
 """The model that judges all others, on whichever grid."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ErrorEstimate:
-    """The error that a model expects, before it has computed anything.
-
-    error: relative half-width of 95 % that it expects to leave, infinite where it claims nothing; reason: the
-    condition that this rests on, with its numbers.
-    """
-
-    error: float
-    reason: str
-
-    @classmethod
-    def out_of_range(cls, reason: str) -> "ErrorEstimate":
-        """None: the scene is not of those on which the error was measured, or the model cannot serve it at all."""
-        return cls(error=math.inf, reason=reason)
-
-    @property
-    def in_range(self) -> bool:
-        """Whether there is one."""
-        return math.isfinite(self.error)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cost:
-    """work: operations, expected or counted; unit: of them; seconds: what those take on one core, about."""
-
-    work: float
-    unit: str
-    seconds: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -208,11 +179,6 @@ def realisations(deviation: float, error: float, *, least: int = 8, most: int = 
     deviation: s, relative, of one realisation; error: e.
     """
     return int(np.clip(math.ceil((STUDENT * deviation / error) ** 2), least, most))
-
-
-def counted(conditions: Mapping[str, float]) -> str:
-    """Names with their numbers, for a reason."""
-    return ", ".join(f"{name} = {value:.3g}" for name, value in conditions.items())
 
 
 def answered(model: ContactModel) -> Answer:

@@ -1,4 +1,4 @@
-"""Models for a body that is pressed: closed form, springs, boundary elements coarse and fine; the stiffness."""
+"""Models of the stiffness of a rough body that is pressed: springs, boundary elements coarse and fine."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -11,32 +11,35 @@ from numpy.typing import NDArray
 import mdr
 from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
-from validation.scenes.roughness import Roughness
-from validation.selection.calibrated import Ranges, outside
-from validation.selection.hierarchy import Answer, ContactModel, Cost, ErrorEstimate, counted, mean_error, realisations
-from validation.selection.indentation_on_grids import SCATTER, IndentationOnGrid
+from validation.selection.hierarchy import Answer, ContactModel, mean_error, realisations
+from validation.selection.indentation_on_grids import IndentationOnGrid
+from validation.simulation.calibrated_range import (
+    BALL,
+    FACE,
+    HEIGHT,
+    LOAD,
+    SCATTER,
+    SPHERE_FLOOR,
+    WAVES,
+    Ranges,
+    beyond_spectrum,
+    conditions_of,
+    counted,
+    outside,
+)
 from validation.simulation.indentation import FEW, finest_cells, ground_of, side_of
+from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.resolution import too_few
-from validation.theory.closed_forms import rough_punch_stiffness
 
 FloatArray = NDArray[np.float64]
 
 PROFILES = 1
 """The spawn key under which profiles draw."""
-FORMULA, SPRING = 2.0e-5, 3.5e-8
-"""Seconds that a formula takes, and a spring in a sort, about."""
+SPRING = 3.5e-8
+"""Seconds that a spring takes in a sort, about."""
 SPRINGS_TO_A_WAVE, SPRINGS_TO_A_RADIUS = 8, 100
 MOST_SPRINGS, BLOCK = 2**26, 2**22
 """Springs of a profile at the most, which take four gigabytes, and of all that are drawn at once, or one profile."""
-PUNCH_CLOSED = (
-    np.array([-0.7, -0.5, -0.3, -0.15, 0.0, 0.3, 0.5, 0.8, 1.0, 1.5]),
-    np.array([0.25, 0.10, 0.07, 0.080, 0.07, 0.055, 0.06, 0.075, 0.06, 0.03]),
-)
-"""lg Fbar, and the error there of a flat punch in series with its rough face, H from 0.3 to 1, as measured in 3D;
-below its range, none; above, it falls like 1 / Fbar."""
-CLOSED_ROLL_OFF = 0.015
-"""By which that grows with each more of the longest waves on a side."""
 PUNCH_SPRINGS = (
     np.array([-3.0, -2.5, -2.0, -1.5, -0.5, -0.2, 0.0, 0.3, 0.5, 0.7, 0.85, 1.0]),
     np.array([0.18, 0.15, 0.12, 0.075, 0.065, 0.075, 0.12, 0.12, 0.08, 0.12, 0.14, 0.16]),
@@ -44,76 +47,21 @@ PUNCH_SPRINGS = (
 """lg Fbar, and the error of springs there without roll-off, H from 0.4 to 1: beside boundary elements."""
 ROLL_OFF = 0.06
 """By which it grows with each more of the longest waves on a side."""
-SPHERE_CLOSED, SPHERE_SPRINGS, SPHERE_FLOOR = 0.32, 0.15, 0.01
-"""Errors of a rough sphere, over h/d; and what the finest grid leaves."""
-LOAD, HEIGHT, WAVES, HURST = "F / (E* h L)", "h/d", "longest waves on a side", "Hurst exponent"
-LONG, SHORT, RATIO = "q a of the longest wave", "q a of the shortest wave", "longest over shortest wave"
-"""What decides how far cheap models are off, in words."""
-FACE: Ranges = {WAVES: (1, 5), RATIO: (3, 64), HURST: (0.2, 1.2)}
-BALL: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 20), RATIO: (2, 20), HURST: (0.2, 1.2)}
-CLOSED_RANGES: Mapping[str, Ranges] = {"punch": {LOAD: (0.2, math.inf), **FACE}, "sphere": BALL}
-SPRINGS_RANGES: Mapping[str, Ranges] = {"punch": {LOAD: (1e-3, math.inf), **FACE}, "sphere": BALL}
-"""Scenes for which the errors above hold: drawn ones were pressed with bands up to a factor 32 wide, those of Fig.
-14.1 up to 64, and spheres with h/d from 0.003 and q a of the longest wave from 0.1. Under the highest loads both
-bodies are flat punches, whose stiffness is known; waves much longer than the contact of a sphere only move it."""
+SPHERE_SPRINGS = 0.15
+"""Error of a rough sphere, over h/d."""
+RANGES: Mapping[str, Ranges] = {"punch": {LOAD: (1e-3, math.inf), **FACE}, "sphere": BALL}
 
 
 def models(scene: IndentationScene, tolerance: float, seed: int) -> list[ContactModel]:
-    """All that a scene can be asked with, the cheapest first; measured heights on their own points alone."""
+    """Springs and boundary elements, the cheapest first; measured heights on their own points alone."""
     if scene.ground is None:
-        return [IndentationClosedForm(scene)]
+        return []
     finest = finest_cells(scene)
-    measured = isinstance(scene.ground, MeasuredHeights)
-    grids = [finest] if measured else [cells for cells in (finest // 4, finest // 2, finest) if cells >= FEW]
+    grids = (
+        [finest] if scene.ground.is_single else [cells for cells in (finest // 4, finest // 2, finest) if cells >= FEW]
+    )
     solved = [IndentationOnGrid(scene, tolerance, seed, cells) for cells in grids]
-    return [IndentationClosedForm(scene), IndentationOnSprings(scene, tolerance, seed), *solved]
-
-
-@dataclass(frozen=True)
-class IndentationClosedForm:
-    """2 E* a of a smooth sphere, whose roughness is the error; a rough punch is a flat one in series with its face."""
-
-    kind: ClassVar = "closed form"
-    name: ClassVar = kind
-
-    scene: IndentationScene
-
-    def cost(self) -> Cost:
-        """A formula."""
-        return Cost(work=1, unit="formula", seconds=FORMULA)
-
-    def estimate(self) -> ErrorEstimate:
-        """By the load or the height."""
-        if self.scene.ground is None:
-            return ErrorEstimate(error=0.0, reason="the body is smooth, the formula exact")
-        if said := beyond_spectra(self.scene.ground) or _outside(self.scene, CLOSED_RANGES):
-            return ErrorEstimate.out_of_range(said)
-        if self.scene.shape == "punch":
-            return self._of_a_punch()
-        ratio = self.scene.roughness_ratio
-        return ErrorEstimate(error=SPHERE_CLOSED * ratio + SPHERE_FLOOR, reason=counted({HEIGHT: ratio}))
-
-    def solve(self) -> Answer:
-        """Evaluate it."""
-        expected = self.estimate()
-        return Answer(value=np.array([self._stiffness]), cost=self.cost(), model=expected.error, reason=expected.reason)
-
-    @property
-    def _stiffness(self) -> float:
-        scene = self.scene
-        if scene.shape == "sphere" or scene.ground is None:
-            return scene.stiffness
-        height = scene.ground.rms
-        return rough_punch_stiffness(side=scene.size, modulus=scene.modulus, force=scene.load, height=height)
-
-    def _of_a_punch(self) -> ErrorEstimate:
-        """By the load, as measured; a measured face is one of many that have its spectrum."""
-        ground, load, waves = ground_of(self.scene), self.scene.reduced_load, _waves_on_a_side(self.scene)
-        power, last = math.log10(load), float(PUNCH_CLOSED[0][-1])
-        error = float(np.interp(power, *PUNCH_CLOSED)) * 10 ** min(last - power, 0.0)
-        own = 2 * SCATTER / max(load, 1.0) ** 2 if isinstance(ground, MeasuredHeights) else 0.0
-        reason = counted({LOAD: load, WAVES: waves})
-        return ErrorEstimate(error=error + CLOSED_ROLL_OFF * max(waves - 1, 0.0) + own, reason=reason)
+    return [IndentationOnSprings(scene, tolerance, seed), *solved]
 
 
 @dataclass(frozen=True)
@@ -152,7 +100,8 @@ class IndentationOnSprings:
 
     def estimate(self) -> ErrorEstimate:
         """By the load, the height and the waves on a side, as measured beside boundary elements."""
-        if said := beyond_spectra(ground_of(self.scene)) or _outside(self.scene, SPRINGS_RANGES):
+        ranges = RANGES[self.scene.shape]
+        if said := beyond_spectrum(ground_of(self.scene)) or outside(conditions_of(self.scene), ranges):
             return ErrorEstimate.out_of_range(said)
         if self.points > MOST_SPRINGS:
             return ErrorEstimate.out_of_range(
@@ -195,28 +144,7 @@ class IndentationOnSprings:
     @property
     def _own_scatter(self) -> float:
         """Of one surface about the mean of all that have its spectrum, which is all that springs know."""
-        return 2 * SCATTER if isinstance(self.scene.ground, MeasuredHeights) else 0.0
-
-
-def _conditions(scene: IndentationScene) -> dict[str, float]:
-    """What decides how far cheap models are off."""
-    ground = ground_of(scene)
-    band = {RATIO: ground.q_max / ground.q_min}
-    if isinstance(ground, Roughness):
-        band[HURST] = ground.hurst
-    if scene.shape == "punch":
-        return {LOAD: scene.reduced_load, WAVES: _waves_on_a_side(scene), **band}
-    radius = scene.contact_radius
-    return {HEIGHT: scene.roughness_ratio, LONG: ground.q_min * radius, SHORT: ground.q_max * radius, **band}
-
-
-def _outside(scene: IndentationScene, ranges: Mapping[str, Ranges]) -> str:
-    """Why the error of a model is not known for a scene; empty where it is."""
-    return outside(_conditions(scene), ranges[scene.shape])
-
-
-def _waves_on_a_side(scene: IndentationScene) -> float:
-    return ground_of(scene).q_min * scene.size / (2 * math.pi)
+        return 2 * SCATTER if ground_of(self.scene).is_single else 0.0
 
 
 def _springs_model(scene: IndentationScene) -> tuple[float, str]:
@@ -224,16 +152,6 @@ def _springs_model(scene: IndentationScene) -> tuple[float, str]:
     if scene.shape == "sphere":
         ratio = scene.roughness_ratio
         return SPHERE_SPRINGS * ratio + SPHERE_FLOOR, counted({HEIGHT: ratio})
-    load, waves = scene.reduced_load, _waves_on_a_side(scene)
+    load, waves = (conditions_of(scene)[name] for name in (LOAD, WAVES))
     level = float(np.interp(math.log10(load), *PUNCH_SPRINGS))
     return level + ROLL_OFF * (waves - 1), counted({LOAD: load, WAVES: waves})
-
-
-def beyond_spectra(ground: Roughness | MeasuredHeights) -> str:
-    """Why a model that knows a surface by its spectrum alone has nothing to say of this one; empty where it has."""
-    beyond = ground.beyond_a_spectrum() if isinstance(ground, MeasuredHeights) else ()
-    return f"knows the spectrum alone, and {beyond[0]}" if beyond else ""
-
-
-CHEAP = (IndentationClosedForm.kind, IndentationOnSprings.kind)
-"""The models below boundary elements, by their names."""

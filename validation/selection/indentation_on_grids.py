@@ -11,18 +11,17 @@ from numpy.typing import NDArray
 
 import bem3d
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
 from validation.selection.hierarchy import (
     BOUNDARY_ELEMENTS,
     STUDENT,
     Answer,
-    Cost,
-    ErrorEstimate,
     grid_error,
     mean_error,
     realisations,
 )
-from validation.simulation.indentation import cells_wanted, height_of, highest_of, holds_waves, side_of
+from validation.simulation.calibrated_range import SCATTER
+from validation.simulation.indentation import cells_wanted, ground_of, height_of, highest_of, holds_waves, side_of
+from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.resolution import too_few
 
 FloatArray = NDArray[np.float64]
@@ -31,10 +30,8 @@ CELL, PRESS = 2.0e-8, 3.5e-3
 """Seconds that a cell takes in an application, and what else a contact, about."""
 APPLICATIONS = 24
 """Of the operator, to a contact and its stiffness."""
-SCATTER = 0.22
-"""Relative deviation of the stiffness of one rough punch without roll-off, about: Fig. 14.1."""
 SPHERE_SCATTER = 0.3
-"""The same of a rough sphere, over h/d."""
+"""Relative deviation of the stiffness of one rough sphere, over h/d, about."""
 EDGE = 0.35
 """Error of the stiffness of a flat square punch times its cells a side."""
 FEWEST, MOST = 8, 1000
@@ -63,7 +60,7 @@ class IndentationOnGrid:
     @property
     def measured(self) -> bool:
         """Whether there is a single surface."""
-        return isinstance(self.scene.ground, MeasuredHeights)
+        return ground_of(self.scene).is_single
 
     @property
     def count(self) -> int:

@@ -7,22 +7,27 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
-from validation.scenes.roughness import Roughness
-from validation.selection.calibrated import Ranges, outside
 from validation.selection.hierarchy import (
     BOUNDARY_ELEMENTS,
     Answer,
     ContactModel,
-    Cost,
-    ErrorEstimate,
-    counted,
     distance,
     mean_error,
     realisations,
 )
-from validation.selection.indentation_models import beyond_spectra
+from validation.simulation.calibrated_range import (
+    HEIGHT,
+    HURST,
+    LONG,
+    RATIO,
+    SHORT,
+    Ranges,
+    beyond_spectrum,
+    counted,
+    outside,
+)
+from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.rolling_levels import (
     RollingGrid,
     by_linear_theory,
@@ -62,9 +67,6 @@ MOST_ON_A_STRIP, MOST_ON_TRACKS = 2**26, 2**27
 """Cells and springs that are drawn at once at the most; they take up to four gigabytes."""
 FINE, COARSE, LEAST = 4.0, 2.5, 8
 """Cells to the shortest wave on both grids, and to a contact radius at least."""
-HEIGHT, LONG, SHORT = "h/d", "q a of the longest wave", "q a of the shortest wave"
-RATIO, HURST = "longest over shortest wave", "Hurst exponent"
-"""What decides how far cheap models are off, in words."""
 RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), HURST: (0.2, 1.2)}
 """Scenes for which the errors above hold: drawn ones were rolled with h/d from 0.003, q a of the longest wave from
 0.2 and bands up to a factor 20 wide. Longer waves only move the contact, which linear theory knows; that it holds
@@ -78,7 +80,7 @@ def models(scene: RollingScene, quantity: QuantityName, tolerance: float, seed: 
     coarse = min(max(LEAST, math.ceil(COARSE * radii)), MOST_CELLS * 2 // 3)
     fine = min(max(math.ceil(1.5 * coarse), math.ceil(FINE * radii)), MOST_CELLS)
     linear: list[ContactModel] = [LinearFilter(asked)]
-    if quantity != "force-rms" or isinstance(scene.ground, MeasuredHeights):
+    if quantity != "force-rms" or scene.ground.is_single:
         linear.append(LinearSpace(asked))
     return [
         *linear,
@@ -103,9 +105,9 @@ class LinearFilter:
 
     def estimate(self) -> ErrorEstimate:
         """By the height, and what Geike's spectrum makes of levels along the track."""
-        if said := beyond_spectra(self.quantity.scene.ground) or _outside(self.quantity):
+        if said := beyond_spectrum(self.quantity.scene.ground) or _outside(self.quantity):
             return ErrorEstimate.out_of_range(said)
-        own = MEASURED_SCATTER if isinstance(self.quantity.scene.ground, MeasuredHeights) else 0.0
+        own = MEASURED_SCATTER if self.quantity.scene.ground.is_single else 0.0
         if self.quantity.name == "force-rms":
             error, reason = _claimed(LINEAR_RMS, self.quantity)
             return ErrorEstimate(error=error + own, reason=f"{reason}; Geike's rule keeps the variance of the force")
@@ -135,7 +137,7 @@ class LinearSpace:
 
     def estimate(self) -> ErrorEstimate:
         """By the height."""
-        if said := _single_summits(self.quantity) or _outside(self.quantity):
+        if said := self.quantity.scene.ground.not_gaussian() or _outside(self.quantity):
             return ErrorEstimate.out_of_range(said)
         error, reason = _claimed(LINEAR_RMS if self.quantity.name == "force-rms" else LINEAR_BANDS, self.quantity)
         return ErrorEstimate(error=error, reason=reason)
@@ -143,7 +145,7 @@ class LinearSpace:
     def solve(self) -> Answer:
         """By quadrature, or on the heights themselves."""
         quantity, expected = self.quantity, self.estimate()
-        if isinstance(quantity.scene.ground, MeasuredHeights):
+        if quantity.scene.ground.is_single:
             cells = max(LEAST, math.ceil(FINE * quantity.q_max * quantity.scene.contact_radius / (2 * math.pi)))
             spacing = quantity.scene.contact_radius / cells
             value = by_linear_theory(quantity, strip_of(quantity, cells, 0, 0), spacing)
@@ -174,7 +176,7 @@ class RollingOnSprings:
 
     def estimate(self) -> ErrorEstimate:
         """By the height."""
-        if said := beyond_spectra(self.quantity.scene.ground) or _outside(self.quantity):
+        if said := beyond_spectrum(self.quantity.scene.ground) or _outside(self.quantity):
             return ErrorEstimate.out_of_range(said)
         springs = self.cost().work
         if springs > MOST_ON_TRACKS:
@@ -208,7 +210,7 @@ class RollingOnSprings:
 
     @property
     def _own_scatter(self) -> float:
-        return MEASURED_SCATTER if isinstance(self.quantity.scene.ground, MeasuredHeights) else 0.0
+        return MEASURED_SCATTER if self.quantity.scene.ground.is_single else 0.0
 
 
 @dataclass(frozen=True)
@@ -272,7 +274,7 @@ class RollingOnGrid:
     @property
     def _measured(self) -> bool:
         """Whether there is one strip, as it was measured."""
-        return isinstance(self.quantity.scene.ground, MeasuredHeights)
+        return self.quantity.scene.ground.is_single
 
     def _enough(self, change: list[FloatArray]) -> bool:
         """Whether the sample leaves half of the tolerance, or there is no more of it, or no use in more."""
@@ -318,15 +320,9 @@ def _outside(quantity: RollingQuantity) -> str:
     scene, ground = quantity.scene, quantity.scene.ground
     first, last = (q * scene.contact_radius for q in (ground.q_min, quantity.q_max))
     conditions = {HEIGHT: scene.roughness_ratio, LONG: first, SHORT: last, RATIO: last / first}
-    if isinstance(ground, Roughness):
+    if ground.hurst is not None:
         conditions[HURST] = ground.hurst
     return outside(conditions, RANGES)
-
-
-def _single_summits(quantity: RollingQuantity) -> str:
-    """Why the contact that linear theory loses is not that of Gaussian heights; empty where it is."""
-    ground = quantity.scene.ground
-    return ground.not_gaussian() if isinstance(ground, MeasuredHeights) else ""
 
 
 def _left_out(quantity: RollingQuantity, value: FloatArray) -> float:
@@ -334,7 +330,7 @@ def _left_out(quantity: RollingQuantity, value: FloatArray) -> float:
 
     That is h/d of the level of all bands, in each of them; a drawn band has waves of its own throughout.
     """
-    if not isinstance(quantity.scene.ground, MeasuredHeights) or value.size == 1:
+    if not quantity.scene.ground.is_single or value.size == 1:
         return 0.0
     other = quantity.scene.roughness_ratio * float(np.linalg.norm(value))
     return distance(np.hypot(value, other), value)

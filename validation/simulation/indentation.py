@@ -1,17 +1,16 @@
 """The rough face of a body that is pressed, on a grid: how large and how fine it must be, drawn or measured."""
 
 import math
-import warnings
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-import bem3d
 from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.roughness import Roughness
+from validation.scenes.roughness import RoughSurface
+from validation.simulation.surface import draw_surface
 
 FloatArray = NDArray[np.float64]
 
@@ -33,10 +32,10 @@ LATTICE = 512
 """Waves on a side up to which their mean square is summed one by one; shorter ones are an integral."""
 
 
-def ground_of(scene: IndentationScene) -> Roughness | MeasuredHeights:
+def ground_of(scene: IndentationScene) -> RoughSurface:
     """What is rough. Raises ValueError for a smooth body."""
     if scene.ground is None:
-        raise ValueError("scene must be rough for this rung")
+        raise ValueError("scene must be rough for this model")
     return scene.ground
 
 
@@ -87,13 +86,13 @@ def cells_wanted(scene: IndentationScene) -> int:
 
 def finest_cells(scene: IndentationScene) -> int:
     """A side of the finest grid that is offered."""
-    return min(MANY_POINTS if isinstance(scene.ground, MeasuredHeights) else MANY, cells_wanted(scene))
+    return min(MANY_POINTS if ground_of(scene).is_single else MANY, cells_wanted(scene))
 
 
 def holds_waves(scene: IndentationScene, cells: int) -> bool:
     """Whether a grid of so many cells a side holds the longest wave."""
     ground = ground_of(scene)
-    return isinstance(ground, MeasuredHeights) or ground.q_min <= shortest_held(scene, cells)
+    return ground.is_single or ground.q_min <= shortest_held(scene, cells)
 
 
 def shortest_held(scene: IndentationScene, cells: int) -> float:
@@ -108,7 +107,7 @@ def height_of(scene: IndentationScene, cells: int, realisation: int, seed: int) 
     """
     ground, side = ground_of(scene), side_of(scene)
     if isinstance(ground, MeasuredHeights):
-        return _resampled(ground, side, cells)
+        return ground.mean_over_cells((cells, cells), side / cells)
     return _drawn(ground, shortest_held(scene, cells), cells, side, random_generator(seed, SURFACES, realisation))
 
 
@@ -116,7 +115,7 @@ def highest_of(scene: IndentationScene, cells: int) -> FloatArray:
     """The highest of the measured points in each cell, where the mean may hide a summit [m]."""
     heights, side = ground_of(scene), side_of(scene)
     assert isinstance(heights, MeasuredHeights)  # as asked
-    found = _resampled(heights, side, cells)
+    found = heights.mean_over_cells((cells, cells), side / cells)
     i, j = (np.floor((end / side + 0.5) * cells).astype(np.int64) for end in heights.places)
     inside = np.ix_((i >= 0) & (i < cells), (j >= 0) & (j < cells))
     i, j = np.broadcast_arrays(i[:, np.newaxis], j)
@@ -124,23 +123,20 @@ def highest_of(scene: IndentationScene, cells: int) -> FloatArray:
     return found
 
 
-def _drawn(ground: Roughness, shortest: float, cells: int, side: float, rng: np.random.Generator) -> FloatArray:
+def _drawn(ground: RoughSurface, shortest: float, cells: int, side: float, rng: np.random.Generator) -> FloatArray:
     """The waves of a surface up to a wavenumber; the same waves on every grid."""
-    with warnings.catch_warnings():
-        # few cells to a wave are what grids are compared for
-        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        surface = bem3d.rough_surface(
-            lambda q: np.where(np.abs(q) <= shortest, ground.c2d(q), 0.0),
-            shape=(cells, cells),
-            spacing=side / cells,
-            rng=rng,
-        )
+    surface = draw_surface(
+        lambda q: np.where(np.abs(q) <= shortest, ground.c2d(q), 0.0),
+        shape=(cells, cells),
+        spacing=side / cells,
+        rng=rng,
+    )
     # the mean square of the whole band, less what is left out of it
     return np.asarray(surface * _whole(ground, side))
 
 
 @lru_cache(maxsize=64)
-def _whole(ground: Roughness, side: float) -> float:
+def _whole(ground: RoughSurface, side: float) -> float:
     """What makes the height of all waves of the square that of the scene.
 
     Raises ValueError where no wave of the band fits the side a whole number of times.
@@ -159,7 +155,7 @@ def _whole(ground: Roughness, side: float) -> float:
     return ground.rms / math.sqrt(drawn)
 
 
-def _moment(ground: Roughness, first: float, power: int) -> float:
+def _moment(ground: RoughSurface, first: float, power: int) -> float:
     """2 pi int q^power C_2D q dq from a wavenumber to the last [m^(2 - power)]."""
     low = max(first, ground.q_min)
     node, weight = np.polynomial.legendre.leggauss(24)
@@ -167,10 +163,3 @@ def _moment(ground: Roughness, first: float, power: int) -> float:
     half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
     q = middle + half * node
     return float(2 * np.pi * np.sum(half * weight * q ** (power + 1) * ground.c2d(q)))
-
-
-def _resampled(heights: MeasuredHeights, side: float, cells: int) -> FloatArray:
-    """The middle of a measured surface on cells x cells: the mean over each cell."""
-    parts = max(1, math.ceil(side / cells / min(heights.spacing)))
-    at = ((np.arange(parts * cells) + 0.5) / (parts * cells) - 0.5) * side
-    return np.asarray(heights.at(at, at).reshape(cells, parts, cells, parts).mean(axis=(1, 3)))

@@ -18,6 +18,7 @@ from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, 
 from validation.simulation.motion import simulate
 from validation.simulation.resolution import too_few
 from validation.simulation.rolling_quantity import RollingQuantity
+from validation.simulation.surface import surface_on_grid
 from validation.simulation.wheel_on_half_space import crop_to_reach
 from validation.simulation.wheel_on_springs import linear_law_1d, rolling_input
 from validation.theory.rolling import linear_force
@@ -77,19 +78,10 @@ APPLICATIONS = 7
 def strip_of(quantity: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
     """Heights at the centres of cells; drawn, or those that were measured, there and back [m]."""
     grid, ground = RollingGrid.of(quantity, cells), quantity.scene.ground
-    if isinstance(ground, MeasuredHeights):
-        there = _resampled(ground, grid)
-        return np.concatenate([there, there[::-1]])
-    with warnings.catch_warnings():
-        # grids are compared, and what they leave open is estimated
-        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        return bem3d.rough_surface(
-            ground.c2d,
-            shape=(grid.along, grid.across),
-            spacing=grid.spacing,
-            rng=random_generator(seed, STRIPS, realisation),
-            rms=ground.rms,
-        )
+    along = grid.along // 2 if ground.is_single else grid.along
+    rng = random_generator(seed, STRIPS, realisation)
+    surface = surface_on_grid(ground, shape=(along, grid.across), spacing=grid.spacing, rng=rng)
+    return np.concatenate([surface, surface[::-1]]) if ground.is_single else surface
 
 
 def by_linear_theory(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
@@ -122,7 +114,7 @@ def on_boundary_elements(quantity: RollingQuantity, cells: int, realisation: int
     """ln of levels over those of linear theory on the same strip; of measured heights, of the levels themselves."""
     surface, spacing = strip_of(quantity, cells, realisation, seed), quantity.scene.contact_radius / cells
     found = np.log(by_boundary_elements(quantity, surface, spacing))
-    if isinstance(quantity.scene.ground, MeasuredHeights):
+    if quantity.scene.ground.is_single:
         return found
     return np.asarray(found - np.log(by_linear_theory(quantity, surface, spacing)))
 
@@ -229,11 +221,3 @@ def _levels(
 def _tolerance(quantity: RollingQuantity) -> float:
     """The lower the roughness, the less its waves change the force, and the finer the residual."""
     return float(np.clip(1e-4 * quantity.scene.roughness_ratio, 1e-7, 3e-5))
-
-
-def _resampled(heights: MeasuredHeights, grid: RollingGrid) -> FloatArray:
-    """Measured heights, their mean over each cell: what is shorter than that is no other wave."""
-    parts = max(1, math.ceil(grid.spacing / min(heights.spacing) * (1 - 1e-9)))
-    shape = (grid.along // 2, grid.across)
-    along, across = ((np.arange(parts * n) - (parts * n - 1) / 2) * grid.spacing / parts for n in shape)
-    return np.asarray(heights.at(along, across).reshape(shape[0], parts, shape[1], parts).mean(axis=(1, 3)))

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import Bands
-from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
@@ -68,7 +67,7 @@ class RollingQuantity:
     def q_max(self) -> float:
         """The shortest wave that counts: of measured heights, four of their points [rad/m]."""
         ground = self.scene.ground
-        return ground.q_max / 2 if isinstance(ground, MeasuredHeights) else ground.q_max
+        return ground.q_resolved
 
     @cached_property
     def bands(self) -> Bands:
@@ -76,7 +75,7 @@ class RollingQuantity:
         if self.name == "force-rms":
             return Bands((0.0, math.inf))
         ground, body = self.scene.ground, self.scene.body
-        first = WAVES * ground.q_min if isinstance(ground, MeasuredHeights) else ground.q_min
+        first = WAVES * ground.q_min if ground.is_single else ground.q_min
         if self.dynamic:
             first = max(first, 2 * body.eigenfrequency / (self.scene.speed or 1.0))
         found = Bands.around(math.pi / self.scene.contact_radius, first, self.q_max)

@@ -14,8 +14,7 @@ import mdr
 from validation.analysis.spectra import band_means, record_spectra
 from validation.engine.engine import Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.scenes.measured import MeasuredHeights
-from validation.scenes.roughness import Roughness
+from validation.scenes.roughness import Roughness, RoughSurface
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import Motion, periodic_motion, simulate
@@ -116,7 +115,7 @@ class WheelEnsemble:
 
 
 @cache
-def rolling_input(ground: Roughness | MeasuredHeights, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
+def rolling_input(ground: RoughSurface, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
     """`mdr.rolling_spectrum` of a surface as a callable C_1D(q); values are kept, since each is a quadrature."""
 
     @cache

@@ -13,16 +13,14 @@ from validation.cases.selection.random_scenes import KINDS, RANGES, WANTED, rand
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
-from validation.selection import indentation_models as rungs_pressed
-from validation.selection import rolling_models as rungs_rolling
-from validation.selection.compare import models_of
+from validation.selection.compare import kinds_below_boundary_elements, models_of
 from validation.selection.hierarchy import BOUNDARY_ELEMENTS, ContactModel, answered, distance, select_model
 
 GOAL_COVERED, GOAL_SAVED = 0.95, 50.0
 OTHER_SEED = 1_000_003
 """Added to the seed of what the ladder draws: the referee has surfaces of its own."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
-CHEAP = tuple(dict.fromkeys((*rungs_pressed.CHEAP[:1], *rungs_rolling.CHEAP, *rungs_pressed.CHEAP)))
+CHEAP = kinds_below_boundary_elements()
 RUNGS = (*CHEAP, COARSE, FINE)
 """What a climb may end on: the models below boundary elements by their own names, and those on two kinds of grid."""
 NONE = "none"
@@ -135,7 +133,7 @@ def _rung_of(rung: ContactModel, rungs: Sequence[ContactModel]) -> str:
     """Which of RUNGS it is. Raises ValueError for a model that is none of them: its claims would not be tested."""
     name = (FINE if rung is rungs[-1] else COARSE) if rung.kind == BOUNDARY_ELEMENTS else rung.kind
     if name not in RUNGS:
-        raise ValueError(f"the model of a rung must be one of {', '.join((*CHEAP, BOUNDARY_ELEMENTS))}, got {name}")
+        raise ValueError(f"the kind of a model must be one of {', '.join((*CHEAP, BOUNDARY_ELEMENTS))}, got {name}")
     return name
 
 

@@ -1,0 +1,1 @@
+"""Contact models, a file each: a module that holds a `MODEL` is found by being here."""

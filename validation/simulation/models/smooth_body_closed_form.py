@@ -1,0 +1,53 @@
+"""A smooth sphere or square punch in closed form; the roughness of a sphere is the error."""
+
+from typing import ClassVar
+
+import numpy as np
+
+from validation.scenes.indentation import IndentationScene
+from validation.simulation.calibrated_range import (
+    BALL,
+    HEIGHT,
+    SPHERE_FLOOR,
+    beyond_spectrum,
+    conditions_of,
+    counted,
+    outside,
+)
+from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.model import Cost, ErrorEstimate, Model
+
+ROUGH_SPHERE = 0.32
+"""Error over h/d, beside boundary elements."""
+
+
+class SmoothBodyClosedForm(Model):
+    """k = 2 E* a of a sphere, 1.1523 E* L of a square punch."""
+
+    name: ClassVar = "closed form"
+    setting: ClassVar = "smooth body"
+
+    def serves(self, scene: object, quantity: str) -> bool:
+        """The stiffness of spheres and of smooth punches."""
+        body = isinstance(scene, IndentationScene) and (scene.shape == "sphere" or scene.ground is None)
+        return body and quantity == "stiffness"
+
+    def cost(self, scene: IndentationScene) -> Cost:
+        """A formula."""
+        return Cost(work=1, unit="formula", seconds=2.0e-5)
+
+    def estimate(self, scene: IndentationScene) -> ErrorEstimate:
+        """By the height."""
+        if scene.ground is None:
+            return ErrorEstimate(error=0.0, reason="the body is smooth, the formula exact")
+        if reason := beyond_spectrum(scene.ground) or outside(conditions_of(scene), BALL):
+            return ErrorEstimate.out_of_range(reason)
+        ratio = scene.roughness_ratio
+        return ErrorEstimate(error=ROUGH_SPHERE * ratio + SPHERE_FLOOR, reason=counted({HEIGHT: ratio}))
+
+    def prepare(self, scene: IndentationScene, resolution: Resolution) -> Prepared:
+        """The same for all realisations."""
+        return lambda _: Solve(lambda: scene.stiffness, lambda found: Result({"stiffness": np.array(found)}, 1.0))
+
+
+MODEL = SmoothBodyClosedForm()
