@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import Phase, settings
 
 from tests.planted_faults import (
     analysis,
@@ -50,11 +51,20 @@ def test_named_tests_are_those_of_the_suite():
     assert [fault for fault, (_, named_test) in FAULTS.items() if not is_in_the_suite(named_test)] == []
 
 
+def stop_at_the_first_failure(test, monkeypatch):
+    """A property that is refuted is refuted: no smaller example, and no other one, is looked for."""
+    if hasattr(test, "hypothesis"):
+        own = test._hypothesis_internal_use_settings
+        quick = settings(own, phases=[Phase.explicit, Phase.generate], report_multiple_bugs=False, database=None)
+        monkeypatch.setattr(test, "_hypothesis_internal_use_settings", quick)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_named_test_catches(fault, monkeypatch):
     (places, name, wrong), named_test = FAULTS[fault]
     for place in places if isinstance(places, tuple) else (places,):
         monkeypatch.setattr(place, name, wrong)
+    stop_at_the_first_failure(getattr(named_test, "func", named_test), monkeypatch)
     with pytest.raises(AssertionError):
         named_test()
