@@ -1,4 +1,4 @@
-"""The cases of the wheel: what they draw and roll, whose bits, what leaks, and verdicts on planted changes."""
+"""Wheel cases: generated tracks, bitwise reproducibility, spectral leakage, verdicts after injected errors."""
 
 import functools
 import math

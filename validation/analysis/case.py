@@ -19,7 +19,7 @@ class Chapter(StrEnum):
     WHEEL = "The dynamic wheel"
     LIMITS = "Where each method fails"
     SPEED = "Speed against accuracy"
-    SELECTION = "No more model than a scene needs"
+    SELECTION = "The cheapest sufficient model"
 
 
 @dataclass(frozen=True, kw_only=True)
