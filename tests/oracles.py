@@ -8,6 +8,7 @@ import numpy as np
 from scipy import integrate, linalg, optimize, signal
 
 
+@functools.cache
 def love_by_logarithms(x, y, dx, dy):
     """int dA / r over a cell by the four logarithms of the textbook, one cell at a time."""
     a, b = dx / 2, dy / 2
