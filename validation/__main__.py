@@ -23,9 +23,10 @@ from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_whe
 from validation.scenes.load import bundled_for_compare, load_scene
 from validation.scenes.printable import printable
 from validation.scenes.reader import SceneError
-from validation.selection.compare import QUANTITIES, format_seconds, summary
+from validation.selection.compare import QUANTITIES
 from validation.selection.compare import compare as compared
 from validation.selection.hierarchy import ContactModel
+from validation.selection.summary import format_seconds, summary
 
 CLOCKED = {
     "precision": "error against cost of every method, a scene at a time; full takes two and a half minutes",
@@ -137,12 +138,12 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
 
 
 def compare(arguments: argparse.Namespace) -> Exit:
-    """Climb the ladder of a scene, say where it ended and why."""
+    """Select the cheapest model of a scene that meets the tolerance, and say why."""
     scene = load_scene(arguments.scene)
     seed = arguments.seed or 0
-    found = compared(scene, quantity=arguments.want, tolerance=arguments.tolerance, seed=seed, callback=_announce)
-    print("\n".join(summary(found)))
-    return Exit.MET if found.selection.met else Exit.NOT_CONVERGED
+    found = compared(scene, quantity=arguments.quantity, tolerance=arguments.tolerance, seed=seed, callback=_announce)
+    print(summary(found))
+    return Exit.MET if found.met else Exit.NOT_CONVERGED
 
 
 def _announce(model: ContactModel) -> None:
@@ -216,10 +217,11 @@ def _parser() -> argparse.ArgumentParser:
         "--tolerance", type=_tolerance, default=0.1, metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
     )
     comparing.add_argument(
+        "--quantity",
         "--want",
         choices=QUANTITIES,
-        metavar="WHAT",
-        help=f"one of {', '.join(QUANTITIES)} (default: the first that fits)",
+        metavar="QUANTITY",
+        help=f"one of {', '.join(QUANTITIES)} (default: the first that the scene has); --want in 0.1",
     )
     comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the roughness that is drawn (default: 0)")
     comparing.set_defaults(command=compare)

@@ -14,11 +14,11 @@ from tests.selection import test_model_hierarchy as test_ladder
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.engine import engine as ensemble
 from validation.scenes import measured
-from validation.selection import compare
 from validation.selection import hierarchy as hierarchy
 from validation.selection import indentation_models as indentation_models
 from validation.selection import indentation_on_grids as indentation_on_grids
 from validation.selection import rolling_models as rolling_models
+from validation.selection import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
@@ -204,11 +204,11 @@ FAULTS = {
         ),
     ),
     "decibels of a power for those of a level": (
-        (compare, "math", with_math(log10=lambda value: math.log10(value) / 2)),
+        (summary, "math", with_math(log10=lambda value: math.log10(value) / 2)),
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
     ),
     "radians in a second told as hertz": (
-        (compare, "math", with_math(pi=0.5)),
+        (summary, "math", with_math(pi=0.5)),
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
     ),
 }

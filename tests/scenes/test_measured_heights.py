@@ -438,8 +438,8 @@ def test_tolerances_that_are_none_are_refused(capsys, word):
 
 
 def test_what_a_scene_cannot_answer_is_refused(capsys):
-    assert main(["compare", "sphere", "--want", "acceleration"]) == 2
-    assert "error: want must be one of stiffness for scene 'Smooth sphere'" in capsys.readouterr().err
+    assert main(["compare", "sphere", "--quantity", "acceleration"]) == 2
+    assert "error: quantity must be one of stiffness for scene 'Smooth sphere'" in capsys.readouterr().err
     assert main(["compare", "nowhere"]) == 2
     assert "error: scene must be a file" in capsys.readouterr().err
 

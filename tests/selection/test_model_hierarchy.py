@@ -25,7 +25,7 @@ from validation.selection import hierarchy as hierarchy
 from validation.selection import indentation_models as indentation_models
 from validation.selection import indentation_on_grids as indentation_on_grids
 from validation.selection import rolling_models as rolling_models
-from validation.selection.compare import QUANTITIES, Comparison, compare, models_of, quantities_of, summary
+from validation.selection.compare import QUANTITIES, Comparison, compare, models_of, quantities_of
 from validation.selection.hierarchy import (
     Answer,
     Candidate,
@@ -36,6 +36,7 @@ from validation.selection.hierarchy import (
     realisations,
     select_model,
 )
+from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.model import Cost, ErrorEstimate
@@ -367,7 +368,7 @@ def test_scenes_are_asked_for_what_they_have():
 
 
 def test_what_is_told_has_result_error_cost_and_reason():
-    lines = summary(compare(punch(load=30.0), tolerance=0.1))
+    lines = summary(compare(punch(load=30.0), tolerance=0.1)).splitlines()
     text = "\n".join(lines)
     assert lines[0] == "punch: stiffness within 10 %"
     assert "closed form" in text
@@ -385,7 +386,7 @@ def test_what_is_out_of_reach_is_told():
     found = compare(scene, tolerance=1e-6)
     assert not found.selection.met
     assert re.fullmatch(
-        r"not reached: the tolerance of 0\.0001 %; the best there is leaves [\d.]+ %", summary(found)[-1]
+        r"not reached: the tolerance of 0\.0001 %; the best there is leaves [\d.]+ %", summary(found).splitlines()[-1]
     )
 
 
@@ -618,7 +619,7 @@ def test_a_number_is_told_with_the_parts_of_its_error():
         Finding(value=(2e7,), parts=PARTS),
         Fake(seconds=8.0),
     ]
-    lines = summary(Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2)))
+    lines = summary(Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2))).splitlines()
     assert "stiffness = (2.00 ± 0.25)e7 N/m (12 %: model 10 %, grid 2 %, sample 0.3 %), by fake" in lines
     assert lines[-1].startswith("solves: about 5 s by their count")
     assert lines[-1].endswith("the models that were not asked would have cost 10 s")
@@ -630,7 +631,7 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     a, bands = scene.contact_radius, RollingQuantity(scene, quantity).bands
     assert a != pytest.approx(1.0)
     levels = tuple(float(i + 1) for i in range(bands.centres.size))
-    lines = summary(Comparison(scene, quantity, select_model([Finding(value=levels, parts=PARTS)], 0.2)))
+    lines = summary(Comparison(scene, quantity, select_model([Finding(value=levels, parts=PARTS)], 0.2))).splitlines()
     at = next(i for i, line in enumerate(lines) if "one-third octaves" in line)
     # 20 lg 1.123 = 1.0 dB
     assert lines[at].endswith("± 12 %, 1 dB, over all bands (model 10 %, grid 2 %, sample 0.3 %)")

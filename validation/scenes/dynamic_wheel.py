@@ -50,12 +50,39 @@ HIGH = 1e-4
 
 @dataclass(frozen=True, kw_only=True)
 class WheelScene:
-    """A wheel on a rail, either of them rough or smooth.
+    """Wheel with a mass that rolls along a rail; either of them rough or smooth.
 
-    radius: R [m]; mass: M [kg]; load: F [N]; speed: v0 [m/s]; material: what both bodies are made of;
-    rail, wheel: their roughness, None where smooth; distance: to roll at least, before the track begins again [m];
-    springs: to a contact radius.
-    Raises ValueError or TypeError naming the key of a scene file that is out of range.
+    Parameters
+    ----------
+    name : str
+        One line of text.
+    radius : float
+        Radius R of the wheel [m].
+    mass : float
+        Mass M [kg].
+    load : float
+        Static load F_N [N].
+    speed : float
+        Speed v0 [m/s].
+    material : Material
+        What wheel and rail are made of.
+    rail, wheel : Roughness or None
+        Roughness of each, None where smooth.
+    distance : float
+        Shortest distance to roll before the track begins again [m].
+    springs : int
+        Springs to a contact radius.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is out of range; the message names the key of a scene file.
+
+    Examples
+    --------
+    >>> wheel = validation.load_wheel_scene("table_14_1")
+    >>> print(f"contact radius {wheel.contact_radius:.3g} m, time step {wheel.time_step:.3g} s")
+    contact radius 0.00198 m, time step 9.91e-07 s
     """
 
     name: str
@@ -193,11 +220,31 @@ def bundled_wheels() -> tuple[str, ...]:
 
 
 def load_wheel_scene(scene: str | Path) -> WheelScene:
-    """The scene of a dynamic wheel in a TOML file, or the shipped one of that name.
+    """Scene of a wheel with a mass, whose own roughness is allowed: what ``report --scene`` takes.
 
-    scene: a path; a name without folder and without ".toml" is that of a shipped scene.
-    Raises ValueError naming the first thing that is missing, unknown or out of range, and OSError for files that
-    cannot be read.
+    Parameters
+    ----------
+    scene : str or Path
+        Path of a scene file, or the name of a shipped scene: "rough_wheel" or "table_14_1".
+
+    Returns
+    -------
+    WheelScene
+        The wheel, both roughnesses, and the distance to roll.
+
+    Raises
+    ------
+    ValueError
+        If no shipped scene has the name, or a value of the file is missing, unknown or out of range; the message
+        names it.
+    OSError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> wheel = validation.load_wheel_scene("table_14_1")
+    >>> print(f"{wheel.eigenfrequency:.4g} rad/s")
+    1369 rad/s
     """
     path = path_of(scene)
     tables = tables_of(path)

@@ -16,11 +16,35 @@ Shape = Literal["sphere", "punch"]
 
 @dataclass(frozen=True, kw_only=True)
 class IndentationScene:
-    """An elastic half-space under a rigid sphere or square punch.
+    """Rigid sphere or square punch, smooth or rough, pressed onto an elastic half-space.
 
-    shape; size: radius of the sphere or side of the punch [m]; load: F [N]; modulus: E* [Pa]; ground: roughness, None
-    where smooth; material: what E* is that of, None where it is given. A measured punch is as large as its heights.
-    Raises ValueError or TypeError naming the key of a scene file that is out of range.
+    Parameters
+    ----------
+    name : str
+        One line of text.
+    shape : {"sphere", "punch"}
+        Body.
+    size : float
+        Radius of the sphere or side of the punch [m].
+    load : float
+        Normal force F [N].
+    modulus : float
+        Contact modulus E* [Pa].
+    ground : Roughness or MeasuredHeights or None, optional
+        Roughness, None where smooth. A measured face is as large as the punch.
+    material : Material or None, optional
+        What E* is made of, None where only ``modulus`` is known.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is out of range; the message names the key of a scene file.
+
+    Examples
+    --------
+    >>> scene = validation.IndentationScene(name="ball", shape="sphere", size=0.01, load=10.0, modulus=1e11)
+    >>> validation.compare(scene).model
+    'closed form'
     """
 
     name: str

@@ -28,10 +28,32 @@ Scene = IndentationScene | RollingScene
 
 
 def load_scene(scene: str | Path) -> Scene:
-    """The scene in a TOML file, or the shipped one of that name, by the body that it has a table of.
+    """Scene of a TOML file, or the shipped scene of that name.
 
-    Raises ValueError naming the first thing that is missing, unknown or out of range, and OSError for files that
-    cannot be read.
+    Parameters
+    ----------
+    scene : str or Path
+        Path of a scene file, or the name of a shipped scene: "rolling_wheel", "rough_punch", "sphere" or
+        "table_14_1". A name has no folder and no ".toml".
+
+    Returns
+    -------
+    IndentationScene or RollingScene
+        A sphere or punch, or a wheel, by the body that the file has a table of.
+
+    Raises
+    ------
+    ValueError
+        If no shipped scene has the name, or a value of the file is missing, unknown or out of range; the message
+        names it.
+    OSError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> scene = validation.load_scene("sphere")
+    >>> scene.name, scene.load
+    ('Smooth sphere', 4905.0)
     """
     path = path_of(scene)
     tables = tables_of(path)

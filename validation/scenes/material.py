@@ -31,12 +31,31 @@ class Elastic:
 
 @dataclass(frozen=True, kw_only=True)
 class Material:
-    """What two bodies in contact are made of: 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2.
+    """Contact modulus of two bodies, and what it is made of.
 
-    contact_modulus: E* itself [Pa], and nothing else; or else youngs_modulus: E [Pa] and poisson_ratio: nu in [0, 0.5]
-    of one body, and counterface, the other: "rigid", "same" for two equal bodies, or Elastic.
-    Raises ValueError or TypeError naming the key of a scene file that is missing, contradicts another or is out of
-    range.
+    Parameters
+    ----------
+    contact_modulus : float, optional
+        E* itself [Pa]; then nothing else.
+    youngs_modulus, poisson_ratio : float, optional
+        E [Pa] and nu, in [0, 0.5], of one body.
+    counterface : {"rigid", "same"} or Elastic, optional
+        The other body: rigid, equal to the first, or with moduli of its own.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is missing, contradicts another or is out of range; the message names the key of a scene file.
+
+    Notes
+    -----
+    1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2.
+
+    Examples
+    --------
+    >>> steel = validation.Material(youngs_modulus=210e9, poisson_ratio=0.3, counterface="same")
+    >>> print(f"{steel.modulus:.4g} Pa")
+    1.154e+11 Pa
     """
 
     contact_modulus: float | None = None

@@ -30,10 +30,32 @@ OBLONG, SKEWED, PEAKED, TILTED = 1.5, 0.5, 1.0, 1.0
 class MeasuredHeights:
     """Heights of a surface on a regular grid, their mean plane removed.
 
-    height: shape (nx, ny), positive towards the other body [m]; spacing: (dx, dy) [m]; tilt: root mean square of the
-    plane that was removed, over that of what is left [-].
-    Raises ValueError for fewer than 16 points along a side, values that are masked or not finite, or a plane, TypeError
-    for values that are no real numbers.
+    Parameters
+    ----------
+    height : array_like, shape (nx, ny)
+        Heights, positive towards the other body [m]; 16 or more along each side.
+    spacing : tuple of float
+        Distances (dx, dy) of the points [m].
+
+    Attributes
+    ----------
+    tilt : float
+        Root mean square of the plane that was removed, over that of the heights that are left [-].
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than 16 points along a side, heights are masked, not finite or a plane, or a spacing is not
+        positive.
+    TypeError
+        If heights are not real numbers.
+
+    Examples
+    --------
+    >>> x = np.arange(64) * 1e-6
+    >>> face = validation.MeasuredHeights(height=1e-7 * np.sin(1e5 * x)[:, None] + 0.01 * x, spacing=(1e-6, 1e-6))
+    >>> face.height.shape, face.sides
+    ((64, 64), (6.4e-05, 6.4e-05))
     """
 
     is_single: ClassVar = True
@@ -202,11 +224,33 @@ def check_points(heights: MeasuredHeights, contact_radius: float) -> None:
 
 
 def measured(surface: Any) -> MeasuredHeights:
-    """Of any object that has heights, a method or an array (nx, ny), and physical_sizes, (Lx, Ly).
+    """Measured heights of any object with heights and a size, as the `Topography` of SurfaceTopography.
 
-    Both in metres, or in the unit that the object names: unit, "um", or an entry of that name in a dict info.
-    Raises TypeError for other objects, ValueError for heights that are masked, as points without data are, or not
-    finite, and for sizes and units that are none.
+    Parameters
+    ----------
+    surface : object
+        With ``heights``, an array of shape (nx, ny) or a method that returns one, and ``physical_sizes``, (Lx, Ly).
+        Both are in metres, or in the unit that ``surface.unit`` or ``surface.info["unit"]`` names.
+
+    Returns
+    -------
+    MeasuredHeights
+        Heights about their mean plane, for the ``ground`` of a scene.
+
+    Raises
+    ------
+    TypeError
+        If the object has no heights or no size.
+    ValueError
+        If heights are masked or not finite, or sizes or unit are not valid.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> heights = np.random.default_rng(1).standard_normal((64, 64))
+    >>> face = validation.measured(SimpleNamespace(heights=heights, physical_sizes=(1000, 1000), unit="um"))
+    >>> print(f"rms height {face.rms:.3g} m on {face.sides[0]:.3g} m")
+    rms height 1e-06 m on 0.001 m
     """
     if not (hasattr(surface, "heights") and hasattr(surface, "physical_sizes")):
         raise TypeError(f"surface must have heights and physical_sizes, got {type(surface).__name__}")

@@ -15,12 +15,35 @@ from validation.scenes.wheel_body import Wheel
 
 @dataclass(frozen=True, kw_only=True)
 class RollingScene:
-    """A smooth wheel on rough ground, at the approach at which its smooth contact bears the load.
+    """Smooth wheel that rolls over rough ground, with a mass or at a constant approach.
 
-    radius: R [m]; load: F_N [N]; modulus: E* [Pa]; ground: isotropic roughness, or
-    heights, rolled over along their first axis; mass: M [kg]; speed: v0 [m/s], both or neither: without them the wheel
-    keeps its approach; material: what E* is that of, None where it is given.
-    Raises ValueError or TypeError naming the key of a scene file that is out of range.
+    Parameters
+    ----------
+    name : str
+        One line of text.
+    radius : float
+        Radius R of the wheel [m].
+    load : float
+        Static load F_N [N].
+    modulus : float
+        Contact modulus E* [Pa].
+    ground : Roughness or MeasuredHeights
+        Isotropic roughness, or heights whose first axis is along the track.
+    mass, speed : float or None, optional
+        Mass M [kg] and speed v0 [m/s], both or neither. Without them the wheel keeps its approach.
+    material : Material or None, optional
+        What E* is made of, None where only ``modulus`` is known.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is out of range; the message names the key of a scene file.
+
+    Examples
+    --------
+    >>> scene = validation.load_scene("rolling_wheel")
+    >>> print(f"h / d = {scene.roughness_ratio:.2g}")
+    h / d = 0.064
     """
 
     name: str

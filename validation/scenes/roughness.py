@@ -50,9 +50,22 @@ class RoughSurface(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Roughness:
-    """Isotropic self-affine roughness between two waves; the scene that holds it checks it.
+    """Isotropic self-affine roughness between two wavelengths. The scene that holds it checks its values.
 
-    rms: root mean square height [m]; hurst: H; longest, shortest: wavelengths between which it is rough [m].
+    Parameters
+    ----------
+    rms : float
+        Root mean square height h [m].
+    hurst : float
+        Hurst exponent H.
+    longest, shortest : float
+        Wavelengths between which it is rough [m].
+
+    Examples
+    --------
+    >>> rough = validation.Roughness(rms=1e-6, hurst=0.8, longest=1e-3, shortest=1e-5)
+    >>> print(f"q = {rough.q_min:.4g} to {rough.q_max:.4g} rad/m, slope {rough.slope_along:.2g} in one direction")
+    q = 6283 to 6.283e+05 rad/m, slope 0.02 in one direction
     """
 
     is_single: ClassVar = False

@@ -4,20 +4,27 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from validation.analysis.evidence import plus_minus
-from validation.scenes.description import description_lines
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.checks import count
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
+from validation.scenes.rolling import RollingScene
 from validation.selection import indentation_models, rolling_models
 from validation.selection.found_models import with_found_models
-from validation.selection.hierarchy import Candidate, ContactModel, Selection, select_model
+from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
 from validation.simulation.model import all_models
 from validation.simulation.rolling_quantity import RollingQuantity
+
+FloatArray = NDArray[np.float64]
 
 PRESSED = ("stiffness",)
 ROLLING = ("force-rms", "force-spectrum")
 MOVING = ("acceleration", "acceleration-rms")
 QUANTITIES = (*PRESSED, *ROLLING, *MOVING)
+LEVELS = ("force-spectrum", "acceleration")
+"""In one-third octaves; the others are one number."""
 UNITS = {
     "stiffness": "N/m",
     "force-rms": "N",
@@ -29,16 +36,92 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Comparison:
-    """A scene, the quantity that is asked of it, and the selection of a model for it."""
+    """Result of `compare`: a quantity of a scene, its error, and what became of each model.
+
+    Attributes
+    ----------
+    scene : IndentationScene or RollingScene
+        The scene.
+    quantity : str
+        "stiffness", "force-rms", "force-spectrum", "acceleration" or "acceleration-rms".
+    selection : Selection
+        Models, estimates and answers in full.
+    value : ndarray
+        One number in SI units; for "force-spectrum" and "acceleration" a level in each one-third octave, in dB re 1 N
+        and 1 m/s^2. NaN where no model has an answer.
+    error : float
+        Half-width of the 95 % interval: relative, in dB for levels. For levels it is that of all bands together.
+    unit : str
+        Unit of ``value``.
+    wavenumbers : ndarray
+        Centres of the one-third octaves [rad/m]; empty where ``value`` is one number.
+    model : str
+        Name of the model that gives ``value``; empty where none has an answer.
+    met : bool
+        Whether the tolerance is met.
+    models : tuple of Candidate
+        All models, the cheapest first. Each has ``name``, ``status``, ``error`` (relative), ``cost`` (seconds on one
+        core) and ``reason``.
+
+    Examples
+    --------
+    >>> result = validation.compare(validation.load_scene("rolling_wheel"), quantity="force-spectrum", tolerance=0.3)
+    >>> result.met, result.model, result.unit, result.value.shape == result.wavenumbers.shape
+    (True, 'linear filter, 3D', 'dB re 1 N', True)
+    """
 
     scene: Scene
     quantity: str
     selection: Selection
 
     @property
+    def value(self) -> FloatArray:
+        """One number, or one a band, in `unit`; NaN where no model has an answer."""
+        if self._answer is None:
+            return np.array([math.nan])
+        return 20 * np.log10(self._answer.value) if self.is_level else self._answer.value
+
+    @property
+    def error(self) -> float:
+        """Half-width of the 95 % interval: relative, in dB for levels; infinite where no model has an answer."""
+        error = self._answer.error if self._answer is not None else math.inf
+        return 20 * math.log10(1 + error) if self.is_level else error
+
+    @property
     def unit(self) -> str:
-        """Of the quantity."""
-        return UNITS[self.quantity]
+        """Of the value."""
+        return f"dB re 1 {UNITS[self.quantity]}" if self.is_level else UNITS[self.quantity]
+
+    @property
+    def is_level(self) -> bool:
+        """Whether the value is a level in each one-third octave."""
+        return self.quantity in LEVELS
+
+    @property
+    def wavenumbers(self) -> FloatArray:
+        """Centres of the one-third octaves [rad/m]; empty where the value is one number."""
+        if not self.is_level or self._answer is None:
+            return np.empty(0)
+        return RollingQuantity(self.scene, self.quantity).bands.centres  # type: ignore[arg-type]  # which a wheel has
+
+    @property
+    def model(self) -> str:
+        """Name of the model that gives the value; empty where none has an answer."""
+        return self.selection.best.name if self.selection.best is not None else ""
+
+    @property
+    def met(self) -> bool:
+        """Whether the tolerance is met."""
+        return self.selection.met
+
+    @property
+    def models(self) -> tuple[Candidate, ...]:
+        """All models, the cheapest first, each with name, status, error, cost and reason."""
+        return self.selection.candidates
+
+    @property
+    def _answer(self) -> Answer | None:
+        return self.selection.best.answer if self.selection.best is not None else None
 
 
 def quantities_of(scene: Scene) -> tuple[str, ...]:
@@ -76,90 +159,52 @@ def compare(
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.
 
-    quantity: see `quantities_of`, None for the first of them; tolerance: relative, of the number or of the root mean
-    square over all bands; seed: of what is drawn, zero or positive; callback: called with each model before its solve.
-    Raises ValueError for what the scene cannot answer.
+    Parameters
+    ----------
+    scene : IndentationScene or RollingScene
+        What `load_scene` returns.
+    quantity : str, optional
+        "stiffness" of a sphere or punch; "force-rms" or "force-spectrum" of a wheel; "acceleration" or
+        "acceleration-rms" of a wheel with a mass. By default "stiffness", "force-rms" and "acceleration".
+    tolerance : float, optional
+        Largest relative half-width of the 95 % interval; of a spectrum, of the root mean square over all bands.
+    seed : int, optional
+        Seed of the roughness that is drawn, zero or positive.
+    callback : callable, optional
+        Called with each model before its solve, as for a note that it takes a while.
+
+    Returns
+    -------
+    Comparison
+        The quantity with its error, and what became of each model. ``met`` is false where no model reaches the
+        tolerance.
+
+    Raises
+    ------
+    TypeError
+        If ``scene`` is not a scene.
+    ValueError
+        If the scene has no such quantity, or another argument is out of range.
+
+    Notes
+    -----
+    Models are tried from the cheapest on: closed form, linear filter, springs, boundary elements on finer and finer
+    grids. Each has an a-priori estimate of its error, calibrated against boundary elements on random scenes. A model
+    is skipped where the estimate exceeds the tolerance, and accepted where model, grid and sample error of its solve
+    add up to no more than the tolerance.
+
+    Examples
+    --------
+    >>> result = validation.compare(validation.load_scene("sphere"), tolerance=0.01)
+    >>> result.quantity, result.model, result.met
+    ('stiffness', 'closed form', True)
+    >>> print(f"{result.value[0]:.4g} {result.unit}")
+    9.365e+08 N/m
     """
+    if not isinstance(scene, IndentationScene | RollingScene):
+        raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
+    count("seed", seed, least=0)
     asked = quantities_of(scene)[0] if quantity is None else quantity
     return Comparison(
         scene, asked, select_model(models_of(scene, asked, tolerance, seed), tolerance, callback=callback)
     )
-
-
-def summary(comparison: Comparison) -> list[str]:
-    """Lines for a person: the result with its error, why this model, and what every model costs."""
-    scene, selection = comparison.scene, comparison.selection
-    lines = [f"{scene.name}: {comparison.quantity} within {_percent(selection.tolerance)}"]
-    lines += description_lines(scene, moving=comparison.quantity in MOVING)
-    lines += ["", f"{'model':36s}{'status':22s}{'error':>10s}{'cost':>14s}   reason"]
-    lines += [_row(candidate) for candidate in selection.candidates]
-    best = selection.best
-    if best is None or best.answer is None:
-        return [*lines, "", "no model has an answer"]
-    lines += ["", *_result(comparison, best)]
-    spent = f"solves: about {format_seconds(selection.spent)} by their count, the start of the program not included"
-    saved = sum(one.model.cost().seconds for one in selection.candidates if one.status in ("not needed", "skipped"))
-    lines.append(
-        f"{spent}; the models that were not solved would have cost {format_seconds(saved)}" if saved else spent
-    )
-    if not selection.met:
-        left = f"{100 * best.answer.error:.3g} %"
-        lines.append(f"not reached: the tolerance of {_percent(selection.tolerance)}; the best there is leaves {left}")
-    return lines
-
-
-def _row(candidate: Candidate) -> str:
-    seconds = format_seconds(candidate.model.cost().seconds)
-    known = candidate.answer or candidate.estimate
-    error = "—" if candidate.status == "not needed" else _percent(known.error)
-    return f"{candidate.model.name:36s}{candidate.status:22s}{error:>10s}{seconds:>14s}   {candidate.reason}"
-
-
-def _result(comparison: Comparison, best: Candidate) -> list[str]:
-    answer = best.answer
-    assert answer is not None  # as asked
-    parts = f"model {_percent(answer.model)}, grid {_percent(answer.grid)}, sample {_percent(answer.sample)}"
-    if answer.value.size == 1:
-        value = float(answer.value[0])
-        shown = f"{_scaled(value, value * answer.error)} {comparison.unit}"
-        return [f"{comparison.quantity} = {shown} ({_percent(answer.error)}: {parts}), by {best.model.name}"]
-    assert not isinstance(comparison.scene, IndentationScene)  # which has one number
-    quantity = RollingQuantity(comparison.scene, comparison.quantity)  # type: ignore[arg-type]
-    radius, speed = comparison.scene.contact_radius, comparison.scene.speed
-    decibels = 20 * math.log10(1 + answer.error)
-    lines = [
-        f"{comparison.quantity} by {best.model.name}, one-third octaves, root mean square in each, "
-        f"± {_percent(answer.error)}, {_short(decibels)} dB, over all bands ({parts})",
-        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if speed else '':>10s}{'level [' + comparison.unit + ']':>16s}",
-    ]
-    for q, level in zip(quantity.bands.centres, answer.value, strict=True):
-        frequency = f"{q * speed / (2 * math.pi):.4g}" if speed else ""
-        lines.append(f"{q:12.4g}{q * radius:8.2f}{frequency:>10s}{level:16.4g}")
-    return lines
-
-
-def _percent(value: float) -> str:
-    """Two digits; "none" for what does not hold at all."""
-    return "none" if math.isinf(value) else f"{_short(100 * value)} %"
-
-
-def _scaled(value: float, error: float) -> str:
-    """With its error, over a power of ten where that is far from one: (5.49 ± 0.50)e7."""
-    power = math.floor(math.log10(value))
-    if -3 < power < 4:
-        return plus_minus(value, error)
-    shown = plus_minus(value / 10**power, error / 10**power)
-    return f"({shown})e{power}" if "±" in shown else f"{shown}e{power}"
-
-
-def format_seconds(seconds: float) -> str:
-    """In a unit that fits."""
-    for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
-        if seconds >= size:
-            return f"{_short(seconds / size)} {unit}"
-    return "1 ms"
-
-
-def _short(value: float) -> str:
-    """Two digits, without a power of ten where that can be."""
-    return f"{float(f'{value:.2g}'):g}"

@@ -1,0 +1,67 @@
+"""Docstrings of what users call: examples that run, every argument described."""
+
+import doctest
+import inspect
+import re
+
+import numpy as np
+import pytest
+
+import bem3d
+import mdr
+import validation
+
+PUBLIC = {
+    f"{package.__name__}.{member.__name__}": member
+    for package in (mdr, validation)
+    for member in (getattr(package, name) for name in package.__all__)
+    if callable(member)
+}
+"""Without the names of 0.1, which are the same objects, and without tables."""
+
+
+def own_methods(kind):
+    return {name: member for name, member in vars(kind).items() if inspect.isfunction(member) and name[0] != "_"}
+
+
+CALLED = {
+    **PUBLIC,
+    **{
+        f"{name}.{method}": member
+        for name, kind in PUBLIC.items()
+        if inspect.isclass(kind)
+        for method, member in own_methods(kind).items()
+    },
+}
+
+
+@pytest.mark.parametrize("name", CALLED)
+def test_examples(name):
+    runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
+    examples = {"np": np, "mdr": mdr, "bem3d": bem3d, "validation": validation}
+    with np.printoptions(precision=4, suppress=True):
+        for found in doctest.DocTestFinder(recurse=False).find(CALLED[name], name, globs=examples):
+            runner.run(found, clear_globs=False)
+    assert runner.failures == 0
+    assert runner.tries > 0 or name not in PUBLIC
+
+
+def entries(member, section):
+    """Names in a section of a docstring in numpy's convention."""
+    text = inspect.getdoc(member)
+    found = re.search(rf"^{section}\n-+\n(.*?)(?=\n\n\S[^\n]*\n-+\n|\Z)", text, flags=re.DOTALL | re.MULTILINE)
+    heads = re.findall(r"^(\S[^\n]*?)(?: : [^\n]*)?$", found[1], flags=re.MULTILINE) if found else []
+    return {name for head in heads for name in head.split(", ")}
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_every_argument_is_described(name):
+    member = PUBLIC[name]
+    if inspect.isclass(member) and issubclass(member, (Exception, str)):
+        return
+    arguments = set(inspect.signature(member).parameters)
+    described = entries(member, "Parameters")
+    if inspect.isclass(member) and not described:
+        assert entries(member, "Attributes") >= arguments
+    else:
+        assert described == arguments

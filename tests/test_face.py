@@ -1,0 +1,133 @@
+"""What scripts of other people rely on: names of `validation`, the result of a comparison, the command beside it."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import validation
+from validation.__main__ import main
+from validation.selection.compare import Comparison
+from validation.selection.hierarchy import Answer, Candidate, Selection
+from validation.simulation.model import Cost, ErrorEstimate
+from validation.simulation.rolling_quantity import RollingQuantity
+
+SPHERE = validation.load_scene("sphere")
+SPECTRUM = {"quantity": "force-spectrum", "tolerance": 0.3}
+
+
+@pytest.fixture(scope="module")
+def spectrum():
+    return validation.compare(validation.load_scene("rolling_wheel"), **SPECTRUM)
+
+
+@pytest.mark.parametrize("name", validation.__all__)
+def test_every_name_is_there(name):
+    assert getattr(validation, name) is not None
+    assert name in dir(validation)
+    assert validation.MODULES[name].split(".")[0] in {"report", "selection", "scenes"}
+
+
+def test_the_stub_says_the_same():
+    stub = ast.parse(Path(validation.__file__).with_suffix(".pyi").read_text())
+    imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
+    said = {name.asname: node.module.removeprefix("validation.") for node in imports for name in node.names}
+    assert said == validation.MODULES
+
+
+def test_an_unknown_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="module 'validation' has no attribute 'compute'"):
+        _ = validation.compute
+
+
+def test_importing_the_face_imports_nothing_else():
+    line = "import sys, validation; print([m for m in sys.modules if m == 'numpy' or m.startswith('validation.')])"
+    assert subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+def test_a_number_comes_in_si_units_with_its_relative_error():
+    result = validation.compare(SPHERE, tolerance=0.01)
+    assert (result.quantity, result.model, result.met, result.unit) == ("stiffness", "closed form", True, "N/m")
+    assert result.value == pytest.approx([SPHERE.stiffness])
+    assert (result.error, result.wavenumbers.size) == (0.0, 0)
+    first = result.models[0]
+    assert (first.name, first.status, first.error, first.reason) == (
+        "closed form",
+        "accepted",
+        0.0,
+        "the body is smooth, the formula exact",
+    )
+    assert first.cost > 0
+
+
+def test_levels_come_in_decibels(spectrum):
+    answer = spectrum.selection.best.answer
+    assert spectrum.unit == "dB re 1 N"
+    assert 10 ** (spectrum.value / 20) == pytest.approx(answer.value)
+    assert 10 ** (spectrum.error / 20) == pytest.approx(1 + answer.error)
+    bands = RollingQuantity(spectrum.scene, "force-spectrum").bands
+    assert spectrum.wavenumbers.tolist() == bands.centres.tolist()
+
+
+def comparison(status, *, failed="", quantity="stiffness"):
+    class Model:
+        name, kind = "model", "model"
+
+        def cost(self):
+            return Cost(work=1, unit="steps", seconds=2.0)
+
+    cost, estimate = Cost(work=1, unit="steps", seconds=1.0), ErrorEstimate(error=0.1, reason="why")
+    answer = Answer(value=np.array([2.0]), cost=cost, model=0.3, failed=failed)
+    return Comparison(SPHERE, quantity, Selection(0.2, (Candidate(Model(), status, "why", estimate, answer),)))
+
+
+def test_a_missed_tolerance_leaves_the_best_value():
+    result = comparison("not accurate enough")
+    assert (result.met, result.model, result.value.tolist(), result.error) == (False, "model", [2.0], 0.3)
+    assert (result.models[0].status, result.models[0].cost) == ("not accurate enough", 2.0)
+
+
+@pytest.mark.parametrize("quantity", ["stiffness", "force-spectrum"])
+def test_without_an_answer_there_is_no_number(quantity):
+    result = comparison("failed", failed="why", quantity=quantity)
+    assert (result.met, result.model, result.error) == (False, "", np.inf)
+    assert np.isnan(result.value).all()
+    assert result.wavenumbers.size == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "sentence"),
+    [
+        (("sphere",), TypeError, "scene must be what load_scene returns, got str"),
+        ((SPHERE, "force-rms"), ValueError, "quantity must be one of stiffness for scene 'Smooth sphere'"),
+        ((SPHERE, None, 0.0), ValueError, "tolerance must be"),
+        ((SPHERE, None, 0.1, -1), ValueError, "seed must be at least 0, got -1"),
+        ((SPHERE, None, 0.1, 0.5), TypeError, "seed must be a whole number, got 0.5"),
+    ],
+)
+def test_bad_input_is_refused_in_one_sentence(arguments, error, sentence):
+    scene, *others = arguments
+    with pytest.raises(error, match=sentence):
+        validation.compare(scene, **dict(zip(("quantity", "tolerance", "seed"), others, strict=False)))
+
+
+@pytest.mark.parametrize("name", ["nowhere", 5])
+def test_a_scene_that_is_not_there_is_refused_with_those_that_are(name):
+    with pytest.raises(
+        ValueError, match=f'^scene must be a file, as "./{name}.toml", or one of rolling_wheel, .*sphere'
+    ):
+        validation.load_scene(name)
+
+
+@pytest.mark.parametrize("option", ["--quantity", "--want"])
+def test_the_command_prints_the_summary(option, capsys, spectrum):
+    assert main(["compare", "rolling_wheel", option, SPECTRUM["quantity"], "--tolerance", "30%"]) == 0
+    assert capsys.readouterr().out == f"{validation.summary(spectrum)}\n"
+
+
+def test_a_case_runs_from_its_settings():
+    case = validation.CASES["geike"]
+    assert case.evidence(case.run(case.quick)).numbers

@@ -1,0 +1,17 @@
+"""What `validation` offers, for type checkers and editors."""
+
+from validation.report.contents import CASES as CASES
+from validation.scenes.dynamic_wheel import WheelScene as WheelScene
+from validation.scenes.dynamic_wheel import load_wheel_scene as load_wheel_scene
+from validation.scenes.indentation import IndentationScene as IndentationScene
+from validation.scenes.load import load_scene as load_scene
+from validation.scenes.material import Material as Material
+from validation.scenes.measured import MeasuredHeights as MeasuredHeights
+from validation.scenes.measured import measured as measured
+from validation.scenes.rolling import RollingScene as RollingScene
+from validation.scenes.roughness import Roughness as Roughness
+from validation.selection.compare import Comparison as Comparison
+from validation.selection.compare import compare as compare
+from validation.selection.summary import summary as summary
+
+MODULES: dict[str, str]
