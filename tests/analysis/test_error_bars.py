@@ -38,8 +38,11 @@ from validation.cases.punch import fractal_punch, fractal_punch_decades
 from validation.cases.punch.area_gap_rolloff_numbers import RollOffSamples
 from validation.cases.punch.ensembles import interval_columns
 from validation.cases.rolling import force_spectrum as rolling
-from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
 from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.rolling.force_spectrum_levels import SPRINGS, LevelsAtHeight
+from validation.cases.rolling.input_spectrum_numbers import punch_number
+from validation.cases.rolling.linear_levels import level_3d
 from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import roughness as wheel_stability_roughness
 from validation.cases.stability import vibration as wheel_stability_vibration
@@ -411,7 +414,7 @@ ROLLING = rolling.ForceSpectrum(heights=(0.1,), last=4.0, lowest=0.5, length=32.
 
 def rolled(rng, *, springs=1.2, finer=0.98, scatter=0.03, case=ROLLING):
     """A result with known levels: boundary elements at linear theory, springs at `springs` times its power."""
-    exact_3d = 0.01 * rolling_evidence.exact_levels(case)[1]
+    exact_3d = 0.01 * level_3d(case.spectrum, case.bands)
     bands = exact_3d.size
 
     def outcome(level, own, size):
@@ -434,24 +437,23 @@ def rolled(rng, *, springs=1.2, finer=0.98, scatter=0.03, case=ROLLING):
 def test_levels_of_rolling_are_powers_in_decibels():
     """10 lg of a ratio of powers: 1.2 of springs, 0.98 from one grid to the next, which are 0.98^2 to no cells."""
     rng = np.random.default_rng(0)
-    mine = rolling_evidence._height(rolled(rng, scatter=1e-9), 0)
-    weights = mine.weights(1.0, 4.0)
-    number = mine.apart(rolling_evidence.SPRINGS, "q a = 1 to 4", weights)
-    springs = mine.model_level(rolling_evidence.SPRINGS, weights)
+    mine = LevelsAtHeight(rolled(rng, scatter=1e-9), 0.1)
+    region = 1.0, 4.0
+    number = rolling_numbers.over_bem(mine, SPRINGS, region)
+    springs = mine.model_level(SPRINGS, mine.weights(region))
     assert abs(10 * math.log10(1.2) - POWER_DECIBEL * springs.value) <= 2 * POWER_DECIBEL * springs.half_width
     assert number.value == pytest.approx(POWER_DECIBEL * (springs.value - 2 * math.log(0.98)), abs=1e-6)
     assert number.grid == pytest.approx(-10 * math.log10(0.98), abs=1e-4)
     assert number.sample == pytest.approx(POWER_DECIBEL * springs.half_width, rel=0.01)
-    departure = mine.departure("q a = 1 to 4", weights)
+    departure = rolling_numbers.nonlinear(mine, region)
     assert departure.reference == pytest.approx(POWER_DECIBEL * 2 * math.log(0.98), abs=1e-6)
     assert departure.grid == pytest.approx(number.grid)
 
 
 def test_intervals_of_rolling_are_those_of_their_own_pairs():
     rng = np.random.default_rng(1)
-    mine = rolling_evidence._height(rolled(rng), 0)
-    for i in range(len(mine.bands.centres)):
-        weights = np.eye(len(mine.bands.centres))[i]
+    mine = LevelsAtHeight(rolled(rng), 0.1)
+    for i, weights in enumerate(mine.single_bands):
         bem, grid = mine.bem_level(weights)
         finer = mine.finer.estimate(difference_of_halves(at_level(i, log_mean)))
         assert grid == pytest.approx(abs(finer.value) + 2 * finer.half_width)
@@ -475,8 +477,8 @@ def test_variance_and_mean_of_the_rolling_force_cover_their_truth(strips):
             }
             for n in (strips, 40)
         ]
-        mine = SimpleNamespace(height=0.1, bem=outcomes[0], mdr={"geike": outcomes[1]})
-        numbers = rolling_evidence._moments(mine)
+        mine = SimpleNamespace(height=0.1, bem=outcomes[0], springs=outcomes[1])
+        numbers = rolling_numbers.moments(mine)
         truths = (1.1, 1.1, numbers[2].reference)
         shares += [abs(n.value - truth) <= n.sample for n, truth in zip(numbers, truths, strict=True)]
     assert all(holds(share, short=0.01, wide=0.01) for share in shares / TRIALS)
@@ -489,7 +491,7 @@ def test_an_interval_of_a_ratio_is_that_of_its_logarithm_times_the_ratio():
     punches = {"stiffness": 1 + 0.1 * rng.standard_normal((20, len(case.forces)))}
     springs = {"stiffness": 3 + 0.1 * rng.standard_normal((30, len(case.forces)))}
     result = SimpleNamespace(case=case, profiles=dict.fromkeys(rolling_input.INPUT_SPECTRA, springs), punches=punches)
-    number = rolling_input._pressed(result, "geike")
+    number = punch_number(result, "geike")
     assert number.value == pytest.approx(2.0, rel=0.1)
     level = nearest(case.forces, 0.1)
     relative = math.hypot(

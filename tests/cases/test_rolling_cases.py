@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from validation.analysis.evidence import Verdict
+from validation.analysis.evidence import Verdict, numbers_with
 from validation.analysis.spectra import Bands
 from validation.cases.rolling import force_spectrum as rolling
-from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges
+from validation.cases.rolling.force_spectrum_evidence import evidence
+from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, coherence, correlation
+from validation.cases.rolling.force_spectrum_numbers import LEVEL
 from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
@@ -123,8 +125,7 @@ def louder(result, factor):
 
 
 def of_linear_theory(result):
-    numbers = rolling_evidence.evidence(result).numbers
-    return [n for n in numbers if n.label.startswith("linear 3D over bem3d")]
+    return numbers_with(evidence(result).numbers, LEVEL, f"{LINEAR_3D} over bem3d")
 
 
 def test_boundary_elements_agree_with_linear_theory(rolled):
@@ -147,7 +148,7 @@ def test_a_strip_that_was_lost_counts_in_nothing(rolled):
     bem = {name: values.copy() for name, values in rolled.bem[height].items()}
     for name, values in bem.items():
         values[(slice(None), 3) if name == "cross" else 3] = np.nan
-    numbers = rolling_evidence.evidence(replace(rolled, bem={height: bem})).numbers
+    numbers = evidence(replace(rolled, bem={height: bem})).numbers
     assert np.isfinite([number.value for number in numbers]).all()
 
 
@@ -158,11 +159,11 @@ def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
         "level": 4 * outcome["linear level"],
         "cross": np.stack([2 * outcome["linear level"], 0 * outcome["linear level"]]),
     }
-    assert rolling_evidence.coherence(copied) == pytest.approx(1)
-    assert rolling_evidence.correlation(copied) == pytest.approx((1, 2))
+    assert coherence(copied) == pytest.approx(1)
+    assert correlation(copied) == pytest.approx((1, 2))
     rng = np.random.default_rng(0)
     strange = rolling_strip.levels_beside_linear(*rng.normal(size=(2, 1, 4096)), 1.0, Bands((0.1, 3.0)))
-    assert rolling_evidence.coherence(strange) < 0.01
+    assert coherence(strange) < 0.01
 
 
 def test_ridges_agree_and_a_lost_factor_does_not(monkeypatch):

@@ -11,9 +11,10 @@ from tests.analysis import test_error_bars, test_evidence, test_rules_by_loops
 from tests.analysis import test_spectra as test_wheel_spectra
 from validation.analysis import spectra, statistics
 from validation.analysis import spectral_features as regions
+from validation.analysis.difference import difference
 from validation.analysis.evidence import Number
 from validation.cases.punch import fractal_punch_decades
-from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
 
 
 def each_level_for_itself(realisations, rng):
@@ -174,7 +175,7 @@ FAULTS = {
         test_error_bars.test_the_grid_interval_of_fig_14_1,
     ),
     "decibels of an amplitude for those of a power, in rolling": (
-        (rolling_evidence, "POWER", statistics.DECIBEL),
+        (rolling_numbers, "difference", functools.partial(difference, scale=statistics.DECIBEL)),
         test_error_bars.test_levels_of_rolling_are_powers_in_decibels,
     ),
     "a line at the upper edge of a band counted in it": (

@@ -14,7 +14,7 @@ from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Table, table_of
-from validation.cases.rolling.input_spectrum import NAMES
+from validation.cases.rolling.input_spectrum_numbers import NAMES
 from validation.report.figures import (
     fractal_punch,
     geike,
@@ -316,7 +316,7 @@ def test_lines_of_rolling():
 def test_panels_of_the_map_have_their_model():
     table = rolled_levels()
     axes = rolling_figure.draw_map(made(levels=table)).axes[:4]
-    models = ("linear 1D", "springs", "linear 3D", "springs, fed for rolling")
+    models = ("linear 1D", "springs", "linear 3D", "springs, rolling-equivalent")
     assert tuple(axis.get_title() for axis in axes) == models
     for axis, model in zip(axes, models, strict=True):
         np.testing.assert_allclose(axis.collections[0].get_array().ravel(), table[f"{model} over bem3d [dB]"])
@@ -337,7 +337,7 @@ def test_coherence_has_its_lines():
         )
 
 
-def test_lines_of_what_springs_are_fed():
+def test_lines_of_input_spectra():
     names = ["one", "two", "three", "four", "five", "six"]
     bands = Made({"spectrum": np.repeat(names, 3), "q a": [1.0, 2.0, 3.0] * 6})
     for axis, name in zip(rolling_input.draw(made(bands=bands)).axes, names, strict=True):

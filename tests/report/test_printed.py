@@ -30,8 +30,9 @@ from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import numbers as limits_numbers
 from validation.cases.punch import area_gap_rolloff_evidence, fractal_punch_decades
 from validation.cases.punch.fractal_punch import FractalPunch
-from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
+from validation.cases.rolling import force_spectrum_tables as rolling_tables
+from validation.cases.rolling.force_spectrum_numbers import LEVEL, MEAN, VARIANCE
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
 from validation.cases.wheel import distance_numbers, distance_tables
@@ -338,20 +339,17 @@ def test_a_summary_counts_and_ranges_its_numbers():
 def test_rolling_prints_the_numbers_it_is_given():
     n = number(-1.26, tolerance=1.0, reference=0.0, sample=0.3, grid=0.22)
     assert rolling_evidence._signed(n) == "-1.3 ± 0.5 dB (undecided)"
-    labels = [f"variance of the force over that of linear theory, h/d = 0.1: {m}" for m in ("bem3d", "springs")]
-    mine = [number(v, quantity=label, sample=0.0123) for v, label in zip((0.7777, 1.05), labels, strict=True)]
+    mine = [
+        number(v, quantity=VARIANCE, model=model, where={"h/d": 0.1}, sample=0.0123)
+        for v, model in ((0.7777, "bem3d"), (1.05, "springs"))
+    ]
     assert rolling_evidence._variances(mine) == (
         "Variance of the force over that of linear theory, by h/d: 0.1: bem3d 0.778 ± 0.012 (differ); "
         "0.1: springs 1.050 ± 0.012 (agree)."
     )
     means = [
-        number(
-            0.5432,
-            quantity="mean force over that of Hertz, h/d = 0.3: springs beside bem3d",
-            reference=0.9,
-            tolerance=0.02,
-        ),
-        number(1.001, quantity="mean force over that of Hertz, h/d = 0.1: springs beside bem3d", tolerance=0.02),
+        number(0.5432, quantity=MEAN, where={"h/d": 0.3}, reference=0.9, tolerance=0.02),
+        number(1.001, quantity=MEAN, where={"h/d": 0.1}, tolerance=0.02),
     ]
     text = rolling_evidence._means(means)
     assert "0.3: 0.543 and 0.900 (differ); 0.1: 1.001 and 1.000 (agree)" in text
@@ -359,23 +357,24 @@ def test_rolling_prints_the_numbers_it_is_given():
 
 
 def test_rolling_holds_up_to_the_last_height_that_agrees():
-    def labelled(value, height):
-        return number(value, reference=0.0, tolerance=1.0, quantity=f"springs over bem3d, h/d = {height:g}, low")
+    low, heights = (0.4, 1.0), (0.1, 0.3, 1.0)
+    found = [
+        number(
+            v, reference=0.0, tolerance=1.0, quantity=LEVEL, model="springs over bem3d", where={"h/d": h, "q a": low}
+        )
+        for v, h in zip((0.5, 2.5, 0.1), heights, strict=True)
+    ]
+    assert rolling_evidence._holds("springs", heights, found, [low]).endswith("q a = 0.4 to 1: up to h/d = 0.1.")
+    assert rolling_evidence._holds("springs", heights[1:], found, [low]).endswith("q a = 0.4 to 1: at no height.")
 
-    heights = [SimpleNamespace(height=h) for h in (0.1, 0.3, 1.0)]
-    found = {n.label: n for n in (labelled(0.5, 0.1), labelled(2.5, 0.3), labelled(0.1, 1.0))}
-    assert rolling_evidence._holding("springs", heights, found, ["low"]).endswith("low: up to h/d = 0.1.")
-    assert rolling_evidence._holding("springs", heights[1:], found, ["low"]).endswith("low: at no height.")
 
-
-def test_bands_within_1_and_3_db_are_counted(monkeypatch):
-    case = rolling.ForceSpectrum(first=1.0)
-    mine = SimpleNamespace(height=0.1, bands=SimpleNamespace(edges=(0.5, 0.9, 1.2, 1.6, 2.0)))
+def test_bands_within_1_and_3_db_are_counted():
+    case = SimpleNamespace(first=1.0, bands=SimpleNamespace(edges=(0.5, 0.9, 1.2, 1.6, 2.0)))
     off = (0.5, -2.0, 3.5, -0.9)
-    monkeypatch.setattr(rolling_evidence, "_over", lambda mine, model, band: off[band])
-    table = rolling_evidence._within(case, [mine])
-    assert table.columns["springs, band"] == ["1 and 2 of 3"]
-    assert table.columns["springs, below it"] == ["1 and 1 of 1"]
+    mine = SimpleNamespace(height=0.1, single_bands=range(4), decibels_over_bem=lambda model, band: off[band])
+    table = rolling_tables.bands_within(case, [mine])
+    assert table.columns["springs, in the band"] == ["1 and 2 of 3"]
+    assert table.columns["springs, below the band"] == ["1 and 1 of 1"]
 
 
 def test_the_interface_prints_the_numbers_it_is_given():

@@ -5,8 +5,10 @@ Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 
 
 import math
 import warnings
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +16,13 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, cross_levels, levels, waves
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.convergence import NotConvergedError
+from validation.engine.engine import Engine, Outcome, random_generator
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import linear_force
 
 FloatArray = NDArray[np.float64]
+K = TypeVar("K", bound=Hashable)
 
 HERTZ = 4 / 3
 TRACKS, STRIPS, BOOTSTRAP = 1, 2, 3
@@ -88,6 +92,26 @@ def roll_strip(strip: Strip) -> Outcome:
         "failed": np.array(float(np.count_nonzero(~found.converged))),
         "height": np.array(surface.std()),
     }
+
+
+def roll_strips(groups: Mapping[K, Sequence[Strip]], engine: Engine) -> tuple[dict[K, list[Outcome]], tuple[str, ...]]:
+    """Outcomes of each group, and a line for each strip with positions that did not converge.
+
+    Raises NotConvergedError where fewer than three strips of a group have converged everywhere.
+    """
+    outcomes = engine.map_groups(roll_strip, groups)
+    unconverged = tuple(
+        f"strip {s.realisation}, h/d = {s.height:g}, {s.cells} cells to a radius: {int(o['failed'])} positions, "
+        f"{s.spectrum}"
+        for key, strips in groups.items()
+        for s, o in zip(strips, outcomes[key], strict=True)
+        if o["failed"]
+    )
+    for key, found in outcomes.items():
+        converged = sum(not outcome["failed"] for outcome in found)
+        if converged < 3:
+            raise NotConvergedError(f"{converged} strips of {key} converged, 3 are needed", unconverged)
+    return outcomes, unconverged
 
 
 def crop_to_reach(surface: FloatArray, spacing: float) -> FloatArray:

@@ -4,29 +4,23 @@ import math
 from dataclasses import dataclass
 
 from validation.analysis.spectra import Bands
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rolling_strip import (
-    Strip,
-    Tracks,
-    roll_strip,
-    roll_tracks,
-    strip_levels,
-)
+from validation.simulation.rolling_strip import Strip, Tracks, roll_strips, roll_tracks, strip_levels
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
 ROUGH = 0.3
+"""h/d from which on linear theory on the same surface no longer removes the scatter."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ForceSpectrum:
     """A wheel at the approach d over self-affine roughness, contact radius a, q a from first to last.
 
-    hurst; heights: h_rms / d, ascending; first, last: q a of the band; lowest: q a from which on there are bands;
-    length, width: of the periodic surfaces over a; cells: to a contact radius; strips: realisations; rough_strips: of
-    them where h/d is ROUGH or more, and linear theory on the same surface no longer takes the scatter away; refined:
-    rolled again on cells half as wide; tracks, springs: realisations of MDR, springs to a radius; seed: zero or more.
+    hurst; heights: h_rms / d, ascending; first, last: q a of the band; lowest: q a of the first one-third octave;
+    length, width: of the periodic surfaces over a; cells: to a contact radius; strips: realisations, rough_strips of
+    them where h/d is ROUGH or more; refined: how many are rolled again on cells half as wide; tracks: realisations on
+    springs; springs: to a radius; seed: zero or more.
     """
 
     hurst: float = 0.7
@@ -59,7 +53,7 @@ class ForceSpectrum:
         return self.rough_strips if height >= ROUGH else self.strips
 
     def strip(self, height: float, realisation: int, cells: int) -> Strip:
-        """Solved the more exactly the lower the roughness, whose waves make the force fluctuate the less."""
+        """The lower the roughness, the less the force fluctuates and the smaller the tolerance."""
         return Strip(
             spectrum=self.spectrum,
             height=height,
@@ -87,9 +81,9 @@ class ForceSpectrum:
 
 @dataclass(frozen=True)
 class RollingResult:
-    """By height: levels of boundary elements, of those again on finer cells, and of springs by what they were fed.
+    """By height: levels of boundary elements, of those again on finer cells, and of springs by input spectrum.
 
-    forces: of the first strip at each height, for a look; applications: of the operator at a position, on average.
+    forces: outcome of the first strip at each height.
     """
 
     case: ForceSpectrum
@@ -109,28 +103,13 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> RollingResult:
         for height in case.heights
         for cells in (case.cells, 2 * case.cells)
     }
-    strips = [strip for group in groups.values() for strip in group]
-    outcomes = engine.map(roll_strip, strips)
-    rolled = iter(outcomes)
-    by_group = {key: [next(rolled) for _ in group] for key, group in groups.items()}
-    unconverged = tuple(
-        f"strip {s.realisation}, h/d = {s.height:g}, {s.cells} cells to a radius: {int(o['failed'])} positions"
-        for s, o in zip(strips, outcomes, strict=True)
-        if o["failed"]
-    )
-    for (height, cells), found in by_group.items():
-        whole = sum(not o["failed"] for o in found)
-        if whole < 3:
-            raise NotConvergedError(
-                f"{whole} strips converged at h/d = {height:g} on {cells} cells, 3 are needed", unconverged
-            )
-    tracks = [case.tracks_of(height, rule) for height in case.heights for rule in INPUT_SPECTRA]
-    on_springs = engine.map(roll_tracks, tracks)
+    strips, unconverged = roll_strips(groups, engine)
+    tracks = {(rule, height): case.tracks_of(height, rule) for height in case.heights for rule in INPUT_SPECTRA}
     return RollingResult(
         case,
-        {h: strip_levels(by_group[h, case.cells], 1 / case.cells, case.bands) for h in case.heights},
-        {h: strip_levels(by_group[h, 2 * case.cells], 0.5 / case.cells, case.bands) for h in case.heights},
-        {(t.input_spectrum, t.height): o for t, o in zip(tracks, on_springs, strict=True)},
-        {h: by_group[h, case.cells][0] for h in case.heights},
+        {h: strip_levels(strips[h, case.cells], 1 / case.cells, case.bands) for h in case.heights},
+        {h: strip_levels(strips[h, 2 * case.cells], 0.5 / case.cells, case.bands) for h in case.heights},
+        dict(zip(tracks, engine.map(roll_tracks, list(tracks.values())), strict=True)),
+        {h: strips[h, case.cells][0] for h in case.heights},
         unconverged,
     )

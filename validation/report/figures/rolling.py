@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.cases.rolling.force_spectrum_evidence import FED_SPRINGS, LINEAR_1D, LINEAR_3D, SPRINGS
+from validation.cases.rolling.force_spectrum_levels import LINEAR_1D, LINEAR_3D, MODELS, SPRINGS
 from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels
 
 FINE = 12
@@ -100,7 +100,7 @@ def draw_map(evidence: Evidence) -> Figure:
     across = np.unique(np.append(levels["from"], levels["to"][-1]))
     up = _borders(heights)
     fine_q, fine_h = _inside(across), _inside(up)
-    for axis, model in zip(axes, (LINEAR_1D, SPRINGS, LINEAR_3D, FED_SPRINGS), strict=True):
+    for axis, model in zip(axes, MODELS, strict=True):
         errors = levels[f"{model} over bem3d [dB]"].reshape(heights.size, q.size)
         shown = np.clip(np.where(np.isfinite(errors), errors, -99.0), -MOST, MOST)
         image = axis.pcolormesh(across, up, shown, cmap="PuOr", vmin=-MOST, vmax=MOST)

@@ -1,11 +1,11 @@
-"""Figures of what springs should be fed for rolling."""
+"""Figures of the input spectrum of springs for rolling."""
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.cases.rolling.input_spectrum import NAMES
+from validation.cases.rolling.input_spectrum_numbers import NAMES
 from validation.report.style import graded, panels
 
 STYLES = {
@@ -31,7 +31,7 @@ def draw(evidence: Evidence) -> Figure:
 
 
 def draw_springs(evidence: Evidence) -> Figure:
-    """Springs over boundary elements: a row a spectrum, a column a height."""
+    """Springs over boundary elements: a row a height, a column a spectrum."""
     rolled = evidence.table("rolled")
     names, heights = list(dict.fromkeys(rolled.columns["spectrum"])), np.unique(rolled["h/d"])
     figure, axes = panels(
