@@ -1,0 +1,192 @@
+"""What ridges across the track show: errors of both methods over (14.11), through its zeros."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.evidence import Evidence, Number, Role, Table, columns, if_confirmed
+from validation.cases.rolling.ridges import BEM, FILTER, FULL, SPRINGS, Ridges, RidgesResult, run
+from validation.theory import rolling as rolling_theory
+
+FloatArray = NDArray[np.float64]
+
+EDGE = 0.4
+"""How far the edge of a contact on a grid is out of place at most, in cells, measured on circles of 8 to 32 cells."""
+FAR = 5.0
+"""q a up to which the response is also judged by itself."""
+ERROR, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF of a prescribed force"
+
+
+def evidence(result: RidgesResult) -> Evidence:
+    """Largest errors of each method on each grid, over the envelope of the response; what a force changes."""
+    case, q = result.case, result.case.wavenumbers
+    errors = [_error(result, method, cells) for method, cells, given in result.responses if given == "approach"]
+    numbers = (*errors, _order(result), _under_force(result))
+    return Evidence(
+        title="Ridges across the track: springs, boundary elements and (14.11)",
+        method=(
+            f"{q.size} ridges at once, {_named(q)}, {case.height:g} d high in all, so that each acts by itself. The "
+            "response of the force to the height of each ridge has an amplitude and a phase, over 2 E* a. Boundary "
+            f"elements have {', '.join(map(str, case.cells))} cells to a contact radius, springs "
+            f"{', '.join(f'{n:g}' for n in case.springs)}. Errors are over the envelope of |sin(q a) / (q a)|, the "
+            "smaller of 1 and 1/(q a), and so continue through the zeros."
+        ),
+        numbers=numbers,
+        tables=(_curves(result), _table_of_errors(result)),
+        conclusions=_conclusions(result, [number for number in numbers if number.role is Role.CRITERION]),
+        captions={
+            "ridges": (
+                "(a) Response of the force to ridges. Line: (14.11), exact in one dimension and in three; circles: "
+                f"boundary elements with {case.cells[-1]} cells to a radius; squares: one-sided springs, "
+                f"{case.springs[-1]:g} to a radius; every fourth wave. (b) Errors over the envelope; dotted: the error "
+                f"by an edge of the contact {EDGE:g} of a cell out of place, on each grid of boundary elements."
+            )
+        },
+        unconverged=result.unconverged,
+    )
+
+
+def _named(q: FloatArray) -> str:
+    return f"q a = {q[0]:.2g} to {q[-1]:.3g}"
+
+
+def _conclusions(result: RidgesResult, close: list[Number]) -> tuple[str, ...]:
+    case, q = result.case, result.case.wavenumbers
+    cells, springs = case.cells[-1], case.springs[-1]
+    return (
+        if_confirmed(
+            f"Over ridges the force on the half-space is that of (14.11) for {_named(q)}, through the zeros and with "
+            "the change of sign there. The error of boundary elements is smaller than that of an edge of the contact "
+            "which is some tenths of a cell out of place.",
+            close,
+        ),
+        f"With {cells} cells to a radius boundary elements err by {_largest(result, BEM, cells, FAR):.2g} of the "
+        f"envelope up to q a = {FAR:g} and by {_largest(result, BEM, cells):.2g} up to {q[-1]:.3g}; springs in full "
+        f"contact, {springs:g} to a radius, by {_largest(result, FULL, springs):.2g}; (14.11) itself on the same track "
+        f"by {_largest(result, FILTER, springs):.1g}. The phase is right: the part of the response out of phase is at "
+        f"most {_out_of_phase(result, cells):.1g} of the envelope.",
+    )
+
+
+def exact(q: FloatArray) -> FloatArray:
+    """sin(q a) / (q a), over 2 E* a."""
+    return np.asarray(rolling_theory.response(q, contact_radius=1.0, modulus=1.0) / 2)
+
+
+def _envelope(case: Ridges) -> FloatArray:
+    return np.asarray(np.minimum(1.0, 1 / case.wavenumbers))
+
+
+def _off(result: RidgesResult, method: str, cells: float) -> FloatArray:
+    """|R - sin(q a) / (q a)| over its envelope."""
+    case = result.case
+    return np.abs(result.responses[method, cells, "approach"] - exact(case.wavenumbers)) / _envelope(case)
+
+
+def _largest(result: RidgesResult, method: str, cells: float, far: float = math.inf) -> float:
+    return float(_off(result, method, cells)[result.case.wavenumbers <= far].max())
+
+
+def _out_of_phase(result: RidgesResult, cells: int) -> float:
+    """The largest imaginary part of boundary elements over the envelope."""
+    return float(np.abs(result.responses[BEM, cells, "approach"].imag / _envelope(result.case)).max())
+
+
+def _bound(method: str, cells: float, q: FloatArray) -> tuple[FloatArray, str]:
+    """How large the error over the envelope may be, and why."""
+    if method == BEM:
+        off = EDGE * np.maximum(1.0, q) / cells
+        return off, f"the edge of the contact may lie {EDGE:g} dx off: so much of the radius, {EDGE:g} q dx of phase"
+    if method == FILTER:
+        return np.full(q.shape, 1e-7), "rounding of forces, over heights that are 1e-5 of the approach"
+    half = q / cells / 2
+    return 1.01 * (half / np.sin(half) - 1) + 1e-6, "a sum over springs for the integral: z / sin(z) - 1, z = q dx / 2"
+
+
+def _error(result: RidgesResult, method: str, cells: float) -> Number:
+    q = result.case.wavenumbers
+    off, (bound, reason) = _off(result, method, cells), _bound(method, cells, q)
+    worst = int(np.argmax(off / bound))
+    return Number(
+        quantity=ERROR,
+        model=method,
+        where={"to a radius": cells, "q a": float(q[worst])},
+        value=float(off[worst]),
+        reference=0.0,
+        source="(14.11), which is exact for ridges in 1D and in 3D",
+        tolerance=float(bound[worst]),
+        reason=reason,
+    )
+
+
+def _order(result: RidgesResult) -> Number:
+    coarsest, finest = result.case.cells[0], result.case.cells[-1]
+    ratio = _largest(result, BEM, coarsest, FAR) / _largest(result, BEM, finest, FAR)
+    return Number(
+        quantity=ORDER,
+        model=BEM,
+        where={"q a": (float(result.case.wavenumbers[0]), FAR)},
+        value=math.log(ratio) / math.log(finest / coarsest),
+        reference=1.0,
+        source="the edge of the contact falls somewhere in a cell",
+        tolerance=0.7,
+        reason="where in the cell changes irregularly from grid to grid",
+        role=Role.FINDING,
+    )
+
+
+def _under_force(result: RidgesResult) -> Number:
+    """A prescribed force turns the response of the force into one of the approach, through the stiffness alone."""
+    case, cells = result.case, result.case.cells[0]
+    force, approach = (result.responses[BEM, cells, given] for given in ("approach", "force"))
+    stiffness = -float(np.sum((force * approach.conj()).real) / np.sum(np.abs(approach) ** 2))
+    return Number(
+        quantity=STIFFNESS,
+        model=BEM,
+        where={"to a radius": float(cells)},
+        value=float((np.abs(stiffness * approach + force) / _envelope(case)).max()),
+        reference=0.0,
+        source="the definition of the stiffness: dF at a prescribed approach is -k dd at a prescribed force",
+        tolerance=1e-3,
+        reason="heights 1e-5 of the approach: second order and the residual are far below",
+    )
+
+
+def _curves(result: RidgesResult) -> Table:
+    q, found = result.case.wavenumbers, {}
+    for (method, cells, given), response in result.responses.items():
+        if given == "approach" and method in (BEM, SPRINGS):
+            found[f"{method}, {cells:g}, real"] = response.real
+            found[f"{method}, {cells:g}, imaginary"] = response.imag
+            found[f"{method}, {cells:g}, error"] = _off(result, method, cells)
+    bounds = {f"bound, {n}": _bound(BEM, n, q)[0] for n in result.case.cells}
+    return Table("responses", columns(**{"q a": q, "sin(qa)/(qa)": exact(q), **found, **bounds}))
+
+
+def _table_of_errors(result: RidgesResult) -> Table:
+    keys = [(method, cells) for method, cells, given in result.responses if given == "approach"]
+    return Table(
+        "errors",
+        {
+            "method": [method for method, _ in keys],
+            "to a radius": [cells for _, cells in keys],
+            f"largest error up to q a = {FAR:g}": [_largest(result, *key, FAR) for key in keys],
+            "largest error": [_largest(result, *key) for key in keys],
+        },
+    )
+
+
+CASE = Case(
+    name="ridges",
+    chapter=Chapter.ROLLING,
+    place=1,
+    claim="Over ridges across the track one dimension is exact in three, (14.11).",
+    answers="Ridges across the track: rolling force where one dimension is exact in three, (14.11)",
+    quick=Ridges(),
+    full=Ridges(cells=(8, 16, 32), springs=(8.5, 16.5, 32.5, 64.5)),
+    run=run,
+    evidence=evidence,
+    needs="linear filter, 1D",
+)
