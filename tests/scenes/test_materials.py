@@ -252,13 +252,18 @@ def test_punches_are_understood_by_their_load():
     }
 
 
-@pytest.mark.parametrize("name", [name for name in bundled() if name != "rough_wheel"])
+@pytest.mark.parametrize("name", ["sphere", "rough_punch"])
 def test_every_comparison_begins_with_what_was_understood(name, capsys):
     scene = load_scene(name)
-    assert description_lines(scene) == [f"  {key:18s}  {value}" for key, value in describe(scene)]
     assert main(["compare", name, "--tolerance", "90%"]) in (0, 3)
     lines = capsys.readouterr().out.splitlines()
     assert lines[1 : 1 + len(describe(scene))] == description_lines(scene)
+
+
+@pytest.mark.parametrize("name", [name for name in bundled() if name != "rough_wheel"])
+def test_a_description_has_a_line_for_each_of_its_words(name):
+    scene = load_scene(name)
+    assert description_lines(scene) == [f"  {key:18s}  {value}" for key, value in describe(scene)]
 
 
 def test_two_equal_bodies_are_told(tmp_path, capsys):
