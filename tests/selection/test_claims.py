@@ -225,7 +225,7 @@ def test_a_model_out_of_range_is_never_asked():
 def test_narrow_bands_have_an_answer(first, last):
     found = compare(punch(first=first, last=last), tolerance=0.5)
     assert found.selection.met
-    assert found.selection.best.model.model == "boundary elements"
+    assert found.selection.best.model.kind == "boundary elements"
 
 
 def test_a_band_without_a_wave_that_fits_is_a_row_with_its_reason():
@@ -495,7 +495,7 @@ def test_two_grids_of_second_order_leave_what_they_miss(finest):
 
 def test_springs_leave_what_their_tracks_scatter(monkeypatch):
     springs = models_of(rolling(), "force-spectrum", 0.1, 0)[2]
-    assert springs.model == "springs"
+    assert springs.kind == "springs"
     change = np.random.default_rng(1).standard_normal((60, springs.quantity.bands.centres.size))
     monkeypatch.setattr(rolling_models, "on_springs", lambda *_: change)
     found = springs.solve()
