@@ -1,25 +1,60 @@
-"""The examples of the README, run as they stand there."""
+"""The examples, links, names and statuses of the pages that people read."""
 
 import re
 from pathlib import Path
 
 import pytest
 
-README = (Path(__file__).parents[1] / "README.md").read_text()
-EXAMPLES = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+import bem3d
+import mdr
+import validation
+from validation.__main__ import Exit
+
+ROOT = Path(__file__).parents[1]
+PAGES = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CONVENTIONS.md", "CHANGELOG.md", "reports/README.md")
+EXAMPLES = [
+    pytest.param(example, id=f"{page}-{number}")
+    for page in PAGES
+    for number, example in enumerate(re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), flags=re.DOTALL))
+]
 
 
 def test_there_are_examples():
-    assert EXAMPLES
+    assert {example.id.split("-")[0] for example in EXAMPLES} == {"README.md", "CONTRIBUTING.md"}
 
 
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_example(example):
-    exec(compile(example, "README.md", "exec"), {})
+    exec(compile(example, "example", "exec"), {})
 
 
-def test_files_that_are_linked_exist():
-    links = re.findall(r"\]\(([^)#:]+)\)", README)
-    assert links
-    for link in links:
-        assert (Path(__file__).parents[1] / link).exists(), link
+@pytest.mark.parametrize("page", PAGES)
+def test_files_that_are_linked_exist(page):
+    for link, place in re.findall(r"\]\(([^)#:]*)(?:#([^)]*))?\)", (ROOT / page).read_text()):
+        linked = (ROOT / page).parent / link if link else ROOT / page
+        assert linked.exists(), link
+        if place and linked.suffix == ".md":
+            headings = re.findall(r"^#+ (.*)", linked.read_text(), flags=re.MULTILINE)
+            assert place in [re.sub(r"[^\w\- ]", "", heading).lower().replace(" ", "-") for heading in headings]
+
+
+def test_readme_is_short_and_names_no_module_of_validation():
+    text = (ROOT / "README.md").read_text()
+    assert len(text.splitlines()) <= 220
+    assert set(re.findall(r"validation\.(\w+)", text)) <= set(validation.__all__)
+
+
+def test_exit_statuses():
+    rows = re.findall(r"^\| (\d+) \|", (ROOT / "reports/README.md").read_text(), flags=re.MULTILINE)
+    assert [int(row) for row in rows] == [status.value for status in Exit]
+
+
+def test_names_of_the_last_release_stay():
+    rows = re.findall(
+        r"^ *\| `(\w+\.\w+)` \| `(\w+\.\w+)` \|$", (ROOT / "CHANGELOG.md").read_text(), flags=re.MULTILINE
+    )
+    assert rows
+    packages = {"mdr": mdr, "bem3d": bem3d}
+    for old, new in rows:
+        (package, before), (_, after) = old.split("."), new.split(".")
+        assert getattr(packages[package], before) is getattr(packages[package], after), old
