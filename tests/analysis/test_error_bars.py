@@ -32,7 +32,7 @@ from validation.analysis.statistics import (
 from validation.benchmarks.work_precision.errors import MethodAnswers, error
 from validation.benchmarks.work_precision.exact_problem import logarithm
 from validation.benchmarks.work_precision.measurement import Quantity
-from validation.cases.limits import evidence as limits_evidence
+from validation.cases.limits.numbers import exponent_number, threshold_number
 from validation.cases.limits.sweep import Limit, Sweep, swept
 from validation.cases.punch import fractal_punch, fractal_punch_decades
 from validation.cases.punch.area_gap_rolloff_numbers import RollOffSamples
@@ -44,8 +44,7 @@ from validation.cases.rolling.force_spectrum_levels import SPRINGS, LevelsAtHeig
 from validation.cases.rolling.input_spectrum_numbers import punch_number
 from validation.cases.rolling.linear_levels import level_3d
 from validation.cases.selection import model_selection as ladder
-from validation.cases.stability import roughness as wheel_stability_roughness
-from validation.cases.stability import vibration as wheel_stability_vibration
+from validation.cases.stability import long_runs
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_levels, distance_numbers
 from validation.cases.wheel import half_space as wheel_3d
@@ -697,7 +696,7 @@ def test_the_exponent_of_iterations_covers_its_truth():
             {"scene": "s", "solver": "solve", "cells": int(n), "iterations": float(c)}
             for n, c in zip(cells, counts, strict=True)
         ]
-        number = limits_evidence._exponent(table_of("iterations", rows), "s", "solve")
+        number = exponent_number(table_of("iterations", rows), "s", "solve")
         return number.value, number.sample
 
     assert holds(covered(drawn, 0.5))
@@ -706,15 +705,15 @@ def test_the_exponent_of_iterations_covers_its_truth():
 def test_the_drift_of_an_energy_covers_its_truth():
     rng = np.random.default_rng(0)
     place = (np.arange(10) + 0.5) / 10
-    assert holds(covered(lambda: wheel_stability_vibration._fit(2 * place + 0.1 * rng.standard_normal(10)), 2.0))
+    assert holds(covered(lambda: long_runs.fit_drift(2 * place + 0.1 * rng.standard_normal(10)), 2.0))
 
 
 @pytest.mark.parametrize("confidence", [0.95, 0.999])
-def test_the_growth_over_rounds_covers_its_truth(confidence):
+def test_the_growth_over_laps_covers_its_truth(confidence):
     rng = np.random.default_rng(0)
 
     def drawn():
-        return wheel_stability_roughness._log_mean(np.exp(0.3 + 0.1 * rng.standard_normal(5)), confidence)
+        return long_runs.mean_of_logs(np.exp(0.3 + 0.1 * rng.standard_normal(5)), confidence)
 
     share = covered(drawn, 0.3)
     assert abs(share - confidence) <= binomial(TRIALS, confidence)
@@ -737,21 +736,21 @@ def test_where_a_limit_is_crossed_is_known_to_its_steps():
         name="steep",
         method="none",
         title="x to the second",
-        knob="x",
+        parameter="x",
         error="y",
-        against="nothing",
+        reference="nothing",
         condition="x = 2",
-        failing="above",
+        failing_side="above",
         tolerance=4.0,
         factor=1.5,
     )
 
-    def border(steps):
+    def threshold(steps):
         x = np.geomspace(0.25, 8.0, steps)
-        outcome = swept(limit.name, x, x**2, 2.0, [""] * steps)
-        return limits_evidence._border(Sweep.of(limit, outcome))
+        outcome = swept(limit, x, [(y, "") for y in x**2], 2.0)
+        return threshold_number(Sweep.of(limit, outcome))
 
-    fine, coarse = border(41), border(9)
+    fine, coarse = threshold(41), threshold(9)
     for number in (fine, coarse):
         assert abs(number.value) <= number.grid + 1e-9
     assert coarse.grid == pytest.approx(5 * fine.grid, rel=0.01)

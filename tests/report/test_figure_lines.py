@@ -452,9 +452,9 @@ def test_lines_of_the_wheel_in_three_dimensions():
 
 
 def test_lines_of_rounds_and_of_lift_off():
-    rounds = Made({"scheme": np.repeat(["velocity Verlet", "explicit Euler"], 3), "rounds": [1.0, 2.0, 3.0] * 2})
+    rounds = Made({"scheme": np.repeat(["velocity Verlet", "explicit Euler"], 3), "laps": [1.0, 2.0, 3.0] * 2})
     axis = plain_axis()
-    wheel_stability._rounds(axis, rounds)
+    wheel_stability._laps(axis, rounds)
     expected = {}
     for name in ("velocity Verlet", "explicit Euler"):
         mine = rounds.where(scheme=name)

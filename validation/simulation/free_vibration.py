@@ -51,7 +51,7 @@ class HertzVibrations:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Endurance:
+class LongRun:
     """A very long free vibration on a Hertz contact, dt = a / 100 / v_0."""
 
     scheme: str
@@ -158,7 +158,7 @@ def crossing(u: FloatArray, after: int) -> float:
     return float(after + real[np.argmin(np.abs(real - 0.5))])
 
 
-def endure(problem: Endurance) -> Outcome:
+def long_run(problem: LongRun) -> Outcome:
     """Means in each tenth, over the beginning, of the energy and of what Verlet keeps in its place, of each release."""
     scheme, highest = SCHEMES[problem.scheme], np.array(problem.highest)
     tenth = problem.steps // TENTHS

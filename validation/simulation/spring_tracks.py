@@ -1,4 +1,4 @@
-"""Wheels on springs over rough tracks, round after round, lifting off, on springs too far apart: one solve of each."""
+"""Wheels on springs over rough tracks: many laps, lift-off, springs too far apart; one solve of each."""
 
 import math
 import warnings
@@ -71,13 +71,13 @@ class RoughTrack:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rounds:
-    """Round after round over rough tracks, from a release at rest `lift` d_N below equilibrium."""
+class Laps:
+    """Many laps over rough tracks, from a release at rest `lift` d_N below equilibrium."""
 
     scheme: str
     track: RoughTrack
     wheels: int
-    rounds: int
+    laps: int
     lift: float = 0.2
 
     @property
@@ -94,7 +94,7 @@ class LiftOff:
     load: float
     track: RoughTrack
     wheels: int
-    rounds: int
+    laps: int
 
     @property
     def wheel(self) -> Wheel:
@@ -109,7 +109,7 @@ class Spacings:
     track: RoughTrack
 
 
-def go_round(problem: Rounds) -> Outcome:
+def run_laps(problem: Laps) -> Outcome:
     """Weighted mean square acceleration, and the square of the amplitude at the resonance, of each tenth and wheel."""
     track = problem.track
     law = SpringsLaw(WHEEL, track.heights(problem.wheels), track.spacing)
@@ -118,7 +118,7 @@ def go_round(problem: Rounds) -> Outcome:
         WHEEL,
         law,
         time_step=track.spacing / SPEED,
-        steps=problem.rounds * track.points,
+        steps=problem.laps * track.points,
         approach=d,
         velocity=np.zeros_like(d),
         integrator=SCHEMES[problem.scheme],
@@ -155,7 +155,7 @@ def lift_off(problem: LiftOff) -> Outcome:
         wheel,
         SpringsLaw(wheel, height, track.spacing),
         time_step=track.spacing / SPEED,
-        steps=problem.rounds * track.points,
+        steps=problem.laps * track.points,
     )
     force = 1 + wheel.mass / wheel.load * motion.acceleration
     momentum = wheel.mass * (motion.velocity + motion.time_step / 2 * motion.jump) / motion.duration

@@ -121,7 +121,7 @@ def sweep_lift_off(problem: HigherTracks) -> Outcome:
     imbalance, pulls = [], []
     for height in problem.heights:
         track = RoughTrack(rms=height * WHEEL.approach, seed=problem.seed, waves=problem.waves)
-        found = lift_off(LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=problem.wheels, rounds=1))
+        found = lift_off(LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=problem.wheels, laps=1))
         # a linear contact in motion has its force from the filter, which is what warns
         _, message = call_and_record_warnings(partial(_filtered, track))
         points.append((float(found["airborne"].mean()), message))

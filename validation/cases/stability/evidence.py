@@ -7,27 +7,12 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, if_confirmed, table_of
-from validation.cases.stability.roughness import (
-    first_lift,
-    lift_numbers,
-    lift_table,
-    pulls_from,
-    quarter_wave,
-    round_numbers,
-    rounds_table,
-    spacing_numbers,
-    spacing_table,
-)
+from validation.cases.stability.hertz_vibration import hertz_numbers, hertz_table, orders_table
+from validation.cases.stability.lift_off import first_lift, lift_numbers, lift_table, pulls_from
+from validation.cases.stability.linear_vibration import linear_numbers, linear_table
+from validation.cases.stability.long_runs import lap_numbers, laps_table, long_numbers, long_table
+from validation.cases.stability.spacing import LEVEL, quarter_wave, spacing_numbers, spacing_table
 from validation.cases.stability.stability import WheelStability, WheelStabilityResult, run
-from validation.cases.stability.vibration import (
-    hertz_numbers,
-    hertz_table,
-    linear_numbers,
-    linear_table,
-    long_numbers,
-    long_table,
-    orders_table,
-)
 from validation.simulation.free_vibration import LIFT_OFF
 from validation.simulation.integrators import RUNGE_KUTTA, VELOCITY_VERLET
 
@@ -35,20 +20,20 @@ from validation.simulation.integrators import RUNGE_KUTTA, VELOCITY_VERLET
 def evidence(result: WheelStabilityResult) -> Evidence:
     """Schemes against what is known of them, energy of long runs, springs too far apart, forces at lift-off."""
     linear, hertz, long = linear_table(result), hertz_table(result), long_table(result)
-    rounds, spacing, lift = rounds_table(result), spacing_table(result), lift_table(result)
+    laps, spacing, lift = laps_table(result), spacing_table(result), lift_table(result)
     of_schemes = [*linear_numbers(linear), *hertz_numbers(result, hertz)]
     of_long, of_springs = long_numbers(result, long), spacing_numbers(spacing)
-    of_rounds, of_lift = round_numbers(result), lift_numbers(result, lift)
+    of_laps, of_lift = lap_numbers(result), lift_numbers(result, lift)
     return Evidence(
         title="Where time stepping and springs fail",
         method=_method(result),
-        numbers=(*of_schemes, *of_long, *of_rounds, *of_springs, *of_lift, _refused(result)),
-        tables=(linear, hertz, long, rounds, spacing, lift),
+        numbers=(*of_schemes, *of_long, *of_laps, *of_springs, *of_lift, _refusals_number(result)),
+        tables=(linear, hertz, long, laps, spacing, lift),
         conclusions=(
-            _of_schemes(of_schemes, hertz),
-            _of_long_runs(result, of_long, of_rounds),
-            _of_spacing(spacing, of_springs),
-            _of_lift(lift, of_lift),
+            _on_schemes(of_schemes, hertz),
+            _on_long_runs(result, of_long, of_laps),
+            _on_spacing(spacing, of_springs),
+            _on_lift_off(lift, of_lift),
         ),
         captions=_captions(result),
         unconverged=tuple(f"{p.sweep}, load {p.load:g} N" for p, o in result.lift if o["failed"]),
@@ -59,23 +44,23 @@ def evidence(result: WheelStabilityResult) -> Evidence:
 def _method(result: WheelStabilityResult) -> str:
     case = result.case
     return (
-        "The wheel of Table 14.1. Free vibration by four schemes with omega_eigen dt from "
-        f"{case.steps[0]:g} to {case.steps[-1]:g}, linear and on a Hertz contact, released at "
-        f"{', '.join(f'{u:g}' for u in case.highest)} d_N, contact being lost above {LIFT_OFF:.3g}; {case.long_steps} "
-        f"steps of a / 100 on a Hertz contact; {case.rounds} rounds of {case.wheels} wheels over rough periodic "
-        "tracks; springs of many spacings on one track; wheels over tracks so rough, or so lightly loaded, that they "
-        "lift off. Loads are changed with the mass kept."
+        "The wheel of Table 14.1. Four schemes integrate its free vibration with omega_eigen dt from "
+        f"{case.steps[0]:g} to {case.steps[-1]:g}, on a linear and on a Hertz contact, released at "
+        f"{', '.join(f'{u:g}' for u in case.highest)} d_N. Above {LIFT_OFF:.3g} d_N the Hertz contact opens. Long "
+        f"runs take {case.long_steps} steps of a / 100 on it, and {case.laps} laps of {case.wheels} wheels over "
+        "rough periodic tracks. Springs of many spacings share one track. Wheels lift off where tracks are rough or "
+        "loads low; a changed load keeps the mass."
     )
 
 
-def _refused(result: WheelStabilityResult) -> Number:
+def _refusals_number(result: WheelStabilityResult) -> Number:
     return Number(
-        quantity="steps past the limit and waves that the points cannot carry: refused, of all asked for",
+        quantity="share of refused calls with a step past the limit, or waves that the points cannot carry",
         value=float(np.mean([float(str(row["refused"])) for row in result.refusals])),
         reference=1.0,
         source="no motion is better than one that grows without bound, no track better than another one",
         tolerance=0.0,
-        reason="each of them",
+        reason="each call",
     )
 
 
@@ -83,12 +68,12 @@ def _criteria(numbers: Sequence[Number]) -> list[Number]:
     return [number for number in numbers if number.role is Role.CRITERION]
 
 
-def _of_schemes(numbers: Sequence[Number], table: Table) -> str:
+def _on_schemes(numbers: Sequence[Number], table: Table) -> str:
     verlet = table.where(scheme=VELOCITY_VERLET.name)
     last = verlet["omega dt"].max()
     worst = verlet.where(**{"omega dt": last})["error of the period"].max()
     return if_confirmed(
-        "Each scheme errs as the eigenvalue of its step says, on both sides of its limit: symplectic Euler and "
+        "The error of each scheme follows the eigenvalue of its step, on both sides of its limit: symplectic Euler and "
         "velocity Verlet keep the energy of a linear vibration up to omega dt = 2, Runge-Kutta loses "
         f"(omega dt)^6 / 72 of it a step and holds up to {RUNGE_KUTTA.limit:.3g}, explicit Euler gains at any step. "
         "On a Hertz contact Verlet finds the period from the energy, lift-off included; with "
@@ -97,25 +82,25 @@ def _of_schemes(numbers: Sequence[Number], table: Table) -> str:
     )
 
 
-def _of_long_runs(result: WheelStabilityResult, numbers: Sequence[Number], rounds: Sequence[Number]) -> str:
-    drift, growth, euler = numbers[0], rounds[0], rounds[-1]
+def _on_long_runs(result: WheelStabilityResult, numbers: Sequence[Number], laps: Sequence[Number]) -> str:
+    drift, growth, euler = numbers[0], laps[0], laps[-1]
     return if_confirmed(
         f"Over {result.case.long_steps} steps at the amplitude and the step of Table 14.1 the energy drifts by "
-        f"{drift.value:.1g} ± {drift.sample:.1g} of itself, no more than rounding explains; over {result.case.rounds} "
-        f"rounds on springs the mean square acceleration changes by a factor {math.exp(growth.value):.4g}, within its "
+        f"{drift.value:.1g} ± {drift.sample:.1g} of itself, no more than rounding explains; over {result.case.laps} "
+        f"laps on springs the mean square acceleration changes by a factor {math.exp(growth.value):.4g}, within its "
         f"scatter. Explicit Euler gains as predicted: the energy of the free vibration on springs "
         f"grows by a factor {math.exp(euler.value):.3g}.",
-        _criteria([*numbers, *rounds]),
+        _criteria([*numbers, *laps]),
     )
 
 
-def _of_spacing(table: Table, numbers: Sequence[Number]) -> str:
-    at = quarter_wave(table)
-    quarter = ", ".join(f"{level:.2g}" for level in at["error of the last one-third octave [dB]"])
-    errors = ", ".join(f"{error:.2g}" for error in at["error of force over its fluctuation"])
-    heights = ", ".join(f"{height:g}" for height in at["height [d_N]"])
+def _on_spacing(table: Table, numbers: Sequence[Number]) -> str:
+    quarter = quarter_wave(table)
+    levels = ", ".join(f"{level:.2g}" for level in quarter[LEVEL])
+    errors = ", ".join(f"{error:.2g}" for error in quarter["error of force over its fluctuation"])
+    heights = ", ".join(f"{height:g}" for height in quarter["height [d_N]"])
     return (
-        f"With springs a quarter of the shortest wave apart the last one-third octave is off by {quarter} dB and the "
+        f"With springs a quarter of the shortest wave apart the last one-third octave is off by {levels} dB and the "
         f"force by {errors} of its fluctuation, for h / d = {heights}. "
         + if_confirmed(
             "Where roughness is low the error of that level is the sum over springs for an integral.", numbers[:1]
@@ -123,7 +108,7 @@ def _of_spacing(table: Table, numbers: Sequence[Number]) -> str:
     )
 
 
-def _of_lift(table: Table, numbers: Sequence[Number]) -> str:
+def _on_lift_off(table: Table, numbers: Sequence[Number]) -> str:
     rows = table.where(sweep="height")
     seen = first_lift(rows)
     last = int(np.argmax(rows["height [d_N]"]))
@@ -156,7 +141,7 @@ def _captions(result: WheelStabilityResult) -> dict[str, str]:
             "one-third octave; lines: the sum over springs in linear theory; dotted: a quarter of the shortest wave "
             "and the last spacing that carries it. (c) Error of the force on the same tracks, without its mean. (d) "
             "Time airborne and (e) highest force, with roughness changed at one load and load changed at "
-            "one roughness; lines: (14.11). (f) Rounds over rough tracks: energy of the free vibration and mean "
+            "one roughness; lines: (14.11). (f) Laps over rough tracks: energy of the free vibration and mean "
             f"square acceleration, in tenths, bars: 95 % of {result.case.wheels} wheels; line: linear theory of "
             "explicit Euler."
         ),
@@ -167,17 +152,17 @@ CASE = Case(
     name="wheel_stability",
     chapter=Chapter.LIMITS,
     place=1,
-    claim="Time steps fail where theory says, and are refused before.",
+    claim="Time steps fail where theory says, and the software refuses them before.",
     answers="Where time stepping and springs fail: steps up to and past the limit, long runs, spacing, lift-off",
     quick=WheelStability(),
     full=WheelStability(
         turns=20,
         hertz_turns=6,
         long_steps=1000000,
-        rounds=20,
+        laps=20,
         heights=(0.03, 0.1, 0.2, 0.3, 0.45, 0.6, 1.0, 3.0),
         loads=(0.01, 0.02, 0.05, 0.1, 0.2),
-        lift_rounds=2,
+        lift_laps=2,
         spacing_heights=(0.001, 0.064, 1.0),
         spacing_tracks=4,
     ),

@@ -2,37 +2,38 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import (
     SCHEMES,
     WHEEL,
-    Endurance,
     HertzVibrations,
+    LongRun,
     Vibrations,
-    endure,
+    long_run,
     vibrate,
     vibrate_hertz,
 )
-from validation.simulation.integrators import EXPLICIT_EULER, INTEGRATORS, VELOCITY_VERLET, Integrator
+from validation.simulation.integrators import EXPLICIT_EULER, INTEGRATORS, VELOCITY_VERLET
 from validation.simulation.motion import simulate
 from validation.simulation.spring_tracks import (
     FINE,
     HEIGHT,
+    Laps,
     LiftOff,
     RoughTrack,
-    Rounds,
     Spacings,
     coarsen,
-    go_round,
     lift_off,
+    run_laps,
 )
 
 Row = dict[str, object]
 
 COMPARED = (VELOCITY_VERLET.name, EXPLICIT_EULER.name)
-"""In runs that are long: who should hold, and who should not."""
+"""Schemes of the long runs: the first should hold its energy, the second should not."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,10 +42,10 @@ class WheelStability:
 
     steps: omega_eigen dt of free linear vibration, ascending, from the first small ones past every limit;
     turns: of it; hertz_steps: omega_eigen dt on a Hertz contact, ascending; hertz_turns: of it; highest: approaches of
-    release over d_N; long_steps: of a very long run with dt = a / 100 / v_0; long_highest: as highest; rounds: over the
+    release over d_N; long_steps: of a very long run with dt = a / 100 / v_0; long_highest: as highest; laps: over the
     rough track, a multiple of ten; heights: h_rms / d_N at the load of Table 14.1; loads: over that load, at the height
-    of Table 14.1; lift_rounds: of these; wheels: each on a track of its own; spacing_heights: h_rms / d_N where springs
-    are made coarser, the first where linear theory must hold; spacing_tracks: of these; seed: zero or positive.
+    of Table 14.1; lift_laps: over these tracks; wheels: each on a track of its own; spacing_heights: h_rms / d_N of
+    coarser springs, the first where linear theory must hold; spacing_tracks: of these; seed: zero or positive.
     """
 
     steps: tuple[float, ...] = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 1.9, 1.99, 2.01, 2.1, 2.5, 2.8, 2.86, 3.2)
@@ -54,10 +55,10 @@ class WheelStability:
     highest: tuple[float, ...] = (1.1, 1.5, 2.0, 3.0)
     long_steps: int = 30_000
     long_highest: tuple[float, ...] = (1 + HEIGHT / WHEEL.approach, 1.5, 3.0)
-    rounds: int = 10
+    laps: int = 10
     heights: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0)
     loads: tuple[float, ...] = (0.01, 0.05)
-    lift_rounds: int = 1
+    lift_laps: int = 1
     wheels: int = 8
     spacing_heights: tuple[float, ...] = (1e-3, 0.064)
     spacing_tracks: int = 1
@@ -66,83 +67,76 @@ class WheelStability:
 
 @dataclass(frozen=True)
 class WheelStabilityResult:
-    """What each solve found, beside its problem; sentences of refusal."""
+    """Outcomes by scheme, by height, or with their problem; what is refused, with the messages."""
 
     case: WheelStability
     linear: dict[str, Outcome]
     hertz: list[tuple[HertzVibrations, Outcome]]
     long: dict[str, Outcome]
-    rounds: dict[str, Outcome]
+    laps: dict[str, Outcome]
     lift: list[tuple[LiftOff, Outcome]]
-    spacing: list[tuple[Spacings, Outcome]]
+    spacing: dict[float, list[Outcome]]
     refusals: list[Row]
 
 
 def run(case: WheelStability, engine: Engine = SERIAL) -> WheelStabilityResult:
-    """The longest runs first; refusals are asked for here."""
-    long, rounds, lift, spacing = _long(case), _rounds(case), _lift(case), _spacing(case)
-    linear = {name: Vibrations(scheme=name, steps=case.steps, turns=case.turns) for name in SCHEMES}
+    """Solve all problems, the longest first, and try what must be refused."""
+    track, lift = RoughTrack(rms=HEIGHT, seed=case.seed), _lift_problems(case)
+    long = [LongRun(scheme=name, highest=case.long_highest, steps=case.long_steps) for name in COMPARED]
+    laps = [Laps(scheme=name, track=track, wheels=case.wheels, laps=case.laps) for name in COMPARED]
+    linear = [Vibrations(scheme=name, steps=case.steps, turns=case.turns) for name in SCHEMES]
     hertz = [
         HertzVibrations(scheme=name, step=step, highest=case.highest, turns=case.hertz_turns)
         for name in SCHEMES
         for step in case.hertz_steps
     ]
-    endured, gone = engine.map(endure, list(long.values())), engine.map(go_round, list(rounds.values()))
     return WheelStabilityResult(
         case=case,
-        long=dict(zip(long, endured, strict=True)),
-        rounds=dict(zip(rounds, gone, strict=True)),
+        long=dict(zip(COMPARED, engine.map(long_run, long), strict=True)),
+        laps=dict(zip(COMPARED, engine.map(run_laps, laps), strict=True)),
         lift=list(zip(lift, engine.map(lift_off, lift), strict=True)),
-        spacing=list(zip(spacing, engine.map(coarsen, spacing), strict=True)),
-        linear=dict(zip(linear, engine.map(vibrate, list(linear.values())), strict=True)),
+        spacing=engine.map_groups(coarsen, {height: spacing_problems(case, height) for height in case.spacing_heights}),
+        linear=dict(zip(SCHEMES, engine.map(vibrate, linear), strict=True)),
         hertz=list(zip(hertz, engine.map(vibrate_hertz, hertz), strict=True)),
         refusals=refusals(),
     )
 
 
-def _long(case: WheelStability) -> dict[str, Endurance]:
-    return {name: Endurance(scheme=name, highest=case.long_highest, steps=case.long_steps) for name in COMPARED}
-
-
-def _rounds(case: WheelStability) -> dict[str, Rounds]:
-    track = RoughTrack(rms=HEIGHT, seed=case.seed)
-    return {name: Rounds(scheme=name, track=track, wheels=case.wheels, rounds=case.rounds) for name in COMPARED}
-
-
-def _lift(case: WheelStability) -> list[LiftOff]:
+def _lift_problems(case: WheelStability) -> list[LiftOff]:
     def rolled(sweep: str, load: float, rms: float) -> LiftOff:
         track = RoughTrack(rms=rms, seed=case.seed)
-        return LiftOff(sweep=sweep, load=load, track=track, wheels=case.wheels, rounds=case.lift_rounds)
+        return LiftOff(sweep=sweep, load=load, track=track, wheels=case.wheels, laps=case.lift_laps)
 
     heights = [rolled("height", WHEEL.load, height * WHEEL.approach) for height in case.heights]
     return heights + [rolled("load", part * WHEEL.load, HEIGHT) for part in case.loads]
 
 
-def _spacing(case: WheelStability) -> list[Spacings]:
+def spacing_problems(case: WheelStability, height: float) -> list[Spacings]:
+    """Tracks of a height h_rms / d_N under springs of many spacings."""
+    rms = height * WHEEL.approach
     return [
-        Spacings(track=RoughTrack(rms=h * WHEEL.approach, seed=case.seed, realisation=i, waves=9, per_wave=FINE))
-        for h in case.spacing_heights
+        Spacings(track=RoughTrack(rms=rms, seed=case.seed, realisation=i, waves=9, per_wave=FINE))
         for i in range(case.spacing_tracks)
     ]
 
 
 def refusals() -> list[Row]:
-    """What is refused, and in which words."""
-    law, rows = HertzLaw(WHEEL), []
+    """Calls that must be refused: time steps past the limit of each scheme, and too few points to a wave."""
+    calls: dict[str, Callable[[], object]] = {}
     for scheme in INTEGRATORS:
         step = 1.001 * max(scheme.limit, 2.0) / WHEEL.eigenfrequency / scheme.cells
-
-        def past(scheme: Integrator = scheme, step: float = step) -> object:
-            return simulate(WHEEL, law, time_step=step, steps=1, integrator=scheme)
-
-        rows.append(_refusal(f"simulate, {scheme.name}, a step just past its limit", past))
+        calls[f"simulate, {scheme.name}, a step just past its limit"] = partial(
+            simulate, WHEEL, HertzLaw(WHEEL), time_step=step, steps=1, integrator=scheme
+        )
     coarse = RoughTrack(rms=HEIGHT, seed=0, per_wave=1)
-    return [*rows, _refusal("rough_profile, one point to the shortest wave", lambda: coarse.heights(1))]
+    calls["rough_profile, one point to the shortest wave"] = partial(coarse.heights, 1)
+    return [refusal(name, call) for name, call in calls.items()]
 
 
-def _refusal(asked: str, call: Callable[[], object]) -> Row:
+def refusal(name: str, call: Callable[[], object]) -> Row:
+    """A row of the table: the call, whether it was refused, and the message."""
     try:
         call()
     except ValueError as error:
-        return {"asked": asked, "refused": 1.0, "answer": str(error)}
-    return {"asked": asked, "refused": 0.0, "answer": "none: it was done"}
+        return {"call": name, "refused": 1.0, "answer": str(error)}
+    return {"call": name, "refused": 0.0, "answer": "none: the call succeeded"}

@@ -97,7 +97,7 @@ def run(case: WheelSpectrum, engine: Engine = SERIAL) -> WheelResult:
         raise NotConvergedError("wheels were thrown farther than sums are exact for", lost)
     scene = case.scene
     still = Still(scene=scene, cells=case.cells, steps=case.stills, seed=case.seed)
-    return WheelResult(case, found, engine.map(picture, [still])[0])
+    return WheelResult(case, found, engine.map(contact_snapshot, [still])[0])
 
 
 def _varied(scene: WheelScene) -> dict[str, WheelScene]:
@@ -121,7 +121,7 @@ def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     return found
 
 
-def picture(still: Still) -> Outcome:
+def contact_snapshot(still: Still) -> Outcome:
     """The contact of a wheel as the simulation has it, on springs and on the half-space.
 
     springs: x from the middle, profile of the wheel at its approach, height of the track, compression, over a and d;

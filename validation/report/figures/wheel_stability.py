@@ -102,12 +102,12 @@ def _marked(axis: Axes, ticks: tuple[float, ...]) -> None:
 
 
 def draw_rough(evidence: Evidence) -> Figure:
-    """Long runs, rounds, springs too far apart, lift-off."""
+    """Long runs, laps, springs too far apart, lift-off."""
     figure, axes = panels(3, 2, height=9.2, within=PLACE)
     _long(axes[0], evidence.table("long runs"))
     _spacing(axes[1], axes[2], evidence.table("spacing"))
     _lift(axes[3], axes[4], evidence.table("lift-off"))
-    _rounds(axes[5], evidence.table("rounds"))
+    _laps(axes[5], evidence.table("rounds"))
     return figure
 
 
@@ -116,7 +116,7 @@ def _long(axis: Axes, found: Table) -> None:
     for i, release in enumerate(releases):
         for name, dash in (("velocity Verlet", "-"), ("explicit Euler", "--")):
             rows = found.where(**{"scheme": name, "released at [d_N]": release})
-            change = np.abs(rows["change of energy kept" if dash == "-" else "change of energy"])
+            change = np.abs(rows["change of conserved quantity" if dash == "-" else "change of energy"])
             label = f"{name}, {release:.4g}"
             style = {**graded(i, len(releases)), "linestyle": dash}
             axis.plot(rows["steps"], np.maximum(change, FLOOR), label=label, **style)
@@ -164,12 +164,12 @@ def _lift(airborne: Axes, highest: Axes, found: Table) -> None:
         axis.legend(loc="upper left")
 
 
-def _rounds(axis: Axes, found: Table) -> None:
+def _laps(axis: Axes, found: Table) -> None:
     for name in ("velocity Verlet", "explicit Euler"):
         rows = found.where(scheme=name)
         for what, face in (("free vibration", None), ("mean square acceleration", "none")):
             axis.errorbar(
-                rows["rounds"],
+                rows["laps"],
                 np.exp(rows[f"{what}, log over first tenth"]),
                 np.exp(rows[f"{what}, log over first tenth"]) * rows[f"{what}, half-width"],
                 color=COLORS[name][0],
@@ -181,6 +181,6 @@ def _rounds(axis: Axes, found: Table) -> None:
                 label=f"{name}, {what}",
             )
     rows = found.where(scheme="explicit Euler")
-    axis.plot(rows["rounds"], np.exp(rows["linear theory"]), **GUIDE)
-    axis.set(xlabel="rounds", ylabel="over the first tenth", title="springs, rough track")
+    axis.plot(rows["laps"], np.exp(rows["linear theory"]), **GUIDE)
+    axis.set(xlabel="laps", ylabel="over the first tenth", title="springs, rough track")
     axis.legend(fontsize=7, loc="upper left")

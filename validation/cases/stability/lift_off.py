@@ -1,0 +1,100 @@
+"""Wheels that lift off: time airborne, forces and momentum, and where linear theory pulls."""
+
+import numpy as np
+from scipy import stats
+
+from validation.analysis.evidence import Number, Role, Table, table_of
+from validation.cases.stability.stability import Row, WheelStabilityResult
+from validation.engine.engine import Outcome
+from validation.simulation.spring_tracks import HEIGHT, LiftOff, RoughTrack
+
+
+def lift_table(result: WheelStabilityResult) -> Table:
+    """Of each load and height, over all wheels, with linear theory on the same tracks, and Gauss."""
+    return table_of("lift-off", [_lift_row(problem, found) for problem, found in result.lift])
+
+
+def _lift_row(problem: LiftOff, found: Outcome) -> Row:
+    rms = float(np.sqrt(np.mean(found["rms"] ** 2)))
+    return {
+        "sweep": problem.sweep,
+        "load [N]": problem.load,
+        "height [d_N]": problem.track.rms / problem.wheel.approach,
+        "time airborne": float(found["airborne"].mean()),
+        "time airborne, linear": float(found["negative"].mean()),
+        "time airborne, Gaussian": float(stats.norm.cdf(-1 / rms)),
+        "rms of linear force [F_N]": rms,
+        "deepest linear pull [F_N]": float(found["pull"].max()),
+        "highest force [F_N]": float(found["highest"].max()),
+        "highest force, median [F_N]": float(np.median(found["highest"])),
+        "lowest force [F_N]": float(found["lowest"].min()),
+        "largest error of the mean force": float(np.abs(found["mean"] - 1).max()),
+        "balance of momentum": float(np.abs(found["mean"] - 1 + found["momentum"]).max()),
+        "hop [d_N]": float(found["hop"].max() / problem.wheel.approach),
+    }
+
+
+def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
+    """What must hold in the air as on the ground, and from where on wheels lift off."""
+    steps = result.case.lift_laps * RoughTrack(rms=HEIGHT, seed=0).points
+    highest = float(table["highest force [F_N]"].max())
+    return [
+        Number(
+            quantity="lowest force over F_N, or zero where that is higher",
+            model="springs",
+            value=float(np.minimum(table["lowest force [F_N]"], 0.0).min()),
+            source="springs pull nowhere",
+            tolerance=4 * float(np.finfo(float).eps),
+            reason="rounding of g - F / M",
+            reference=0.0,
+        ),
+        Number(
+            quantity="F T - F_N T = M (v_0 - v_end), largest difference over F_N T, all loads and heights",
+            model="springs",
+            value=float(table["balance of momentum"].max()),
+            source="momentum; steps of Verlet sum accelerations with half of the first and of the last",
+            tolerance=float(np.finfo(float).eps) * highest * steps,
+            reason="rounding, a last place of the highest force each step",
+            reference=0.0,
+        ),
+        *[number for sweep in ("height", "load") for number in _threshold_numbers(table.where(sweep=sweep), sweep)],
+    ]
+
+
+def _threshold_numbers(rows: Table, sweep: str) -> list[Number]:
+    """From which h / d linear theory pulls and a wheel is first airborne; none where no wheel is."""
+    seen = first_lift(rows)
+    if seen is None:
+        return []
+    below = rows["height [d_N]"][rows["height [d_N]"] < seen]
+    pull = pulls_from(rows)
+    return [
+        Number(
+            quantity="h / d of the first lift-off",
+            model="springs",
+            where={"sweep": f"sweep of the {sweep}"},
+            value=seen,
+            reference=pull,
+            source="(14.11): from where the deepest pull exceeds F_N, on the same tracks",
+            tolerance=0.2 * pull,
+            reason="a fifth",
+            grid=seen - float(below.max()) if below.size else 0.0,
+            role=Role.FINDING,
+        )
+    ]
+
+
+def first_lift(rows: Table) -> float | None:
+    """The lowest h / d at which a wheel was in the air."""
+    found = rows["height [d_N]"][rows["time airborne"] > 0]
+    return float(found.min()) if found.size else None
+
+
+def pulls_from(rows: Table) -> float:
+    """h / d at which the deepest linear pull is F_N: interpolated, both logarithmic, where the load changes too."""
+    order = np.argsort(rows["height [d_N]"])
+    height, pull = (np.log(rows[name][order]) for name in ("height [d_N]", "deepest linear pull [F_N]"))
+    slope = (height[-1] - height[0]) / (pull[-1] - pull[0])
+    if pull[0] <= 0 <= pull[-1]:
+        return float(np.exp(np.interp(0.0, pull, height)))
+    return float(np.exp(height[0] - slope * pull[0]))

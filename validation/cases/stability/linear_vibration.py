@@ -1,0 +1,102 @@
+"""Free vibration on a linear contact: growth, angle and energy of a step of each scheme against its eigenvalue."""
+
+import math
+
+import numpy as np
+
+from validation.analysis.evidence import Number, Table, table_of
+from validation.cases.stability.stability import Row, WheelStabilityResult
+from validation.simulation.free_vibration import SCHEMES, amplification, first_turn
+from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
+
+ROUNDING = 1e-9
+PERIOD_ORDERS = {EXPLICIT_EULER.name: 2.0, SYMPLECTIC_EULER.name: 2.0, VELOCITY_VERLET.name: 2.0, RUNGE_KUTTA.name: 4.0}
+ENERGY_ORDERS = {EXPLICIT_EULER.name: 1.0, SYMPLECTIC_EULER.name: 1.0, VELOCITY_VERLET.name: 2.0, RUNGE_KUTTA.name: 5.0}
+LINEAR = "linear contact"
+
+
+def linear_table(result: WheelStabilityResult) -> Table:
+    """One row a scheme and step."""
+    rows: list[Row] = []
+    for name, found in result.linear.items():
+        x = np.array(result.case.steps)
+        exact = amplification(name, x)
+        theory = first_turn(name, np.minimum(x, 1.99))
+        for i, step in enumerate(result.case.steps):
+            rows.append(
+                {
+                    "scheme": name,
+                    "omega dt": step,
+                    "growth of a step": float(found["growth"][i]),
+                    "growth by theory": float(abs(exact[i])),
+                    "angle of a step [rad]": float(found["angle"][i]),
+                    "angle by theory [rad]": float(np.angle(exact[i])),
+                    "error of the period": float(abs(step / found["angle"][i] - 1)) if found["angle"][i] else 1.0,
+                    "drift of energy in a turn": abs(math.expm1(4 * math.pi / step * math.log(found["growth"][i]))),
+                    "change in a turn": float(found["change"][i]),
+                    "change by theory": float(theory[i]),
+                }
+            )
+    return table_of("linear vibration", rows)
+
+
+def linear_numbers(table: Table) -> list[Number]:
+    """Five of each scheme."""
+    return [number for name in SCHEMES for number in _numbers_of_scheme(name, table.where(scheme=name))]
+
+
+def _numbers_of_scheme(name: str, table: Table) -> list[Number]:
+    """Growth and angle of every step; orders of the period and of the energy, and the energy itself, of small ones."""
+    x = table["omega dt"]
+    growth = np.abs(np.log(table["growth of a step"] / table["growth by theory"])).max()
+    below = x < (SCHEMES[name].limit or x[-1])
+    angle = np.abs(table["angle of a step [rad]"] / table["angle by theory [rad]"] - 1)[below].max()
+    return [
+        _eigenvalue_number(name, "growth of a step, log, largest error on both sides of the limit", float(growth)),
+        _eigenvalue_number(name, "angle of a step below the limit, largest relative error", float(angle)),
+        _order_number(name, table, "error of the period", PERIOD_ORDERS[name]),
+        _order_number(name, table, "change in a turn", ENERGY_ORDERS[name]),
+        _energy_number(name, table),
+    ]
+
+
+def _eigenvalue_number(name: str, quantity: str, error: float) -> Number:
+    return Number(
+        quantity=quantity,
+        model=name,
+        where={"contact": LINEAR},
+        value=error,
+        reference=0.0,
+        source="eigenvalue of a step for y'' = -omega^2 y",
+        tolerance=ROUNDING,
+        reason="both are exact but for rounding",
+    )
+
+
+def _order_number(name: str, table: Table, column: str, order: float) -> Number:
+    """Between the two smallest steps."""
+    x, error = table["omega dt"][:2], table[column][:2]
+    return Number(
+        quantity=f"order of the {column}",
+        model=name,
+        where={"contact": LINEAR},
+        value=math.log(error[1] / error[0]) / math.log(x[1] / x[0]),
+        reference=order,
+        source="the first term of the eigenvalue of a step in omega dt",
+        tolerance=10 * x[1] + 2 * ROUNDING,
+        reason="higher terms, and a turn that does not end with a step: of the order of omega dt",
+    )
+
+
+def _energy_number(name: str, table: Table) -> Number:
+    """The change within a turn against its theory at the smallest step."""
+    return Number(
+        quantity="change of the energy in a turn, over theory",
+        model=name,
+        where={"contact": LINEAR, "omega dt": float(table["omega dt"][0])},
+        value=float(table["change in a turn"][0] / table["change by theory"][0]),
+        reference=1.0,
+        source="the conserved quantity of the scheme, or |lambda|^2",
+        tolerance=max(10 * table["omega dt"][0] ** 2, 1e-4 if name == RUNGE_KUTTA.name else 0.0),
+        reason="the extremes may lie between steps, (omega dt)^2; of Runge-Kutta rounding in so small a change",
+    )

@@ -1,0 +1,87 @@
+"""Springs too far apart: the level of the last one-third octave and the force on coarser springs."""
+
+import math
+
+import numpy as np
+
+from validation.analysis.evidence import Number, Role, Table, table_of
+from validation.cases.stability.stability import Row, WheelStabilityResult
+from validation.simulation.spring_tracks import FINE, STRIDES
+
+HEIGHT, LEVEL = "height [d_N]", "error of the last one-third octave [dB]"
+OPEN = "left open by the ends of contact, first order [dB]"
+QUARTER = 25
+"""The stride of springs a quarter of the shortest wave apart."""
+
+
+def spacing_table(result: WheelStabilityResult) -> Table:
+    """Of each height and spacing, means over the tracks; no level where the springs cannot carry the last band."""
+    rows: list[Row] = []
+    for height, found in result.spacing.items():
+        error, level, linear, spread = (
+            np.stack([outcome[key] for outcome in found]) for key in ("error", "level", "linear", "spread")
+        )
+        for i, stride in enumerate(STRIDES):
+            carried = bool(level[:, i].mean() > 0)
+            rows.append(
+                {
+                    HEIGHT: height,
+                    "q_max dx": 2 * math.pi * stride / FINE,
+                    "dx [shortest wave]": stride / FINE,
+                    "error of force over its fluctuation": float(np.sqrt(np.mean(error[:, i] ** 2))),
+                    LEVEL: _decibel(level[:, i].mean()) if carried else 0.0,
+                    "by linear theory [dB]": _decibel(linear[:, i].mean()),
+                    OPEN: _decibel(1 + spread[:, i].mean() / math.sqrt(len(found))),
+                    "carried": float(carried),
+                }
+            )
+    return table_of("spacing", rows)
+
+
+def _decibel(ratio: float) -> float:
+    return 10 * math.log10(ratio)
+
+
+def spacing_numbers(table: Table) -> list[Number]:
+    """The lowest roughness against linear theory, and what a quarter of a wave costs there: above, tracks differ."""
+    lowest = float(table[HEIGHT].min())
+    low = table.where(**{HEIGHT: lowest, "carried": 1.0})
+    return [_least_likely_number(low, lowest), _quarter_number(quarter_wave(low), lowest)]
+
+
+def quarter_wave(table: Table) -> Table:
+    """Springs a quarter of the shortest wave apart."""
+    return table.where(**{"dx [shortest wave]": QUARTER / FINE})
+
+
+def _least_likely_number(rows: Table, height: float) -> Number:
+    difference = rows[LEVEL] - rows["by linear theory [dB]"]
+    worst = int(np.argmax(np.abs(difference) / rows[OPEN]))
+    return Number(
+        quantity="level of the last one-third octave less the sum over springs, least likely spacing",
+        model="springs",
+        where={"h/d": height, "dx over the shortest wave": float(rows["dx [shortest wave]"][worst])},
+        value=float(difference[worst]),
+        reference=0.0,
+        source="dx sin(q (m + 1/2) dx) / sin(q dx / 2) in place of 2 sin(q a) / q",
+        tolerance=5 * float(rows[OPEN][worst]),
+        reason="five standard deviations of what the ends of contact, which the height moves, do to the waves of a "
+        "track: each spring there by phi(gap / h_rms)",
+        unit="dB",
+    )
+
+
+def _quarter_number(rows: Table, height: float) -> Number:
+    return Number(
+        quantity="error of the last one-third octave",
+        model="springs",
+        where={"h/d": height, "dx over the shortest wave": QUARTER / FINE},
+        value=float(rows[LEVEL][0]),
+        reference=0.0,
+        source="the condition dx < lambda / 4",
+        tolerance=1.0,
+        reason="a decibel, z / sin(z) with z = pi / 4 being 0.91 dB at the last wave alone",
+        unit="dB",
+        sample=2 * float(rows[OPEN][0]),
+        role=Role.FINDING,
+    )
