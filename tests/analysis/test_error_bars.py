@@ -325,7 +325,7 @@ def test_grids_are_paired_with_their_neighbours():
     assert one.refined_springs.value == pytest.approx(-math.log(1.01))
     assert one.springs.value - one.bem.value == pytest.approx(math.log(2))
     assert (one.coarser.samples, one.finer.samples, one.bem.samples) == (4, 4, 12)
-    assert one.left == pytest.approx(abs(2 * math.log(0.99) + math.log(1.05)) + math.log(1.01), abs=1e-9)
+    assert one.grid == pytest.approx(abs(2 * math.log(0.99) + math.log(1.05)) + math.log(1.01), abs=1e-9)
 
 
 def test_intervals_of_where_mdr_must_fail():

@@ -15,7 +15,7 @@ from validation.analysis import statistics
 from validation.analysis.evidence import Verdict
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
-from validation.cases.punch import fractal_punch, fractal_punch_decades
+from validation.cases.punch import ensembles, fractal_punch_decades
 from validation.cases.selection import model_selection as ladder_on_trial
 from validation.engine import engine as ensemble
 from validation.scenes import dynamic_wheel as wheel_scene
@@ -114,7 +114,7 @@ FAULTS = {
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
-        (fractal_punch_decades.DecadeComparison, "left", 0.0),
+        (fractal_punch_decades.DecadeComparison, "grid", 0.0),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "no extrapolation": (
@@ -175,7 +175,7 @@ FAULTS = {
         test_limits.test_images_err_as_the_lattice_sum_says,
     ),
     "what is lost is not told": (
-        (fractal_punch, "describe_failures", lambda *_: ()),
+        (ensembles, "describe_failures", lambda *_: ()),
         functools.partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
     ),
     "the referee's surfaces those of who is tested": (

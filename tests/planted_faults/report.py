@@ -3,7 +3,7 @@
 from tests.report import test_figure_lines, test_printed
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed
-from validation.cases.punch import fractal_punch_decades
+from validation.cases.punch import fractal_punch_text
 from validation.report import build
 from validation.report.figures import rolling as rolling_figure
 
@@ -19,8 +19,8 @@ FAULTS = {
         test_figure_lines.test_lines_of_rolling,
     ),
     "a printed decibel halved": (
-        (fractal_punch_decades, "DECIBEL", 2 * statistics.DECIBEL),
-        test_printed.test_verdicts_of_fig_14_1_are_told_in_per_cent,
+        (fractal_punch_text, "DECIBEL", 2 * statistics.DECIBEL),
+        test_printed.test_verdicts_of_fig_14_1_are_in_per_cent,
     ),
     "two signs of verdicts exchanged": (
         (build, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),

@@ -92,12 +92,19 @@ def drawn(axis, **expected):
 
 
 FORCE = np.array([0.01, 0.1, 1.0, 10.0])
-FEW_THEN_MANY = np.array([5.0, 50.0, 500.0, 5000.0])
+FEW_THEN_MANY = np.array([True, False, False, False])
+MARKS = {
+    "tolerance of the relative deviation [dB]": 20 * np.log10(1.03),
+    "claimed of rolling [dB]": 3.0,
+    "smallest published exponent": 0.5,
+    "largest published exponent": 0.8,
+}
+MARKS = Table("marks", {"mark": list(MARKS), "value": list(MARKS.values())})
 
 
 def curves(**more):
     """Of one Hurst exponent; intervals lie about their values."""
-    given = {"H": np.full(4, 0.7), "Fbar": FORCE, "bem3d cells in contact": FEW_THEN_MANY, **more}
+    given = {"H": np.full(4, 0.7), "Fbar": FORCE, "bem3d few cells": FEW_THEN_MANY, **more}
     table = Made(given)
     for name in (
         f"{method} {what}"
@@ -123,7 +130,7 @@ def bars_of(table, name, rows=slice(None)):
 )
 def test_lines_of_fig_14_1_laid_over_each_other(draw, what, guide):
     table = curves()
-    axis = draw(made(curves=table)).axes[0]
+    axis = draw(made(curves=table, marks=MARKS)).axes[0]
     found = series(axis)
     if guide:
         found.pop(guide)
@@ -154,7 +161,7 @@ def test_boxes_of_fig_14_1_are_the_decibels_of_the_data_with_their_verdict(verdi
     table = curves()
     row = {"quantity": "relative deviation", "H": 0.7, "Fbar from": 0.1, "Fbar to": 1.0, "difference": 1.2}
     decades = table_of("decades", [{**row, "± sample": 0.3, "± grid": 0.2, "verdict": verdict}])
-    axis = fractal_punch.draw_difference(made(curves=table, decades=decades)).axes[0]
+    axis = fractal_punch.draw_difference(made(curves=table, decades=decades, marks=MARKS)).axes[0]
     found = series(axis)
     np.testing.assert_allclose(found["over a decade"][0], 10 ** (1.2 / 20))
     value, _ = bars_of(table, "mdr over bem3d relative deviation", slice(1, None))

@@ -28,7 +28,7 @@ from validation.analysis.statistics import Estimate
 from validation.benchmarks.work_precision.pareto import in_unit, said
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import numbers as limits_numbers
-from validation.cases.punch import area_gap_rolloff_evidence, fractal_punch_decades
+from validation.cases.punch import area_gap_rolloff_evidence, fractal_punch_decades, fractal_punch_text
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import force_spectrum_tables as rolling_tables
@@ -302,27 +302,27 @@ def decade(value, half, *, verdict=None, unit="dB", h=0.7, first=0.1, name="rela
     return SimpleNamespace(name=name, hurst=h, first=first, number=n)
 
 
-def test_verdicts_of_fig_14_1_are_told_in_per_cent():
+def test_verdicts_of_fig_14_1_are_in_per_cent():
     """20 lg 1.10 dB is +10 %; its interval from 4 to 16 %, both ends, by half-widths of 20 lg."""
     half = 20 * math.log10(1.16 / 1.04) / 2
     middle = 20 * math.log10(1.16 * 1.04) / 2
-    text = fractal_punch_decades._verdict(FractalPunch(), decade(middle, half).number)
-    assert text == "+10 % (+4 to +16): differ"
-    assert fractal_punch_decades._verdict(FractalPunch(), None) == "no value"
+    cell = fractal_punch_text.verdict(FractalPunch(), decade(middle, half).number)
+    assert str(cell) == "+10 % (+4 to +16): differ"
+    assert fractal_punch_text.verdict(FractalPunch(), None) == "no value"
     exponent = decade(0.0123, 0.001, unit="-", name="exponent").number
-    assert fractal_punch_decades._verdict(FractalPunch(), exponent) == "+0.012 (+0.011 to +0.013): agree"
+    assert str(fractal_punch_text.verdict(FractalPunch(), exponent)) == "+0.012 (+0.011 to +0.013): agree"
 
 
-def test_what_would_decide_is_told():
+def test_the_sample_that_would_decide():
     """Surfaces and profiles, each times the factor; out of reach, and where no sample can."""
     case = FractalPunch()
-    told = fractal_punch_decades.decided_by
+    decided_by = fractal_punch_text.decided_by
     n = number(0.75, reference=0.0, tolerance=0.25, sample=1.0)
     assert n.sample_needed == 4
-    assert told(case, n) == f"{4 * case.surfaces} surfaces, {4 * case.profiles} profiles would tell"
-    assert told(case, replace(n, sample=5.1)) == "over 100 times the sample would tell"
-    assert told(case, replace(n, grid=0.5)) == "the grid must tell first"
-    assert fractal_punch_decades._verdict(case, n).endswith(f"undecided; {told(case, n)}")
+    assert decided_by(case, n) == f"needs {4 * case.surfaces} surfaces, {4 * case.profiles} profiles"
+    assert decided_by(case, replace(n, sample=5.1)) == "needs over 100 times the sample"
+    assert decided_by(case, replace(n, grid=0.5)) == "grid error too large"
+    assert str(fractal_punch_text.verdict(case, n)).endswith(f"undecided; {decided_by(case, n)}")
 
 
 def test_a_summary_counts_and_ranges_its_numbers():
@@ -330,10 +330,10 @@ def test_a_summary_counts_and_ranges_its_numbers():
     mine = [decade(20 * math.log10(1 + x), half, h=h) for x, h in ((0.01, 0.4), (0.20, 0.5), (-0.15, 0.6))]
     whole = decade(20 * math.log10(1.02), 1e-4, h=None)
     other = decade(20 * math.log10(1.9), half, name="mean stiffness")
-    text = fractal_punch_decades.summary("relative deviation", [*mine, whole, other])
+    text = fractal_punch_text.summary("relative deviation", [*mine, whole, other])
     assert "within 3 %" in text and "1 agree, 2 differ" in text
-    assert "lie from -15 % to +20 %" in text
-    assert "+2 % (+2 to +2) from Fbar = 0.1 to 1: agree" in text
+    assert "range from -15 % to +20 %" in text
+    assert "+2 % (+2 to +2) over Fbar = 0.1 to 1: agree" in text
 
 
 def test_rolling_prints_the_numbers_it_is_given():

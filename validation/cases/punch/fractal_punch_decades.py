@@ -1,12 +1,13 @@
 """Fig. 14.1 decade by decade of force: one method beside the other, the errors of sample and grid apart."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from validation.analysis.evidence import Number, Role, Table, Verdict, VerdictCell
+from validation.analysis.difference import difference
+from validation.analysis.evidence import Number, Place
 from validation.analysis.statistics import (
     DECIBEL,
     FIVE_PER_CENT,
@@ -24,15 +25,11 @@ from validation.analysis.statistics import (
     sample,
     weighted_mean,
 )
-from validation.cases.punch.fractal_punch import Ensemble, FractalPunch
+from validation.cases.punch.fractal_punch import LONG, Ensemble, FractalPunch
 from validation.engine.engine import random_generator
 from validation.simulation.rough_punch import BEM, BOOTSTRAP, MDR
 
 Forces = tuple[float, ...]
-
-LONG = "mdr 1.1523 L"
-OUT_OF_REACH = 100.0
-"""Times the sample; what would take more is as good as undecidable."""
 
 
 @dataclass(frozen=True)
@@ -104,39 +101,43 @@ class DecadeComparison:
 
     @property
     def correction(self) -> float:
-        """To cells of no size, to first order: what halving them has changed, halving on and on will change again."""
+        """To cells of zero size, to first order: twice the change by halving them once."""
         return 2 * self.finer.value
 
     @property
     def extrapolated(self) -> Estimate:
-        """Boundary elements on cells of no size, with the error of the sample."""
+        """Boundary elements on cells of zero size, with the error of the sample."""
         return Estimate(self.bem.value + self.correction, self.bem.error, self.bem.samples)
 
     @property
-    def left(self) -> float:
+    def grid(self) -> float:
         """How far the extrapolations of two pairs of grids lie apart; what few surfaces leave open; the springs."""
         apart = abs(self.correction - self.coarser.value)
         return apart + 2 * self.finer.half_width + abs(self.refined_springs.value)
 
     @property
+    def where(self) -> dict[str, Place]:
+        """The conditions of its number."""
+        return {"H": "mean over H" if self.hurst is None else self.hurst, "Fbar": (self.first, 10 * self.first)}
+
+    @property
     def number(self) -> Number | None:
         """What is left between the two is the model's; None where one of them has no such statistic."""
-        quantity, apart = self.quantity, self.springs.minus(self.extrapolated)
-        if not np.isfinite([apart.value, apart.error, self.left]).all():
+        quantity, springs, bem = self.quantity, self.springs, self.extrapolated
+        if not np.isfinite([springs.value, springs.error, bem.value, bem.error, self.grid]).all():
             return None
-        of = "mean over H" if self.hurst is None else f"H = {self.hurst:g}"
-        methods = "mdr over bem3d" if quantity.unit == "dB" else "mdr less bem3d"
-        return Number(
-            quantity=f"{self.name} at {of}, Fbar = {self.first:g} to {10 * self.first:g}: {methods}",
-            value=quantity.scale * apart.value,
-            reference=0.0,
+        return difference(
+            springs,
+            bem,
+            quantity=self.name,
+            model="mdr over bem3d" if quantity.unit == "dB" else "mdr less bem3d",
+            where=self.where,
             source="bem3d, extrapolated",
             tolerance=quantity.tolerance,
-            unit=quantity.unit,
             reason=quantity.reason,
-            grid=quantity.scale * self.left,
-            sample=quantity.scale * apart.half_width,
-            role=Role.FINDING,
+            unit=quantity.unit,
+            scale=quantity.scale,
+            grid=self.grid,
         )
 
 
@@ -152,7 +153,6 @@ class EnsembleSamples:
 
 def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> EnsembleSamples:
     """All of one Hurst exponent, the h-th of the case."""
-    realisations = (ensemble.bem, ensemble.mdr, ensemble.long)
     coarser, finer = ensemble.coarser["stiffness"], ensemble.finer["stiffness"]
     middle = ensemble.bem["stiffness"][: len(finer), np.isin(case.forces, case.refined_forces)]
 
@@ -162,7 +162,7 @@ def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> EnsembleSamples
     return EnsembleSamples(
         {
             method: sample(outcome["stiffness"], draws(key))
-            for key, (method, outcome) in enumerate(zip((BEM, MDR, LONG), realisations, strict=True))
+            for key, (method, outcome) in enumerate(ensemble.by_method.items())
         },
         coarser=paired_samples(coarser, middle, draws(3)),
         finer=paired_samples(middle, finer, draws(4)),
@@ -200,6 +200,25 @@ def mean_over_hursts(comparisons: Sequence[DecadeComparison]) -> DecadeCompariso
     )
 
 
+def comparisons_of(case: FractalPunch, samples: Sequence[EnsembleSamples]) -> list[DecadeComparison]:
+    """Of every quantity: by Hurst exponent and then by decade, the means over the exponents last."""
+    comparisons = []
+    for name in QUANTITIES:
+        by_decade = [
+            [compare(case, hurst, mine, name, first) for hurst, mine in zip(case.hursts, samples, strict=True)]
+            for first in case.first_forces
+        ]
+        comparisons += [by_hurst[h] for h in range(len(case.hursts)) for by_hurst in by_decade]
+        if len(case.hursts) > 1:
+            comparisons += map(mean_over_hursts, by_decade)
+    return comparisons
+
+
+def numbers_of(comparisons: Iterable[DecadeComparison]) -> list[Number]:
+    """Of those that have one."""
+    return [number for comparison in comparisons if (number := comparison.number) is not None]
+
+
 def data_row(comparison: DecadeComparison) -> dict[str, object]:
     """In the data: what stands behind a verdict; H is NaN for the mean over all."""
     number, quantity = comparison.number, comparison.quantity
@@ -219,63 +238,3 @@ def data_row(comparison: DecadeComparison) -> dict[str, object]:
         "verdict": "" if number is None else str(number.verdict),
         "times the sample that would decide": math.nan if number is None else number.sample_needed,
     }
-
-
-def matrix(case: FractalPunch, name: str, comparisons: Sequence[DecadeComparison]) -> Table:
-    """On the page: a row a Hurst exponent, a column a decade."""
-    mine = [c for c in comparisons if c.name == name]
-    hursts = list(dict.fromkeys("all" if c.hurst is None else f"{c.hurst:g}" for c in mine))
-    decades: dict[str, list[object]] = {}
-    for c in mine:
-        decades.setdefault(f"Fbar {c.first:g} to {10 * c.first:g}", []).append(_verdict(case, c.number))
-    what = "MDR over boundary elements" if QUANTITIES[name].unit == "dB" else "MDR less boundary elements"
-    return Table(f"{name}: {what}, with the 95 % interval of sample and grid", {"H": hursts, **decades})
-
-
-def _verdict(case: FractalPunch, number: Number | None) -> str | VerdictCell:
-    """The difference in per cent, or as it stands, with its whole interval; what would decide it."""
-    if number is None:
-        return "no value"
-    after = decided_by(case, number) if number.verdict is Verdict.UNDECIDED else ""
-    return VerdictCell(_interval(number), number.verdict, after)
-
-
-def _interval(number: Number) -> str:
-    """Value and ends of the whole interval, decibels as per cent."""
-    half = number.uncertainty
-    middle, low, high = (
-        _text(value, number.unit) for value in (number.value, number.value - half, number.value + half)
-    )
-    return f"{middle} ({low.removesuffix(' %')} to {high.removesuffix(' %')})"
-
-
-def decided_by(case: FractalPunch, number: Number) -> str:
-    """How many realisations would tell, if value and grid error stayed."""
-    needed = number.sample_needed
-    if math.isinf(needed):
-        return "the grid must tell first"
-    if needed > OUT_OF_REACH:
-        return f"over {OUT_OF_REACH:.0f} times the sample would tell"
-    return f"{math.ceil(needed * case.surfaces)} surfaces, {math.ceil(needed * case.profiles)} profiles would tell"
-
-
-def summary(name: str, comparisons: Sequence[DecadeComparison]) -> str:
-    """How many agree, differ, are open; the range; and what stands out when all Hurst exponents are taken together."""
-    numbers = [n for c in comparisons if c.name == name and c.hurst is not None and (n := c.number) is not None]
-    whole = [c for c in comparisons if c.name == name and c.hurst is None]
-    together = [(c.first, n) for c in whole if (n := c.number) is not None]
-    verdicts = [n.verdict for n in numbers]
-    counts = ", ".join(f"{verdicts.count(v)} {v}" for v in Verdict if v in verdicts)
-    quantity = QUANTITIES[name]
-    near = _text(quantity.tolerance, quantity.unit).lstrip("+")
-    apart = [n.value for n in numbers]
-    means = "; ".join(f"{_interval(n)} from Fbar = {first:g} to {10 * first:g}: {n.verdict}" for first, n in together)
-    return (
-        f"{name[0].upper()}{name[1:]}, MDR beside boundary elements within {near}. Mean over H: {means}. Of the single "
-        f"comparisons {counts}; they lie from {_text(min(apart), quantity.unit)} to "
-        f"{_text(max(apart), quantity.unit)}."
-    )
-
-
-def _text(value: float, unit: str) -> str:
-    return f"{100 * math.expm1(value / DECIBEL):+.0f} %" if unit == "dB" else f"{value:+.3f}"

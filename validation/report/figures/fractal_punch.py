@@ -1,4 +1,4 @@
-"""Figures of the fractal punch: Fig. 14.1 of the book, both methods laid over each other, what is between them."""
+"""Figures of the fractal punch: Fig. 14.1 of the book, both methods in one panel, and their ratio."""
 
 from collections.abc import Callable
 from typing import Any
@@ -8,10 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.cases.punch.fractal_punch_decades import QUANTITIES
-from validation.cases.punch.fractal_punch_evidence import CLAIMED, PUBLISHED
 from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels
-from validation.simulation.rough_punch import FEW_CELLS
 
 FORCE = "force Fbar = F / (E* h L)"
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
@@ -26,7 +23,7 @@ def draw(evidence: Evidence) -> Figure:
         for i, hurst in enumerate(hursts):
             mine = curves.where(H=hurst)
             value = _positive(mine[f"{method} relative deviation"])
-            few = mine["bem3d cells in contact"] < FEW_CELLS if method == "bem3d" else np.zeros(value.size, dtype=bool)
+            few = mine["bem3d few cells"] & (method == "bem3d")
             style = graded(i, hursts.size)
             axis.plot(mine["Fbar"], value, label=f"H = {hurst:g}", **style)
             axis.plot(mine["Fbar"][few], value[few], **{**style, "linestyle": "none", "markerfacecolor": "white"})
@@ -53,11 +50,12 @@ def draw_difference(evidence: Evidence) -> Figure:
 
 def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
     curves = evidence.table("curves").where(H=hurst)
-    near = 10 ** (QUANTITIES["relative deviation"].tolerance / 20)
+    marks = _marks(evidence)
+    near, claimed = 10 ** (marks["tolerance of the relative deviation [dB]"] / 20), marks["claimed of rolling [dB]"]
     axis.axhspan(1 / near, near, color="#bbbbbb", linewidth=0)
     for side in (-1, 1):
-        label = f"{CLAIMED:g} dB" if side > 0 else None
-        axis.axhline(10 ** (side * CLAIMED / 20), label=label, **GUIDE)
+        label = f"{claimed:g} dB" if side > 0 else None
+        axis.axhline(10 ** (side * claimed / 20), label=label, **GUIDE)
     _with_bars(axis, curves, "mdr over bem3d relative deviation", "at each force")
     for row in _rows(evidence.table("decades").where(H=hurst, quantity="relative deviation")):
         if not row["verdict"]:
@@ -100,7 +98,9 @@ def draw_exponent(evidence: Evidence) -> Figure:
 
 
 def _exponent(axis: Axes, evidence: Evidence, hurst: float) -> None:
-    axis.axhspan(*PUBLISHED, color="#dddddd", linewidth=0)
+    marks = _marks(evidence)
+    published = marks["smallest published exponent"], marks["largest published exponent"]
+    axis.axhspan(*published, color="#dddddd", linewidth=0)
     _compare(axis, evidence.table("curves").where(H=hurst), "exponent")
     axis.axhline(1 / (1 + hurst), label="1 / (1 + H)", **GUIDE)
     axis.set_ylim(0, 1)
@@ -141,12 +141,17 @@ def _with_bars(axis: Axes, curves: Table, column: str, label: str) -> None:
     """Circles with their 95 % intervals, open where contacts have few cells."""
     force = curves["Fbar"]
     value, low, high = (_positive(curves[f"{column}{end}"]) for end in ("", " low", " high"))
-    few = curves["bem3d cells in contact"] < FEW_CELLS
+    few = curves["bem3d few cells"]
     for drawn, face, name in ((~few, BEM["color"], label), (few, "white", f"{label}, few cells")):
         if drawn.any():
             bars = [(value - low)[drawn], (high - value)[drawn]]
             style = {**BEM, "markerfacecolor": face, "markersize": 3}
             axis.errorbar(force[drawn], value[drawn], yerr=bars, capsize=1.5, elinewidth=0.8, label=name, **style)
+
+
+def _marks(evidence: Evidence) -> dict[str, float]:
+    marks = evidence.table("marks")
+    return dict(zip(marks["mark"], marks["value"], strict=True))
 
 
 def _rows(table: Table) -> list[dict[str, Any]]:

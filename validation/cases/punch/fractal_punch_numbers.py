@@ -1,0 +1,131 @@
+"""Numbers of Fig. 14.1: criteria on load curves and stiffness, the largest differences, exponents beside a law."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from validation.analysis.evidence import Number, Role
+from validation.analysis.statistics import nearest
+from validation.cases.punch.fractal_punch import FractalPunch, FractalPunchResult
+from validation.cases.punch.fractal_punch_decades import QUANTITIES, DecadeComparison, numbers_of
+from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
+from validation.theory import closed_forms
+
+CONVEX = "largest excess of the slope of the load curve over the stiffnesses at its two ends"
+PUBLISHED = (0.51, 0.77)
+"""Exponents of fractal dimensions 2 to 3; Pohrt and Popov, Phys. Rev. Lett. 108, 104301 (2012), abstract."""
+CLAIMED = 3.0
+"""Decibels within which 1D springs follow a 3D analysis of rolling; Ford and Thompson, J. Sound Vib. 293 (2006)."""
+
+
+def criteria(result: FractalPunchResult, comparisons: Sequence[DecadeComparison]) -> tuple[Number, ...]:
+    """Conditions that a correct computation must meet."""
+    resolved = numbers_of(c for c in comparisons if c.name == "mean stiffness" and _resolved(result, c.first))
+    return (_convex(result, BEM), _convex(result, MDR), _bounded(result), _no_factor_lost(resolved))
+
+
+def _convex(result: FractalPunchResult, method: str) -> Number:
+    """F(d) is convex: between two forces its slope lies between the stiffnesses at both."""
+    force = result.case.height * np.array(result.case.forces)
+    excess = [0.0]
+    for ensemble in result.ensembles:
+        outcome = ensemble.by_method[method]
+        slope = np.diff(force) / np.diff(outcome["approach"], axis=1)
+        stiffness = outcome["stiffness"]
+        excess += [float(np.nanmax(stiffness[:, :-1] / slope)) - 1, float(np.nanmax(slope / stiffness[:, 1:])) - 1]
+    return Number(
+        quantity=CONVEX,
+        model=method,
+        value=max(excess),
+        reference=0.0,
+        source="F(d) is convex",
+        tolerance=100 * result.case.tolerance,
+        reason="force, approach and stiffness of every realisation are consistent; residual of the solver, and two "
+        "digits lost in the difference of approaches",
+    )
+
+
+def _bounded(result: FractalPunchResult) -> Number:
+    """No rough punch is stiffer than the flat one, and at the largest force it is nearly as stiff."""
+    largest = max(float(np.nanmax(ensemble.bem["stiffness"])) for ensemble in result.ensembles)
+    deficit = 2 / result.case.cells
+    return Number(
+        quantity="largest stiffness of any surface over that of the flat punch",
+        model=BEM,
+        value=largest / closed_forms.SQUARE_PUNCH,
+        reference=1.0 - deficit / 2,
+        source="flat punch",
+        tolerance=deficit / 2,
+        reason="never stiffer than all cells in contact; at the largest force at most two cells a side "
+        f"({deficit:.2g}) softer",
+    )
+
+
+def _resolved(result: FractalPunchResult, first: float) -> bool:
+    """Whether the lightest contacts of a decade have cells enough at every Hurst exponent; the last decade counts."""
+    case = result.case
+    level = nearest(case.forces, first)
+    cells = [float(np.nanmean(e.bem["area"][:, level])) * case.cells**2 for e in result.ensembles]
+    return min(cells) >= FEW_CELLS or first == case.first_forces[-1]
+
+
+def _farthest(numbers: Sequence[Number]) -> Number:
+    """The number that may differ most from its reference."""
+    return max(numbers, key=lambda number: abs(number.value) + number.uncertainty)
+
+
+def _no_factor_lost(numbers: Sequence[Number]) -> Number:
+    """The two methods share no code: an error in one of them shows where they differ most."""
+    return replace(
+        _farthest(numbers),
+        quantity="mean stiffness where it may differ most, no factor lost",
+        tolerance=3.0,
+        reason="k ~ F^(1/(1+H)): a factor 2 lost in the force, or half of the length, is 3 dB or more for H <= 1",
+        role=Role.CRITERION,
+    )
+
+
+def claimed(comparisons: Sequence[DecadeComparison]) -> list[Number]:
+    """The fluctuations where they may differ most, beside the agreement that is claimed for rolling."""
+    deviations = numbers_of(c for c in comparisons if c.name == "relative deviation")
+    return [
+        replace(
+            _farthest(deviations),
+            quantity=f"relative deviation where it may differ most, within {CLAIMED:g} dB",
+            tolerance=CLAIMED,
+            reason="claimed of 1D beside 3D models of rolling noise: Ford and Thompson (2006)",
+        )
+        for _ in deviations[:1]
+    ]
+
+
+def law_decade(case: FractalPunch) -> float:
+    """First force of the decade where 1 / (1 + H) should hold best: off the last asperity and off saturation."""
+    return min(case.first_forces, key=lambda force: abs(math.log(force / 0.01)))
+
+
+def laws(case: FractalPunch, comparisons: Sequence[DecadeComparison]) -> list[Number]:
+    """Exponents beside 1 / (1 + H)."""
+    single = [c for c in comparisons if c.name == "exponent" and c.hurst is not None]
+    mine = [c for c in single if c.first == law_decade(case)]
+    return [number for c in mine for number in (_law(c, BEM), _law(c, MDR))]
+
+
+def _law(comparison: DecadeComparison, method: str) -> Number:
+    of_bem = method == BEM
+    found = comparison.extrapolated if of_bem else comparison.springs
+    return Number(
+        quantity="exponent",
+        model=method,
+        where=comparison.where,
+        value=found.value,
+        reference=1 / (1 + (comparison.hurst or 0.0)),
+        source="1 / (1 + H)",
+        tolerance=QUANTITIES["exponent"].tolerance,
+        reason=QUANTITIES["exponent"].reason,
+        grid=comparison.grid if of_bem else abs(comparison.refined_springs.value),
+        sample=found.half_width,
+        role=Role.FINDING,
+    )
