@@ -9,7 +9,8 @@ from scipy import stats
 
 from tests.analysis import test_error_bars, test_evidence, test_rules_by_loops
 from tests.analysis import test_spectra as test_wheel_spectra
-from validation.analysis import difference, spectra, statistics
+from validation.analysis import difference as difference_module
+from validation.analysis import spectra, statistics
 from validation.analysis import spectral_features as regions
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Number
@@ -171,7 +172,7 @@ FAULTS = {
         test_error_bars.test_grids_are_paired_with_their_neighbours,
     ),
     "sample and grid exchanged": (
-        (difference, "Number", sample_for_grid),
+        (difference_module, "Number", sample_for_grid),
         test_error_bars.test_the_grid_interval_of_fig_14_1,
     ),
     "decibels of an amplitude for those of a power, in rolling": (
