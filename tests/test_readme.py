@@ -38,6 +38,14 @@ def test_files_that_are_linked_exist(page):
             assert place in [re.sub(r"[^\w\- ]", "", heading).lower().replace(" ", "-") for heading in headings]
 
 
+@pytest.mark.parametrize("page", [*PAGES, "tests/README.md"])
+def test_files_that_are_named_exist(page):
+    text = (ROOT / page).read_text()
+    assert "@@" not in text
+    for path in re.findall(r"`((?:validation|tests|mdr|bem3d|reports)/[a-z0-9_/.]*)`", text):
+        assert (ROOT / path).exists(), path
+
+
 def test_readme_is_short_and_names_no_module_of_validation():
     text = (ROOT / "README.md").read_text()
     assert len(text.splitlines()) <= 220
