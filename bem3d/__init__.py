@@ -10,7 +10,8 @@ from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
 from bem3d.polonsky_keer import solve_polonsky_keer
 from bem3d.problem import Problem
-from bem3d.rolling import Rolling, RollingContact, WheelContact, roll, rolling_force
+from bem3d.rolling import Rolling, roll, rolling_force
+from bem3d.rolling_contact import RollingContact, WheelContact
 from bem3d.rolling_frame import Track
 from bem3d.solver import solve
 from bem3d.surface import rough_surface

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d import convolution, projected_cg, rolling, window_solve
+from bem3d import convolution, projected_cg, rolling_solve, window_solve
 from bem3d.projected_cg import IterationStep, Load, Memory
 from tests import oracles
 
@@ -140,13 +140,22 @@ def iterations_of_press(monkeypatch, states, tolerance, most):
     return len(attempt.history)
 
 
+def solve_on(frame, tolerance, most):
+    """A flat gap on a frame of 4 x 4 cells, at a unit approach."""
+    attempt, flat = window_solve.IterationState(np.zeros((4, 4)), 0.0), np.zeros((4, 4))
+    load = Load(overlap=1.0)
+    return rolling_solve.FrameSolve(
+        frame=frame, near=flat, load=load, attempt=attempt, tolerance=tolerance, max_iterations=most
+    )
+
+
 def iterations_of_rolling(monkeypatch, states, tolerance, most):
-    monkeypatch.setattr(rolling, "projected_cg", states)
+    monkeypatch.setattr(rolling_solve, "projected_cg", states)
     track = bem3d.Track(height=np.zeros((40, 40)), spacing=1 / 8, radius=1.0, modulus=1.0)
-    wheel = bem3d.RollingContact(track, tolerance=tolerance, max_iterations=most)
-    frame, attempt = rolling.Frame(track, ((0, 4), (18, 22))), rolling.IterationState(np.zeros((4, 4)), 0.0)
-    field = np.ones((4, 4))
-    wheel._iterated(frame, field > 0, field, field, Load(overlap=1.0), attempt)
+    frame, field = rolling_solve.Frame(track, ((0, 4), (18, 22))), np.ones((4, 4))
+    on_frame = solve_on(frame, tolerance, most)
+    on_frame._iterated(field > 0, field, field)
+    attempt = on_frame.attempt
     assert attempt.operator_applications == len(attempt.history) - 1
     assert attempt.status is None
     return len(attempt.history) - 1
@@ -176,21 +185,17 @@ def rounds_of_press(monkeypatch, errors):
 def rounds_of_rolling(monkeypatch, errors):
     """The same of a wheel so large that it is flat, on a frame of which it touches all."""
     track = bem3d.Track(height=np.zeros((9, 9)), spacing=1.0, radius=1e12, modulus=1.0)
-    wheel, frame = (
-        bem3d.RollingContact(track, tolerance=1e-6, max_iterations=99),
-        rolling.Frame(track, ((-2, 2), (2, 6))),
-    )
+    frame = rolling_solve.Frame(track, ((-2, 2), (2, 6)))
+    on_frame = solve_on(frame, 1e-6, 99)
     exact = np.linalg.solve(oracles.dense_operator(frame.half_space), np.ones(16)).reshape(4, 4)
 
-    def iterated(*given):
-        given[-1].history.append(0.0)
+    def iterated(solve, *_):
+        solve.attempt.history.append(0.0)
         return (1 + next(errors)) * exact
 
-    monkeypatch.setattr(wheel, "_iterated", iterated)
-    attempt = rolling.IterationState(np.zeros(0), 0.0)
-    start = rolling.FramePressure.by(frame, (1 + next(errors)) * exact)
-    wheel._pressed(frame, np.zeros((4, 4)), Load(overlap=1.0), start, 1.0, attempt)
-    return attempt.operator_applications, str(attempt.status)
+    monkeypatch.setattr(rolling_solve.FrameSolve, "_iterated", iterated)
+    on_frame.solve(rolling_solve.FramePressure.by(frame, (1 + next(errors)) * exact), 1.0)
+    return on_frame.attempt.operator_applications, str(on_frame.attempt.status)
 
 
 @pytest.mark.parametrize("rounds", [rounds_of_press, rounds_of_rolling])

@@ -11,8 +11,8 @@ from hypothesis.extra.numpy import arrays
 import bem3d
 from bem3d import convolution
 from bem3d.projected_cg import Load
-from bem3d.rolling import _pressing
 from bem3d.rolling_frame import Frame
+from bem3d.rolling_solve import _pressing
 from bem3d.window import Candidates
 from tests.strategies import half_spaces
 from validation.theory.rolling import linear_force, response

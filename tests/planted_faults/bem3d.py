@@ -8,7 +8,7 @@ import numpy as np
 
 import bem3d
 from bem3d import contact, halfspace, kernel, projected_cg, tangent_stiffness, window, window_solve
-from bem3d import rolling as wheel_on_strip
+from bem3d import rolling_solve as wheel_on_strip
 from bem3d.rolling_frame import Frame, Track
 from tests.bem3d import (
     test_accepted_solves,

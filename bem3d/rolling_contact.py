@@ -1,0 +1,159 @@
+"""The wheel over a strip, solved position by position: each begun from those before."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem3d.checks import FloatArray, count, finite, fraction, positive
+from bem3d.contact import Status
+from bem3d.projected_cg import Load
+from bem3d.rolling_frame import Frame, Spans, Track
+from bem3d.rolling_solve import FramePressure, FrameSolve
+from bem3d.window_solve import IterationState
+
+AHEAD = 2
+"""Rows that a frame has ahead of what it must hold: of these the past two positions tell nothing."""
+MARGIN = 0.07
+"""How much wider than a contact a frame begins, on each side: for cells that `Frame.outside` cannot rule out."""
+REFIT = 32
+"""Positions after which the frame, which else only grows, is fitted anew."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WheelContact:
+    """The wheel at one position: force [N], approach [m], area [m^2]; how the solve went, as in `Contact`."""
+
+    force: float
+    approach: float
+    area: float
+    history: tuple[float, ...]
+    operator_applications: int
+    status: Status
+
+    @property
+    def residual(self) -> float:
+        """The last entry of the history."""
+        return self.history[-1]
+
+    @property
+    def converged(self) -> bool:
+        """Whether this is a solution."""
+        return self.status is Status.CONVERGED
+
+
+class RollingContact:
+    """A sphere over a strip, solved position by position, at any approach or force.
+
+    A position that follows the one before is begun from the pressures of the last two, any other from none.
+    On a frame that moves with the wheel, cells that may touch are iterated on; a fresh application then gives the
+    residual of all cells of the frame. Outside of it no cell can touch, see `Frame.outside`, or else it grows.
+
+    track: strip, sphere and modulus; tolerance, max_iterations: as those of `roll`.
+    """
+
+    def __init__(self, track: Track, *, tolerance: float = 1e-5, max_iterations: int = 500):
+        self.track = track
+        self.tolerance = fraction("tolerance", tolerance)
+        self.max_iterations = count("max_iterations", max_iterations)
+        self._frame: Frame | None = None
+        self._past: tuple[FramePressure, ...] = ()
+        self._position = -1
+
+    def press(self, position: int, approach: float) -> WheelContact:
+        """The contact over a cell of the track, a whole number, at an approach of any sign [m]."""
+        d = finite("approach", approach)
+        return self._solve(count("position", position, least=0), d, lambda touch, _: Load(overlap=d - touch))
+
+    def carry(self, position: int, force: float) -> WheelContact:
+        """The contact over a cell of the track, a whole number, under a force above zero [N]."""
+        d = hertz_approach(self.track, positive("force", force))
+        return self._solve(count("position", position, least=0), d, lambda _, area: Load(total=force / area))
+
+    def pressure(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Of the last position: x ahead of the wheel, y beside its middle [m], and the pressure at both [Pa].
+
+        Raises ValueError where there is none, or where it did not converge.
+        """
+        if not self._past:
+            raise ValueError("there is no pressure: no position is solved, or the last one has not converged")
+        last = self._past[-1]
+        x, y = (np.arange(*span) for span in (last.frame.rows, last.frame.columns))
+        return self.track.along(x), self.track.across(y), last.pressure.copy()
+
+    def _solve(self, position: int, expected: float, prescribed: Callable[[float, float], Load]) -> WheelContact:
+        """On a frame that grows until no cell outside can touch.
+
+        expected: approach, about; prescribed: the load, from the approach of first touch and the area of a cell.
+        """
+        frame = self._frame or self._around(self.track.smooth_contact(expected), MARGIN)
+        start, attempt = self._carried(position), IterationState(np.empty(frame.shape), math.nan)
+        while True:
+            gap = frame.gap(position)
+            touch = float(gap.min())
+            load = prescribed(touch, self.track.cell_area)
+            on_frame = FrameSolve(
+                frame=frame,
+                near=gap - touch,
+                load=load,
+                attempt=attempt,
+                tolerance=self.tolerance,
+                max_iterations=self.max_iterations,
+            )
+            pressed = on_frame.solve(start, expected - touch)
+            spans = frame.outside(position, touch + attempt.overlap, pressed.pressure)
+            if spans is None or attempt.status is not Status.CONVERGED:
+                break
+            frame = self._around(spans)
+            start, attempt.status = FramePressure.by(frame, frame.take(pressed.pressure, pressed.frame)), None
+            attempt.operator_applications += 1
+        if frame.at_edge(pressed.pressure):
+            raise ValueError(
+                f"height must be wider than the contact, which reaches the edge of the strip of "
+                f"{self.track.height.shape[1]} cells at position {position}"
+            )
+        self._remember(position, pressed, attempt.status)
+        return WheelContact(
+            force=float(pressed.pressure.sum()) * self.track.cell_area,
+            approach=touch + attempt.overlap,
+            area=int(np.count_nonzero(pressed.pressure)) * self.track.cell_area,
+            history=tuple(attempt.history),
+            operator_applications=attempt.operator_applications,
+            status=attempt.status or Status.BREAKDOWN,
+        )
+
+    def _carried(self, position: int) -> FramePressure | None:
+        """The secant through the last two pressures, which stay where they are on the ground as the wheel goes on.
+
+        It may pull where the contact closes behind the wheel. Its displacement needs no application.
+        """
+        if position != self._position + 1 or not self._past:
+            return None
+        carried = self._past[-1].behind(1)
+        if len(self._past) == 2:
+            carried = carried.times(2).less(self._past[0].behind(2))
+        # what has left the frame, or is about to, is nothing to begin with
+        return carried if float(carried.pressure.sum()) > 0 else None
+
+    def _remember(self, position: int, pressed: FramePressure, status: Status | None) -> None:
+        """What the next position begins with; now and then, on a frame that fits anew."""
+        frame = pressed.frame
+        past = [p for p in self._past[-1:] if position == self._position + 1 and p.frame is frame]
+        self._past = (*past, pressed) if status is Status.CONVERGED else ()
+        if position % REFIT == 0 and pressed.pressure.any():
+            fitting = self._around(frame.spans_of(pressed.pressure > 0), MARGIN)
+            if fitting.shape != frame.shape and fitting.within(frame):
+                frame, self._past = fitting, tuple(p.on(fitting) for p in self._past)
+        self._frame, self._position = frame, position
+
+    def _around(self, spans: Spans, more: float = 0.0) -> Frame:
+        """A frame that holds these cells, and so many more on each side, in parts of that, and rows ahead."""
+        (first, last), columns = spans
+        margin = int(more * max(last - first, columns[1] - columns[0]))
+        return Frame(self.track, self.track.widened(((first, last + AHEAD), columns), margin))
+
+
+def hertz_approach(track: Track, force: float) -> float:
+    """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth sphere, from where a force is prescribed [m]."""
+    return float(np.cbrt(9 / 16 / track.radius) * np.cbrt(force / track.modulus) ** 2)
