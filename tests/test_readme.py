@@ -66,3 +66,13 @@ def test_names_of_the_last_release_stay():
     for old, new in rows:
         (package, before), (_, after) = old.split("."), new.split(".")
         assert getattr(packages[package], before) is getattr(packages[package], after), old
+
+
+def test_what_compare_prints():
+    """The README shows lines of this output."""
+    lines = validation.summary(validation.compare(validation.load_scene("rough_punch"), tolerance=0.1)).splitlines()
+    text = (ROOT / "README.md").read_text()
+    shown = text[text.index("Rough punch: ") :].split("```")[0]
+    for line in shown.splitlines():
+        words = [word for word in line.split() if word != "..."]
+        assert any(printed.split()[: len(words)] == words for printed in lines), line
