@@ -15,8 +15,9 @@ from typing import NoReturn
 from validation.engine.engine import KEPT, LOCAL, WorkerLostError
 from validation.engine.files import UNUSABLE
 from validation.engine.termination import TerminatedError, terminable
-from validation.report.build import Section, build
+from validation.report.build import build
 from validation.report.contents import CASES, TIMED, timed_here
+from validation.report.section import Section
 from validation.report.terminal import lines_of
 from validation.scenes.description import description_lines
 from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
@@ -129,7 +130,7 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
         seed=arguments.seed,
         scene=scene,
         executor=arguments.executor,
-        tell=partial(_tell, unsteady=unsteady),
+        callback=partial(_print_section, unsteady=unsteady),
     )
     print(printable(f"report: {out / 'index.html'}"))
     if unsteady or any(section.unconverged for section in sections):
@@ -159,7 +160,7 @@ def cases(arguments: argparse.Namespace) -> Exit:
     return Exit.MET
 
 
-def _tell(section: Section, *, unsteady: bool) -> None:
+def _print_section(section: Section, *, unsteady: bool) -> None:
     print("\n".join(lines_of(section, unsteady=unsteady)), flush=True)
 
 

@@ -4,7 +4,7 @@ from tests.report import test_figure_lines, test_printed
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed
 from validation.cases.punch import fractal_punch_text
-from validation.report import build
+from validation.report import page
 from validation.report.figures import rolling as rolling_figure
 
 
@@ -23,7 +23,7 @@ FAULTS = {
         test_printed.test_verdicts_of_fig_14_1_are_in_per_cent,
     ),
     "two signs of verdicts exchanged": (
-        (build, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
+        (page, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
         test_printed.test_rows_of_the_page_are_their_numbers,
     ),
     "undecided read as agree": (

@@ -18,6 +18,7 @@ from validation.analysis.evidence import (
     Role,
     Table,
     Verdict,
+    VerdictCell,
     columns,
     if_confirmed,
     plus_minus,
@@ -39,10 +40,11 @@ from validation.cases.wheel import distance_numbers, distance_tables
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
-from validation.report import build
+from validation.report import page
 from validation.report.contents import CASES
 from validation.report.figures import fractal_punch
 from validation.report.folder import as_csv
+from validation.report.section import Section, case_results
 
 # --- the page, files ---
 
@@ -91,10 +93,10 @@ def page_of(numbers, page_tables=(), **settings):
         page_tables=tuple(page_tables),
         **settings,
     )
-    section = build.Section("geike", CASES["geike"], "none", {}, shown)
+    section = Section("geike", CASES["geike"], "none", {}, shown)
     about = {name: {} for name in ("libraries", "seeds")} | {"seconds": {"geike": 1.0}, "timed": ()}
     about |= dict.fromkeys(("version", "commit", "python", "system", "workers"), "")
-    return Rows(build._page([section], "full", {}, about, None).decode()).rows
+    return Rows(page.page([section], "full", {}, about, None).decode()).rows
 
 
 NUMBERS = [
@@ -141,17 +143,17 @@ def test_rows_of_the_page_are_their_numbers():
 
 
 def test_every_verdict_has_its_word_and_sign():
-    assert build.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(build.SYMBOL) == set(Verdict)
+    assert page.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(page.SYMBOL) == set(Verdict)
     assert fractal_punch.SIGN == {"agree": "=", "differ": "≠", "undecided": "?"}
-    for verdict, symbol in build.SYMBOL.items():
-        assert build._badged(f"+3 %: {verdict}; more") == (
+    for verdict, symbol in page.SYMBOL.items():
+        assert page.format_cell(VerdictCell("+3 %", Verdict(verdict), "more")) == (
             f'+3 %<br><span class="verdict {verdict}">{symbol} {verdict}</span>; more'
         )
-    assert build._badged("<a> & b") == "&lt;a&gt; &amp; b" and build._badged(0.123456) == "0.1235"
+    assert page.format_cell("<a> & b") == "&lt;a&gt; &amp; b" and page.format_cell(0.123456) == "0.1235"
 
 
 def test_counts_of_the_page_are_those_of_the_numbers():
-    findings = [number(v, tolerance=0.5, role=Role.FINDING) for v in (1.0, 1.1, 9.0)]
+    findings = [number(v, quantity=f"y{v}", tolerance=0.5, role=Role.FINDING) for v in (1.0, 1.1, 9.0)]
     text = " ".join(" ".join(cell) for row in page_of([*NUMBERS, *findings]) for cell in row)
     assert "criteria met 1 of 2" in text
     for words in ("✓ 2 agree", "≠ 1 differ", "? 1 undecided"):
@@ -159,7 +161,9 @@ def test_counts_of_the_page_are_those_of_the_numbers():
 
 
 def test_tables_of_the_page_keep_their_columns():
-    table = Table("shown", {"force [N]": ["1.5", "2.5"], "verdict": ["+1 %: agree", "no"], "k": [0.25, 3]})
+    table = Table(
+        "shown", {"force [N]": ["1.5", "2.5"], "verdict": [VerdictCell("+1 %", Verdict.AGREE), "no"], "k": [0.25, 3]}
+    )
     rows = page_of((), [table])
     at = next(i for i, row in enumerate(rows) if row and row[0] == ["force [N]"])
     assert rows[at : at + 3] == [
@@ -197,10 +201,10 @@ def test_what_is_not_finite_is_left_empty_in_a_file():
 
 
 def test_results_hold_verdict_difference_and_whether_a_criterion_is_met():
-    section = build.Section(
+    section = Section(
         "geike", CASES["geike"], "none", {}, SimpleNamespace(numbers=NUMBERS, conclusions=("c",), unconverged=())
     )
-    rows = build._case_results(section)["numbers"]
+    rows = case_results(section)["numbers"]
     assert [row["verdict"] for row in rows] == ["agree", "differ", "undecided"]
     assert [row["met"] for row in rows] == [True, False, None]
     assert [row["difference"] for row in rows] == pytest.approx([0.034567, -6.0, 0.25])
@@ -208,7 +212,7 @@ def test_results_hold_verdict_difference_and_whether_a_criterion_is_met():
 
 @given(value=reals, tolerance=st.floats(1e-5, 1e3))
 def test_a_value_is_printed_to_a_small_part_of_its_tolerance(value, tolerance):
-    assert abs(float(build._resolved(value, tolerance)) - value) <= 0.011 * tolerance
+    assert abs(float(page.format_value(value, tolerance)) - value) <= 0.011 * tolerance
 
 
 # --- words ---

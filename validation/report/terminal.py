@@ -1,13 +1,13 @@
-"""What a terminal is told of a case that is finished."""
+"""Lines for the terminal on a finished case."""
 
 from validation.analysis.evidence import Verdict
 from validation.benchmarks.solvers.rows import rows_of
-from validation.report.build import Section
 from validation.report.contents import TIMED
+from validation.report.section import Section
 
 
 def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
-    """A line for the case, and one for each thing in it that is amiss; unsteady: whether its scene has no level."""
+    """A line for the case, and one for each missed criterion and failed solve; unsteady: its scene has no level."""
     met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
     found = ", ".join(f"{section.findings(v)} {v}" for v in Verdict if section.findings(v))
     if unsteady:

@@ -1,0 +1,94 @@
+"""The page of a report: sections and pictures into `page.html`."""
+
+import math
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from urllib.parse import quote
+
+import jinja2
+from markupsafe import Markup, escape
+
+from validation.analysis.case import Chapter, Profile
+from validation.analysis.evidence import Verdict, VerdictCell
+from validation.report.section import Section
+from validation.scenes.description import describe
+from validation.scenes.dynamic_wheel import WheelScene
+
+SAFE = " !$'()*+,-./;=?@[]_~{}<>|^`"
+"""What an address in quotation marks may hold as it is."""
+SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
+
+
+def format_value(value: float, tolerance: float) -> str:
+    """A value with two digits more than its tolerance has, seven at the most."""
+    digits = max(0, 2 - math.floor(math.log10(tolerance))) if tolerance > 0 else 6
+    if digits > 9:
+        return f"{value:.2g}"
+    return f"{value:.{min(digits, 7)}f}"
+
+
+def scene_summary(scene: WheelScene) -> dict[str, object]:
+    """The first lines of a report on a scene of the user's own."""
+    return {
+        "name": scene.name,
+        "no steady answer": scene.no_steady_answer(),
+        "doubts": list(scene.diagnose()),
+        "understood": dict(describe(scene)),
+    }
+
+
+def format_verdict(verdict: str, count: str = "", *, unsteady: bool = False) -> Markup:
+    """A verdict with its symbol; a scene without a steady answer has none."""
+    if unsteady:
+        return Markup('<span class="verdict undecided">? no steady answer</span>')
+    return Markup('<span class="verdict {0}">{1} {2}{0}</span>').format(verdict, SYMBOL[verdict], count)
+
+
+def format_cell(cell: object, *, unsteady: bool = False) -> Markup:
+    """A cell of a table, with its verdict where it has one."""
+    if not isinstance(cell, VerdictCell):
+        return escape(f"{cell:.4g}" if isinstance(cell, float) else str(cell))
+    badge = format_verdict(cell.verdict, unsteady=unsteady)
+    after = f"; {cell.after}" if cell.after else ""
+    return Markup("{}<br>{}{}").format(cell.text, badge, after)
+
+
+def _address(picture: bytes) -> str:
+    """A picture as text of an attribute: a third shorter than in base64."""
+    return quote(" ".join(picture.decode().replace('"', "'").split()), safe=SAFE)
+
+
+def page(
+    sections: Sequence[Section],
+    profile: Profile,
+    pictures: dict[str, bytes],
+    about: dict[str, object],
+    scene: WheelScene | None,
+) -> bytes:
+    """The whole page. pictures: SVG of each figure; about: the provenance; scene: of the user's own, or None."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["format_value"] = format_value
+    unsteady = scene is not None and bool(scene.no_steady_answer())
+    environment.filters["format_cell"] = partial(format_cell, unsteady=unsteady)
+    environment.filters["format_verdict"] = partial(format_verdict, unsteady=unsteady)
+    environment.filters["duration"] = lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s"
+    environment.filters["small"] = lambda value: f"{value:.2g}"
+    text = environment.get_template("page.html").render(
+        sections=sections,
+        chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in Chapter],
+        profile=profile,
+        pictures={name: _address(picture) for name, picture in pictures.items()},
+        about=about,
+        verdicts=list(Verdict),
+        zip=zip,
+        scene=scene_summary(scene) if scene else None,
+        unsteady=unsteady,
+    )
+    return (text + "\n").encode()

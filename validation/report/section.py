@@ -1,0 +1,75 @@
+"""A section of the report: one case with its evidence, and its part of results.json."""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+
+from validation.analysis.case import Case, Profile
+from validation.analysis.evidence import Evidence, Number, Role, Verdict
+
+
+@dataclass(frozen=True)
+class Section:
+    """A case in the report: the model it needs, its settings, its evidence or the reasons why there is none."""
+
+    name: str
+    entry: Case
+    needed: str
+    settings: dict[str, object]
+    evidence: Evidence | None
+    failure: tuple[str, ...] = ()
+
+    @property
+    def answers(self) -> str:
+        """The figure or claim that it answers."""
+        return self.entry.answers
+
+    @property
+    def numbers(self) -> tuple[Number, ...]:
+        """All of its evidence, none where the case failed."""
+        return self.evidence.numbers if self.evidence else ()
+
+    @property
+    def unconverged(self) -> tuple[str, ...]:
+        """Solves that did not converge."""
+        return self.evidence.unconverged if self.evidence else self.failure
+
+    @property
+    def missed(self) -> tuple[Number, ...]:
+        """Criteria that are not met."""
+        return tuple(number for number in self.numbers if not number.met)
+
+    @property
+    def criteria(self) -> int:
+        """Their count."""
+        return sum(number.role is Role.CRITERION for number in self.numbers)
+
+    def findings(self, verdict: Verdict) -> int:
+        """Count of findings with this verdict."""
+        return sum(number.role is Role.FINDING and number.verdict is verdict for number in self.numbers)
+
+
+def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, object]:
+    """What results.json holds."""
+    return {"profile": profile, "cases": {section.name: case_results(section) for section in sections}}
+
+
+def case_results(section: Section) -> dict[str, object]:
+    """Everything that the page says of a case, as plain values."""
+    return {
+        "claim": section.entry.claim,
+        "answers": section.answers,
+        "model needed": section.needed,
+        "settings": section.settings,
+        "numbers": [
+            {
+                "label": number.label,
+                **asdict(number),
+                "difference": number.difference,
+                "verdict": number.verdict,
+                "met": number.met if number.role is Role.CRITERION else None,
+            }
+            for number in section.numbers
+        ],
+        "conclusions": list(section.evidence.conclusions) if section.evidence else [],
+        "unconverged": list(section.unconverged),
+    }
