@@ -12,7 +12,7 @@ FEWEST_CELLS_TO_JUDGE = 6
 FEWEST_CELLS_A_WAVE = 4.0
 MOST_ALONE = 0.5
 HIGHEST_PRESSURE = 0.1
-"""Over E*: what no solid bears elastically. A modulus of exactly 1 is the unit of pressure, and tells nothing."""
+"""Over E*: no solid bears it elastically. A modulus of exactly 1 is the unit of pressure and is not checked."""
 
 
 class ContactWarning(UserWarning):
@@ -37,8 +37,8 @@ Diagnostic = tuple[type[ContactWarning], str]
 def diagnose_pressure(pressure: FloatArray, *, periodic: bool) -> tuple[Diagnostic, ...]:
     """What to doubt about a pressure and its contact set.
 
-    A flat punch of N < 32 cells is too soft by about 0.3 / sqrt(N), measured on squares: so much is
-    wrong even where the cells in contact are the right ones. Of a handful nobody can say whether they are.
+    A flat punch of N < 32 cells is too soft by about 0.3 / sqrt(N), measured on squares: that
+    error remains where the cells in contact are the right ones. For a handful of cells even that is unknown.
     """
     contact = pressure > 0
     cells = int(np.count_nonzero(contact))

@@ -14,7 +14,7 @@ from bem3d.rolling_solve import FramePressure, FrameSolve
 from bem3d.window_solve import IterationState
 
 AHEAD = 2
-"""Rows that a frame has ahead of what it must hold: of these the past two positions tell nothing."""
+"""Rows that a frame has ahead of what it must hold: the past two positions have no pressure there."""
 MARGIN = 0.07
 """How much wider than a contact a frame begins, on each side: for cells that `Frame.outside` cannot rule out."""
 REFIT = 32

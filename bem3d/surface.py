@@ -70,7 +70,7 @@ def rough_surface(
 
 
 def _resolved(c2d: Spectrum, q: FloatArray, steps: tuple[float, float]) -> FloatArray:
-    """c2d at the waves of the grid, zero mode left out; refused where its curvature spectrum goes on beyond Nyquist."""
+    """c2d at the waves of the grid without the zero mode; ValueError where its curvature spectrum exceeds Nyquist."""
     if not callable(c2d):
         raise TypeError(f"c2d must be a callable c2d(q), got {type(c2d).__name__}")
     values = np.zeros(q.shape)

@@ -16,7 +16,7 @@ REACH = 1.1
 MARGIN = 1.0
 """Cells no further from touching than so many times the error that the contact still has are candidates for it."""
 PATIENCE = 100
-"""Iterations in which the running residual has to halve; a fresh application then tells what is left."""
+"""Iterations in which the running residual has to halve; a fresh application then measures it."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -46,7 +46,7 @@ class Near:
             return self.farthest, self.highest
         highest = np.sort(np.partition(heights, heights.size - most)[heights.size - most :])[::-1]
         track = self.track
-        # the square root scales with the level, so that one distance tells all
+        # the square root scales with the level, so that one distance is enough
         unit = track.distance(1.0)
         work = 2 * unit * np.sqrt(np.maximum(approach + highest, 0.0)) + DEARER * np.arange(most)
         best = int(work.argmin())

@@ -1,4 +1,4 @@
-"""What does not fit into the memory of this machine is refused before it is begun."""
+"""Arrays that do not fit into the memory of this machine raise MemoryError before any work."""
 
 import numpy as np
 

@@ -197,7 +197,7 @@ def _random_waves(
 
 
 def _resolved(c1d: Spectrum, q: FloatArray, nyquist: float) -> FloatArray:
-    """c1d at the waves of the grid; refused where its curvature spectrum goes on beyond the Nyquist wavenumber."""
+    """c1d at the waves of the grid; ValueError where its curvature spectrum extends beyond the Nyquist wavenumber."""
     if not callable(c1d):
         raise TypeError(f"c1d must be a callable c1d(q), got {type(c1d).__name__}")
     values = density("c1d", c1d(q))

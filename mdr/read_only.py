@@ -1,4 +1,4 @@
-"""Results that stay what they are: arrays of their own, which nobody may write to."""
+"""Immutable results: they own their arrays, which are read-only."""
 
 from dataclasses import fields
 from typing import Any, TypeVar
@@ -11,7 +11,7 @@ Kept = TypeVar("Kept")
 class ReadOnlyArrays:
     """For frozen dataclasses: arrays are copied and closed when one is made, copied or unpickled.
 
-    A read-only array is not enough: who holds an older view of it may still write.
+    A read-only array is not enough: an older view of it is still writable.
     """
 
     def __post_init__(self) -> None:

@@ -148,7 +148,7 @@ def rolling_force(
 def _within_doubles(
     track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
 ) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
-    """`_rolled`, refused where its numbers are too large or too small."""
+    """`_rolled`; ValueError where its numbers are too large or too small."""
     load = {"force": force} if approach is None else {"approach": approach}
     given = {"height": float(np.abs(track.height).max()), "spacing": track.spacing, "radius": track.radius}
     with doubles(**given, modulus=track.modulus, **load):

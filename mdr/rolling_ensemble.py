@@ -226,7 +226,7 @@ class RollingEnsemble:
             raise ValueError(f"approach must be finite, got {d - self._middle}")
         slack = SLACK * self.smooth_approach
         low, high = float(d.min()) - slack, float(d.max()) + slack
-        # nothing is known until all is: who is refused may ask for something else
+        # reset first: after a rejection the ensemble may be asked for another approach
         self._low, self._high = math.inf, -math.inf
         pad = max(self._reach(high + self._span / 2 + self._margin), 0)
         if (2 * pad + 1) * (max(high, 0.0) + self._span) >= EXACT * float(self.quantum.min()):

@@ -1,4 +1,4 @@
-"""What a wheel on springs must be fed, so that its force has the level that it has on the half-space."""
+"""The input spectrum with which a wheel on springs has the force level of the half-space."""
 
 import math
 from collections.abc import Sequence

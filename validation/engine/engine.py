@@ -54,9 +54,8 @@ class Engine:
     workers: processes on this machine; store: folder for finished results, None keeps nothing; progress: on stderr;
     executor: "local", or "dask://HOST:PORT", a running scheduler whose workers take the place of those here.
     A stored result is used again only if the solve, its problem, the source of the numerics and their libraries are
-    the same; damaged or foreign files are computed anew. A result is stored as soon as it is there, by the worker that
-    found it, or, where that may be on another machine without a disk in common, as it comes in here: who is
-    interrupted, or killed, loses no finished one.
+    the same; damaged or foreign files are computed anew. Each worker writes its result to disk as soon as it is
+    computed; results of other machines are written here as they come in. No interruption loses a finished result.
     Raises ValueError for any other executor, fewer workers than one, a place in the store that something else has
     taken, and where the scheduler or its workers do not answer; ConnectionError where the scheduler is lost;
     WorkerLostError where a worker is killed; OSError, which names the place, where a result cannot be stored.
@@ -164,7 +163,7 @@ def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome
 
 
 def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome]:
-    """On a worker, perhaps on another machine: only if its numerics are those of who asks."""
+    """On a worker, perhaps on another machine: only if its numerics are those of the caller."""
     if _numerics() != numerics:
         raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
     try:
@@ -253,5 +252,5 @@ def sources_of(package: str) -> list[Path]:
     return sources
 
 
-# taken when the code is: whoever edits it while it runs does not make old results new
+# read when the code is loaded: an edit during a run does not make old results new
 _numerics()

@@ -37,7 +37,7 @@ def load(path: Path, key: str) -> Outcome | None:
         raise ValueError(f"a stored result must be a plain file, got {path}: move that away")
     try:
         return _arrays(_unsealed(path), key)
-    # whoever makes a seal of his own may have put anything behind it
+    # a valid seal may have been put before any bytes
     except Exception:
         return None
 

@@ -1,4 +1,4 @@
-"""An SVG of matplotlib without what nobody sees: indentation, comments, unused names, places beyond any printer."""
+"""An SVG of matplotlib without invisible parts: indentation, comments, unused names, digits beyond any printer."""
 
 import re
 

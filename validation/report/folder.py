@@ -25,7 +25,7 @@ class Folder:
     """A folder that holds a report, or nothing yet, for one run at a time: a context manager.
 
     Made if need be; a link to a folder is followed. What its list names was written by a report: nothing else in it is
-    ever replaced or removed, but what killed runs had begun to write, under names of its own. A folder that is refused
+    ever replaced or removed, but what killed runs had begun to write, under names of its own. A folder that is rejected
     is left as it was.
     Raises ValueError for a path that is no folder, a folder with something else in it, a report that has been changed
     since, and one that cannot be written or that another run is at; OSError for a full disk.
@@ -41,8 +41,8 @@ class Folder:
                 _listed(self.path)
                 self.path.mkdir(parents=True, exist_ok=True)
                 opening.enter_context(locked(self.path))
-                # once more, now that nobody else is at it; its list comes before anything else, so that whatever is
-                # killed can go on
+                # once more, now that no other run writes here; the list comes before anything else, so that a killed
+                # run can continue
                 self._list(_listed(self.path))
                 self._open = opening.pop_all()
         except OSError as error:

@@ -1,4 +1,4 @@
-"""One run at a time in a folder: the lock of the operating system, and beside it who holds it."""
+"""One run at a time in a folder: the lock of the operating system, and beside it a file that names its holder."""
 
 import fcntl
 import json
