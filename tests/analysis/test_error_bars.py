@@ -46,10 +46,9 @@ from validation.cases.rolling.linear_levels import level_3d
 from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import long_runs
 from validation.cases.wheel import distance as wheel_distance
-from validation.cases.wheel import distance_levels, distance_numbers
+from validation.cases.wheel import distance_levels, distance_numbers, spectrum_numbers
 from validation.cases.wheel import half_space as wheel_3d
-from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
-from validation.cases.wheel import spectrum_evidence as wheel_evidence
+from validation.cases.wheel import half_space_levels as wheel_3d_levels
 from validation.cases.wheel.features import FLOOR, Spectrum, found
 from validation.simulation.rough_punch import BEM, MDR
 
@@ -597,7 +596,9 @@ def test_the_level_over_linear_theory_covers_its_truth():
 
     def drawn():
         hann = 1.3 * linear * rng.gamma(100, 1 / 100, (6, 1))
-        number = wheel_evidence._level(Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05))
+        (number,) = spectrum_numbers.level_over_linear(
+            Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05)
+        )
         return number.value, number.sample
 
     assert holds(covered(drawn, 10 * math.log10(1.3), trials=300), trials=300, short=0.01)
@@ -625,7 +626,7 @@ def test_levels_over_the_linear_contact_cover_their_truth(strips):
     def drawn():
         linear = rng.lognormal(0, 0.3, (strips, 1))
         return ends(
-            wheel_3d_evidence.log_ratio(0.8 * linear * np.exp(0.05 * rng.standard_normal((strips, 1))), linear)[0]
+            wheel_3d_levels.log_ratio(0.8 * linear * np.exp(0.05 * rng.standard_normal((strips, 1))), linear)[0]
         )
 
     assert holds(covered(drawn, math.log(0.8) + 0.05**2 / 2), short=0.02)
@@ -652,10 +653,10 @@ def test_what_grid_and_solver_leave_open_in_three_dimensions():
         {},
         (),
     )
-    levels = wheel_3d_evidence.Levels(result)
+    levels = wheel_3d_levels.WheelLevels(result)
     np.testing.assert_allclose(POWER_DECIBEL * levels.grid, 3.0, rtol=1e-9)
     np.testing.assert_allclose(POWER_DECIBEL * levels.solver, 0.1, rtol=1e-9)
-    finer = wheel_3d_evidence.Levels(replace(result, case=replace(case, coarse=6)))
+    finer = wheel_3d_levels.WheelLevels(replace(result, case=replace(case, coarse=6)))
     np.testing.assert_allclose(POWER_DECIBEL * finer.grid, 1.0, rtol=1e-9)
 
 
@@ -670,14 +671,14 @@ def test_a_mean_over_bands_in_three_dimensions_has_all_of_its_errors():
         wheel_3d.LOOSE: strips_of(1.0, 7, 1),
         wheel_3d.TIGHT: strips_of(1.05, 7, 1),
     }
-    levels = wheel_3d_evidence.Levels(wheel_3d.Result3D(case, strips, {}, ()))
+    levels = wheel_3d_levels.WheelLevels(wheel_3d.Result3D(case, strips, {}, ()))
     bands = len(levels.centres)
     groups = np.random.default_rng(0).standard_normal((6, bands))
-    exact = dict.fromkeys((wheel_3d_evidence.LINEAR_3D, wheel_3d_evidence.LINEAR_1D), np.zeros(bands))
-    levels.__dict__.update(springs={wheel_3d_evidence.SPRINGS: groups}, exact=exact)
+    exact = dict.fromkeys((wheel_3d_levels.LINEAR_3D, wheel_3d_levels.LINEAR_1D), np.zeros(bands))
+    levels.__dict__.update(springs={wheel_3d_levels.GEIKE: groups}, exact=exact)
     where = np.arange(bands) < 3
-    theory, left = levels.mean_over_bem(wheel_3d_evidence.LINEAR_3D, where)
-    springs, same = levels.mean_over_bem(wheel_3d_evidence.SPRINGS, where)
+    theory, left = levels.mean_over_bem(wheel_3d_levels.LINEAR_3D, where)
+    springs, same = levels.mean_over_bem(wheel_3d_levels.GEIKE, where)
     assert left == same == pytest.approx(levels.grid[where].mean() + levels.solver[where].mean())
     own = groups[:, where].mean(axis=1).std(ddof=1) / math.sqrt(6)
     assert springs.error == pytest.approx(math.hypot(theory.error, own))

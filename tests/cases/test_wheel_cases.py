@@ -12,13 +12,15 @@ from validation.analysis import spectra
 from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
-from validation.cases.wheel import distance_numbers
+from validation.cases.wheel import distance_numbers, half_space_numbers, spectrum_numbers
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
+from validation.cases.wheel import half_space_levels as wheel_3d_levels
 from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
-from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
+from validation.cases.wheel.features import BREAK, FLOOR, JUMP, PEAK, PERIOD, PREDICTED, SLOPE, Spectrum
+from validation.cases.wheel.spectrum_numbers import FEATURES
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -394,12 +396,8 @@ def test_too_few_strips_are_no_evidence(monkeypatch):
 # --- evidence ---------------------------------------------------------------------------------------------------------
 
 
-def numbers_of(evidence):
-    return {number.label: number for number in evidence.numbers}
-
-
-def labelled(evidence, part):
-    return next(number for number in evidence.numbers if part in number.label)
+def feature(evidence, name):
+    return number_with(evidence.numbers, FEATURES[name].quantity)
 
 
 def whole(evidence):
@@ -423,7 +421,7 @@ LONG = wheel.WheelSpectrum(
     batch=10,
     parameters=False,
     cells=6,
-    stills=4,
+    snapshot_steps=4,
 )
 
 
@@ -440,10 +438,11 @@ def changed(result, change):
 def test_wheel_evidence_is_whole(long_wheel):
     found = wheel_evidence.evidence(long_wheel)
     whole(found)
-    assert {n.label.split(": ")[-1] for n in found.numbers} >= set(wheel_evidence.NAMES.values())
+    quantities = {feature.quantity for feature in FEATURES.values()}
+    assert {number.quantity for number in found.numbers} >= quantities
     # an estimate lies within three half-widths of theory, which is 95 % wide, or what is tolerated
-    for part in wheel_evidence.NAMES.values():
-        number = labelled(found, part)
+    for name in FEATURES:
+        number = feature(found, name)
         assert abs(number.difference) <= number.tolerance + 2 * number.uncertainty, number.sentence
 
 
@@ -454,41 +453,38 @@ def test_a_fifth_more_acceleration_is_another_level(long_wheel):
         }
 
     before, after = (wheel_evidence.evidence(r) for r in (long_wheel, changed(long_wheel, louder)))
-    one, other = (labelled(e, "level over linear theory") for e in (before, after))
+    one, other = (number_with(e.numbers, spectrum_numbers.LEVEL) for e in (before, after))
     # the range of the level ends below the break, which moves with the floor: not at all where it is the cutoff
     assert other.value - one.value == pytest.approx(DECIBEL * math.log(1.44), abs=0.05)
     assert other.verdict is Verdict.DIFFER
     assert any(s.startswith("Not confirmed by this run: Its level") for s in after.conclusions)
-    for name in ("peak", "jump", "slope", "period"):
-        assert labelled(after, f": {name}" if name != "period" else "period").value == pytest.approx(
-            labelled(before, f": {name}" if name != "period" else "period").value, rel=1e-9
-        )
+    for name in (PEAK, JUMP, SLOPE, PERIOD):
+        assert feature(after, name).value == pytest.approx(feature(before, name).value, rel=1e-9)
     assert all(number.met for number in after.numbers)
 
 
 def test_a_shifted_axis_is_another_peak_jump_and_period(long_wheel):
     before = wheel_evidence.evidence(long_wheel)
     after = wheel_evidence.evidence(changed(long_wheel, lambda o: {"omega": 1.03 * o["omega"]}))
-    for part in (": peak", ": jump", "period"):
-        one, other = labelled(before, part), labelled(after, part)
+    for name in (PEAK, JUMP, PERIOD):
+        one, other = feature(before, name), feature(after, name)
         # ranges stay, so that a line or two at their ends are others
-        assert other.value / one.value == pytest.approx(1.03, rel=0.005), part
+        assert other.value / one.value == pytest.approx(1.03, rel=0.005), name
         assert other.verdict is Verdict.DIFFER, other.sentence
 
 
 def test_a_floor_without_its_leak_is_not_predicted(long_wheel):
     after = wheel_evidence.evidence(changed(long_wheel, lambda o: {"plain": o["hann"]}))
-    assert labelled(after, "floor over predicted").value < 0.5
-    assert labelled(after, "floor over predicted").verdict is Verdict.DIFFER
+    floor = feature(after, FLOOR + PREDICTED)
+    assert floor.value < 0.5 and floor.verdict is Verdict.DIFFER
     # Hann's window keeps no mean square
     assert not all(number.met for number in after.numbers)
 
 
 def test_a_lost_force_is_a_missed_criterion(long_wheel):
     after = wheel_evidence.evidence(changed(long_wheel, lambda o: {"balance": o["balance"] + 1e-9}))
-    assert [number.label for number in after.numbers if not number.met] == [
-        number.label for number in after.numbers if "change of velocity" in number.label
-    ]
+    (missed,) = (number for number in after.numbers if not number.met)
+    assert "change of velocity" in missed.quantity
 
 
 def test_what_does_not_stand_out_is_said_so():
@@ -500,7 +496,7 @@ def test_what_does_not_stand_out_is_said_so():
     shown = found.page_tables[1]
     missing = [row for row, text in enumerate(shown.columns["found"]) if text == "none stands out"]
     assert [shown.columns["feature"][row] for row in missing] == [
-        wheel_evidence.NAMES[name] for name in ("slope", "period", "break" + PREDICTED)
+        FEATURES[name].name for name in (SLOPE, PERIOD, BREAK + PREDICTED)
     ]
     assert "None stands out in this run: its oscillation is sin²(q a)." in found.conclusions
     assert not any("Its slope" in sentence for sentence in found.conclusions)
@@ -514,7 +510,7 @@ def test_one_parameter_at_a_time():
     whole(found)
     table = found.page_tables[2]
     assert list(table.columns["scene"]) == names
-    jumps = dict(zip(names, table.columns[wheel_evidence.NAMES["jump"]], strict=True))
+    jumps = dict(zip(names, table.columns[FEATURES[JUMP].name], strict=True))
     base = SMALL.jump
     for name, factor in (
         ("v₀ × 0.25", 0.25),
@@ -627,10 +623,11 @@ def in_3d():
 def test_evidence_in_three_dimensions_is_whole(in_3d):
     found = wheel_3d_evidence.evidence(in_3d)
     whole(found)
-    geike = labelled(found, "springs, Geike over bem3d, region 2")
-    assert geike.verdict is Verdict.DIFFER
-    assert geike.value < -10
-    theory = labelled(found, "linear, 3D over bem3d, region 2")
+    geike, theory = (
+        number_with(found.numbers, half_space_numbers.LEVEL, half_space_numbers.OVER_BEM[model], range="region 2")
+        for model in (wheel_3d_levels.GEIKE, wheel_3d_levels.LINEAR_3D)
+    )
+    assert geike.verdict is Verdict.DIFFER and geike.value < -10
     assert abs(theory.difference) <= theory.tolerance
     table = found.table("levels")
     assert np.isfinite(table["bem3d [dB]"]).all()
@@ -639,10 +636,9 @@ def test_evidence_in_three_dimensions_is_whole(in_3d):
 def test_a_fifth_more_acceleration_in_three_dimensions(in_3d):
     strips = {name: [{**o, "bem": 1.2 * o["bem"]} for o in some] for name, some in in_3d.strips.items()}
     before, after = (wheel_3d_evidence.evidence(replace(in_3d, strips=s)) for s in (in_3d.strips, strips))
-    labels = [label for label in numbers_of(before) if "over bem3d" in label]
-    assert len(labels) >= 8
-    for label in labels:
-        one, other = numbers_of(before)[label], numbers_of(after)[label]
+    levels = [numbers_with(evidence.numbers, half_space_numbers.LEVEL) for evidence in (before, after)]
+    assert len(levels[0]) >= 8
+    for one, other in zip(*levels, strict=True):
         assert one.value - other.value == pytest.approx(DECIBEL * math.log(1.44), abs=1e-9)
         assert other.uncertainty == pytest.approx(one.uncertainty, rel=1e-6)
 
@@ -650,8 +646,8 @@ def test_a_fifth_more_acceleration_in_three_dimensions(in_3d):
 def test_grids_that_differ_leave_the_level_open(in_3d):
     """A coarse grid 1 dB louder, with a quarter more cells on the fine one: three times as much is left open."""
     louder = [{**o, "bem": 10 ** (1 / 20) * o["bem"]} for o in in_3d.strips["coarser"]]
-    found = wheel_3d_evidence.Levels(replace(in_3d, strips={**in_3d.strips, "coarser": louder}))
-    before = wheel_3d_evidence.Levels(in_3d)
+    found = wheel_3d_levels.WheelLevels(replace(in_3d, strips={**in_3d.strips, "coarser": louder}))
+    before = wheel_3d_levels.WheelLevels(in_3d)
     change = DECIBEL * np.maximum(found.grid, before.grid)
     assert (change >= 1.5 - 1e-9).all()
 
@@ -672,7 +668,9 @@ def test_an_interrupted_ensemble_goes_on_where_it_was(tmp_path):
     again = wheel.run(case, engine)
     assert sorted(tmp_path.glob("*.npz")) == files
     assert {file: file.stat().st_ino for file in kept} == kept
-    outcomes = [[o for some in r.batches.values() for o in some] + [r.still] for r in (first, again, wheel.run(case))]
+    outcomes = [
+        [o for some in r.batches.values() for o in some] + [r.snapshot] for r in (first, again, wheel.run(case))
+    ]
     for one, *others in zip(*outcomes, strict=True):
         for other in others:
             assert one.keys() == other.keys()

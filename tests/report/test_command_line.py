@@ -85,7 +85,7 @@ SMALL = {
         groups=3,
         parameters=False,
         cells=8,
-        stills=8,
+        snapshot_steps=8,
     ),
     "wheel_distance": wheel_distance.WheelDistance(
         scene=replace(wheel.TABLE, distance=0.1, springs=40),

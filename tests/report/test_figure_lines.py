@@ -439,7 +439,7 @@ def test_lines_of_the_causes():
 def test_lines_of_the_wheel_in_three_dimensions():
     table, near = Made({"omega [rad/s]": np.arange(1.0, 5.0)}), Made({"x": np.arange(6)})
     levels, differences, oscillation = wheel_3d.draw(made(levels=table, oscillation=near)).axes
-    names = ("linear, 3D", "linear, 1D (14.12)", "springs, Geike", "springs, fed for rolling")
+    names = ("linear, 3D", "linear, 1D (14.12)", "springs, Geike spectrum", "springs, rolling spectrum")
     bem = table["bem3d [dB]"]
     half = sum(table[f"± {of} [dB]"] for of in ("sample", "grid", "solver"))
     over = {name: table[f"{name} over bem3d [dB]"] for name in names}
@@ -450,7 +450,7 @@ def test_lines_of_the_wheel_in_three_dimensions():
         oscillation,
         **{
             "linear contact, 3D": near["linear, 3D"],
-            "springs, Geike": near["springs, Geike"],
+            "springs, Geike spectrum": near["springs, Geike spectrum"],
             "boundary elements": near["bem3d"],
         },
     )

@@ -36,10 +36,15 @@ from validation.cases.rolling import force_spectrum_tables as rolling_tables
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, MEAN, VARIANCE
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
-from validation.cases.wheel import distance_numbers, distance_tables
-from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import (
+    distance_numbers,
+    distance_tables,
+    half_space_numbers,
+    spectrum_tables,
+)
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
+from validation.cases.wheel.spectrum_numbers import FEATURES
 from validation.report import page
 from validation.report.contents import CASES
 from validation.report.figures import fractal_punch
@@ -440,8 +445,16 @@ def test_the_table_of_breaks_prints_its_intervals():
 
 
 def feature(value, scene="the scene", name="peak"):
-    label = f"{scene}: {wheel_evidence.NAMES[name]}"
-    return number(value, quantity=label, reference=1.0, tolerance=0.2, sample=0.05, unit="rad/s", role=Role.FINDING)
+    return number(
+        value,
+        quantity=FEATURES[name].quantity,
+        where={"scene": scene},
+        reference=1.0,
+        tolerance=0.2,
+        sample=0.05,
+        unit="rad/s",
+        role=Role.FINDING,
+    )
 
 
 def test_fig_14_4_prints_the_numbers_it_is_given():
@@ -449,42 +462,47 @@ def test_fig_14_4_prints_the_numbers_it_is_given():
     names = ("peak", "jump", "slope", "period", "floor over predicted", "break over predicted")
     mine = {name: feature(1.0 + 0.01 * i, name=name) for i, name in enumerate(names)}
     level = number(0.1234, quantity="level", reference=0.0, tolerance=0.5, sample=0.02)
-    sentences = wheel_evidence._conclusions({"the scene": mine}, "the scene", level)
+    sentences = wheel_evidence.conclusions({"the scene": mine}, "the scene", level)
     starts = ("Region 1", "Region 3 begins", "Its slope", "Its oscillation", "Its level", "Region 4", "The break")
     of = ("peak", "jump", "slope", "period", None, "floor over predicted", "break over predicted")
     assert len(sentences) == len(starts)
     for sentence, start, name in zip(sentences, starts, of, strict=True):
         assert sentence.startswith(start) and with_reference(mine[name] if name else level) in sentence
     off = {**mine, "slope": feature(7.77, name="slope")}
-    text = wheel_evidence._conclusions({"the scene": off}, "the scene", level)[2]
+    text = wheel_evidence.conclusions({"the scene": off}, "the scene", level)[2]
     assert text == f"Not confirmed by this run: Its slope is that of linear theory: {with_reference(off['slope'])}."
     assert "7.770 ± 0.050" in text
-    without = wheel_evidence._conclusions({"the scene": {"peak": mine["peak"]}}, "the scene", None)
+    without = wheel_evidence.conclusions({"the scene": {"peak": mine["peak"]}}, "the scene", None)
     assert [s.split(":")[0] for s in without[1:]] == ["None stands out in this run"] * 3
 
 
 def test_tables_of_fig_14_4_print_the_numbers_they_are_given():
     mine = {"peak": feature(1.1), "jump": feature(3.3, name="jump")}
-    shown = wheel_evidence._regions(mine)
+    shown = spectrum_tables.shown_regions(mine)
     assert shown.columns["found"][:3] == ["1.100 ± 0.050", "3.300 ± 0.050", "none stands out"]
-    assert shown.columns["verdict"][:3] == ["within 0.2: agree", "within 0.2: differ", ""]
-    varied = wheel_evidence._parameters({"the scene": mine, "v₀ × 2": {"peak": feature(2.2)}})
-    assert varied.columns[wheel_evidence.NAMES["peak"]] == ["1.100 ± 0.050 (1): agree", "2.200 ± 0.050 (1): differ"]
-    assert varied.columns[wheel_evidence.NAMES["jump"]] == ["3.300 ± 0.050 (1): differ", "none stands out"]
-
-
-def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given(monkeypatch):
-    monkeypatch.setattr(wheel_3d_evidence, "ranges", lambda _: ["region 2", "region 3"])
-    strips = [{"applications": np.array(a), "failed": np.array(f)} for a, f in ((10.0, 0.0), (13.0, 0.0), (99.0, 1.0))]
-    found = SimpleNamespace(result=SimpleNamespace(strips={wheel_3d.FINEST: strips}))
-    numbers = [
-        number(0.31, quantity="linear, 3D over bem3d, region 2", reference=0.0, tolerance=1.0, grid=0.1, sample=0.1),
-        number(-23.4, quantity="springs, Geike over bem3d, region 2", reference=0.0, tolerance=1.0, sample=0.3),
-        number(5.55, quantity="linear, 3D over bem3d, region 3", reference=0.0, tolerance=1.0, sample=0.1),
-        number(-4.44, quantity="region 3 by boundary elements: slope", reference=-4.4, sample=0.01, unit="-"),
+    assert list(map(str, shown.columns["verdict"]))[:3] == ["within 0.2: agree", "within 0.2: differ", ""]
+    varied = spectrum_tables.shown_parameters({"the scene": mine, "v₀ × 2": {"peak": feature(2.2)}})
+    assert list(map(str, varied.columns[FEATURES["peak"].name])) == [
+        "1.100 ± 0.050 (1): agree",
+        "2.200 ± 0.050 (1): differ",
     ]
-    second, third, slope, plateau, cost, *_ = wheel_3d_evidence._conclusions(found, numbers)
-    assert "region 2: linear, 3D +0.3 ± 0.2 dB (agree); springs, Geike -23.4 ± 0.3 dB (differ)." in second
+    assert list(map(str, varied.columns[FEATURES["jump"].name])) == ["3.300 ± 0.050 (1): differ", "none stands out"]
+
+
+def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given():
+    def over_bem(value, model, where, **errors):
+        key = {"quantity": half_space_numbers.LEVEL, "model": f"{model}, over bem3d", "where": {"range": where}}
+        return number(value, **key, reference=0.0, tolerance=1.0, **errors)
+
+    numbers = [
+        over_bem(0.31, "linear, 3D", "region 2", grid=0.1, sample=0.1),
+        over_bem(-23.4, "springs, Geike spectrum", "region 2", sample=0.3),
+        over_bem(5.55, "linear, 3D", "region 3", sample=0.1),
+        number(-4.44, quantity=half_space_numbers.SLOPE, reference=-4.4, sample=0.01, unit="-"),
+    ]
+    text = wheel_3d_evidence.conclusions(["region 2", "region 3"], numbers, 11.5)
+    second, third, slope, plateau, cost, *_ = text
+    assert "region 2: linear, 3D +0.3 ± 0.2 dB (agree); springs, Geike spectrum -23.4 ± 0.3 dB (differ)." in second
     assert "region 3: linear, 3D +5.5 ± 0.1 dB (differ)." in third
     assert with_reference(numbers[3]) in slope and not slope.startswith("Not")
     assert with_reference(numbers[0]) in plateau and "23 dB too low" in plateau

@@ -13,24 +13,24 @@ TABLE = load_wheel_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
 FINEST, COARSER, LOOSE, TIGHT = "finest", "coarser", "loose", "tight"
-ANEW = 10
-"""So many times as small a residual tells what the solver leaves open."""
+TIGHTER = 10
+"""Ratio of two residuals whose levels differ by the error of the solver."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Wheel3D:
     """Wheels over isotropic surfaces with boundary elements, and springs of the same spectrum.
 
-    scene: whose rail alone is rough; strips: realisations of boundary elements; turns: whole, of the resonance, on
-    each; width: of surfaces over the longest wave; cells: to a contact radius; shared: its divisor on all grids;
-    coarse: cells of the grid from which the error of the finer one is told, over `coarser` strips; tolerance: residual
-    of contacts; short: turns of the strip on which that is tightened; wheels: on springs; groups, batch: of these;
-    seed: zero or more.
+    scene: only its rail is rough; strips: realisations on boundary elements; periods: natural periods on each, whole,
+    before a half; width: of surfaces over the longest wave; cells: to a contact radius; shared: their divisor on all
+    grids; coarse: cells of the coarser grid, for the error of the finer one, over `coarser` strips; tolerance: residual
+    of contacts; short: natural periods of the strip with a tighter residual; wheels: on springs; groups, batch: of
+    these; seed: zero or more.
     """
 
     scene: WheelScene = QUICK
     strips: int = 4
-    turns: int = 1
+    periods: int = 1
     width: int = 2
     cells: int = 12
     shared: int = 3
@@ -43,51 +43,49 @@ class Wheel3D:
     batch: int = 100
     seed: int = 148
 
-    def strip(self, realisation: int, cells: int, tolerance: float, turns: int) -> WheelStrip:
-        """One wheel on boundary elements."""
+    @property
+    def strip(self) -> WheelStrip:
+        """The first wheel on boundary elements."""
         return WheelStrip(
             scene=self.scene,
-            realisation=realisation,
-            natural_periods=turns,
+            realisation=0,
+            natural_periods=self.periods,
             width=self.width,
-            cells=cells,
+            cells=self.cells,
             shared=self.shared,
-            tolerance=tolerance,
+            tolerance=self.tolerance,
             seed=self.seed,
         )
 
     def strips_of(self) -> dict[str, list[WheelStrip]]:
         """The ensemble, some of it on a coarser grid, and a short strip at two tolerances."""
+        short = replace(self.strip, natural_periods=self.short)
         return {
-            FINEST: [self.strip(i, self.cells, self.tolerance, self.turns) for i in range(self.strips)],
-            COARSER: [self.strip(i, self.coarse, self.tolerance, self.turns) for i in range(self.coarser)],
-            LOOSE: [self.strip(0, self.cells, self.tolerance, self.short)],
-            TIGHT: [self.strip(0, self.cells, self.tolerance / ANEW, self.short)],
+            FINEST: [replace(self.strip, realisation=i) for i in range(self.strips)],
+            COARSER: [replace(self.strip, realisation=i, cells=self.coarse) for i in range(self.coarser)],
+            LOOSE: [short],
+            TIGHT: [replace(short, tolerance=self.tolerance / TIGHTER)],
         }
 
-    def rides(self, input_spectrum: InputSpectrum) -> list[WheelEnsemble]:
-        """Springs in the motion that repeats itself, on tracks as long as the strips."""
-        along = self.strip(0, self.cells, self.tolerance, self.turns)
-        scene = replace(self.scene, distance=along.shape[0] * along.spacing)
+    def ensembles(self, input_spectrum: InputSpectrum) -> list[WheelEnsemble]:
+        """Springs in the steady state, on tracks as long as the strips."""
+        scene = replace(self.scene, distance=self.strip.shape[0] * self.strip.spacing)
         batches = max(self.wheels // self.batch, 1)
         count = self.wheels // batches
-        return [
-            WheelEnsemble(
-                scene=scene,
-                first=i * count,
-                count=count,
-                groups=self.groups,
-                track="steady-state",
-                input_spectrum=input_spectrum,
-                seed=self.seed,
-            )
-            for i in range(batches)
-        ]
+        one = WheelEnsemble(
+            scene=scene,
+            count=count,
+            groups=self.groups,
+            track="steady-state",
+            input_spectrum=input_spectrum,
+            seed=self.seed,
+        )
+        return [replace(one, first=i * count) for i in range(batches)]
 
 
 @dataclass(frozen=True)
 class Result3D:
-    """Outcomes of boundary elements by grid and tolerance, of springs by what they are fed."""
+    """Outcomes of boundary elements by grid and tolerance, of springs by their input spectrum."""
 
     case: Wheel3D
     strips: Mapping[str, list[Outcome]]
@@ -96,24 +94,22 @@ class Result3D:
 
 
 def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
-    """Roll all wheels. Raises NotConvergedError where fewer than three strips of the ensemble are whole."""
-    strips = case.strips_of()
-    outcomes = engine.map(simulate_strip, [strip for some in strips.values() for strip in some])
-    rolled = iter(outcomes)
-    found = {name: [next(rolled) for _ in some] for name, some in strips.items()}
-    lost = tuple(
+    """Simulate all wheels. Raises NotConvergedError where fewer than three strips of the ensemble converge."""
+    problems = case.strips_of()
+    strips = engine.map_groups(simulate_strip, problems)
+    unconverged = tuple(
         f"strip {strip.realisation}, {strip.cells} cells to a radius, residual {strip.tolerance:g}"
-        for name, some in strips.items()
-        for strip, outcome in zip(some, found[name], strict=True)
+        for name, some in problems.items()
+        for strip, outcome in zip(some, strips[name], strict=True)
         if outcome["failed"]
     )
-    whole = sum(not outcome["failed"] for outcome in found[FINEST])
-    if whole < 3 or any(outcome["failed"] for name in (COARSER, LOOSE, TIGHT) for outcome in found[name]):
-        raise NotConvergedError(f"{whole} strips converged on {case.cells} cells to a radius, 3 are needed", lost)
-    rides = {feed: case.rides(feed) for feed in INPUT_SPECTRA}
-    rode = iter(engine.map(simulate_ensemble, [ride for some in rides.values() for ride in some]))
-    springs = {feed: [next(rode) for _ in some] for feed, some in rides.items()}
-    astray = [feed for feed, some in springs.items() if any(outcome["failed"] for outcome in some)]
-    if astray:
-        raise NotConvergedError("wheels on springs do not repeat their motion", astray)
-    return Result3D(case, found, springs, lost)
+    converged = sum(not outcome["failed"] for outcome in strips[FINEST])
+    if converged < 3 or any(outcome["failed"] for name in (COARSER, LOOSE, TIGHT) for outcome in strips[name]):
+        raise NotConvergedError(
+            f"{converged} strips converged on {case.cells} cells to a radius, 3 are needed", unconverged
+        )
+    springs = engine.map_groups(simulate_ensemble, {name: case.ensembles(name) for name in INPUT_SPECTRA})
+    failed = [name for name, some in springs.items() if any(outcome["failed"] for outcome in some)]
+    if failed:
+        raise NotConvergedError("wheels on springs do not repeat their motion", failed)
+    return Result3D(case, strips, springs, unconverged)

@@ -9,8 +9,8 @@ from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, panels
 STYLES: dict[str, Style] = {
     "linear, 3D": {"color": "#aaaaaa", "linewidth": 3.0},
     "linear, 1D (14.12)": {**EXACT, "linestyle": "--"},
-    "springs, Geike": MDR,
-    "springs, fed for rolling": {
+    "springs, Geike spectrum": MDR,
+    "springs, rolling spectrum": {
         "color": "#009E73",
         "marker": "^",
         "markersize": 4,
@@ -44,14 +44,16 @@ def draw(evidence: Evidence) -> Figure:
     for border in (-3, -1, 1, 3):
         differences.axhline(border, **GUIDE)
     differences.set(xscale="log", xlabel="ω [rad/s]", ylabel="over boundary elements [dB]", ylim=(-12, 12))
-    missing = table["springs, Geike over bem3d [dB]"][below]
+    missing = table["springs, Geike spectrum over bem3d [dB]"][below]
     if missing.size:
-        note = f"springs, Geike: {missing.max():.0f} dB and less"
+        note = f"springs, Geike spectrum: {missing.max():.0f} dB and less"
         differences.annotate(note, (omega[0], -11.8), (omega[0], -10), fontsize=7, arrowprops={"arrowstyle": "->"})
     near = evidence.table("oscillation")
     x = near["omega [rad/s]"] / 1e3
     oscillation.plot(x, near["linear, 3D"], label="linear contact, 3D", **STYLES["linear, 3D"])
-    oscillation.plot(x, near["springs, Geike"], color=MDR["color"], linewidth=1.0, label="springs, Geike")
+    oscillation.plot(
+        x, near["springs, Geike spectrum"], color=MDR["color"], linewidth=1.0, label="springs, Geike spectrum"
+    )
     oscillation.plot(
         x, near["bem3d"], color=BEM["color"], linewidth=1.2, linestyle=(0, (2, 1)), label="boundary elements"
     )

@@ -1,0 +1,119 @@
+"""Tables of the wheel in three dimensions, behind its figure and on its page."""
+
+import math
+
+import numpy as np
+
+from validation.analysis.evidence import Number, Table, columns, numbers_with, table_of, with_reference
+from validation.analysis.spectra import band_means
+from validation.analysis.statistics import POWER_DECIBEL
+from validation.cases.wheel.half_space_levels import GEIKE, LINEAR_3D, MODELS, WheelLevels, hann_spectra
+from validation.cases.wheel.half_space_numbers import LEVEL, ONE_DECIBEL, OVER_BEM, SLOPE
+from validation.theory import rolling as rolling_theory
+
+THREE_DECIBELS = 3.0
+
+
+def levels_of(levels: WheelLevels) -> Table:
+    """One-third octaves of boundary elements, with their errors, and of each model over them."""
+    values = {
+        "omega [rad/s]": levels.centres,
+        "from [rad/s]": levels.edges[:-1],
+        "to [rad/s]": levels.edges[1:],
+        "bem3d [dB]": POWER_DECIBEL * levels.bem,
+        "± sample [dB]": POWER_DECIBEL * np.array([estimate.half_width for estimate in levels.ratio]),
+        "± grid [dB]": POWER_DECIBEL * levels.grid,
+        "± solver [dB]": POWER_DECIBEL * levels.solver,
+        **{f"{model} over bem3d [dB]": POWER_DECIBEL * levels.over_bem(model) for model in MODELS},
+    }
+    return Table("levels", columns(**values))
+
+
+def oscillation_of(levels: WheelLevels) -> Table:
+    """Spectra in bands of a twelfth of the period of the oscillation."""
+    scene = levels.result.case.scene
+    period = scene.oscillation_period
+    bem, linear = (hann_spectra(levels.converged, contact) for contact in ("bem", "linear"))
+    edges = np.arange(0.7 * scene.jump, min(scene.cutoff, 12 * period), max(period / 12, 2 * float(bem.omega[0])))
+    springs = levels.result.springs["geike"]
+    on_springs = np.concatenate([batch["hann"] for batch in springs]).mean(axis=0)
+    values = {
+        "omega [rad/s]": (edges[1:] + edges[:-1]) / 2,
+        "bem3d": band_means(bem.omega, bem.density.mean(axis=1), edges),
+        LINEAR_3D: band_means(linear.omega, linear.density.mean(axis=1), edges),
+        GEIKE: band_means(springs[0]["omega"], on_springs, edges),
+    }
+    return Table("oscillation", columns(**values))
+
+
+def shown_regions(levels: WheelLevels, numbers: list[Number]) -> Table:
+    """The chapter's regions in three dimensions."""
+    scene = levels.result.case.scene
+    plateau = numbers_with(numbers, LEVEL, OVER_BEM[LINEAR_3D], range="region 2")
+    slope = numbers_with(numbers, SLOPE)
+    rows = [
+        (
+            "1",
+            "excited by the start alone: no wave of the track has the resonance",
+            f"excited by the roughness: its force there over that at q_min v₀ is {_at_resonance(levels):+.1f} dB",
+            f"{scene.eigenfrequency:.4g}",
+        ),
+        (
+            "2",
+            "leakage and nonlinearity",
+            f"real; linear theory over it {with_reference(plateau[0])}" if plateau else "no band holds it",
+            f"up to {scene.jump:.4g}",
+        ),
+        (
+            "3",
+            "-2 H - 3, and zeros of sin²(q a)",
+            f"slope {with_reference(slope[0])}; zeros filled" if slope else "too few periods for a slope; zeros filled",
+            f"up to {scene.cutoff:.4g}",
+        ),
+        (
+            "4",
+            "leakage; the roughness ends at q_max",
+            f"beyond 1.3 q_max v₀ {_beyond(levels):.0f} dB below the last tenth of the roughness, with Hann's window",
+            f"from {scene.cutoff:.4g}",
+        ),
+    ]
+    names = ("region", "on springs of Geike's spectrum", "by boundary elements", "ω [rad/s]")
+    return table_of("the regions in three dimensions", [dict(zip(names, row, strict=True)) for row in rows])
+
+
+def _at_resonance(levels: WheelLevels) -> float:
+    """C_F of linear theory in 3D at the resonance over that where the band begins [dB]."""
+    scene = levels.result.case.scene
+    rough = scene.rail
+    assert rough is not None  # strips refuse a smooth rail
+    force = rolling_theory.force_spectrum_3d(
+        np.array([scene.eigenfrequency / scene.speed, 1.001 * rough.q_min]),
+        rough.spectrum.c2d,
+        edges=rough.edges,
+        contact_radius=scene.contact_radius,
+        modulus=scene.modulus,
+    )
+    return POWER_DECIBEL * math.log(force[0] / force[1])
+
+
+def _beyond(levels: WheelLevels) -> float:
+    """How far boundary elements fall beyond the roughness [dB]."""
+    cutoff = levels.result.case.scene.cutoff
+    inside, outside = (
+        levels.of_strips(levels.converged, "bem", np.array(band) * cutoff)[:, 0].mean() / (band[1] - band[0])
+        for band in ((0.9, 1.0), (1.3, 1.8))
+    )
+    return -POWER_DECIBEL * math.log(outside / inside)
+
+
+def shown_within(levels: WheelLevels) -> Table:
+    """Bands of each range in which each model is within 1 and within 3 dB of boundary elements."""
+    rows: list[dict[str, object]] = []
+    for model in MODELS:
+        off = np.abs(POWER_DECIBEL * levels.over_bem(model))
+        near = {
+            name: f"{(off[bands] <= ONE_DECIBEL).sum()} and {(off[bands] <= THREE_DECIBELS).sum()} of {bands.sum()}"
+            for name, bands in levels.ranges.items()
+        }
+        rows.append({"model": model, **near})
+    return table_of("one-third octaves within 1 and within 3 dB of boundary elements", rows)
