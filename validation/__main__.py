@@ -30,8 +30,8 @@ from validation.selection.hierarchy import ContactModel
 from validation.selection.summary import format_seconds, summary
 
 CLOCKED = {
-    "precision": "error against cost of every method, a scene at a time; full takes two and a half minutes",
-    "race": "our solver beside the peers that are installed; full takes half an hour",
+    "precision": "error against cost of every method, on six scenes; full takes two and a half minutes",
+    "race": "our solver and the other packages that are installed; the full size takes half an hour",
 }
 
 
@@ -174,18 +174,23 @@ class _Parser(argparse.ArgumentParser):
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="mdr-validation",
-        description="Reduced contact models beside three-dimensional boundary elements.",
+        description="Compare reduced contact models with three-dimensional boundary elements.",
         epilog="Exit status: 0 all criteria met; 1 a criterion failed, or could not be decided; 2 bad usage or input; "
-        "3 something did not converge, has no steady answer, or a tolerance was not reached; 4 could not be finished: "
+        "3 something did not converge, has no steady state, or a tolerance was not reached; 4 could not be finished: "
         "a worker was killed, the disk or the memory is full, the scheduler is lost (finished solves are kept, the "
         "same command goes on from there); 70 a fault of the program; 130 interrupted; 143 terminated.",
     )
     parser.add_argument("--version", action="version", version=importlib.metadata.version("mdr-validation"))
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    making = commands.add_parser("report", help="run cases and write a report folder")
+    making = commands.add_parser("report", help="run the cases and write a report folder")
     making.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
     making.add_argument(
-        "--only", nargs="+", action="extend", choices=list(CASES), metavar="CASE", help="these cases alone; see `cases`"
+        "--only",
+        nargs="+",
+        action="extend",
+        choices=list(CASES),
+        metavar="CASE",
+        help="run only these cases; `cases` lists them",
     )
     making.add_argument(
         "--out",
@@ -194,25 +199,25 @@ def _parser() -> argparse.ArgumentParser:
         help="folder of the report (default: reports/PROFILE, with the names of the cases if --only)",
     )
     making.add_argument("--workers", type=_at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
-    making.add_argument("--seed", type=_at_least(0), metavar="S", help="for every case that draws at random")
+    making.add_argument("--seed", type=_at_least(0), metavar="S", help="of the random numbers of every case")
     making.add_argument(
         "--executor",
         default=LOCAL,
         metavar="WHERE",
-        help='"local", or dask://HOST:PORT, a scheduler whose workers compute in place of those here (default: local)',
+        help='"local", or dask://HOST:PORT, the scheduler whose workers replace local processes (default: local)',
     )
     making.add_argument(
         "--scene",
         metavar="FILE",
-        help="a scene of your own for the cases of the dynamic wheel, TOML as validation/scenes/table_14_1.toml, or "
-        f"the name of a shipped one ({', '.join(bundled_wheels())}); alone, it means --only wheel",
+        help="a dynamic wheel of your own, a TOML file like validation/scenes/table_14_1.toml, or the name of an "
+        f"example scene ({', '.join(bundled_wheels())}); alone, it means --only wheel",
     )
     making.set_defaults(command=report)
-    comparing = commands.add_parser("compare", help="one scene: the cheapest model that meets a tolerance, and why")
+    comparing = commands.add_parser("compare", help="select the cheapest model of a scene that meets a tolerance")
     comparing.add_argument(
         "scene",
         metavar="SCENE",
-        help=f"a TOML file, or the name of a shipped scene ({', '.join(bundled_for_compare())})",
+        help=f"a TOML file, or the name of an example scene ({', '.join(bundled_for_compare())})",
     )
     comparing.add_argument(
         "--tolerance", type=_tolerance, default=0.1, metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
@@ -236,7 +241,7 @@ def _parser() -> argparse.ArgumentParser:
         )
         timing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
         timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None)
-    listing = commands.add_parser("cases", help="what there is, and which figure or claim each one answers")
+    listing = commands.add_parser("cases", help="list the cases, and the figure or question of each")
     listing.set_defaults(command=cases)
     return parser
 
