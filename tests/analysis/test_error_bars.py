@@ -43,7 +43,7 @@ from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling.force_spectrum_levels import SPRINGS, LevelsAtHeight
 from validation.cases.rolling.input_spectrum_numbers import punch_number
 from validation.cases.rolling.linear_levels import level_3d
-from validation.cases.selection import model_selection as ladder
+from validation.cases.selection.model_selection_evidence import clopper_pearson
 from validation.cases.stability import long_runs
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_levels, distance_numbers, spectrum_numbers
@@ -725,7 +725,7 @@ def test_the_interval_of_a_share_is_that_of_clopper_and_pearson(share, size):
     """Summed over all counts: it holds the truth in 95 of 100 at least, and misses it by no more than 2.5 a side."""
     counts = np.arange(size + 1)
     chance = stats.binom.pmf(counts, size, share)
-    low, high = np.array([ladder._interval(int(n), size) for n in counts]).T
+    low, high = np.array([clopper_pearson(np.arange(size) < n) for n in counts]).T
     below, above = chance[share > high].sum(), chance[share < low].sum()
     assert below <= 0.025 and above <= 0.025
     assert below + above >= 0.005

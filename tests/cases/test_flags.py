@@ -307,8 +307,8 @@ def test_a_solve_that_is_lost_in_a_sweep_is_a_line_of_the_result():
     assert lost == (f"{grid.scene}, {grid.cells}² cells, solve_polonsky_keer to {grid.tolerances[-1]:g}",)
 
 
-def test_a_referee_that_is_lost_is_a_line_of_the_result():
-    case = ladder.Ladder(punches=2, spheres=1, rolling=0, wheels=0)
+def test_a_reference_that_fails_is_a_line_of_the_result():
+    case = ladder.CalibrationTest(punches=2, spheres=1, rolling=0, wheels=0)
     gone = case.trials[1]
     assert ladder.run(case, Given(pressed, lambda p: p == gone)).unconverged == (f"{gone.kind} {gone.number}",)
     with pytest.raises(NotConvergedError):
@@ -511,8 +511,8 @@ def test_what_becomes_of_rungs(claims, errors, fates):
 # --- whose surfaces are whose ---
 
 
-def test_the_referee_of_the_ladder_has_surfaces_of_its_own():
-    """Everybody who is held to account draws with the seed of the trial, the referee with none of theirs."""
+def test_the_reference_of_the_calibration_test_has_surfaces_of_its_own():
+    """The tested models draw with the seed of the trial, the reference with another."""
     seeds = []
     models_of = ladder.models_of
 
@@ -520,12 +520,12 @@ def test_the_referee_of_the_ladder_has_surfaces_of_its_own():
         seeds.append(seed)
         return models_of(scene, want, tolerance, seed)
 
-    trial = ladder.Ladder(punches=1, spheres=0, rolling=0, wheels=0, tolerances=(0.3,)).trials[0]
+    trial = ladder.CalibrationTest(punches=1, spheres=0, rolling=0, wheels=0, tolerances=(0.3,)).trials[0]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(ladder, "models_of", seen)
-        ladder.hold_to_account(trial)
-    referee, *tested = seeds
-    assert set(tested) == {trial.seed} and referee != trial.seed
+        ladder.calibrate(trial)
+    reference, *tested = seeds
+    assert set(tested) == {trial.seed} and reference != trial.seed
 
 
 def drawn_by(monkeypatch, module):

@@ -16,7 +16,7 @@ from validation.analysis.evidence import Verdict
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import ensembles, fractal_punch_decades
-from validation.cases.selection import model_selection as ladder_on_trial
+from validation.cases.selection import model_selection as calibration
 from validation.engine import engine as ensemble
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import free_vibration, integrators, rough_punch
@@ -178,8 +178,8 @@ FAULTS = {
         (ensembles, "describe_failures", lambda *_: ()),
         functools.partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
     ),
-    "the referee's surfaces those of who is tested": (
-        (ladder_on_trial, "OTHER_SEED", 0),
-        test_flags.test_the_referee_of_the_ladder_has_surfaces_of_its_own,
+    "the reference on the surfaces of the tested models": (
+        (calibration, "OTHER_SEED", 0),
+        test_flags.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
     ),
 }

@@ -102,7 +102,7 @@ SMALL = {
     "wheel_stability": wheel_stability.WheelStability(
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
-    "ladder": ladder.Ladder(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
+    "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
     "limits": limits.Limits(
         cells=16, surfaces=2, profiles=10, resolved=1, length=8.0, strip_cells=6, track=32.0, grids=(32, 64), judged=32
     ),

@@ -9,7 +9,7 @@ from scipy import stats
 
 import bem3d
 from validation.cases.selection import model_selection as ladder
-from validation.cases.selection.random_scenes import KINDS, WANTED, random_scene
+from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
@@ -297,9 +297,9 @@ def test_what_does_not_fit_into_memory_is_said_before_it_is_begun():
 def test_every_model_has_its_claims_tested(kind):
     for number in range(12):
         scene = random_scene(kind, number, 0)
-        for quantity in WANTED[kind]:
+        for quantity in QUANTITIES_BY_KIND[kind]:
             models = models_of(scene, quantity, 0.1, 0)
-            assert {ladder._rung_of(model, models) for model in models} <= set(ladder.RUNGS)
+            assert {ladder.name_in_models(model, models) for model in models} <= set(ladder.MODELS)
 
 
 def test_a_model_that_the_case_does_not_know_is_an_error():
@@ -310,14 +310,14 @@ def test_a_model_that_the_case_does_not_know_is_an_error():
     with pytest.raises(
         ValueError, match=r"^the kind of a model must be one of closed form, .*, got a new closed form$"
     ):
-        ladder._asked(models, "closed form", np.array([1.0]))
+        ladder._solved(models, "closed form", np.array([1.0]))
 
 
 def test_a_model_out_of_range_is_not_counted_as_covered():
     scene = punch(load=1e-4)
     models = models_of(scene, "stiffness", 0.1, 0)
-    assert np.isnan(ladder._asked(models, "springs", np.array([1.0]))).all()
-    assert np.isnan(ladder._asked(models, ladder.COARSE, np.array([1.0]))).all()
+    assert np.isnan(ladder._solved(models, "springs", np.array([1.0]))).all()
+    assert ladder.COARSE not in ladder.CHEAP
 
 
 def test_what_has_failed_leaves_everything_open():

@@ -14,7 +14,8 @@ from scipy import integrate, stats
 import bem3d
 import mdr
 from validation.cases.selection import model_selection as ladder
-from validation.cases.selection.random_scenes import KINDS, WANTED, random_scene
+from validation.cases.selection import model_selection_evidence as calibration
+from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
@@ -331,7 +332,7 @@ def test_force_of_low_roughness_needs_a_filter_and_of_high_boundary_elements():
 @given(kind=st.sampled_from(KINDS), number=st.integers(0, 10**6), tolerance=st.floats(0.01, 1.0))
 def test_rungs_are_asked_in_the_order_of_their_cost(kind, number, tolerance):
     scene = random_scene(kind, number, 0)
-    for quantity in WANTED[kind]:
+    for quantity in QUANTITIES_BY_KIND[kind]:
         costs = [model.cost().seconds for model in models_of(scene, quantity, tolerance, 0)]
         solved = costs[-3 if kind in ("punch", "sphere") else -2 :]
         assert solved == sorted(solved)
@@ -395,25 +396,25 @@ def test_what_is_out_of_reach_is_told():
 
 @pytest.fixture(scope="module")
 def account():
-    return ladder.run(ladder.Ladder(punches=3, spheres=1, rolling=1, tolerances=(0.1, 0.3)))
+    return ladder.run(ladder.CalibrationTest(punches=3, spheres=1, rolling=1, tolerances=(0.1, 0.3)))
 
 
-def test_the_ladder_is_held_to_account_by_surfaces_it_has_not_seen(account):
-    found = ladder.evidence(account)
+def test_estimated_errors_hold_on_surfaces_that_no_model_has_seen(account):
+    found = calibration.evidence(account)
     scenes, claims = found.table("scenes"), found.table("claims")
     assert len(scenes["kind"]) == 2 * 5
     met = scenes["met"] == 1
     assert met.any()
-    assert (scenes["claimed error"][met] <= scenes["tolerance"][met]).all()
-    assert (scenes["true error"][met] <= scenes["claimed error"][met] + scenes["error of the referee"][met]).all()
+    assert (scenes["estimated error"][met] <= scenes["tolerance"][met]).all()
+    assert (scenes["true error"][met] <= scenes["estimated error"][met] + scenes["error of the reference"][met]).all()
     assert (scenes["true error"][met] > 0).all()
-    assert {"closed form", "springs"} <= set(claims["rung"])
+    assert {"closed form", "springs"} <= set(claims["model"])
     assert len(found.numbers) == 2 * 2
 
 
-def test_a_claim_that_is_too_bold_is_found_out(account):
-    outcomes = [{**outcome, "settled": np.ones(2), "claimed": outcome["true"] / 2} for outcome in account.outcomes]
-    found = ladder.evidence(ladder.LadderResult(account.case, outcomes, ()))
+def test_an_estimate_that_is_too_small_is_found_out(account):
+    outcomes = [{**outcome, "met": np.ones(2), "estimated": outcome["true"] / 2} for outcome in account.outcomes]
+    found = calibration.evidence(ladder.CalibrationResult(account.case, outcomes, ()))
     assert found.numbers[0].verdict == "differ"
     assert "in 0.0% of 5 scenes" in found.conclusions[0]
 
@@ -587,7 +588,7 @@ def test_a_measured_track_is_rolled_itself():
 class Finding(Fake):
     """A model of a model, whose answer and its cost are told."""
 
-    model: str = "springs"
+    kind: str = "springs"
     value: tuple[float, ...] = (1.0,)
     parts: tuple[float, float, float] = (0.0, 0.0, 0.0)
     spent: float = 1.0
@@ -643,22 +644,22 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
         assert frequency == pytest.approx(400.0 * centre / (2 * math.pi), rel=1e-3)
 
 
-def outcome(claimed, true, spent, fine, *, met=1.0, every=()):
-    """Of a trial at one tolerance; every: claimed and true errors of springs."""
-    all_of_them = np.full((2, len(ladder.RUNGS)), np.nan)
+def outcome(estimated, true, spent, fine, *, met=1.0, every=()):
+    """Of a trial at one tolerance; every: estimated and true errors of springs."""
+    all_of_them = np.full((2, len(ladder.CHEAP)), np.nan)
     if every:
-        all_of_them[:, ladder.RUNGS.index("springs")] = every
-    one = {"rung": 0.0, "claimed": claimed, "true": true, "spent": spent, "fine": fine, "settled": met}
+        all_of_them[:, ladder.CHEAP.index("springs")] = every
+    one = {"model": 0.0, "estimated": estimated, "true": true, "spent": spent, "fine": fine, "met": met}
     return {
         **{name: np.array([value]) for name, value in one.items()},
-        **dict(zip(("every claimed", "every true"), all_of_them, strict=True)),
-        **{name: np.array(math.nan) for name in ("truth", "height", "load")},
+        **dict(zip(("every estimated", "every true"), all_of_them, strict=True)),
+        **{name: np.array(math.nan) for name in ("reference", "height", "load")},
         "failed": np.array(0.0),
     }
 
 
-def test_the_account_prints_the_numbers_it_is_given():
-    """Three of four claims hold; 2, 5, 5 and 40 times is saved; two are out of reach, one has no answer."""
+def test_the_calibration_test_prints_the_numbers_it_is_given():
+    """Three of four estimates hold; 2, 5, 5 and 40 times is saved; two are out of reach, one has no answer."""
     outcomes = [
         outcome(0.1, 0.05, 5.0, 10.0, every=(0.1, 0.2)),
         outcome(0.1, 0.09, 2.0, 10.0, every=(0.1, 0.3)),
@@ -666,36 +667,36 @@ def test_the_account_prints_the_numbers_it_is_given():
         outcome(0.3, 0.20, 0.25, 10.0, met=0.0),
         outcome(math.nan, math.nan, 1.0, 10.0, met=0.0),
     ]
-    case = ladder.Ladder(punches=5, spheres=0, rolling=0, wheels=0, tolerances=(0.1,))
-    found = ladder.evidence(ladder.LadderResult(case, outcomes, ()))
+    case = ladder.CalibrationTest(punches=5, spheres=0, rolling=0, wheels=0, tolerances=(0.1,))
+    found = calibration.evidence(ladder.CalibrationResult(case, outcomes, ()))
     covered, saved = found.numbers
     assert covered.value == pytest.approx(0.95 - 0.75)
     # Clopper and Pearson, three of four
     assert covered.sample == pytest.approx(0.75 - stats.beta.ppf(0.025, 3, 2))
     assert saved.value == pytest.approx(1.0)
     (sentence,) = found.conclusions
-    assert "within the claimed one in 75.0% of 4 scenes (95 % interval 19% to 99%)" in sentence
+    assert "within the estimated one in 75.0% of 4 scenes (95 % interval 19% to 99%)" in sentence
     assert "within the tolerance in 50.0%" in sentence
-    assert "a factor 5 is saved in the median, 4.79 in all scenes together" in sentence
-    assert "Scenes that were said to be out of reach: 2; " in sentence
-    assert "without them 5. Scenes without any answer: 1." in sentence
+    assert "saves a factor 5 in the median" in sentence
+    assert "and 4.79 in all scenes together" in sentence
+    assert "no model meets: 2; without them the median is 5. Scenes without any answer: 1." in sentence
     row = {name: values[0] for name, values in found.page_tables[1].columns.items()}
-    assert row["true error within the claim"].startswith("33% (")
-    assert row["claim over true error, median"] == "0.5"
-    assert row["at most exceeded by"] == "3 times"
+    assert row["true error within the estimate"].startswith("33% (")
+    assert row["estimated over true error, median"] == "0.5"
+    assert row["exceeded at most by"] == "3 times"
 
 
-def test_what_is_saved_is_beside_what_the_referee_did(monkeypatch):
-    """It was expected to take 10 s and took 25: so would fine boundary elements at the tolerance of the climb."""
-    fine = Finding(model="boundary elements", claimed=9.0, seconds=10.0, spent=25.0)
+def test_savings_are_beside_the_measured_time_of_the_reference(monkeypatch):
+    """It was expected to take 10 s and took 25: so would fine boundary elements at the tolerance of the selection."""
+    fine = Finding(kind="boundary elements", claimed=9.0, seconds=10.0, spent=25.0)
     monkeypatch.setattr(ladder, "models_of", lambda *_: [Finding(parts=(0.1, 0, 0), value=(1.2,), spent=0.5), fine])
-    trial = ladder.Ladder(punches=1, tolerances=(0.2,)).trials[-1]
-    found = ladder.hold_to_account(trial)
-    assert {name: found[name].tolist() for name in ("fine", "spent", "claimed", "settled")} == {
+    trial = ladder.CalibrationTest(punches=1, tolerances=(0.2,)).trials[-1]
+    found = ladder.calibrate(trial)
+    assert {name: found[name].tolist() for name in ("fine", "spent", "estimated", "met")} == {
         "fine": [25.0],
         "spent": [0.5],
-        "claimed": [0.1],
-        "settled": [1.0],
+        "estimated": [0.1],
+        "met": [1.0],
     }
     assert found["true"] == pytest.approx(math.log(1.2))
-    assert ladder.RUNGS[int(found["rung"][0])] == "springs"
+    assert ladder.MODELS[int(found["model"][0])] == "springs"

@@ -1,4 +1,4 @@
-"""Scenes drawn at random over wide ranges, to hold the ladder to account."""
+"""Scenes drawn at random over wide ranges, for the calibration test of model selection."""
 
 import math
 
@@ -12,13 +12,13 @@ from validation.scenes.roughness import Roughness
 from validation.theory.closed_forms import hertz_force
 
 KINDS = ("punch", "sphere", "rolling", "wheel")
-WANTED = {
+QUANTITIES_BY_KIND = {
     "punch": ("stiffness",),
     "sphere": ("stiffness",),
     "rolling": ("force-rms", "force-spectrum"),
     "wheel": ("acceleration", "acceleration-rms"),
 }
-"""What each kind is asked for, in turns."""
+"""Of each kind, one scene after the other."""
 RANGES = (
     "Hurst exponent 0.3 to 1, h/d from 0.003 to 1, F / (E* h L) from 0.003 to 30, q a of the longest wave from 0.5 to "
     "2, the shortest three to ten times shorter, of punches up to three of the longest waves on a side"

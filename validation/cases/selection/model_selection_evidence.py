@@ -1,0 +1,229 @@
+"""What the calibration test shows: how often the true error is within the estimated one, and what selection saves."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from scipy import stats
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
+from validation.cases.selection.model_selection import (
+    CHEAP,
+    MODELS,
+    CalibrationResult,
+    CalibrationTest,
+    run,
+)
+from validation.cases.selection.random_scenes import KINDS, RANGES
+from validation.engine.engine import Outcome
+
+COVERAGE, SAVING = "share of scenes missing to 95 % coverage", "decades missing to a median saving of a factor 50"
+COVERED, SAVED = 0.95, 50.0
+NONE = "none"
+Row = dict[str, object]
+
+
+def evidence(result: CalibrationResult) -> Evidence:
+    """Coverage of the estimated errors, savings, and the estimates of each model by itself."""
+    case, scenes, claims = result.case, _scenes(result), _claims(result)
+    known = [(tolerance, _known(scenes.where(tolerance=tolerance))) for tolerance in case.tolerances]
+    known = [(tolerance, table) for tolerance, table in known if table["kind"].size]
+    return Evidence(
+        title="No more model than a scene needs: calibration test of model selection",
+        method=(
+            f"{len(result.outcomes)} scenes drawn at random ({case.punches} rough punches, {case.spheres} rough "
+            f"spheres, {case.rolling} rolling and {case.wheels} dynamic wheels): {RANGES}. For each scene the cheapest "
+            "model is selected whose error is within the tolerance. The reference is boundary elements on the finest "
+            "grid with surfaces of its own; its error is not subtracted. The test is blind to what both share: the "
+            "finest grid, its shortest wave, the quadratures of linear theory. Costs are counts of operations times "
+            "the time of one, so that they are the same on every machine; all models that were solved count."
+        ),
+        numbers=tuple(number for tolerance, table in known for number in _numbers(tolerance, table)),
+        tables=(scenes, claims),
+        conclusions=tuple(_conclusion(tolerance, scenes, table) for tolerance, table in known),
+        captions={
+            "ladder": (
+                "(a) True error, beside fine boundary elements, against the error that the selected model estimates; "
+                "below the line the estimate holds. (b) Cost of fine boundary elements over that of the selection. (c) "
+                "Estimates of every model below boundary elements on every scene, needed or not. Filled: the first "
+                "tolerance; open: others."
+            )
+        },
+        unconverged=result.unconverged,
+        page_tables=(_by_kind(case, scenes), _by_model(claims)),
+    )
+
+
+def _known(table: Table) -> Table:
+    """Rows with an answer and a reference."""
+    return Table(table.name, {name: table[name][np.isfinite(table["true error"])].tolist() for name in table.columns})
+
+
+def _covered(table: Table) -> np.ndarray:
+    return np.asarray(table["true error"] <= table["estimated error"])
+
+
+def clopper_pearson(inside: np.ndarray) -> tuple[float, float]:
+    """95 % interval of a share."""
+    found = stats.binomtest(int(np.count_nonzero(inside)), inside.size).proportion_ci()
+    return float(found.low), float(found.high)
+
+
+def _numbers(tolerance: float, table: Table) -> list[Number]:
+    inside = _covered(table)
+    missing, least = max(COVERED - float(np.mean(inside)), 0.0), clopper_pearson(inside)[0]
+    return [
+        Number(
+            quantity=COVERAGE,
+            where={"tolerance": tolerance},
+            value=missing,
+            reference=0.0,
+            source="the meaning of a 95 % interval",
+            tolerance=0.02,
+            reason="two scenes in a hundred",
+            sample=max(COVERED - least, 0.0) - missing,
+            role=Role.FINDING,
+        ),
+        Number(
+            quantity=SAVING,
+            where={"tolerance": tolerance},
+            value=max(math.log10(SAVED / float(np.median(table["saved"]))), 0.0),
+            reference=0.0,
+            source=f"a saving of a factor {SAVED:g}",
+            tolerance=0.05,
+            reason="a tenth of a factor",
+            role=Role.FINDING,
+        ),
+    ]
+
+
+def _conclusion(tolerance: float, scenes: Table, known: Table) -> str:
+    """scenes: all of them, of which those with an answer and a reference are known."""
+    inside, true, met = _covered(known), known["true error"], known["met"] == 1
+    mine = scenes.where(tolerance=tolerance)
+    least, most = clopper_pearson(inside)
+    together = known["fine [s]"].sum() / known["selection [s]"].sum()
+    without = f"; without them the median is {np.median(known['saved'][met]):.3g}" if met.any() else ""
+    return (
+        f"At {tolerance:.0%}: the true error is within the estimated one in {inside.mean():.1%} of {true.size} scenes "
+        f"(95 % interval {least:.0%} to {most:.0%}), and within the tolerance in {np.mean(true <= tolerance):.1%}. "
+        f"Beside fine boundary elements on every scene, selection saves a factor {np.median(known['saved']):.3g} in "
+        f"the median, which depends on the ranges that were drawn, and {together:.3g} in all scenes together, where "
+        "those that need fine boundary elements count most. Scenes whose tolerance no model meets: "
+        f"{np.count_nonzero(mine['met'] == 0)}{without}. Scenes without any answer: "
+        f"{len(mine['kind']) - true.size}. Selected models: {_selected(mine)}."
+    )
+
+
+def _selected(table: Table) -> str:
+    """How often each model was selected."""
+    counts = {name: int(np.count_nonzero(table["model"] == name)) for name in (*MODELS, NONE)}
+    return ", ".join(f"{name} ({count})" for name, count in counts.items() if count)
+
+
+def _trials(result: CalibrationResult) -> Iterator[tuple[Outcome, Row]]:
+    """Outcome of each trial, and the columns that both tables begin with."""
+    for trial, outcome in zip(result.case.trials, result.outcomes, strict=True):
+        yield outcome, {"kind": trial.kind, "number": trial.number, "quantity": trial.quantity}
+
+
+def _scene(outcome: Outcome) -> Row:
+    return {"h/d": float(outcome["height"]), "F / (E* h L)": float(outcome["load"])}
+
+
+def _scenes(result: CalibrationResult) -> Table:
+    """A row a scene and tolerance."""
+    rows: list[Row] = []
+    for outcome, named in _trials(result):
+        for i, tolerance in enumerate(result.case.tolerances):
+            index, spent, fine = (float(outcome[name][i]) for name in ("model", "spent", "fine"))
+            rows.append(
+                {
+                    **named,
+                    "tolerance": tolerance,
+                    **_scene(outcome),
+                    "model": MODELS[int(index)] if index >= 0 else NONE,
+                    "met": int(outcome["met"][i]),
+                    "estimated error": float(outcome["estimated"][i]),
+                    "true error": float(outcome["true"][i]),
+                    "error of the reference": float(outcome["reference"]),
+                    "selection [s]": spent,
+                    "fine [s]": fine,
+                    "saved": fine / spent if spent > 0 else math.nan,
+                }
+            )
+    return table_of("scenes", rows)
+
+
+def _claims(result: CalibrationResult) -> Table:
+    """A row a scene and model below boundary elements."""
+    rows: list[Row] = [
+        {
+            **named,
+            **_scene(outcome),
+            "model": name,
+            "estimated error": float(estimated),
+            "true error": float(true),
+        }
+        for outcome, named in _trials(result)
+        for name, estimated, true in zip(CHEAP, outcome["every estimated"], outcome["every true"], strict=True)
+        if np.isfinite(true)
+    ]
+    return table_of("claims", rows)
+
+
+def _by_kind(case: CalibrationTest, scenes: Table) -> Table:
+    rows: list[Row] = []
+    for kind in KINDS:
+        for tolerance in case.tolerances:
+            mine = scenes.where(kind=kind, tolerance=tolerance)
+            known = _known(mine)
+            if known["kind"].size:
+                rows.append(
+                    {
+                        "scene": kind,
+                        "tolerance": f"{tolerance:.0%}",
+                        "scenes": len(mine["kind"]),
+                        "tolerance met": int(mine["met"].sum()),
+                        "true error within the estimate": f"{_covered(known).mean():.0%}",
+                        "median saving": f"{np.median(known['saved']):.3g}",
+                        "selected models": _selected(mine),
+                    }
+                )
+    return table_of("Estimated errors, and what selection saves", rows)
+
+
+def _by_model(claims: Table) -> Table:
+    """Of every model below boundary elements on all scenes: a wide estimate of one must not hide a narrow one."""
+    rows: list[Row] = []
+    for name in CHEAP:
+        mine = claims.where(model=name)
+        inside, ratio = _covered(mine), mine["true error"] / mine["estimated error"]
+        if not inside.size:
+            continue
+        least, most = clopper_pearson(inside)
+        rows.append(
+            {
+                "model": name,
+                "scenes": int(inside.size),
+                "true error within the estimate": f"{inside.mean():.0%} ({least:.0%} to {most:.0%})",
+                "estimated over true error, median": f"{np.median(mine['estimated error'] / mine['true error']):.2g}",
+                "exceeded at most by": "never" if inside.all() else f"{ratio[~inside].max():.2g} times",
+            }
+        )
+    return table_of("Estimated error of each model, needed or not", rows)
+
+
+CASE = Case(
+    name="ladder",
+    chapter=Chapter.SELECTION,
+    place=1,
+    claim="The cheapest model that a scene needs can be chosen beforehand, with an honest error.",
+    answers="Calibration test of model selection on random scenes: estimated beside true error, and what was saved",
+    quick=CalibrationTest(),
+    full=CalibrationTest(punches=110, spheres=24, rolling=8, wheels=4, tolerances=(0.1, 0.3)),
+    run=run,
+    evidence=evidence,
+    needs="chosen scene by scene",
+)
