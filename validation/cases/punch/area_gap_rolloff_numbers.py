@@ -16,19 +16,16 @@ from validation.analysis.statistics import (
     Sample,
     Statistic,
     at_level,
-    decade_slope,
     decade_weights,
     difference_of_halves,
     extrapolated,
-    local_slope,
-    log_deviation_over,
     log_mean,
     log_relative_deviation,
     paired_samples,
     sample,
-    weighted_mean,
 )
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
+from validation.cases.punch.decade_statistics import deviation_over, exponent_over, local_exponent, mean_over
 from validation.cases.punch.ensembles import Row, cells_in_contact, interval_columns
 from validation.cases.punch.rough_interface import Layer
 from validation.engine.engine import random_generator
@@ -102,13 +99,12 @@ def resampled(result: MdrLimitsResult, roll_off: int) -> RollOffSamples:
 
 def numbers_over(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer], first: float) -> list[Number]:
     """All of one roll-off over the decade of force from `first`."""
-    weights = decade_weights(case.forces, first)
     numbers = [
-        mine.over_bem(name, measured, weighted_mean(weights, log_mean), first)
+        mine.over_bem(name, measured, mean_over(case.forces, first), first)
         for measured, name in MEASURED.items()
-        if name != GAP or mine.open(weights)
+        if name != GAP or mine.open(decade_weights(case.forces, first))
     ]
-    numbers.append(mine.over_bem(DEVIATION, "stiffness", log_deviation_over(weights), first))
+    numbers.append(mine.over_bem(DEVIATION, "stiffness", deviation_over(case.forces, first), first))
     if mine.roll_off < MIN_ROLL_OFF:
         return numbers
     exponents = (_exponent(case, mine, layers[method], method, first) for method in METHODS)
@@ -117,7 +113,7 @@ def numbers_over(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Lay
 
 def _exponent(case: MdrLimits, mine: RollOffSamples, layer: Layer, method: str, first: float) -> Number | None:
     """d ln kappa / d ln F over a decade; None where the punch is as stiff as the flat one."""
-    slope = weighted_mean(decade_slope(case.forces, first), layer.statistic)
+    slope = exponent_over(case.forces, first, layer.statistic)
     found, grid = mine.by_method[method, "stiffness"].estimate(slope), 0.0
     if method == BEM:
         found, grid = mine.extrapolated("stiffness", slope)
@@ -154,7 +150,7 @@ def _row(result: MdrLimitsResult, mine: RollOffSamples, layers: Mapping[str, Lay
         deviation = stiffness.estimate(at_level(level, log_relative_deviation))
         row |= interval_columns(f"{method} {DEVIATION}", deviation, math.exp)
         row |= interval_columns(f"{method} interface", stiffness.estimate(at_level(level, interface)), math.exp)
-        slope = weighted_mean(local_slope(case.forces, level), interface)
+        slope = local_exponent(case.forces, level, interface)
         row[f"{method} exponent of the interface"] = stiffness.estimate(slope).value
     row["Persson contact fraction"] = persson(result, mine.roll_off, level)
     return row | cells_in_contact(row[f"{BEM} {AREA}"], case.cells)

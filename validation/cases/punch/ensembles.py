@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 from validation.analysis.statistics import Estimate
 from validation.engine.engine import Engine, Outcome
@@ -54,22 +54,9 @@ class PunchEnsembles:
         """The first Fbar of each decade."""
         return tuple(10.0**power for power in range(*self.decades))
 
-    def band(
-        self,
-        hurst: float,
-        first: int = 1,
-        amplitudes: Literal["fixed", "gaussian"] = "fixed",
-        normalised: Literal["each", "ensemble"] = "each",
-    ) -> PunchRoughness:
+    def band(self, hurst: float, first: int = 1) -> PunchRoughness:
         """Self-affine from `first` waves on a side to four cells a wave, the same on every grid and by both methods."""
-        return PunchRoughness(
-            hurst=hurst,
-            waves=(first, self.cells // 4),
-            height=self.height,
-            amplitudes=amplitudes,
-            normalised=normalised,
-            seed=self.seed,
-        )
+        return PunchRoughness(hurst=hurst, waves=(first, self.cells // 4), height=self.height, seed=self.seed)
 
     def surface_of(self, roughness: PunchRoughness, realisation: int, cells: int, forces: tuple[float, ...]) -> Surface:
         """One surface, to be pressed by boundary elements."""

@@ -5,7 +5,8 @@ import math
 import numpy as np
 
 from validation.analysis.evidence import Table
-from validation.analysis.statistics import at_level, local_slope, log_mean, log_relative_deviation, weighted_mean
+from validation.analysis.statistics import at_level, log_mean, log_relative_deviation
+from validation.cases.punch.decade_statistics import local_exponent
 from validation.cases.punch.ensembles import Row, cells_in_contact, interval_columns
 from validation.cases.punch.fractal_punch import Ensemble, FractalPunch
 from validation.cases.punch.fractal_punch_decades import QUANTITIES, EnsembleSamples
@@ -21,7 +22,7 @@ def curve(case: FractalPunch, ensemble: Ensemble, samples: EnsembleSamples) -> l
 def _row(case: FractalPunch, ensemble: Ensemble, samples: EnsembleSamples, level: int) -> Row:
     row = {"H": ensemble.hurst, "Fbar": case.forces[level]}
     mean, deviation = at_level(level, log_mean), at_level(level, log_relative_deviation)
-    slope = weighted_mean(local_slope(case.forces, level), log_mean)
+    slope = local_exponent(case.forces, level)
     for method, mine in samples.methods.items():
         row |= interval_columns(f"{method} mean stiffness", mine.estimate(mean), math.exp)
         row |= interval_columns(f"{method} relative deviation", mine.estimate(deviation), math.exp)

@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -15,21 +16,15 @@ from validation.analysis.statistics import (
     Estimate,
     Sample,
     Statistic,
-    decade_slope,
-    decade_weights,
     difference_of_halves,
-    log_deviation_over,
-    log_mean,
     mean_of,
     paired_samples,
     sample,
-    weighted_mean,
 )
+from validation.cases.punch.decade_statistics import deviation_over, exponent_over, mean_over
 from validation.cases.punch.fractal_punch import LONG, Ensemble, FractalPunch
 from validation.engine.engine import random_generator
 from validation.simulation.rough_punch import BEM, BOOTSTRAP, MDR
-
-Forces = tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -40,7 +35,7 @@ class DecadeQuantity:
     """
 
     method: str
-    over: Callable[[Forces, float], Statistic]
+    over: Callable[[Sequence[float], float], Statistic]
     tolerance: float
     unit: str
     reason: str
@@ -51,28 +46,15 @@ class DecadeQuantity:
         return DECIBEL if self.unit == "dB" else 1.0
 
 
-def _mean(forces: Forces, first: float) -> Statistic:
-    return weighted_mean(decade_weights(forces, first), log_mean)
-
-
-def _deviation(forces: Forces, first: float) -> Statistic:
-    return log_deviation_over(decade_weights(forces, first))
-
-
-def _exponent(forces: Forces, first: float) -> Statistic:
-    """d ln k / d ln F of the mean stiffness over the decade."""
-    return weighted_mean(decade_slope(forces, first), log_mean)
-
-
 FIGURE = "3 %: the standard error of a deviation from the 500 profiles of the book, whose figure cannot show less"
 LEVEL = "5 %: 0.4 dB, less than a third-octave level resolves"
 DIGITS = "the published exponents have two digits"
 QUANTITIES = {
-    "relative deviation": DecadeQuantity(MDR, _deviation, THREE_PER_CENT, "dB", FIGURE),
-    "relative deviation, L_1D = 1.1523 L": DecadeQuantity(LONG, _deviation, THREE_PER_CENT, "dB", FIGURE),
-    "mean stiffness": DecadeQuantity(MDR, _mean, FIVE_PER_CENT, "dB", LEVEL),
-    "mean stiffness, L_1D = 1.1523 L": DecadeQuantity(LONG, _mean, FIVE_PER_CENT, "dB", LEVEL),
-    "exponent": DecadeQuantity(MDR, _exponent, 0.02, "-", DIGITS),
+    "relative deviation": DecadeQuantity(MDR, deviation_over, THREE_PER_CENT, "dB", FIGURE),
+    "relative deviation, L_1D = 1.1523 L": DecadeQuantity(LONG, deviation_over, THREE_PER_CENT, "dB", FIGURE),
+    "mean stiffness": DecadeQuantity(MDR, mean_over, FIVE_PER_CENT, "dB", LEVEL),
+    "mean stiffness, L_1D = 1.1523 L": DecadeQuantity(LONG, mean_over, FIVE_PER_CENT, "dB", LEVEL),
+    "exponent": DecadeQuantity(MDR, exponent_over, 0.02, "-", DIGITS),
 }
 
 
@@ -188,16 +170,9 @@ def compare(case: FractalPunch, hurst: float, samples: EnsembleSamples, name: st
 
 def mean_over_hursts(comparisons: Sequence[DecadeComparison]) -> DecadeComparison:
     """Of one quantity in one decade; the samples are independent of each other."""
-    return DecadeComparison(
-        comparisons[0].name,
-        None,
-        comparisons[0].first,
-        springs=mean_of([c.springs for c in comparisons]),
-        bem=mean_of([c.bem for c in comparisons]),
-        coarser=mean_of([c.coarser for c in comparisons]),
-        finer=mean_of([c.finer for c in comparisons]),
-        refined_springs=mean_of([c.refined_springs for c in comparisons]),
-    )
+    estimates = ("springs", "bem", "coarser", "finer", "refined_springs")
+    means: dict[str, Any] = {name: mean_of([getattr(c, name) for c in comparisons]) for name in estimates}
+    return replace(comparisons[0], hurst=None, **means)
 
 
 def comparisons_of(case: FractalPunch, samples: Sequence[EnsembleSamples]) -> list[DecadeComparison]:

@@ -1,6 +1,6 @@
 """Fixed or Gaussian amplitudes, the rms height of each draw or of the ensemble: three ways to draw rough punches."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -32,7 +32,7 @@ class Normalisation(PunchEnsembles):
     def roughness(self, hurst: float, variant: str) -> PunchRoughness:
         """Of one way to draw."""
         amplitudes, normalised = VARIANTS[variant]
-        return self.band(hurst, amplitudes=amplitudes, normalised=normalised)
+        return replace(self.band(hurst), amplitudes=amplitudes, normalised=normalised)
 
 
 @dataclass(frozen=True)

@@ -13,15 +13,13 @@ from validation.analysis.statistics import (
     THREE_PER_CENT,
     Estimate,
     Sample,
-    Statistic,
     at_level,
-    decade_weights,
     difference_of_halves,
-    log_deviation_over,
     log_relative_deviation,
     mean_of,
     sample,
 )
+from validation.cases.punch.decade_statistics import deviation_over
 from validation.cases.punch.normalisation import (
     EACH,
     ENSEMBLE,
@@ -47,18 +45,9 @@ class Fluctuations:
     result: NormalisationResult
     samples: dict[tuple[float, str, str], Sample]
 
-    @property
-    def case(self) -> Normalisation:
-        """Its settings."""
-        return self.result.case
-
-    def over(self, first: float) -> Statistic:
-        """ln of the deviation over the decade of force from `first`."""
-        return log_deviation_over(decade_weights(self.case.forces, first))
-
     def of(self, hurst: float, variant: str, method: str, first: float) -> Estimate:
         """Over a decade, with the error of the sample."""
-        return self.samples[hurst, variant, method].estimate(self.over(first))
+        return self.samples[hurst, variant, method].estimate(deviation_over(self.result.case.forces, first))
 
     def gaussian_over_fixed(self, hurst: float, method: str, first: float) -> Estimate:
         """The change from fixed amplitudes to Gaussian ones with the rms of each draw; the samples are independent."""
@@ -69,9 +58,9 @@ class Fluctuations:
         pair = [self.result.outcomes[hurst, variant, method]["stiffness"] for variant in (EACH, ENSEMBLE)]
         both = np.concatenate(pair, axis=1)
         one_missing = np.isnan(both).any(axis=1, keepdims=True)
-        key = (self.case.hursts.index(hurst), METHODS.index(method))
-        drawn = sample(np.where(one_missing, np.nan, both), random_generator(self.case.seed, PAIRS, *key))
-        return drawn.estimate(difference_of_halves(self.over(first)))
+        key = (self.result.case.hursts.index(hurst), METHODS.index(method))
+        drawn = sample(np.where(one_missing, np.nan, both), random_generator(self.result.case.seed, PAIRS, *key))
+        return drawn.estimate(difference_of_halves(deviation_over(self.result.case.forces, first)))
 
     def mdr_over_bem(self, hurst: float, variant: str, first: float) -> Estimate:
         """The difference of the methods, of one way to draw."""
@@ -133,8 +122,8 @@ def _numbers(found: Fluctuations) -> list[Number]:
             reason="3 %, as in Fig. 14.1",
             scale=DECIBEL,
         )
-        for first in found.case.first_forces
-        for hurst in found.case.hursts
+        for first in found.result.case.first_forces
+        for hurst in found.result.case.hursts
         for method in METHODS
         for name, change in CHANGES.items()
     ]
@@ -143,7 +132,7 @@ def _numbers(found: Fluctuations) -> list[Number]:
 def _curves(found: Fluctuations) -> Table:
     rows = []
     for (hurst, variant, method), mine in found.samples.items():
-        for level, force in enumerate(found.case.forces):
+        for level, force in enumerate(found.result.case.forces):
             value, low, high = map(math.exp, mine.estimate(at_level(level, log_relative_deviation)).interval)
             key = {"H": hurst, "drawn with": variant, "method": method, "Fbar": force}
             rows.append(key | {"relative deviation": value, "low": low, "high": high})
@@ -177,15 +166,15 @@ def _methods(found: Fluctuations) -> Table:
 
     rows = [
         {"H": hurst, "Fbar": _decade(first), **{variant: cell(hurst, variant, first) for variant in VARIANTS}}
-        for hurst in found.case.hursts
-        for first in found.case.first_forces
+        for hurst in found.result.case.hursts
+        for first in found.result.case.first_forces
     ]
     return table_of("relative deviation of boundary elements and MDR, and their difference", rows)
 
 
 def _in_decade(found: Fluctuations, first: float) -> str:
     """Means over the Hurst exponents, whose samples are independent, with their intervals."""
-    hursts = found.case.hursts
+    hursts = found.result.case.hursts
 
     def changed(change: str) -> str:
         means = {m: mean_of([CHANGES[change](found, hurst, m, first) for hurst in hursts]) for m in METHODS}
