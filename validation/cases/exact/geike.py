@@ -43,13 +43,13 @@ class Geike:
 
     @property
     def spectrum(self) -> mdr.SelfAffine:
-        """Of the surface."""
+        """C_2D of the surfaces."""
         wave = 2 * np.pi / self.length
         return mdr.SelfAffine(hurst=self.hurst, q_min=self.longest * wave, q_max=self.cells // 4 * wave, rms=self.rms)
 
     @property
     def spacing(self) -> float:
-        """Of the cells [m]."""
+        """Side of a cell [m]."""
         return self.length / self.cells
 
 
@@ -71,7 +71,6 @@ class GeikeResult:
 
 
 def run(case: Geike, engine: Engine = SERIAL) -> GeikeResult:
-    """Draw and measure."""
     draws = [Draw(case=case, realisation=i) for i in range(case.surfaces)]
     return GeikeResult(case, engine.map(measure_profile, draws), engine.map(measure_surface, draws))
 

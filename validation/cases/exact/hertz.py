@@ -49,12 +49,12 @@ class Hertz:
 
     @property
     def contact_radius(self) -> float:
-        """Of Hertz [m]."""
+        """Contact radius of Hertz [m]."""
         return closed_forms.hertz_contact_radius(radius=self.radius, approach=self.approach)
 
     @property
     def force(self) -> float:
-        """Of Hertz [N]."""
+        """Force of Hertz [N]."""
         return closed_forms.hertz_force(radius=self.radius, modulus=self.modulus, approach=self.approach)
 
 
@@ -237,7 +237,6 @@ def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> tuple[Numbe
 
 
 def _data(result: HertzResult) -> dict[str, dict[str, ArrayLike]]:
-    """Columns of each table."""
     case, second = result.case, result.bem[1]
     scene = {"radius": case.radius, "modulus": case.modulus}
     x = np.linspace(0, 2 * case.contact_radius, 401)

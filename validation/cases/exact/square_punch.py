@@ -1,6 +1,7 @@
 """Flat punches: the stiffness of a square and of a circle, and what length the 1D model should have."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -12,10 +13,6 @@ from validation.cases.exact.refinement import first_order_limit
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
 from validation.theory import closed_forms
-
-CAPACITANCE = "capacitance of the square, numerical"
-DIGITS = 5e-4
-"""Five units of the last digit of 1.1523."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,7 +92,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
             f"A flat square of side L and a flat circle of diameter L, pressed by boundary elements on {n[0]}² to "
             f"{n[-1]}² cells that cover the square; a flat profile on springs, of length L and of 1.1523 L."
         ),
-        numbers=(*_of_bem(case, square, circle, exact), *_of_springs(short, long, exact), _often_quoted(limit)),
+        numbers=_numbers(case, square, circle, levels),
         tables=(
             Table(
                 "refinement",
@@ -132,17 +129,17 @@ def _over_cells(result: SquarePunchResult, name: str) -> np.ndarray:
     return np.array([float(o[name]) for o in result.punches])
 
 
-def _of_bem(case: SquarePunch, square: np.ndarray, circle: np.ndarray, exact: float) -> tuple[Number, ...]:
-    """Square and circle beside the closed forms, and the order in the cell size."""
-    limit, steps = first_order_limit(square), np.abs(np.diff(square))
+def _numbers(case: SquarePunch, square: np.ndarray, circle: np.ndarray, levels: dict[str, float]) -> tuple[Number, ...]:
+    """Square, circle and both 1D lengths beside the closed forms, and the order in the cell size."""
+    limit, steps = levels["extrapolated"], np.abs(np.diff(square))
+    beside_square = partial(
+        Number, reference=levels["capacitance"], source="capacitance of the square, numerical", tolerance=5e-4
+    )
     return (
-        Number(
+        beside_square(
             quantity="k / (E* L) of the square, extrapolated",
             model="bem3d",
             value=limit,
-            reference=exact,
-            source=CAPACITANCE,
-            tolerance=DIGITS,
             grid=abs(limit - first_order_limit(square[:-1])),
             reason="five units of the last digit of the reference, 1.1523",
         ),
@@ -164,36 +161,25 @@ def _of_bem(case: SquarePunch, square: np.ndarray, circle: np.ndarray, exact: fl
             tolerance=2 / case.cells[-1],
             reason="half a cell at the edge; a is the radius of a circle with the area of the cells; 2 dx / L",
         ),
-    )
-
-
-def _of_springs(short: float, long: float, exact: float) -> list[Number]:
-    """Springs in full contact, of both lengths, beside the square."""
-    return [
-        Number(
-            quantity="k / (E* L) in full contact",
-            model="mdr",
-            where={"length": f"L_1D = {length}"},
-            value=stiffness,
-            reference=exact,
-            source=CAPACITANCE,
-            tolerance=DIGITS,
-            reason="as for boundary elements",
+        *(
+            beside_square(
+                quantity="k / (E* L) in full contact",
+                model="mdr",
+                where={"length": f"L_1D = {length}"},
+                value=levels[f"mdr {length}"],
+                reason="as for boundary elements",
+                role=Role.FINDING,
+            )
+            for length in ("L", "1.1523 L")
+        ),
+        beside_square(
+            quantity="often quoted 1.012 * 2 / sqrt(pi), beside the extrapolated k / (E* L)",
+            value=1.012 * 2 / np.sqrt(np.pi),
+            reference=limit,
+            source="bem3d",
+            reason="as for the extrapolation itself",
             role=Role.FINDING,
-        )
-        for length, stiffness in (("L", short), ("1.1523 L", long))
-    ]
-
-
-def _often_quoted(limit: float) -> Number:
-    return Number(
-        quantity="often quoted 1.012 * 2 / sqrt(pi), beside the extrapolated k / (E* L)",
-        value=1.012 * 2 / np.sqrt(np.pi),
-        reference=limit,
-        source="bem3d",
-        tolerance=DIGITS,
-        reason="as for the extrapolation itself",
-        role=Role.FINDING,
+        ),
     )
 
 

@@ -60,7 +60,6 @@ class WestergaardResult:
 
     @property
     def finest(self) -> list[Outcome]:
-        """Of each load."""
         return [grids[-1] for grids in self.waves.values()]
 
     @property
@@ -197,7 +196,6 @@ def _at_half_load(case: Westergaard, errors: NDArray[np.float64]) -> tuple[Numbe
 
 
 def _data(result: WestergaardResult) -> dict[str, dict[str, ArrayLike]]:
-    """Columns of each table."""
     case, finest = result.case, result.finest
     return {
         "pressure": {

@@ -62,7 +62,7 @@ class RollOffSamples:
         return extrapolated(bem, self.grids[measured].estimate(difference_of_halves(statistic)))
 
     def where(self, first: float) -> dict[str, float | tuple[float, float]]:
-        """The conditions of a number: the roll-off, and the decade of force from `first`."""
+        """Conditions of a number over the decade of force from `first`."""
         return {ROLL_OFF: self.roll_off, "Fbar": (first, 10 * first)}
 
     def over_bem(self, quantity: str, measured: str, statistic: Statistic, first: float) -> Number:
@@ -83,7 +83,6 @@ class RollOffSamples:
 
 
 def resampled(result: MdrLimitsResult, roll_off: int) -> RollOffSamples:
-    """All that was measured at one roll-off."""
     case = result.case
     outcomes = {BEM: result.bem[roll_off], MDR: result.mdr[roll_off]}
     by_method, grids = {}, {}
@@ -98,7 +97,6 @@ def resampled(result: MdrLimitsResult, roll_off: int) -> RollOffSamples:
 
 
 def numbers_over(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer], first: float) -> list[Number]:
-    """All of one roll-off over the decade of force from `first`."""
     numbers = [
         mine.over_bem(name, measured, mean_over(case.forces, first), first)
         for measured, name in MEASURED.items()
@@ -135,7 +133,6 @@ def _exponent(case: MdrLimits, mine: RollOffSamples, layer: Layer, method: str, 
 
 
 def curve(result: MdrLimitsResult, mine: RollOffSamples, layers: Mapping[str, Layer]) -> list[Row]:
-    """One row a force."""
     return [_row(result, mine, layers, level) for level in range(len(result.case.forces))]
 
 

@@ -14,7 +14,7 @@ from validation.analysis.statistics import (
 
 
 def mean_over(forces: Sequence[float], first: float) -> Statistic:
-    """Mean of ln of the mean."""
+    """ln of the mean stiffness, averaged over the decade."""
     return weighted_mean(decade_weights(forces, first), log_mean)
 
 

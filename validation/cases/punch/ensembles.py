@@ -59,7 +59,6 @@ class PunchEnsembles:
         return PunchRoughness(hurst=hurst, waves=(first, self.cells // 4), height=self.height, seed=self.seed)
 
     def surface_of(self, roughness: PunchRoughness, realisation: int, cells: int, forces: tuple[float, ...]) -> Surface:
-        """One surface, to be pressed by boundary elements."""
         return Surface(
             roughness=roughness, realisation=realisation, cells=cells, forces=forces, tolerance=self.tolerance
         )

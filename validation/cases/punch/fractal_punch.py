@@ -49,7 +49,6 @@ class FractalPunch(PunchEnsembles):
         return self.cells // 2, self.cells, 2 * self.cells
 
     def roughness(self, hurst: float) -> PunchRoughness:
-        """The band is the same on every grid and in both methods."""
         return self.band(hurst)
 
     def surface(self, hurst: float, realisation: int, cells: int) -> Surface:
@@ -82,7 +81,6 @@ class Ensemble:
 
     @property
     def by_method(self) -> dict[str, Outcome]:
-        """What is compared with each other."""
         return {BEM: self.bem, MDR: self.mdr, LONG: self.long}
 
 

@@ -78,7 +78,6 @@ class DecadeComparison:
 
     @property
     def quantity(self) -> DecadeQuantity:
-        """What is compared."""
         return QUANTITIES[self.name]
 
     @property
@@ -99,7 +98,6 @@ class DecadeComparison:
 
     @property
     def where(self) -> dict[str, Place]:
-        """The conditions of its number."""
         return {"H": "mean over H" if self.hurst is None else self.hurst, "Fbar": (self.first, 10 * self.first)}
 
     @property
@@ -153,7 +151,6 @@ def resampled(case: FractalPunch, h: int, ensemble: Ensemble) -> EnsembleSamples
 
 
 def compare(case: FractalPunch, hurst: float, samples: EnsembleSamples, name: str, first: float) -> DecadeComparison:
-    """One quantity, one Hurst exponent, one decade."""
     quantity = QUANTITIES[name]
     everywhere, refined = quantity.over(case.forces, first), quantity.over(case.refined_forces, first)
     return DecadeComparison(
@@ -190,7 +187,6 @@ def comparisons_of(case: FractalPunch, samples: Sequence[EnsembleSamples]) -> li
 
 
 def numbers_of(comparisons: Iterable[DecadeComparison]) -> list[Number]:
-    """Of those that have one."""
     return [number for comparison in comparisons if (number := comparison.number) is not None]
 
 

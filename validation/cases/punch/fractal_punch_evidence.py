@@ -5,13 +5,7 @@ from validation.analysis.evidence import Evidence, table_of
 from validation.cases.punch import fractal_punch_text as text
 from validation.cases.punch.fractal_punch import FractalPunch, FractalPunchResult, run
 from validation.cases.punch.fractal_punch_curves import curve, grids, marks
-from validation.cases.punch.fractal_punch_decades import (
-    QUANTITIES,
-    comparisons_of,
-    data_row,
-    numbers_of,
-    resampled,
-)
+from validation.cases.punch.fractal_punch_decades import QUANTITIES, comparisons_of, data_row, numbers_of, resampled
 from validation.cases.punch.fractal_punch_numbers import claimed, criteria, laws
 from validation.selection import model_needed
 from validation.simulation.rough_punch import require_converged

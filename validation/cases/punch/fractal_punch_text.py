@@ -37,7 +37,6 @@ def method(case: FractalPunch) -> str:
 
 
 def captions(case: FractalPunch) -> dict[str, str]:
-    """Of each figure."""
     interval = "95 % interval of the sample"
     few = f"open where the mean contact has fewer than {FEW_CELLS} cells"
     return {
@@ -153,7 +152,6 @@ def saturation(rows: Sequence[Row]) -> tuple[str, ...]:
 
 
 def cost(result: FractalPunchResult) -> str:
-    """Operator applications of a solve."""
     contacts = np.concatenate([e.bem["applications"].ravel() for e in result.ensembles])
     fixed = np.concatenate([e.bem["frozen applications"].ravel() for e in result.ensembles])
     return (

@@ -30,7 +30,6 @@ class Normalisation(PunchEnsembles):
     seed: int = 141
 
     def roughness(self, hurst: float, variant: str) -> PunchRoughness:
-        """Of one way to draw."""
         amplitudes, normalised = VARIANTS[variant]
         return replace(self.band(hurst), amplitudes=amplitudes, normalised=normalised)
 
