@@ -27,7 +27,7 @@ from validation.scenes.reader import (
 )
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import Wheel
+from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
 
 KEYS = {
     "radius": "wheel.radius",
@@ -49,7 +49,7 @@ HIGH = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class WheelScene:
+class WheelScene(WheelOnTrack):
     """Wheel with a mass that rolls along a rail; either of them rough or smooth.
 
     Parameters
@@ -117,16 +117,6 @@ class WheelScene:
     def body(self) -> Wheel:
         """The wheel without its roughness."""
         return Wheel(radius=self.radius, mass=self.mass, modulus=self.modulus, load=self.load)
-
-    @property
-    def approach(self) -> float:
-        """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth wheel [m]."""
-        return self.body.approach
-
-    @property
-    def contact_radius(self) -> float:
-        """a = sqrt(R d) [m]."""
-        return self.body.contact_radius
 
     @property
     def stiffness(self) -> float:
@@ -331,14 +321,10 @@ def _diagnose_roughness(scene: WheelScene) -> Iterator[str]:
 
 
 def _diagnose_motion(scene: WheelScene) -> Iterator[str]:
-    a, turn = scene.contact_radius, scene.time_step * scene.eigenfrequency
-    if turn > 0.2:
+    omega_dt = scene.time_step * scene.eigenfrequency
+    if omega_dt > 0.2:
         yield (
-            f"a time step is {turn:.3g} over the eigenfrequency, more than 0.2, and 2 is unstable: "
+            f"a time step is {omega_dt:.3g} over the eigenfrequency, more than 0.2, and 2 is unstable: "
             "roll slower or take more springs."
         )
-    if a > scene.radius / 10:
-        yield (
-            f"the contact radius is {a / scene.radius:.3g} of wheel.radius, more than a tenth: "
-            "no half-space; are the units of wheel.load and material.youngs_modulus right?"
-        )
+    yield from diagnose_contact_radius(scene.body)

@@ -10,11 +10,11 @@ from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import Wheel
+from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingScene:
+class RollingScene(WheelOnTrack):
     """Smooth wheel that rolls over rough ground, with a mass or at a constant approach.
 
     Parameters
@@ -93,16 +93,6 @@ class RollingScene:
         return Wheel(radius=self.radius, mass=self.mass or 1.0, modulus=self.modulus, load=self.load)
 
     @property
-    def approach(self) -> float:
-        """d_N of Hertz [m]."""
-        return self.body.approach
-
-    @property
-    def contact_radius(self) -> float:
-        """a = sqrt(R d_N) [m]."""
-        return self.body.contact_radius
-
-    @property
     def roughness_ratio(self) -> float:
         """h / d [-]."""
         return self.ground.rms / self.approach
@@ -114,12 +104,7 @@ class RollingScene:
             found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
         if self.mass is not None:
             found += diagnose_short_waves(self.body, [self.ground])
-        if self.contact_radius > self.radius / 10:
-            found.append(
-                f"the contact radius is {self.contact_radius / self.radius:.3g} of wheel.radius, more than a tenth: no "
-                "half-space; are the units of wheel.load and material.youngs_modulus right?"
-            )
-        return tuple(found)
+        return (*found, *diagnose_contact_radius(self.body))
 
     def no_steady_answer(self) -> str:
         """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""

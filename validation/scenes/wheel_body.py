@@ -1,6 +1,7 @@
-"""A wheel by itself: its contact, its stiffness, its resonance."""
+"""A wheel by itself: its contact, its stiffness, its resonance; what scenes of a wheel share."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from validation.theory.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
@@ -45,3 +46,31 @@ class Wheel:
     def eigenfrequency(self) -> float:
         """omega_eigen = sqrt(2 a E* / M) [rad/s]."""
         return eigenfrequency(contact_radius=self.contact_radius, modulus=self.modulus, mass=self.mass)
+
+
+class WheelOnTrack:
+    """Contact of a scene's wheel, its `body`, where the track is smooth."""
+
+    @property
+    def body(self) -> Wheel:
+        """The wheel without its roughness."""
+        raise NotImplementedError
+
+    @property
+    def approach(self) -> float:
+        """d_N = (9 F_N^2 / (16 R E*^2))^(1/3) of Hertz [m]."""
+        return self.body.approach
+
+    @property
+    def contact_radius(self) -> float:
+        """a = sqrt(R d_N) [m]."""
+        return self.body.contact_radius
+
+
+def diagnose_contact_radius(wheel: Wheel) -> Iterator[str]:
+    """A contact as large as a part of the wheel is not on a half-space."""
+    if wheel.contact_radius > wheel.radius / 10:
+        yield (
+            f"the contact radius is {wheel.contact_radius / wheel.radius:.3g} of wheel.radius, more than a tenth: no "
+            "half-space; are the units of wheel.load and material.youngs_modulus right?"
+        )
