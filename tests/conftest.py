@@ -1,5 +1,6 @@
 import os
 
+import pytest
 from hypothesis import HealthCheck, Phase, settings
 
 settings.register_profile(
@@ -22,3 +23,14 @@ def pytest_configure(config):
     # not in pyproject.toml, which would import them before their coverage is measured
     for package in ("bem3d", "mdr"):
         config.addinivalue_line("filterwarnings", f"ignore::{package}.ContactWarning")
+
+
+@pytest.fixture
+def without_figures(monkeypatch):
+    """Reports hold stand-ins for their figures, which take longest."""
+    # imported here, since coverage is measured from the first import
+    from validation.report import build
+
+    monkeypatch.setattr(build, "drawn", lambda draw, evidence, profile: draw.__module__)
+    monkeypatch.setattr(build, "svg", lambda name: f"<svg>{name}</svg>".encode())
+    monkeypatch.setattr(build, "pdf", lambda name: f"%PDF {name}".encode())

@@ -18,7 +18,6 @@ from tests.engine.test_engine import ENVIRONMENT, ROOT
 from validation import __main__ as command
 from validation.cases.exact import geike, hertz
 from validation.engine import files
-from validation.report import build
 from validation.report.contents import CASES
 from validation.report.folder import Folder
 from validation.report.lock import LOCK, locked
@@ -31,13 +30,9 @@ SMALL = {
 
 
 @pytest.fixture(autouse=True)
-def _small(monkeypatch):
+def _small(monkeypatch, without_figures):
     for name, case in SMALL.items():
         monkeypatch.setitem(CASES, name, replace(CASES[name], quick=case))
-    # how figures look is no matter here, and takes longest
-    monkeypatch.setattr(build, "drawn", lambda draw, evidence, profile: draw.__module__)
-    monkeypatch.setattr(build, "svg", lambda name: f"<svg>{name}</svg>".encode())
-    monkeypatch.setattr(build, "pdf", lambda name: f"%PDF {name}".encode())
 
 
 def report(out, *names):

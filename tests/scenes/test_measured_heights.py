@@ -223,20 +223,16 @@ def test_a_tilt_and_steepness_are_notes_and_texture_and_skewness_are_reasons():
 
 
 @pytest.mark.parametrize(
-    ("height", "sentence"),
+    ("height", "words"),
     [
-        (np.ones((4, 64)), "heights must be 16 points or more along two sides, got shape (4, 64)"),
-        (np.ones(64), "heights must be 16 points or more along two sides, got shape (64,)"),
-        (
-            np.full((64, 64), np.nan),
-            "heights must be known everywhere, got 4096 of 4096 (100 %) not finite, the first at [0, 0]: cut out a "
-            "part that is known, or fill them in from their neighbours",
-        ),
-        (np.add.outer(np.arange(64.0), np.arange(64.0)), "heights must be rough, got a plane"),
+        (np.ones((4, 64)), ["16 points or more", "(4, 64)"]),
+        (np.ones(64), ["16 points or more", "(64,)"]),
+        (np.full((64, 64), np.nan), ["known everywhere", "4096 of 4096 (100 %) not finite", "[0, 0]"]),
+        (np.add.outer(np.arange(64.0), np.arange(64.0)), ["rough", "a plane"]),
     ],
 )
-def test_heights_that_are_none_are_refused(height, sentence):
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+def test_heights_that_are_none_are_refused(height, words):
+    with pytest.raises(ValueError, match=f"^heights must be {'.*'.join(map(re.escape, words))}"):
         heights(height)
 
 
@@ -317,41 +313,21 @@ def test_files_of_another_kind_are_refused(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "old", "new", "sentence"),
+    ("text", "old", "new", "words"),
     [
-        (PUNCH, "[punch]", "[block]", "a scene must have one table of sphere, punch and wheel, got none"),
-        (
-            PUNCH,
-            "[material]",
-            '[sphere]\nradius = "1 m"\n[material]',
-            "a scene must have one table of sphere, punch and wheel, got sphere and punch",
-        ),
-        (PUNCH, 'side = "1 mm"', "", "punch.side is missing, punch must have it"),
-        (PUNCH, "side =", "radius =", "punch.radius is unknown, punch must be made of side, load"),
-        (PUNCH, "poisson_ratio = 0.3", "poisson_ratio = 0.6", "material.poisson_ratio must lie in [0, 0.5], got 0.6"),
-        (PUNCH, "rms =", "RMS =", "roughness.RMS is unknown, roughness must be made of rms, hurst, longest, shortest"),
-        (
-            PUNCH,
-            'longest = "1 mm"',
-            'longest = "2 mm"',
-            "roughness.longest must not exceed the side of the punch, 0.001 m, got 0.002 m",
-        ),
-        (
-            ROLLING,
-            "[rail.roughness]",
-            "[rail]\n[stuff]",
-            "stuff is unknown, a scene must be made of name, wheel, material, rail",
-        ),
-        (
-            ROLLING,
-            'load = "4905 N"',
-            'load = "4905 N"\nspeed = "20 m/s"',
-            "wheel.speed is unknown, wheel must be made of radius, load",
-        ),
+        (PUNCH, "[punch]", "[block]", ["a scene must have one table of sphere, punch and wheel", "none"]),
+        (PUNCH, "[material]", '[sphere]\nradius = "1 m"\n[material]', ["a scene must have one", "sphere and punch"]),
+        (PUNCH, 'side = "1 mm"', "", ["punch.side is missing"]),
+        (PUNCH, "side =", "radius =", ["punch.radius is unknown", "side, load"]),
+        (PUNCH, "poisson_ratio = 0.3", "poisson_ratio = 0.6", ["material.poisson_ratio must", "0.6"]),
+        (PUNCH, "rms =", "RMS =", ["roughness.RMS is unknown", "rms, hurst, longest, shortest"]),
+        (PUNCH, 'longest = "1 mm"', 'longest = "2 mm"', ["roughness.longest must", "0.001 m", "0.002 m"]),
+        (ROLLING, "[rail.roughness]", "[rail]\n[stuff]", ["stuff is unknown", "name, wheel, material, rail"]),
+        (ROLLING, 'load = "4905 N"', 'load = "4905 N"\nspeed = "20 m/s"', ["wheel.speed is unknown", "radius, load"]),
     ],
 )
-def test_scenes_are_refused_by_the_key(tmp_path, text, old, new, sentence):
-    with pytest.raises(ValueError, match=rf"^{IN_FILE}{re.escape(sentence)}$"):
+def test_scenes_are_refused_by_key_and_value(tmp_path, text, old, new, words):
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{'.*'.join(map(re.escape, words))}"):
         load_scene(written(tmp_path, text, (old, new)))
 
 
@@ -371,18 +347,18 @@ def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("changes", "sentence"),
+    ("key", "changes", "got"),
     [
-        ({"shape": "cone"}, 'shape must be "sphere" or "punch", got \'cone\''),
-        ({"size": 0.0}, "punch.side must be positive, got 0.0"),
-        ({"load": math.nan}, "punch.load must be finite, got nan"),
-        ({"modulus": -1.0}, "modulus must be positive, got -1.0"),
-        ({"name": " "}, "name must be a text that is not blank, got ' '"),
+        ("shape", {"shape": "cone"}, "'cone'"),
+        ("punch.side", {"size": 0.0}, "0.0"),
+        ("punch.load", {"load": math.nan}, "nan"),
+        ("modulus", {"modulus": -1.0}, "-1.0"),
+        ("name", {"name": " "}, "' '"),
     ],
 )
-def test_scenes_at_the_prompt_are_refused_by_the_key(changes, sentence):
+def test_scenes_at_the_prompt_are_refused_by_key_and_value(key, changes, got):
     settings = {"name": "it", "shape": "punch", "size": 1.0, "load": 1.0, "modulus": 1.0}
-    with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
+    with pytest.raises(ValueError, match=f"^{key} must .*, got {got}$"):
         IndentationScene(**{**settings, **changes})
 
 

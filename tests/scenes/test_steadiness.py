@@ -105,7 +105,7 @@ def test_the_same_scene_is_as_steady_for_the_ladder():
 
 
 @pytest.fixture
-def small(monkeypatch):
+def small(monkeypatch, without_figures):
     monkeypatch.setitem(CASES, "wheel", replace(CASES["wheel"], quick=SMALL["wheel"]))
 
 
