@@ -12,8 +12,8 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
-from validation.engine.engine import KEPT, LOCAL, WorkerLostError
-from validation.engine.files import UNUSABLE
+from validation.engine.engine import LOCAL, RESUME_NOTE, WorkerLostError
+from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import TerminatedError, terminable
 from validation.report.build import build
 from validation.report.contents import CASES, TIMED, timed_here
@@ -57,7 +57,7 @@ def main(words: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
             return status
     except (Exception, KeyboardInterrupt) as error:
-        status, said = _ended(error, f"; {KEPT}" if "out" in arguments else "")
+        status, said = _ended(error, f"; {RESUME_NOTE}" if "out" in arguments else "")
         if status is Exit.FAULT:
             traceback.print_exc()
         if isinstance(error, BrokenPipeError):
@@ -78,7 +78,7 @@ def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
         return Exit.UNFINISHED, f"error: the memory is full: {error}{kept}"
     if isinstance(error, OSError) and error.errno is not None:
         named = ": ".join(printable(part) for part in (error.filename, error.strerror) if part)
-        if error.errno in UNUSABLE:
+        if error.errno in ERRORS_OF_A_PATH:
             return Exit.BAD_INPUT, f"error: {named}"
         return Exit.UNFINISHED, f"error: {named}{kept}"
     if isinstance(error, (WorkerLostError, ConnectionError)):

@@ -90,7 +90,7 @@ def test_every_damaged_bit_is_seen(problems, tmp_path):
     whole = Engine(store=store).map(toy, problems[:1])
     (path,) = store.iterdir()
     contents = path.read_bytes()
-    key = f"{toy.__module__}.{toy.__qualname__}({problems[0]!r}) {ensemble._numerics()}"
+    key = f"{toy.__module__}.{toy.__qualname__}({problems[0]!r}) {ensemble._version_of_numerics()}"
     assert same([stored.load(path, key)], whole)
     for i in range(len(contents)):
         path.write_bytes(contents[:i] + bytes([contents[i] ^ (1 << i % 8)]) + contents[i + 1 :])
@@ -269,7 +269,7 @@ def test_a_solve_that_raises_is_named(problems, workers):
 def test_other_numerics_do_not_reuse_results(problems, tmp_path, monkeypatch):
     engine = Engine(store=tmp_path / "store")
     engine.map(toy, problems)
-    monkeypatch.setattr(ensemble, "_numerics", lambda: "another version")
+    monkeypatch.setattr(ensemble, "_version_of_numerics", lambda: "another version")
     engine.map(toy, problems)
     assert len(computed(problems[0].log)) == 10
 
@@ -394,7 +394,7 @@ def meanwhile(action, condition):
 def cluster(monkeypatch):
     """A real scheduler on loopback: its address, how to start worker processes, and its own process."""
     # a machine that is busy starts processes slowly, as slowly as it likes
-    monkeypatch.setattr(ensemble, "PATIENCE", AT_ANY_TIME)
+    monkeypatch.setattr(ensemble, "TIMEOUT", AT_ANY_TIME)
     started = []
 
     def start(module, *words):
@@ -446,7 +446,7 @@ def test_an_executor_is_local_or_an_address(executor):
 
 
 def test_an_address_where_nobody_answers(problems, monkeypatch):
-    monkeypatch.setattr(ensemble, "PATIENCE", 1)
+    monkeypatch.setattr(ensemble, "TIMEOUT", 1)
     with pytest.raises(ValueError, match="executor must be a running scheduler"):
         Engine(executor="dask://127.0.0.1:9").map(toy, problems)
 
@@ -506,7 +506,7 @@ def test_workers_with_other_numerics_are_refused(problems):
 
 def test_progress_in_a_log(problems, tmp_path, capsys, monkeypatch):
     """Plain lines with done, stored, failed, rate and time left; none where nobody asks."""
-    monkeypatch.setattr(progress, "EVERY", 0.25)
+    monkeypatch.setattr(progress, "SECONDS_BETWEEN_LINES", 0.25)
     Engine(store=tmp_path / "store").map(slow, [Slow(i, problems[0].log) for i in range(2)])
     assert capsys.readouterr().err == ""
     Engine(store=tmp_path / "store", progress=True).map(slow, [Slow(i, problems[0].log) for i in range(5)])
@@ -555,7 +555,7 @@ def test_a_solve_that_fails_is_counted_and_shown():
 
 @pytest.mark.parametrize("library", ["numpy", "scipy", "pyfftw"])
 def test_another_version_of_a_library_is_another_version_of_the_numerics(library):
-    digest, version = ensemble._numerics.__wrapped__, importlib.metadata.version
+    digest, version = ensemble._version_of_numerics.__wrapped__, importlib.metadata.version
     here = digest()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(importlib.metadata, "version", lambda name: "9" if name == library else version(name))
@@ -582,6 +582,6 @@ def plain_toy(problem):
 
 def test_the_source_is_read_when_the_code_is():
     """Whoever edits it while it runs does not make old results new."""
-    code = "from validation.engine import engine; print(engine._numerics.cache_info().currsize)"
+    code = "from validation.engine import engine; print(engine._version_of_numerics.cache_info().currsize)"
     run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True)
     assert run.stdout == "1\n", run.stderr

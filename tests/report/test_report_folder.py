@@ -376,7 +376,7 @@ def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, 
     """While a result is stored, a figure or the list written: the report before is still whole."""
     assert report(tmp_path, "hertz") == command.Exit.MET
     before = tree(tmp_path)
-    begin = files.begin
+    begin = files.write_partial_file
     monkeypatch.setattr(Full, "says", says, raising=False)
 
     def begun(path, contents):

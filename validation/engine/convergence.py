@@ -18,7 +18,7 @@ class NotConvergedError(RuntimeError):
 
 @contextmanager
 def as_not_converged() -> Iterator[None]:
-    """An iteration that ends short of its tolerance keeps its history, whichever method it is of: NotConvergedError."""
+    """Turn the exception of an iteration, known by its `history`, into NotConvergedError, whichever method it is of."""
     try:
         yield
     except Exception as error:

@@ -1,4 +1,4 @@
-"""Independent solves: their seeds, their workers, their stored results. The one seam for everything done many times."""
+"""Independent solves: their seeds, their workers, their stored results."""
 
 import hashlib
 import importlib.metadata
@@ -26,13 +26,13 @@ P = TypeVar("P")
 K = TypeVar("K")
 
 NUMERICS = ("mdr", "bem3d", "validation")
-ON_PAPER = "report"
-"""The folder of a package that only draws and writes."""
+NOT_NUMERICS = "report"
+"""The folder of a package that only draws and writes: its source changes no result."""
 LIBRARIES = ("numpy", "scipy", "pyfftw")
 LOCAL = "local"
-PATIENCE = 10
-"""Seconds in which a scheduler and its first worker must answer."""
-KEPT = "finished solves are kept, the same command goes on from there"
+TIMEOUT = 10
+"""Seconds that a scheduler and its first worker have to answer."""
+RESUME_NOTE = "finished solves are kept, the same command goes on from there"
 
 
 def random_generator(seed: int, *key: int) -> np.random.Generator:
@@ -44,21 +44,21 @@ def random_generator(seed: int, *key: int) -> np.random.Generator:
 
 
 class WorkerLostError(RuntimeError):
-    """A worker died at its work, so that no run can end; what was finished is kept."""
+    """A worker process has ended during a solve, so that the run cannot end; finished results are kept."""
 
 
 @dataclass(frozen=True)
 class Engine:
-    """Runs independent solves on worker processes and keeps what they found.
+    """Runs independent solves on worker processes and stores their results.
 
-    workers: processes on this machine; store: folder for finished results, None keeps nothing; progress: on stderr;
-    executor: "local", or "dask://HOST:PORT", a running scheduler whose workers take the place of those here.
+    workers: processes on this machine; store: folder for finished results, None stores nothing; progress: on stderr;
+    executor: "local", or "dask://HOST:PORT", a running scheduler whose workers are used in place of local ones.
     A stored result is used again only if the solve, its problem, the source of the numerics and their libraries are
     the same; damaged or foreign files are computed anew. Each worker writes its result to disk as soon as it is
     computed; results of other machines are written here as they come in. No interruption loses a finished result.
-    Raises ValueError for any other executor, fewer workers than one, a place in the store that something else has
-    taken, and where the scheduler or its workers do not answer; ConnectionError where the scheduler is lost;
-    WorkerLostError where a worker is killed; OSError, which names the place, where a result cannot be stored.
+    Raises ValueError for any other executor, fewer workers than one, a file in the store that is none of its own, and
+    a scheduler that does not answer or has no workers; ConnectionError where the connection to it ends;
+    WorkerLostError where a worker is killed; OSError, which names the file, where a result cannot be stored.
     """
 
     workers: int = 1
@@ -82,7 +82,9 @@ class Engine:
         """
         if self.timed_solves is not None:
             self.timed_solves.append(solve)
-        keys = [f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_numerics()}" for problem in problems]
+        keys = [
+            f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_version_of_numerics()}" for problem in problems
+        ]
         places = [self._place(solve, key) for key in keys]
         known = {i: outcome for i, outcome in enumerate(map(_load, places, keys)) if outcome is not None}
         missing = [i for i in range(len(problems)) if i not in known]
@@ -90,7 +92,7 @@ class Engine:
         name = solve.__name__.replace("_", " ")
         with Progress(name, total=len(problems), stored=len(known), failed=failed, shown=self.progress) as progress:
             tasks = [_PendingSolve(solve, problems[i], i, places[i], keys[i]) for i in missing]
-            # whatever is raised meanwhile ends the workers here and now
+            # an exception in this block ends the workers at once
             with closing(self._solved(tasks)) as solved:
                 for i, outcome in solved:
                     known[i] = outcome
@@ -104,33 +106,36 @@ class Engine:
 
     @contextmanager
     def timed(self) -> Iterator["Engine"]:
-        """One solve at a time, so that none is disturbed. What is over is computed anew the next time, by whatever name
-        it was stored; what was interrupted goes on.
+        """An engine that solves one problem at a time, so that no other solve disturbs its times.
+
+        A finished run forgets its results, so that the next run measures anew; an interrupted one keeps them.
         """
         alone = replace(self, workers=1, executor=LOCAL, timed_solves=[])
         yield alone
         if self.store is not None:
-            stored.forget(self.store, [_named(solve) for solve in alone.timed_solves or ()])
+            stored.forget(self.store, [_module_and_name(solve) for solve in alone.timed_solves or ()])
 
     def _solved(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome], None, None]:
-        """Each as soon as it is finished."""
+        """Index and outcome of each task, in the order in which they finish."""
         if not tasks:
             return
         if self.executor == LOCAL:
-            calls = [joblib.delayed(_solve_and_save)(task, _numerics()) for task in tasks]
+            calls = [joblib.delayed(_solve_and_save)(task, _version_of_numerics()) for task in tasks]
             try:
                 with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
                     yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
             except BrokenExecutor:
                 raise WorkerLostError(
                     "a worker was killed, perhaps by the system for want of memory, which fewer workers need less of; "
-                    + KEPT
+                    + RESUME_NOTE
                 ) from None
             return
         by_index = {task.index: task for task in tasks}
         with _client(self.executor) as (client, as_completed):
-            # not by joblib, which computes here what it could give to a single worker
-            futures = [client.submit(_solve, t.solve, t.problem, t.index, _numerics(), pure=False) for t in tasks]
+            # not by joblib, which would solve here where there is a single worker
+            futures = [
+                client.submit(_solve, t.solve, t.problem, t.index, _version_of_numerics(), pure=False) for t in tasks
+            ]
             for future in as_completed(futures, loop=client.loop):
                 i, outcome = future.result()
                 _save(by_index[i].place, by_index[i].key, outcome)
@@ -139,7 +144,7 @@ class Engine:
     def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
         if self.store is None:
             return None
-        return stored.place_of(self.store, *_named(solve), key)
+        return stored.place_of(self.store, *_module_and_name(solve), key)
 
 
 SERIAL = Engine()
@@ -147,7 +152,7 @@ SERIAL = Engine()
 
 @dataclass(frozen=True)
 class _PendingSolve(Generic[P]):
-    """A problem, which of all it is, and where its result belongs."""
+    """A problem, its index, and where its result belongs."""
 
     solve: Callable[[P], Outcome]
     problem: P
@@ -164,7 +169,7 @@ def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome
 
 def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome]:
     """On a worker, perhaps on another machine: only if its numerics are those of the caller."""
-    if _numerics() != numerics:
+    if _version_of_numerics() != numerics:
         raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
     try:
         with as_not_converged():
@@ -174,8 +179,8 @@ def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> 
         raise
 
 
-def _named(solve: Callable[..., Outcome]) -> tuple[str, str]:
-    """Module and name of a solve, as its results are named."""
+def _module_and_name(solve: Callable[..., Outcome]) -> tuple[str, str]:
+    """Of a solve, for the file names of its results."""
     return solve.__module__.rpartition(".")[2], solve.__name__
 
 
@@ -185,7 +190,7 @@ def _failed(outcome: Outcome) -> bool:
 
 @contextmanager
 def _client(executor: str) -> Iterator[tuple[Any, Any]]:
-    """A connection to a scheduler that has a worker, and what hands out results as they come."""
+    """A connection to a scheduler that has a worker, and the iterator over its results as they arrive."""
     try:
         from distributed import Client, KilledWorker, as_completed
         from distributed.comm.core import CommClosedError
@@ -194,25 +199,25 @@ def _client(executor: str) -> Iterator[tuple[Any, Any]]:
     address = executor.replace("dask://", "tcp://")
     try:
         client = Client(  # type: ignore[no-untyped-call]
-            address, timeout=PATIENCE, set_as_default=False
+            address, timeout=TIMEOUT, set_as_default=False
         )
     except (OSError, ValueError) as error:
         raise ValueError(f"executor must be a running scheduler, got {executor}: {error}") from None
     logger = logging.getLogger("distributed.client")
     level = logger.level
-    # what it would log, with tracebacks, is said in a sentence below
+    # one sentence below stands for its log with tracebacks
     logger.setLevel(logging.CRITICAL)
     try:
         with client:
             try:
-                client.wait_for_workers(1, timeout=PATIENCE)
+                client.wait_for_workers(1, timeout=TIMEOUT)
             except TimeoutError:
                 raise ValueError(f"executor must have workers, got {executor} without any") from None
             yield client, as_completed
     except (CancelledError, CommClosedError):
-        raise ConnectionError(f"the scheduler at {executor} is gone; {KEPT}") from None
+        raise ConnectionError(f"the scheduler at {executor} is gone; {RESUME_NOTE}") from None
     except KilledWorker:
-        raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {KEPT}") from None
+        raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {RESUME_NOTE}") from None
     finally:
         logger.setLevel(level)
 
@@ -227,8 +232,8 @@ def _save(path: Path | None, key: str, outcome: Outcome) -> None:
 
 
 @cache
-def _numerics() -> str:
-    """Digest of all source but what only draws and writes, and of the libraries under it."""
+def _version_of_numerics() -> str:
+    """Digest of all source but that which only draws and writes, and of the libraries under it."""
     digest = hashlib.sha256()
     for package in NUMERICS:
         for source in sources_of(package):
@@ -238,14 +243,14 @@ def _numerics() -> str:
 
 
 def sources_of(package: str) -> list[Path]:
-    """All files of a package whose code may change a result. Raises RuntimeError where there is none to be found."""
+    """All files of a package whose code may change a result. Raises RuntimeError where it finds none."""
     found = importlib.util.find_spec(package)
     folders = [Path(folder) for folder in (found and found.submodule_search_locations) or ()]
     sources = [
         source
         for folder in folders
         for source in sorted(folder.rglob("*.py"))
-        if ON_PAPER not in source.relative_to(folder).parts
+        if NOT_NUMERICS not in source.relative_to(folder).parts
     ]
     if not sources:
         raise RuntimeError(f"the source of {package} is not to be found: stored results could be of any version of it")
@@ -253,4 +258,4 @@ def sources_of(package: str) -> list[Path]:
 
 
 # read when the code is loaded: an edit during a run does not make old results new
-_numerics()
+_version_of_numerics()

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-BEGUN = re.compile(r"\.mdr-validation-[a-z0-9_]{8}\.part")
-"""The name of a file that is being written, or was when its process was killed."""
-UNUSABLE = frozenset(
+PARTIAL_FILE = re.compile(r"\.mdr-validation-[a-z0-9_]{8}\.part")
+"""The name of a file that a process is writing, or was writing when it was killed."""
+ERRORS_OF_A_PATH = frozenset(
     {
         errno.ENOENT,
         errno.ENOTDIR,
@@ -25,23 +25,23 @@ UNUSABLE = frozenset(
         errno.EINVAL,
     }
 )
-"""Errors that speak of the path that was given; all others speak of the machine."""
+"""Errors that are due to the path; all others are due to the machine."""
 
 
 def write_whole(path: Path, contents: bytes) -> None:
     """Write beside the place and rename: no reader ever sees half a file. Raises OSError, which names the place."""
-    temporary = begin(path, contents)
+    temporary = write_partial_file(path, contents)
     try:
-        with naming(path):
+        with with_path_in_errors(path):
             temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
 
 
-def begin(path: Path, contents: bytes) -> Path:
+def write_partial_file(path: Path, contents: bytes) -> Path:
     """The contents in a file beside their place, to be renamed. Raises OSError, which names the place."""
-    with naming(path):
+    with with_path_in_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=".mdr-validation-", suffix=".part")
         temporary = Path(name)
@@ -56,7 +56,7 @@ def begin(path: Path, contents: bytes) -> Path:
 
 
 def read_plain(path: Path) -> bytes:
-    """What a plain file holds. Raises OSError where there is none: a link is not followed, a pipe not waited for."""
+    """The content of a plain file. Raises OSError for anything else, without following a link or waiting for a pipe."""
     handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     try:
         if not stat.S_ISREG(os.fstat(handle).st_mode):
@@ -68,18 +68,18 @@ def read_plain(path: Path) -> bytes:
 
 
 def is_plain(path: Path) -> bool:
-    """Whether a plain file is there, and no link to one."""
+    """Whether the path is a plain file, and no link to one."""
     return path.is_file() and not path.is_symlink()
 
 
 def is_there(path: Path) -> bool:
-    """Whether anything is there, a link to nothing too."""
+    """Whether the path exists, if only as a link to nothing."""
     return os.path.lexists(path)
 
 
 @contextmanager
-def naming(path: Path) -> Iterator[None]:
-    """An error of the system names this path: writing to a full disk names none."""
+def with_path_in_errors(path: Path) -> Iterator[None]:
+    """Errors of the system name this path: writing to a full disk would name none."""
     try:
         yield
     except OSError as error:

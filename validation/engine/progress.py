@@ -1,4 +1,4 @@
-"""How far a long run is: a bar on a terminal, plain lines in a log."""
+"""The progress of a long run: a bar on a terminal, plain lines in a log."""
 
 import sys
 import threading
@@ -7,15 +7,15 @@ from types import TracebackType
 
 from tqdm import tqdm
 
-EVERY = 10.0
+SECONDS_BETWEEN_LINES = 10.0
 """Seconds between two lines in a log."""
 
 
 class Progress:
-    """Counts what is done, stored and failed, with the rate and the time left.
+    """Counts of done, stored and failed solves, with the rate and the time left.
 
-    name: of the work; total: solves; stored: of these were found finished; failed: of those stored have failed;
-    shown: False says nothing. Lines come also while nothing is finished, since that is worth knowing too.
+    name: of the work; total: solves; stored: solves whose results were found; failed: of those; shown: False prints
+    nothing. Lines are also printed while no solve finishes, so that a log shows a run that stands still.
     """
 
     def __init__(self, name: str, *, total: int, stored: int, failed: int, shown: bool):
@@ -40,7 +40,7 @@ class Progress:
         return self
 
     def step(self, failed: bool) -> None:
-        """One more is done."""
+        """Count one more solve."""
         self.done += 1
         self.failed += failed
         self._bar.set_postfix_str(self._counts, refresh=False)
@@ -52,11 +52,11 @@ class Progress:
         self._over.set()
         self._clock.join()
         self._bar.close()
-        self._tell()
+        self._print_line()
 
     @property
     def line(self) -> str:
-        """As it stands in a log."""
+        """The line of a log."""
         seconds = time.monotonic() - self._began
         rate = (self.done - self.stored) / seconds if seconds > 0 else 0.0
         counts = f"{self.name}: {self.done} of {self.total} done, {self._counts}"
@@ -71,11 +71,11 @@ class Progress:
         return f"{self.stored} were stored, {self.failed} failed"
 
     def _tick(self) -> None:
-        while not self._over.wait(EVERY):
+        while not self._over.wait(SECONDS_BETWEEN_LINES):
             self._bar.refresh()
-            self._tell()
+            self._print_line()
 
-    def _tell(self) -> None:
+    def _print_line(self) -> None:
         if self._lines:
             sys.stderr.write(self.line + "\n")
             sys.stderr.flush()

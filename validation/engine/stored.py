@@ -1,4 +1,4 @@
-"""Results of finished solves on disk: what is not exactly as it was written is not there."""
+"""Results of finished solves on disk; a file that is not exactly as it was written is ignored."""
 
 import hashlib
 import io
@@ -16,22 +16,22 @@ from validation.engine.files import is_plain, is_there, read_plain, write_whole
 Outcome = dict[str, NDArray[np.float64]]
 
 FORMAT = 2
-"""1 had no list of what it held."""
+"""Format 1 had no list of its arrays."""
 LABEL = "stored"
-"""The entry of an archive that says what it is the result of, and lists its arrays."""
+"""The entry of an archive that holds its key and lists its arrays."""
 SEAL = hashlib.sha256().digest_size
 NAME = re.compile(r"(?P<module>\w+)-(?P<solve>\w+)-[0-9a-f]{24}\.npz")
 
 
 def place_of(folder: Path, module: str, solve: str, key: str) -> Path:
-    """Where a result belongs. key: all that determines it."""
+    """Where a result belongs. key: everything that determines it."""
     return folder / f"{module}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
 
 
 def load(path: Path, key: str) -> Outcome | None:
-    """The result that was stored under this key, or None where there is none that is as it was written.
+    """The result that was stored under this key, or None where no intact one is there.
 
-    Raises ValueError for a place that something else has taken, a link or a folder.
+    Raises ValueError for a link or a folder in its place.
     """
     if is_there(path) and not is_plain(path):
         raise ValueError(f"a stored result must be a plain file, got {path}: move that away")
@@ -49,12 +49,12 @@ def save(path: Path, key: str, outcome: Outcome) -> None:
     archive = io.BytesIO()
     np.savez(archive, **{LABEL: np.array(label), **arrays})  # type: ignore[arg-type]  # stubs take a name for a flag
     contents = archive.getvalue()
-    # behind an archive a seal disturbs no reader of archives
+    # readers of archives ignore a seal at the end
     write_whole(path, contents + hashlib.sha256(contents).digest())
 
 
 def forget(folder: Path, solves: Sequence[tuple[str, str]]) -> None:
-    """Remove the stored results of these solves, each a module and a name, and nothing that has no seal."""
+    """Remove the stored results of these solves, each a module and a name, and no file without a valid seal."""
     for path in sorted(folder.glob("*.npz")):
         named = NAME.fullmatch(path.name)
         if named and (named["module"], named["solve"]) in solves and is_plain(path) and _is_sealed(path):
@@ -82,9 +82,9 @@ def _listed(arrays: Outcome) -> dict[str, list[object]]:
 
 
 def _arrays(archive: bytes, key: str) -> Outcome:
-    """What an archive holds. Raises whatever comes where it is not as `save` writes it."""
+    """The arrays of an archive. Raises an exception of any kind where it is not as `save` writes it."""
     with zipfile.ZipFile(io.BytesIO(archive)) as entries:
-        # nothing is compressed, so that nothing is larger than the file that it comes from
+        # entries are not compressed: none is larger than the file
         if sum(entry.file_size for entry in entries.infolist()) > len(archive):
             raise ValueError("the archive holds more than its own length")
         arrays = {entry.filename.removesuffix(".npy"): _array(entries.read(entry)) for entry in entries.infolist()}
@@ -96,7 +96,7 @@ def _arrays(archive: bytes, key: str) -> Outcome:
 
 
 def _array(entry: bytes) -> NDArray[np.float64]:
-    """One array, which fills its entry: a header may promise any size."""
+    """One array, which must fill its entry: the header of a damaged file may promise any size."""
     stream = io.BytesIO(entry)
     if np.lib.format.read_magic(stream) != (1, 0):
         raise ValueError("another version of the format of arrays")

@@ -1,4 +1,4 @@
-"""Being asked to end: an exception in place of a death without a word."""
+"""Requests to terminate raise an exception, so that workers and files are cleaned up."""
 
 import signal
 import threading
@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-ASKED = (signal.SIGTERM, signal.SIGHUP)
+SIGNALS = (signal.SIGTERM, signal.SIGHUP)
 
 
 class TerminatedError(KeyboardInterrupt):
-    """Somebody has asked this process to end; whatever ends workers at control-C ends them now."""
+    """A request to terminate this process; the handlers of control-C end the workers."""
 
 
 @contextmanager
@@ -22,19 +22,19 @@ def terminable() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = {number: signal.getsignal(number) for number in ASKED}
+    before = {number: signal.getsignal(number) for number in SIGNALS}
     ours = [number for number, handler in before.items() if handler is signal.SIG_DFL]
     try:
         for number in ours:
-            signal.signal(number, _asked)
+            signal.signal(number, _raise_terminated)
         yield
     finally:
         for number in ours:
             signal.signal(number, signal.SIG_DFL)
 
 
-def _asked(number: int, frame: FrameType | None) -> None:
-    for other in ASKED:
-        if signal.getsignal(other) is _asked:
+def _raise_terminated(number: int, frame: FrameType | None) -> None:
+    for other in SIGNALS:
+        if signal.getsignal(other) is _raise_terminated:
             signal.signal(other, signal.SIG_DFL)
     raise TerminatedError(signal.Signals(number).name)

@@ -12,7 +12,15 @@ from pathlib import Path
 from types import TracebackType
 
 from validation.analysis.evidence import Table
-from validation.engine.files import BEGUN, UNUSABLE, begin, is_plain, is_there, naming, write_whole
+from validation.engine.files import (
+    ERRORS_OF_A_PATH,
+    PARTIAL_FILE,
+    is_plain,
+    is_there,
+    with_path_in_errors,
+    write_partial_file,
+    write_whole,
+)
 from validation.report.lock import LOCK, locked
 from validation.report.manifest import MANIFEST, Listed, as_manifest, both, digest_of, listed_in
 
@@ -46,7 +54,7 @@ class Folder:
                 self._list(_listed(self.path))
                 self._open = opening.pop_all()
         except OSError as error:
-            if error.errno not in UNUSABLE:
+            if error.errno not in ERRORS_OF_A_PATH:
                 raise
             raise ValueError(f"--out must be a folder that can be written, got {self.path}: {error.strerror}") from None
         return self
@@ -69,12 +77,12 @@ class Folder:
         with ExitStack() as begun:
             places = {}
             for name, some in contents.items():
-                temporary = begin(self.path / name, some)
+                temporary = write_partial_file(self.path / name, some)
                 begun.callback(temporary.unlink, missing_ok=True)
                 places[temporary] = self.path / name
             self._list(both(before, after))
             for temporary, place in places.items():
-                with naming(place):
+                with with_path_in_errors(place):
                     temporary.replace(place)
         for name in before.keys() - after.keys():
             (self.path / name).unlink(missing_ok=True)
@@ -88,7 +96,7 @@ class Folder:
         """Remove what killed runs had begun to write."""
         for room in (self.path, *(self.path / name for name in ROOMS)):
             for file in room.glob("*.part"):
-                if BEGUN.fullmatch(file.name) and is_plain(file):
+                if PARTIAL_FILE.fullmatch(file.name) and is_plain(file):
                     file.unlink(missing_ok=True)
 
 
@@ -101,7 +109,7 @@ def _listed(folder: Path) -> Listed:
             raise ValueError(f"--out must be a folder, got a file, or a link to nothing: {folder}")
         return {}
     if not is_there(folder / MANIFEST):
-        if any(entry.name != LOCK and not BEGUN.fullmatch(entry.name) for entry in folder.iterdir()):
+        if any(entry.name != LOCK and not PARTIAL_FILE.fullmatch(entry.name) for entry in folder.iterdir()):
             raise ValueError(
                 f"--out must be a new or empty folder or an earlier report, got {folder} with other files and without "
                 f"{MANIFEST}, by which reports are known: name another, or remove it yourself if it is an old report"

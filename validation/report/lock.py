@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
-from validation.engine.files import naming
+from validation.engine.files import with_path_in_errors
 
 LOCK = ".mdr-validation.lock"
 """The file, there while a run writes, and after one that was killed."""
@@ -78,7 +78,7 @@ def _held(handle: int, path: Path) -> bool:
             )
     since = datetime.now().astimezone().isoformat(" ", timespec="seconds")
     signature = {"kind": KIND, "host": socket.gethostname(), "process": os.getpid(), "since": since}
-    with naming(path):
+    with with_path_in_errors(path):
         os.ftruncate(handle, 0)
         os.pwrite(handle, json.dumps(signature).encode(), 0)
     return True
