@@ -47,8 +47,8 @@ def test_displacement_goes_into_the_half_space(periodic):
     half_space = bem3d.HalfSpace(shape=(N, N), spacing=SPACING, modulus=E, periodic=periodic)
     if periodic:
         pressure = np.cos(WAVE * X)[:, np.newaxis] * np.ones(N)
-        assert half_space.displacement(pressure) == pytest.approx(2 * pressure / (E * WAVE), abs=1e-9 / (E * WAVE))
-        assert half_space.displacement(np.ones((N, N))) == pytest.approx(0.0, abs=1e-25)
+        assert np.abs(half_space.displacement(pressure) * E * WAVE - 2 * pressure).max() < 1e-12
+        assert np.abs(half_space.displacement(np.ones((N, N)))).max() < 1e-25
     else:
         pressure = np.zeros((N, N))
         pressure[3, 4] = 1.0

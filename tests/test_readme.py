@@ -23,6 +23,7 @@ def test_there_are_examples():
     assert {example.id.split("-")[0] for example in EXAMPLES} == {"README.md", "CONTRIBUTING.md"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_example(example):
     exec(compile(example, "example", "exec"), {})
