@@ -42,7 +42,7 @@ MAY_IMPORT = {
     "selection": BASE | {"simulation"},
     "benchmarks": BASE | {"simulation"},
     "cases": BASE | {"simulation", "selection"},
-    "report": {"cases", "benchmarks", "simulation", "scenes", "analysis", "engine"},
+    "report": {"cases", "benchmarks", "scenes", "analysis", "engine"},
     "__main__": {"report", "selection", "scenes", "engine"},
 }
 """The table of ARCHITECTURE.md."""
