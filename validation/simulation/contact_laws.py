@@ -33,12 +33,10 @@ class HertzLaw:
     wheels: int = 1
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:
-        """Of Hertz, whatever the place."""
         d = np.maximum(approach, 0.0)
         return np.asarray(4 / 3 * self.wheel.modulus * math.sqrt(self.wheel.radius) * d * np.sqrt(d))
 
     def at_rest(self, place: int) -> FloatArray:
-        """d_N."""
         return np.full(self.wheels, self.wheel.approach)
 
 
@@ -53,7 +51,6 @@ class LinearLaw:
     change: FloatArray
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:
-        """Linear in approach and height."""
         linear = self.wheel.load + self.wheel.stiffness * (approach - self.wheel.approach)
         return np.asarray(linear + self.change[place % len(self.change)])
 
@@ -90,7 +87,6 @@ class SpringsLaw:
         )
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:
-        """By the method of dimensionality reduction."""
         return self.foundation.force(place, approach)
 
     def at_rest(self, place: int) -> FloatArray:

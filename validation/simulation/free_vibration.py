@@ -60,7 +60,6 @@ class LongRun:
 
     @property
     def turn(self) -> float:
-        """omega_eigen dt."""
         return WHEEL.eigenfrequency * WHEEL.contact_radius / 100 / SPEED
 
 

@@ -44,12 +44,10 @@ class RoughTrack:
 
     @property
     def spacing(self) -> float:
-        """dx of the springs [m]."""
         return self.shortest / self.per_wave
 
     @property
     def points(self) -> int:
-        """Springs in a period."""
         return round(self.waves * self.longest / self.spacing)
 
     def heights(self, count: int) -> FloatArray:
@@ -82,7 +80,6 @@ class Laps:
 
     @property
     def turn(self) -> float:
-        """omega_eigen dt."""
         return WHEEL.eigenfrequency * self.track.spacing / SPEED
 
 
@@ -98,7 +95,6 @@ class LiftOff:
 
     @property
     def wheel(self) -> Wheel:
-        """Of Table 14.1, under this load."""
         return replace(WHEEL, load=self.load)
 
 
@@ -210,7 +206,6 @@ def coarsen(problem: Spacings) -> Outcome:
 
 
 def force_at(height: FloatArray, spacing: float) -> FloatArray:
-    """The force of one-sided springs at d_N [N]."""
     return mdr.rolling_force(
         height, spacing=spacing, radius=WHEEL.radius, modulus=WHEEL.modulus, approach=WHEEL.approach
     )

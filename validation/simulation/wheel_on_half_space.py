@@ -48,7 +48,6 @@ class WheelStrip:
 
     @property
     def spacing(self) -> float:
-        """a / cells [m]."""
         return self.scene.contact_radius / self.cells
 
     @property
@@ -61,7 +60,6 @@ class WheelStrip:
 
     @property
     def roughness(self) -> Roughness:
-        """Of the rail."""
         assert self.scene.rail is not None  # as checked
         return self.scene.rail
 

@@ -74,7 +74,6 @@ class WheelDistance:
         return WheelEnsemble(scene=scene, count=count, groups=self.groups, track=track, linear=linear, seed=self.seed)
 
     def ends(self) -> dict[str, WheelEnsemble]:
-        """Every contact and track."""
         return {kind: self.ensemble(kind, self.causes) for kind in KINDS}
 
     def sweep(self) -> dict[tuple[str, float], WheelEnsemble]:

@@ -7,15 +7,7 @@ from validation.analysis.evidence import Evidence, Number, if_confirmed, number_
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.wheel import distance_numbers as numbers_of_distance
 from validation.cases.wheel import distance_tables as tables
-from validation.cases.wheel.distance import (
-    LINEAR_OPEN,
-    OPEN,
-    STEADY,
-    TABLE,
-    DistanceResult,
-    WheelDistance,
-    run,
-)
+from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY, TABLE, DistanceResult, WheelDistance, run
 from validation.cases.wheel.distance_levels import FOURTH, PLATEAU, level, regions_of
 from validation.cases.wheel.distance_numbers import BREAK_LAW, FLOOR, HANN, JUMP, LEVEL, ORDER, PEAK, SQUARE
 from validation.selection import model_needed
@@ -67,7 +59,6 @@ def _method(case: WheelDistance) -> str:
 
 
 def conclusions(result: DistanceResult, numbers: list[Number]) -> list[str]:
-    """One sentence for each question of the figure."""
     law, jump, square = (number_with(numbers, quantity) for quantity in (BREAK_LAW, JUMP, SQUARE))
     floors, peaks = numbers_with(numbers, FLOOR), numbers_with(numbers, PEAK)
     return [

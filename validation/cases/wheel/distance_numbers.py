@@ -8,15 +8,8 @@ import numpy as np
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Role, Table
 from validation.analysis.statistics import Estimate, ratio_of_means
-from validation.cases.wheel.distance import (
-    LINEAR_OPEN,
-    LINEAR_STEADY,
-    OPEN,
-    PERIODIC,
-    STEADY,
-    DistanceResult,
-    WheelDistance,
-)
+from validation.cases.wheel.distance import LINEAR_OPEN, LINEAR_STEADY, OPEN, PERIODIC, STEADY, WheelDistance
+from validation.cases.wheel.distance import DistanceResult as Result
 from validation.cases.wheel.distance_levels import FOURTH, PLATEAU, THIRD, level, peaks, ratio, regions_of
 from validation.theory import wheel as wheel_theory
 
@@ -34,8 +27,7 @@ QUARTER, WHOLE = 0.25, 1.0
 finding = partial(Number, role=Role.FINDING)
 
 
-def numbers_of(result: DistanceResult, breaks: Table) -> list[Number]:
-    """All numbers of the case."""
+def numbers_of(result: Result, breaks: Table) -> list[Number]:
     return [
         *outside_the_roughness(result),
         break_law(result.case, breaks),
@@ -49,7 +41,7 @@ def numbers_of(result: DistanceResult, breaks: Table) -> list[Number]:
     ]
 
 
-def outside_the_roughness(result: DistanceResult) -> list[Number]:
+def outside_the_roughness(result: Result) -> list[Number]:
     """A linear contact has nothing at frequencies without waves, once nothing leaks."""
     bands, steady = regions_of(result.case.scene), result.ends[LINEAR_STEADY]
     third = level(steady, bands[THIRD]).value
@@ -128,7 +120,7 @@ def rms_jump(breaks: Table) -> Number:
     )
 
 
-def causes(result: DistanceResult) -> list[Number]:
+def causes(result: Result) -> list[Number]:
     """Region 4 of springs without a jump at the end, and of the linear contact, over springs on open tracks."""
     ends, band = result.ends, regions_of(result.case.scene)[FOURTH]
     ratios = {HANN: ratio(ends[OPEN], ends[OPEN], band, "hann")}
@@ -147,7 +139,7 @@ def causes(result: DistanceResult) -> list[Number]:
     ]
 
 
-def shares(result: DistanceResult) -> list[Number]:
+def shares(result: Result) -> list[Number]:
     """Region 2 of leakage alone, and of nonlinearity alone, over springs on open tracks."""
     ends, band = result.ends, regions_of(result.case.scene)[PLATEAU]
     return [
@@ -164,7 +156,7 @@ def shares(result: DistanceResult) -> list[Number]:
     ]
 
 
-def order_in_height(result: DistanceResult) -> Number:
+def order_in_height(result: Result) -> Number:
     """The power of h_0 with which the nonlinear part of region 2 grows; leakage of a linear contact grows as h_0^2."""
     band, step = regions_of(result.case.scene)[PLATEAU], math.log(WHOLE / QUARTER)
     growth = ratio(result.sweep[STEADY, WHOLE], result.sweep[STEADY, QUARTER], band)
@@ -181,7 +173,7 @@ def order_in_height(result: DistanceResult) -> Number:
     )
 
 
-def mean_square(result: DistanceResult) -> Number:
+def mean_square(result: Result) -> Number:
     """Mean square of the acceleration from static equilibrium over that without free vibration."""
     squares = ratio_of_means(result.ends[OPEN]["square"], result.ends[STEADY]["square"])
     return finding(
@@ -196,7 +188,7 @@ def mean_square(result: DistanceResult) -> Number:
     )
 
 
-def peak_frequencies(result: DistanceResult) -> list[Number]:
+def peak_frequencies(result: Result) -> list[Number]:
     """The peak by the amplitude of free vibration, beside that on a Hertz contact."""
     return [
         finding(

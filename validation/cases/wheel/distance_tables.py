@@ -7,19 +7,10 @@ import numpy as np
 from validation.analysis.evidence import Number, Table, columns, plus_minus, table_of
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL
+from validation.cases.wheel import features
 from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY, DistanceResult
 from validation.cases.wheel.distance_levels import PLATEAU, level, peaks, regions_of
-from validation.cases.wheel.features import (
-    BREAK,
-    FLOOR,
-    PREDICTED,
-    Spectrum,
-    expected,
-    found,
-    linear_spectrum,
-    sixths_of_an_octave,
-    spectrum_rows,
-)
+from validation.cases.wheel.features import BREAK, FLOOR, PREDICTED, Spectrum, sixths_of_an_octave, spectrum_rows
 from validation.theory import wheel as wheel_theory
 
 
@@ -28,7 +19,7 @@ def breaks_of(result: DistanceResult) -> Table:
     rows: list[dict[str, object]] = []
     for ensemble, outcome in zip(result.case.distances(), result.distances, strict=True):
         spectrum = Spectrum.of(ensemble.scene, [outcome])
-        values, theory = found(spectrum), expected(spectrum)
+        values, theory = features.found(spectrum), features.expected(spectrum)
         rows.append(
             {
                 "distance [m]": ensemble.steps * ensemble.scene.spacing,
@@ -52,7 +43,7 @@ def _linear_jump(spectrum: Spectrum) -> float:
     scene = spectrum.scene
     # lines of a short record are too far apart to resolve the oscillation
     fine = np.linspace(0.9 * scene.jump, 1.01 * scene.cutoff, 200001)
-    forced = 2 * float(np.trapezoid(linear_spectrum(scene, fine), fine)) / (2 * math.pi)
+    forced = 2 * float(np.trapezoid(features.linear_spectrum(scene, fine), fine)) / (2 * math.pi)
     square = wheel_theory.mean_square_jump(forced, eigenfrequency=scene.eigenfrequency, duration=spectrum.duration)
     return math.sqrt(square)
 
@@ -121,7 +112,6 @@ def hertz_of(result: DistanceResult) -> Table:
 
 
 def shown_breaks(breaks: Table) -> Table:
-    """The break by distance, with intervals."""
     measured = zip(breaks["break [rad/s]"], breaks["± break [rad/s]"], strict=True)
     floors = zip(breaks["floor over predicted"], breaks["± sample"], strict=True)
     return Table(

@@ -74,7 +74,6 @@ def roughness(scene: WheelScene) -> Callable[[FloatArray], FloatArray]:
 
 
 def sixths_of_an_octave(low: float, high: float) -> FloatArray:
-    """Edges of bands."""
     return np.asarray(low * 2 ** (np.arange(0, 6 * math.log2(high / low)) / 6))
 
 

@@ -35,7 +35,6 @@ class WheelLevels:
 
     @cached_property
     def converged(self) -> list[Outcome]:
-        """Strips of the ensemble on boundary elements."""
         return [strip for strip in self.result.strips[FINEST] if not strip["failed"]]
 
     @cached_property
@@ -47,7 +46,6 @@ class WheelLevels:
 
     @property
     def centres(self) -> FloatArray:
-        """Geometric means."""
         return np.asarray(np.sqrt(self.edges[1:] * self.edges[:-1]))
 
     @property

@@ -17,7 +17,6 @@ ONE_DECIBEL = 1.0
 
 
 def numbers_of(levels: WheelLevels) -> list[Number]:
-    """All numbers of the case."""
     return [mean_of_steady_state(levels), *levels_over_bem(levels), *slope(levels)]
 
 

@@ -5,17 +5,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Verdict, if_confirmed, with_reference
 from validation.cases.wheel import spectrum_tables as tables
-from validation.cases.wheel.features import (
-    APART,
-    BREAK,
-    FLOOR,
-    JUMP,
-    PEAK,
-    PERIOD,
-    PREDICTED,
-    SLOPE,
-    Spectrum,
-)
+from validation.cases.wheel.features import APART, BREAK, FLOOR, JUMP, PEAK, PERIOD, PREDICTED, SLOPE, Spectrum
 from validation.cases.wheel.spectrum import WheelResult, WheelSpectrum, run
 from validation.cases.wheel.spectrum_numbers import FEATURES, exact_numbers, feature_numbers, level_over_linear
 from validation.engine.engine import Outcome
@@ -68,7 +58,6 @@ def _method(scene: WheelScene, spectrum: Spectrum) -> str:
 
 
 def _hidden(scene: WheelScene) -> list[str]:
-    """Why features may be missing."""
     if scene.jump > APART * scene.eigenfrequency:
         return []
     return [
@@ -78,7 +67,6 @@ def _hidden(scene: WheelScene) -> list[str]:
 
 
 def _flight(batches: list[Outcome]) -> str:
-    """How far the contact goes."""
     lowest, highest = min(float(b["lowest"].min()) for b in batches), max(float(b["highest"].max()) for b in batches)
     airborne = float(np.mean(np.concatenate([b["airborne"] for b in batches])))
     return (

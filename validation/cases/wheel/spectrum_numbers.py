@@ -1,27 +1,16 @@
 """Numbers of Fig. 14.4: each feature of the spectrum beside theory, and what must hold to rounding."""
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Role
 from validation.analysis.statistics import Estimate
-from validation.cases.wheel.features import (
-    BREAK,
-    CLEAR,
-    FLOOR,
-    JUMP,
-    PEAK,
-    PERIOD,
-    PREDICTED,
-    SLOPE,
-    Spectrum,
-    expected,
-    found,
-)
+from validation.cases.wheel import features
+from validation.cases.wheel.features import BREAK, FLOOR, JUMP, PEAK, PERIOD, PREDICTED, SLOPE, Spectrum
 from validation.engine.engine import Outcome
 
 LEVEL = "level of region 3"
@@ -29,111 +18,78 @@ LINES = 2
 """Of a record: half of the width of Hann's main lobe."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Feature:
-    """A feature of the spectrum: what the chapter says of it, what theory has for it, and how close they must be.
-
-    tolerance: of the reference and of the distance of two lines of a record.
-    """
+class Feature(NamedTuple):
+    """A feature of the spectrum: what the chapter says of it, and what theory has for it."""
 
     quantity: str
-    unit: str = "-"
+    unit: str
     region: str
     chapter: str
     source: str
-    tolerance: Callable[[float, float], float]
-    reason: str
 
     @property
     def name(self) -> str:
-        """With its unit."""
         return self.quantity if self.unit == "-" else f"{self.quantity} [{self.unit}]"
 
 
+JUMP_OF_RECORDS = "<J²> / (ω² T), J the jump of a(t) from the end of each record to its beginning"
+OSCILLATION = "an oscillating substructure of constant period"
 FEATURES = {
-    PEAK: Feature(
-        quantity="peak ω_eigen",
-        unit="rad/s",
-        region="1",
-        chapter="a sharp maximum at the eigenfrequency",
-        source="sqrt(2 a E* / M)",
-        tolerance=lambda reference, line: 0.005 * reference,
-        reason="0.5 %: a small part of the distance of two lines, between which it is found",
-    ),
-    JUMP: Feature(
-        quantity="jump",
-        unit="rad/s",
-        region="2 to 3",
-        chapter="a plateau, and a sharp rise at its end",
-        source="q_min v₀, (14.20)",
-        tolerance=lambda reference, line: LINES * line,
-        reason=f"{LINES} lines of the record, half of the main lobe of Hann's window",
-    ),
-    SLOPE: Feature(
-        quantity="slope of region 3",
-        region="3",
-        chapter="a power law",
-        source="-2 H - 3, (14.13)",
-        tolerance=lambda reference, line: 0.05,
-        reason="1 %: what an eye could tell on double-logarithmic paper",
-    ),
-    PERIOD: Feature(
-        quantity="period of the oscillation",
-        unit="rad/s",
-        region="3",
-        chapter="an oscillating substructure of constant period",
-        source="π v₀ / a, (14.12)",
-        tolerance=lambda reference, line: 0.01 * reference,
-        reason="1 %: roughness at the edge of the contact changes its length to second order",
-    ),
+    PEAK: Feature("peak ω_eigen", "rad/s", "1", "a sharp maximum at the eigenfrequency", "sqrt(2 a E* / M)"),
+    JUMP: Feature("jump", "rad/s", "2 to 3", "a plateau, and a sharp rise at its end", "q_min v₀, (14.20)"),
+    SLOPE: Feature("slope of region 3", "-", "3", "a power law", "-2 H - 3, (14.13)"),
+    PERIOD: Feature("period of the oscillation", "rad/s", "3", OSCILLATION, "π v₀ / a, (14.12)"),
     FLOOR + PREDICTED: Feature(
-        quantity="floor over predicted",
-        region="4",
-        chapter="another slope, an artefact of the finite distance?",
-        source="<J²> / (ω² T), J the jump of a(t) from the end of each record to its beginning",
-        tolerance=lambda reference, line: 0.1,
-        reason="10 %: 0.4 dB of a level",
+        "floor over predicted", "-", "4", "another slope, an artefact of the finite distance?", JUMP_OF_RECORDS
     ),
     BREAK + PREDICTED: Feature(
-        quantity="break over predicted",
-        region="3 to 4",
-        chapter="a break",
-        source="where (14.14) through the resonator meets that floor",
-        tolerance=lambda reference, line: 0.1,
-        reason="10 %: 0.4 dB of a level",
+        "break over predicted", "-", "3 to 4", "a break", "where (14.14) through the resonator meets that floor"
     ),
 }
 
 
+def _tolerance(key: str, reference: float, line: float) -> tuple[float, str]:
+    """And its reason; line: distance of two lines of a record."""
+    if key == JUMP:
+        return LINES * line, f"{LINES} lines of the record, half of the main lobe of Hann's window"
+    if key == SLOPE:
+        return 0.05, "1 %: what an eye could tell on double-logarithmic paper"
+    if key == PEAK:
+        return 0.005 * reference, "0.5 %: a small part of the distance of two lines, between which it is found"
+    if key == PERIOD:
+        return 0.01 * reference, "1 %: roughness at the edge of the contact changes its length to second order"
+    return 0.1, "10 %: 0.4 dB of a level"
+
+
 def feature_numbers(name: str, spectrum: Spectrum) -> dict[str, Number]:
     """The features that the spectrum of a scene has, beside theory."""
-    values, theory = found(spectrum), expected(spectrum)
-    line = float(spectrum.omega[0])
-    return {
-        key: Number(
-            quantity=feature.quantity,
+    values, theory = features.found(spectrum), features.expected(spectrum)
+    line, numbers = float(spectrum.omega[0]), {}
+    for key in (key for key in FEATURES if key in values):
+        reference = theory.get(key, 1.0)
+        tolerance, reason = _tolerance(key, reference, line)
+        numbers[key] = Number(
+            quantity=FEATURES[key].quantity,
             model="springs",
             where={"scene": name},
             value=values[key].value,
-            reference=theory.get(key, 1.0),
-            source=feature.source,
-            tolerance=feature.tolerance(theory.get(key, 1.0), line),
-            reason=feature.reason,
-            unit=feature.unit,
+            reference=reference,
+            source=FEATURES[key].source,
+            tolerance=tolerance,
+            reason=reason,
+            unit=FEATURES[key].unit,
             grid=line / 2 if key == JUMP else 0.0,
             sample=values[key].half_width,
             role=Role.FINDING,
         )
-        for key, feature in FEATURES.items()
-        if key in values
-    }
+    return numbers
 
 
 def level_over_linear(spectrum: Spectrum) -> Iterator[Number]:
     """Level of region 3 over (14.12) through the resonator, up to where the floor is far below; if there is room."""
     scene, omega = spectrum.scene, spectrum.omega
-    first = max(1.2 * scene.jump, CLEAR * scene.eigenfrequency)
-    last = min(0.7 * expected(spectrum)[BREAK], 0.9 * scene.cutoff)
+    first = max(1.2 * scene.jump, features.CLEAR * scene.eigenfrequency)
+    last = min(0.7 * features.expected(spectrum)[BREAK], 0.9 * scene.cutoff)
     if first >= last:
         return
     inside = (omega > first) & (omega < last)

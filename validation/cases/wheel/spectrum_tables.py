@@ -81,14 +81,12 @@ def variations_of(spectra: dict[str, Spectrum]) -> Table:
 
 
 def pressure_of(snapshot: Outcome) -> Table:
-    """On the half-space, cell by cell."""
     x, y = np.meshgrid(snapshot["x"], snapshot["y"], indexing="ij")
     values = {"x / a": x.ravel(), "y / a": y.ravel(), "p / p0": snapshot["pressure"].ravel()}
     return Table("pressure", columns(**values))
 
 
 def marks_of(spectrum: Spectrum) -> Table:
-    """Frequencies of theory."""
     scene, theory = spectrum.scene, expected(spectrum)
     marks = {"ω_eigen": scene.eigenfrequency, "q_min v₀": scene.jump, "break": theory[BREAK], "q_max v₀": scene.cutoff}
     return Table("marks", {"mark": list(marks), "omega [rad/s]": list(marks.values())})

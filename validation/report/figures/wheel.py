@@ -13,7 +13,6 @@ GROUPS = ("v₀", "F_N", "q_min", "q_max", "H", "h₀")
 
 
 def draw_contact(evidence: Evidence) -> Figure:
-    """Springs that carry and springs that do not; the pressure on the half-space."""
     place = {"left": 0.07, "right": 0.9, "bottom": 0.14, "top": 0.92, "wspace": 0.22}
     figure, (springs, pressure) = panels(1, 2, width=10.0, height=3.9, within=place)
     _springs(springs, evidence)
@@ -47,7 +46,6 @@ def _springs(axis: Axes, evidence: Evidence) -> None:
 
 
 def draw(evidence: Evidence) -> Figure:
-    """The spectrum over all frequencies, and region 3 closely."""
     table = evidence.table("spectrum")
     figure, (whole, region) = panels(1, 2, width=11.0, height=4.2)
     omega, mean = table["omega [rad/s]"], table["A [(m/s2)2 s]"]
@@ -80,7 +78,6 @@ def _marks(axis: Axes, evidence: Evidence) -> None:
 
 
 def draw_parameters(evidence: Evidence) -> Figure:
-    """One panel a parameter."""
     table = evidence.table("variations")
     names = list(dict.fromkeys(table["scene"].tolist()))
     figure, axes = panels(2, 3, width=11.0, height=6.0, sharex=True, sharey="all")

@@ -23,7 +23,6 @@ LOWEST = -45.0
 
 
 def draw(evidence: Evidence) -> Figure:
-    """Levels, their differences, and the oscillation."""
     figure, (levels, differences, oscillation) = panels(1, 3, width=13.0, height=4.2)
     table = evidence.table("levels")
     omega, bem = table["omega [rad/s]"], table["bem3d [dB]"]

@@ -26,7 +26,6 @@ PARTS: dict[str, tuple[str, Style]] = {
 
 
 def draw(evidence: Evidence) -> Figure:
-    """Spectra by distance; the break by duration."""
     figure, (spectra, law) = panels(1, 2, width=10.5, height=4.0)
     _spectra(spectra, evidence)
     breaks, line = evidence.table("breaks"), evidence.table("law")
@@ -56,7 +55,6 @@ def _spectra(axis: Axes, evidence: Evidence) -> None:
 
 
 def draw_cause(evidence: Evidence) -> Figure:
-    """Spectra by contact and track; region 2 by height; the peak by amplitude."""
     figure, (endings, plateau, peak) = panels(1, 3, width=12.5, height=4.0)
     table = evidence.table("endings")
     for name, style in ENDINGS.items():
