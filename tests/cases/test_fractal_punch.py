@@ -184,7 +184,7 @@ def test_means_over_hurst_exponents():
 
 
 def test_surfaces_without_a_heavy_load_on_other_grids():
-    """Up to the light force all of them, beyond it the first few; what was not pressed is missing, not lost."""
+    """Up to the light force all of them, beyond it the first few; what was not pressed is missing, and no failure."""
     case = replace(CASE, decades=(-2, 0), light=0.1)
     result = fractal_punch.run(case)
     for outcome in (result.ensembles[0].coarser, result.ensembles[0].finer):

@@ -174,7 +174,7 @@ FAULTS = {
         (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
         test_limits.test_images_err_as_the_lattice_sum_says,
     ),
-    "what is lost is not told": (
+    "failed loads are not listed": (
         (ensembles, "describe_failures", lambda *_: ()),
         functools.partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
     ),

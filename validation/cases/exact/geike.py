@@ -115,14 +115,14 @@ def evidence(result: GeikeResult) -> Evidence:
     """Moments of the spectra and of the draws; spectra measured on profiles and along lines of surfaces."""
     case, spectrum = result.case, result.case.spectrum
     surface = {n: surface_moment(spectrum, n) for n in MOMENTS}
-    kept = {
+    ratios = {
         rule: {n: line_moment(c1d, spectrum, n) / surface[n] for n in MOMENTS}
         for rule, c1d in ((GEIKE, spectrum.c1d), (LINE, spectrum.line))
     }
     profiles = {n: sum_over_profile(spectrum.c1d, n, case.cells, case.length) for n in NAMED}
     surfaces = {n: sum_over_surface(spectrum.c2d, n, case.cells, case.length) for n in NAMED}
     spectra = _spectra(result)
-    exact = _of_spectra(kept)
+    exact = _of_spectra(ratios)
     return Evidence(
         title="Geike's rule",
         method=(
@@ -136,11 +136,11 @@ def evidence(result: GeikeResult) -> Evidence:
             *_of_draws("drawn surfaces", result.surfaces, surfaces, surface),
             *_of_lines(result, spectra),
         ),
-        tables=(spectra, _moments(kept)),
+        tables=(spectra, _moments(ratios)),
         conclusions=(
             if_confirmed(
                 "Geike's rule keeps every moment of the surface; the line trace keeps the mean square height but has "
-                f"{100 * (1 - kept[LINE][2]):.1f} % less mean square gradient.",
+                f"{100 * (1 - ratios[LINE][2]):.1f} % less mean square gradient.",
                 exact,
             ),
             f"Lines cut from the drawn surfaces have {_mid_band(case, spectra, 'geike [m^3]'):.3f} of Geike's spectrum "
@@ -160,21 +160,25 @@ def evidence(result: GeikeResult) -> Evidence:
     )
 
 
-def _of_spectra(kept: dict[str, dict[int, float]]) -> list[Number]:
+def _of_spectra(ratios: dict[str, dict[int, float]]) -> list[Number]:
     """Moments of both rules over those of the surface."""
-    over = partial(Number, tolerance=1e-9, reason="exact; error of the quadrature", source="(10.12)", reference=1.0)
-    of_geike = [over(quantity=f"{NAMED[n]} over that of the surface", model=GEIKE, value=kept[GEIKE][n]) for n in NAMED]
-    return of_geike + [
-        over(
-            quantity=f"{NAMED[n]} over that of the surface",
-            model=LINE,
-            value=kept[LINE][n],
-            reference=mean_power_of_cosine(n),
-            source="mean of |cos|^n over directions",
-            tolerance=1e-6,
-            reason="exact; error of the quadrature at the kink of the line trace",
+    why = "exact; error of the quadrature"
+    rules = (
+        (GEIKE, lambda n: 1.0, "(10.12)", 1e-9, why),
+        (LINE, mean_power_of_cosine, "mean of |cos|^n over directions", 1e-6, f"{why} at the kink of the line trace"),
+    )
+    return [
+        Number(
+            quantity=f"{name} over that of the surface",
+            model=rule,
+            value=ratios[rule][n],
+            reference=reference(n),
+            source=source,
+            tolerance=tolerance,
+            reason=reason,
         )
-        for n in NAMED
+        for rule, reference, source, tolerance, reason in rules
+        for n, name in NAMED.items()
     ]
 
 
@@ -261,8 +265,8 @@ def _spectra(result: GeikeResult) -> Table:
     return Table("spectra", columns(**data))
 
 
-def _moments(kept: dict[str, dict[int, float]]) -> Table:
-    geike, line = (list(kept[rule].values()) for rule in (GEIKE, LINE))
+def _moments(ratios: dict[str, dict[int, float]]) -> Table:
+    geike, line = (list(ratios[rule].values()) for rule in (GEIKE, LINE))
     exact = [mean_power_of_cosine(n) for n in MOMENTS]
     return Table("moments", {"n": MOMENTS, "geike": geike, "line trace": line, "exact": exact})
 

@@ -51,7 +51,7 @@ class RollOffSamples:
     by_method: dict[tuple[str, str], Sample]
     grids: dict[str, Sample]
 
-    def open(self, weights: FloatArray) -> bool:
+    def has_gap(self, weights: FloatArray) -> bool:
         """Whether MDR has a gap at all of these levels: none is left in full contact."""
         mean, _ = self.by_method[MDR, "gap"].moments
         return bool((mean[weights > 0] > ZERO_GAP).all())
@@ -100,7 +100,7 @@ def numbers_over(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Lay
     numbers = [
         mine.over_bem(name, measured, mean_over(case.forces, first), first)
         for measured, name in MEASURED.items()
-        if name != GAP or mine.open(decade_weights(case.forces, first))
+        if name != GAP or mine.has_gap(decade_weights(case.forces, first))
     ]
     numbers.append(mine.over_bem(DEVIATION, "stiffness", deviation_over(case.forces, first), first))
     if mine.roll_off < MIN_ROLL_OFF:

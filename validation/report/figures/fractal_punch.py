@@ -107,7 +107,7 @@ def _exponent(axis: Axes, evidence: Evidence, hurst: float) -> None:
 
 
 def _by_hurst(evidence: Evidence, one: Callable[[Axes, Evidence, float], None], quantity: str, *, loc: str) -> Figure:
-    """A panel for each Hurst exponent on common axes, four in a row, the legend in a place of its own."""
+    """A panel for each Hurst exponent on common axes, four in a row, and the legend in the next one."""
     hursts = np.unique(evidence.table("curves")["H"])
     columns = min(4, hursts.size + 1)
     rows = -(-(hursts.size + 1) // columns)
@@ -159,5 +159,5 @@ def _rows(table: Table) -> list[dict[str, Any]]:
 
 
 def _positive(values: np.ndarray) -> np.ndarray:
-    """Zero, as in saturation, has no place on a logarithmic axis."""
+    """NaN in place of zero, as in saturation, for a logarithmic axis."""
     return np.where(np.isfinite(values) & (values > 0), values, np.nan)

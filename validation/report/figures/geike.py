@@ -38,5 +38,5 @@ def draw(evidence: Evidence) -> Figure:
 
 
 def _positive(values: np.ndarray) -> np.ndarray:
-    """Rounding of transforms outside the band is left out."""
+    """NaN outside the band, where transforms have rounding alone."""
     return np.where(values > 1e-9 * values.max(), values, np.nan)

@@ -62,5 +62,5 @@ def _draw(axis: Axes, curves: Table, name: str, over_force: bool = False) -> Non
 
 
 def _positive(values: np.ndarray) -> np.ndarray:
-    """What is left of it, on a logarithmic axis."""
+    """NaN in place of zero, for a logarithmic axis."""
     return np.where(values > 1e-6, values, np.nan)
