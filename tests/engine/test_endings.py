@@ -166,16 +166,16 @@ def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path
     assert ("Traceback" in told) == (status == command.Exit.FAULT)
 
 
-def test_the_table_of_statuses_is_told(capsys):
-    """Each of them by --help and by the README."""
+def test_the_table_of_statuses_is_complete(capsys):
+    """In --help and in the README of the reports."""
     with pytest.raises(SystemExit):
         command.main(["--help"])
-    told = " ".join(capsys.readouterr().out.split())
-    readme = " ".join((ROOT / "README.md").read_text().split())
-    for text in (told, readme):
-        table = text[text.index("Exit status: 0") :]
-        for status in command.Exit:
-            assert re.search(rf"[:;] {int(status)} \w", table), status
+    printed = " ".join(capsys.readouterr().out.split())
+    table = printed[printed.index("Exit status: 0") :]
+    rows = (ROOT / "reports" / "README.md").read_text()
+    for status in command.Exit:
+        assert re.search(rf"[:;] {int(status)} \w", table), status
+        assert re.search(rf"^\| {int(status)} \| \w", rows, re.MULTILINE), status
 
 
 def test_nobody_reads_what_is_printed():

@@ -376,14 +376,14 @@ def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, 
     """While a result is stored, a figure or the list written: the report before is still whole."""
     assert report(tmp_path, "hertz") == command.Exit.MET
     before = tree(tmp_path)
-    begin = files.write_partial_file
+    write = files.write_partial_file
     monkeypatch.setattr(Full, "says", says, raising=False)
 
     def begun(path, contents):
         with monkeypatch.context() as patch:
             if path.name.endswith(what):
                 patch.setattr(os, "fdopen", lambda handle, mode: Full(handle))
-            return begin(path, contents)
+            return write(path, contents)
 
     for module in ("validation.engine.files", "validation.report.folder"):
         monkeypatch.setattr(f"{module}.begin", begun)
