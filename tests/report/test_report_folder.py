@@ -386,7 +386,7 @@ def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, 
             return write(path, contents)
 
     for module in ("validation.engine.files", "validation.report.folder"):
-        monkeypatch.setattr(f"{module}.begin", begun)
+        monkeypatch.setattr(f"{module}.write_partial_file", begun)
     assert report(tmp_path, "geike") == command.Exit.UNFINISHED == 4
     sentence = capsys.readouterr().err.splitlines()[-1]
     assert sentence.startswith(f"error: {tmp_path}")
