@@ -34,7 +34,7 @@ TABLE = load_wheel_scene("table_14_1")
 ROUNDING = 1e-12
 DECIBEL = 10 / math.log(10)
 SMALL = replace(TABLE, distance=0.16, springs=24, rail=replace(TABLE.rail, shortest=0.5e-3))
-"""Seven turns of the resonance in two thousand steps."""
+"""Seven natural periods in two thousand steps."""
 BOTH = replace(SMALL, wheel=replace(SMALL.rail, rms=0.3e-6, longest=5e-3, hurst=0.5))
 LITTLE = replace(SMALL, radius=0.02, rail=None, wheel=replace(SMALL.rail, shortest=0.4e-3), distance=0.3)
 """A wheel that turns more than twice."""
@@ -62,7 +62,7 @@ def test_tracks_have_their_rms(track):
 
 
 @pytest.mark.parametrize("scene", [SMALL, BOTH, LITTLE], ids=["rail", "both", "wheel"])
-def test_a_number_is_a_track_whoever_is_beside(scene):
+def test_a_number_is_one_track_in_every_ensemble(scene):
     some, alone = rides(scene, count=4).heights(), rides(scene, first=2).heights()
     np.testing.assert_array_equal(some[:, [2]], alone)
     assert np.abs(np.corrcoef(some.T) - np.eye(4)).max() < 0.9
@@ -81,7 +81,7 @@ def test_open_tracks_are_longer_than_what_is_rolled(distance):
 @pytest.mark.parametrize("distance", [0.03, 0.16, 0.1851])
 @pytest.mark.parametrize(("track", "half"), [("periodic", 0.0), ("steady-state", 0.5)])
 def test_periodic_tracks_take_whole_natural_periods(track, half, distance):
-    """To half a cell, and as long as asked for to half a turn, one where that would be none."""
+    """To half a cell, and as long as asked for to half a period, one where that would be none."""
     ride = rides(replace(SMALL, distance=distance), track=track)
     assert ride.places == ride.steps == len(ride.heights())
     wheel, cell = SMALL.body, SMALL.spacing
@@ -292,8 +292,8 @@ def jump_of_waves(scene, ride):
 @pytest.mark.parametrize(("quarters", "theory"), [(1, 1.0), (2, 2.0), (3, 1.0), (4, 2.0)])
 def test_the_mean_square_jump_is_that_of_linear_theory(quarters, theory):
     """Of 400 wheels from rest on the linear contact, within three standard errors of the sum over waves. The theorem
-    leaves out the velocity, (omega_0 / omega_1)^2 of it at quarter turns, and what a band that begins sharply still
-    knows of itself x further, 3.4 / (q_min x), twice, x being the thirty longest waves that are left."""
+    leaves out the velocity, (omega_0 / omega_1)^2 of it at quarters of a period, and what a band that begins sharply
+    still knows of itself x further, 3.4 / (q_min x), twice, x being the thirty longest waves that are left."""
     distance = quarters / 4 * 2 * math.pi * SMALL.speed / SMALL.eigenfrequency
     scene = replace(SMALL, springs=12, distance=distance, rail=replace(SMALL.rail, shortest=1e-3))
     ride = rides(scene, count=400, groups=1, linear=True)
@@ -310,7 +310,7 @@ def test_the_mean_square_jump_is_that_of_linear_theory(quarters, theory):
     assert said / forced == pytest.approx(theory, abs=0.05)
     left_out = (scene.eigenfrequency / scene.jump) ** 2 + 2 * 3.4 / (60 * math.pi)
     assert squares.mean() == pytest.approx(said, abs=error + left_out * forced)
-    # which tells whole turns from quarter turns
+    # which tells whole periods from quarters
     assert error + left_out * forced < 0.8 * forced
 
 
@@ -570,7 +570,7 @@ def test_distance_evidence_is_whole(distances):
     assert next(middle) == pytest.approx(next(middle), rel=1e-12)
 
 
-def test_distances_are_whole_turns_and_double():
+def test_distances_take_whole_natural_periods_and_double():
     length = [ride.steps * ride.scene.spacing for ride in DISTANCE.distances()]
     for i, one in enumerate(length):
         # to the next length that an FFT is fast at: a part in a hundred

@@ -163,7 +163,7 @@ def test_springs_taken_for_a_continuum_are_noticed(result, monkeypatch):
 def test_linear_spacing_holds_for_other_tracks(seed):
     """Within the five standard deviations of the error model; in them it is neither far too wide nor too narrow."""
     track = rough.RoughTrack(rms=1e-3 * free.WHEEL.approach, seed=seed, waves=9, per_wave=rough.FINE)
-    found = rough.coarsen(rough.Spacings(track=track))
+    found = rough.coarsen(track)
     carried = found["level"] > 0
     off = np.log(found["level"][carried] / found["linear"][carried]) / found["spread"][carried]
     assert 0.1 < np.sqrt(np.mean(off**2)) < 3

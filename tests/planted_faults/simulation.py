@@ -137,7 +137,7 @@ FAULTS = {
     ),
     "factor 4 lost in the leakage, seen in a motion": (
         (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
-        test_wheel_motion.test_a_motion_that_repeats_itself_does_not_leak,
+        test_wheel_motion.test_steady_state_does_not_leak,
     ),
     "a period a thousandth too long": (
         (wheel_theory, "hertz_period", scaled(wheel_theory.hertz_period, 1.001)),
@@ -165,7 +165,7 @@ FAULTS = {
     ),
     "shooting without a correction": (
         (test_wheel_motion, "periodic_motion", one_copy),
-        test_wheel_motion.test_the_linear_motion_that_repeats_itself_is_the_steady_one,
+        test_wheel_motion.test_the_periodic_motion_of_a_linear_contact_is_its_steady_state,
     ),
     "a steady motion in continuous time": (
         (contact_laws.LinearLaw, "steady_state", softer_steady),

@@ -156,7 +156,7 @@ def test_time_reversal(rms, thrown):
 
 
 @pytest.mark.parametrize("name", ["springs", "linear", "Hertz"])
-def test_a_wheel_moves_the_same_to_the_last_bit_whoever_rolls_beside_it(name):
+def test_a_wheel_has_the_same_bits_in_every_ensemble(name):
     height = track(300, 4, 0.3)
     make = {
         "springs": lambda which: springs_law(height[:, which], 12.5),
@@ -305,7 +305,7 @@ def test_a_wave_tends_to_the_linear_response_at_second_order():
 
 
 def after(name, cells, turns):
-    """Approach and velocity after so many turns of a small vibration, on a Hertz contact released at 1.5 d_N."""
+    """Approach and velocity after so many small natural periods, on a Hertz contact released at 1.5 d_N."""
     scheme = SCHEMES[name]
     dt = 2 * math.pi * turns / cells
     steps = cells // scheme.cells
@@ -552,7 +552,7 @@ def test_steps_without_contact_are_counted_on_rough_tracks():
 # --- motions that repeat themselves -----------------------------------------------------------------------------------
 
 
-def test_the_linear_motion_that_repeats_itself_is_the_steady_one():
+def test_the_periodic_motion_of_a_linear_contact_is_its_steady_state():
     """Shooting is exact in one round for a linear contact, but for its derivative by differences: 1e-16 / 1e-6."""
     change, dt = track(120, 3, 0.4), 0.08
     law = LinearLaw(WHEEL, change)
@@ -609,7 +609,7 @@ def test_shooting_ends_where_its_tolerance_is_met_and_says_so_where_it_is_not():
         assert (left <= 1e-8).all() == met
 
 
-def test_a_motion_that_repeats_itself_has_the_same_bits_whoever_rolls_beside_it():
+def test_periodic_motion_has_the_same_bits_in_every_ensemble():
     """A gentle track, done in a round or two, and a rough one that takes more."""
     height = np.concatenate([track(300, 1, 0.005), track(300, 1, 0.15, seed=1)], axis=1)
 
@@ -633,7 +633,7 @@ def periodogram(record, time_step):
     return np.fft.fftfreq(count, time_step), spectrum
 
 
-def test_a_motion_that_repeats_itself_does_not_leak():
+def test_steady_state_does_not_leak():
     """Between the waves of the track there is nothing but rounding; from static equilibrium, the resonance leaks."""
     change, dt, count = track(400, 1, 0.4, longest=20, shortest=30), 0.05, 400
     law = LinearLaw(WHEEL, change)

@@ -1,4 +1,4 @@
-"""Free vibration of the wheel of Table 14.1 in steps of any scheme: the solves, and what theory knows of a step."""
+"""Free vibration of the wheel of Table 14.1 by every scheme, and the theory of one step."""
 
 import math
 from dataclasses import dataclass
@@ -27,17 +27,17 @@ WHEEL = Wheel(radius=0.5, mass=500.0, modulus=236.25e9, load=4905.0)
 SPEED = 20.0
 SCHEMES = {scheme.name: scheme for scheme in INTEGRATORS}
 LIFT_OFF = 2.5 ** (2 / 3)
-"""Released above it, over d_N, a wheel on a Hertz contact loses contact: V(LIFT_OFF) = V(0)."""
+"""Released from a greater approach over d_N, a wheel on a Hertz contact loses contact: V(LIFT_OFF) = V(0)."""
 TENTHS = 10
 
 
 @dataclass(frozen=True, kw_only=True)
 class Vibrations:
-    """Free linear vibration by one scheme; as in the case."""
+    """Free linear vibration by one scheme, in steps omega_eigen dt."""
 
     scheme: str
     steps: tuple[float, ...]
-    turns: int
+    natural_periods: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +47,7 @@ class HertzVibrations:
     scheme: str
     step: float
     highest: tuple[float, ...]
-    turns: int
+    natural_periods: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,27 +59,29 @@ class LongRun:
     steps: int
 
     @property
-    def turn(self) -> float:
+    def omega_dt(self) -> float:
         return WHEEL.eigenfrequency * WHEEL.contact_radius / 100 / SPEED
 
 
-def march(scheme: Integrator, law: ContactLaw, turn: float, d: FloatArray, steps: int) -> tuple[FloatArray, FloatArray]:
-    """u = d / d_N and u' / omega_eigen, shape (steps, wheels), from rest at d; turn: omega_eigen dt of a step."""
+def march(
+    scheme: Integrator, law: ContactLaw, omega_dt: float, d: FloatArray, steps: int
+) -> tuple[FloatArray, FloatArray]:
+    """u = d / d_N and u' / omega_eigen, shape (steps, wheels), from rest at d; omega_dt: omega_eigen times a step."""
 
     def acceleration(place: int, d: FloatArray) -> FloatArray:
         return np.asarray((WHEEL.load - law.force(place, d)) / WHEEL.mass)
 
-    time_step = turn / WHEEL.eigenfrequency / scheme.cells
+    time_step = omega_dt / WHEEL.eigenfrequency / scheme.cells
     states = islice(scheme.march(acceleration, d, np.zeros_like(d), time_step), steps)
     y, v, _ = map(np.stack, zip(*states, strict=True))
     return y / WHEEL.approach, v / (WHEEL.approach * WHEEL.eigenfrequency)
 
 
 def vibrate(problem: Vibrations) -> Outcome:
-    """Growth and angle of a step, of each step, and the largest change of the energy in the first turn."""
+    """Growth and angle of a step, of each step, and the largest change of the energy in the first natural period."""
     scheme, law, rows = SCHEMES[problem.scheme], LinearLaw(WHEEL, np.zeros((1, 1))), []
     for x in problem.steps:
-        steps = max(24, math.ceil(problem.turns * 2 * math.pi / x))
+        steps = max(24, math.ceil(problem.natural_periods * 2 * math.pi / x))
         u, v = march(scheme, law, x, np.array([2 * WHEEL.approach]), steps)
         factor = eigenvalue(u[:, 0] - 1, max(1, int(math.pi / 2 / x)))
         energy = ((u - 1) ** 2 + v**2)[: math.ceil(2 * math.pi / x) + 1, 0]
@@ -113,8 +115,8 @@ def amplification(scheme: str, x: FloatArray) -> NDArray[np.complex128]:
     return np.where(half < 1, np.exp(2j * np.arcsin(np.minimum(half, 1))), -np.exp(2 * np.arccosh(np.maximum(half, 1))))
 
 
-def first_turn(scheme: str, x: FloatArray) -> FloatArray:
-    """Largest relative change of the energy within a turn, released at rest.
+def first_period(scheme: str, x: FloatArray) -> FloatArray:
+    """Largest relative change of the energy within a natural period, released at rest.
 
     Explicit Euler: (1 + x^2)^n - 1 after n = 2 pi / x steps; Runge-Kutta: 1 - (1 - x^6 / 72 + x^8 / 576)^n, since
     |lambda|^2 is that; symplectic Euler keeps u^2 + u'^2 - x u u', so z / (1 - z) with z = x / 2; Verlet keeps
@@ -135,16 +137,16 @@ def vibrate_hertz(problem: HertzVibrations) -> Outcome:
     scheme, highest = SCHEMES[problem.scheme], np.array(problem.highest)
     law = HertzLaw(WHEEL, highest.size)
     longest = max(wheel_theory.hertz_period(u) for u in problem.highest)
-    steps = math.ceil(problem.turns * longest * 2 * math.pi / problem.step)
+    steps = math.ceil(problem.natural_periods * longest * 2 * math.pi / problem.step)
     u, v = march(scheme, law, problem.step, WHEEL.approach * highest, steps)
     energy = hertz_energy(u, v)
     change = np.abs(energy / energy[0] - 1)
-    turn = np.array([period(one) for one in u.T]) * problem.step / (2 * math.pi)
-    return {"period": turn, "early": change[: steps // 2].max(axis=0), "late": change[steps // 2 :].max(axis=0)}
+    periods = np.array([period(one) for one in u.T]) * problem.step / (2 * math.pi)
+    return {"period": periods, "early": change[: steps // 2].max(axis=0), "late": change[steps // 2 :].max(axis=0)}
 
 
 def period(u: FloatArray) -> float:
-    """Steps of a turn, between the first and the last fall through one; from the third step on, to the fourth last."""
+    """Steps of a period, between the first and the last fall through one; from the third step to the fourth last."""
     falls = [int(i) for i in np.flatnonzero((u[:-1] >= 1) & (u[1:] < 1)) if 2 <= i < len(u) - 4]
     return (crossing(u, falls[-1]) - crossing(u, falls[0])) / (len(falls) - 1)
 
@@ -162,8 +164,8 @@ def long_run(problem: LongRun) -> Outcome:
     scheme, highest = SCHEMES[problem.scheme], np.array(problem.highest)
     tenth = problem.steps // TENTHS
     law, d = HertzLaw(WHEEL, highest.size), WHEEL.approach * highest
-    u, v = march(scheme, law, problem.turn, d, TENTHS * tenth)
-    found = {"energy": hertz_energy(u, v), "kept": kept_energy(u, v, problem.turn)}
+    u, v = march(scheme, law, problem.omega_dt, d, TENTHS * tenth)
+    found = {"energy": hertz_energy(u, v), "kept": kept_energy(u, v, problem.omega_dt)}
     return {name: e.reshape(TENTHS, tenth, -1).mean(axis=1) / e[0] for name, e in found.items()}
 
 

@@ -79,7 +79,7 @@ class Laps:
     lift: float = 0.2
 
     @property
-    def turn(self) -> float:
+    def omega_dt(self) -> float:
         return WHEEL.eigenfrequency * self.track.spacing / SPEED
 
 
@@ -96,13 +96,6 @@ class LiftOff:
     @property
     def wheel(self) -> Wheel:
         return replace(WHEEL, load=self.load)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Spacings:
-    """One track under springs of many spacings, at the approach d_N."""
-
-    track: RoughTrack
 
 
 def run_laps(problem: Laps) -> Outcome:
@@ -124,20 +117,20 @@ def run_laps(problem: Laps) -> Outcome:
     shape = (TENTHS, -1, problem.wheels)
     return {
         "square": windowed_mean((motion.acceleration**2).reshape(shape)),
-        "free": np.array([resonance(tenth, problem.turn) for tenth in motion.path.reshape(shape)]),
+        "free": np.array([resonance(tenth, problem.omega_dt) for tenth in motion.path.reshape(shape)]),
     }
 
 
 def windowed_mean(tenths: FloatArray) -> FloatArray:
-    """Mean of each tenth with a Hann weight: of tenths that end within a turn of the resonance a plain one swings."""
+    """Mean of each tenth with a Hann weight: a plain mean of tenths that end within a natural period oscillates."""
     n = tenths.shape[1]
     weight = np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2
     return np.asarray(np.einsum("j,ijk->ik", weight / weight.sum(), tenths))
 
 
-def resonance(d: FloatArray, turn: float) -> FloatArray:
+def resonance(d: FloatArray, omega_dt: float) -> FloatArray:
     """A^2 of the least squares of A cos(omega_eigen t + phi) and a constant, of each wheel [m^2]."""
-    t = turn * np.arange(len(d))
+    t = omega_dt * np.arange(len(d))
     design = np.stack([np.cos(t), np.sin(t), np.ones_like(t)], axis=1)
     found = np.linalg.lstsq(design, d, rcond=None)[0]
     return np.asarray(found[0] ** 2 + found[1] ** 2)
@@ -173,7 +166,6 @@ def lift_off(problem: LiftOff) -> Outcome:
 def linear_change(wheel: Wheel, track: RoughTrack, height: FloatArray) -> FloatArray:
     """dF / F_N of (14.11) along a track."""
     with warnings.catch_warnings():
-        # how far it holds is what is asked
         warnings.simplefilter("ignore", mdr.LinearityWarning)
         rolled = mdr.roll(
             height,
@@ -186,13 +178,12 @@ def linear_change(wheel: Wheel, track: RoughTrack, height: FloatArray) -> FloatA
     return np.asarray(rolled.force / wheel.load - 1)
 
 
-def coarsen(problem: Spacings) -> Outcome:
-    """Of each stride, against the finest springs.
+def coarsen(track: RoughTrack) -> Outcome:
+    """Springs of each stride on one track, at the approach d_N, against the finest.
 
     error: the difference of force, rms about its mean, over the fluctuation; level, linear: of the last one-third
     octave over that of the finest, as it is and by linear theory; spread: see there, of both together.
     """
-    track = problem.track
     height = track.heights(1)[:, 0]
     fine = force_at(height, track.spacing)
     finest, rows = spread(track, 1), []

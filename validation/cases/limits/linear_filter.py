@@ -13,7 +13,7 @@ from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings
 from validation.engine.engine import Outcome, random_generator
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.rolling_strip import Strip, roll_strip
-from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, Spacings, coarsen
+from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, coarsen
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance
 
@@ -150,7 +150,7 @@ def rms_slope(spectrum: PiecewisePowerLaw) -> float:
 def sweep_spacing(problem: CoarserSprings) -> Outcome:
     """The last one-third octave on coarser springs; messages are those of drawing such a track."""
     track = RoughTrack(rms=1e-3 * WHEEL.approach, seed=problem.seed, waves=9, per_wave=FINE)
-    levels = coarsen(Spacings(track=track))["level"]
+    levels = coarsen(track)["level"]
     points = [
         (
             abs(decibel(level)) if level > 0 else math.inf,

@@ -101,7 +101,7 @@ def sweep_time_step(problem: TimeSteps) -> Outcome:
     outcome: Outcome = {}
     for limit, scheme, steps, threshold in sweeps:
         assert SCHEMES[scheme.name] is scheme
-        found = vibrate(Vibrations(scheme=scheme.name, steps=steps, turns=problem.turns))
+        found = vibrate(Vibrations(scheme=scheme.name, steps=steps, natural_periods=problem.turns))
         error = np.maximum(found["growth"] - 1, 0.0) if limit is STEP else found["change"]
         points = [(float(e), _message_of_step(scheme, x)) for e, x in zip(error, steps, strict=True)]
         outcome |= swept(limit, steps, points, threshold)

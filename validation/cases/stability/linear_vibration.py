@@ -6,7 +6,7 @@ import numpy as np
 
 from validation.analysis.evidence import Number, Table, table_of
 from validation.cases.stability.stability import Row, WheelStabilityResult
-from validation.simulation.free_vibration import SCHEMES, amplification, first_turn
+from validation.simulation.free_vibration import SCHEMES, amplification, first_period
 from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, SYMPLECTIC_EULER, VELOCITY_VERLET
 
 ROUNDING = 1e-9
@@ -21,7 +21,7 @@ def linear_table(result: WheelStabilityResult) -> Table:
     for name, found in result.linear.items():
         x = np.array(result.case.steps)
         exact = amplification(name, x)
-        theory = first_turn(name, np.minimum(x, 1.99))
+        theory = first_period(name, np.minimum(x, 1.99))
         for i, step in enumerate(result.case.steps):
             rows.append(
                 {

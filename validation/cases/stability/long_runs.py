@@ -24,7 +24,7 @@ def long_table(result: WheelStabilityResult) -> Table:
     """Energy over that of the beginning, in tenths of the run."""
     rows: list[Row] = []
     for name, found in result.long.items():
-        x = LongRun(scheme=name, highest=(), steps=result.case.long_steps).turn
+        x = LongRun(scheme=name, highest=(), steps=result.case.long_steps).omega_dt
         for i, highest in enumerate(result.case.long_highest):
             for j in range(TENTHS):
                 step = (j + 0.5) * (result.case.long_steps // TENTHS)
@@ -53,7 +53,7 @@ def long_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
 def _drift_number(result: WheelStabilityResult, highest: float, change: FloatArray) -> Number:
     """Each step rounds the approach by UNIFORM last places, which does the work of the force on the way."""
     slope, uncertainty = fit_drift(change)
-    steps, turn = result.case.long_steps, LongRun(scheme=VELOCITY_VERLET.name, highest=(), steps=0).turn
+    steps, turn = result.case.long_steps, LongRun(scheme=VELOCITY_VERLET.name, highest=(), steps=0).omega_dt
     walk = math.sqrt(2 * steps) * UNIFORM * np.finfo(float).eps * highest / (highest - 1)
     return Number(
         quantity="drift of the conserved energy",
@@ -134,7 +134,7 @@ def _growth_number(scheme: str, energy: str, laps: int, tenths: FloatArray, theo
     mean, half = mean_of_logs(ratios)
     amplitude = (Laps.lift + HEIGHT / WHEEL.approach) * math.exp(theory / 2)
     problem = Laps(scheme="", track=RoughTrack(rms=HEIGHT, seed=0), wheels=1, laps=laps)
-    turns = laps / TENTHS * problem.track.points * problem.turn / (2 * math.pi)
+    turns = laps / TENTHS * problem.track.points * problem.omega_dt / (2 * math.pi)
     return Number(
         quantity=f"growth of the {energy}, last tenth over first, log",
         model=scheme,
@@ -152,4 +152,4 @@ def _growth_number(scheme: str, energy: str, laps: int, tenths: FloatArray, theo
 def _euler_gain(laps: float) -> float:
     """log of the energy by which explicit Euler multiplies that of a free vibration in so many laps."""
     problem = Laps(scheme=EXPLICIT_EULER.name, track=RoughTrack(rms=HEIGHT, seed=0), wheels=1, laps=0)
-    return laps * problem.track.points * math.log1p(problem.turn**2)
+    return laps * problem.track.points * math.log1p(problem.omega_dt**2)

@@ -24,7 +24,6 @@ from validation.simulation.spring_tracks import (
     Laps,
     LiftOff,
     RoughTrack,
-    Spacings,
     coarsen,
     lift_off,
     run_laps,
@@ -84,9 +83,9 @@ def run(case: WheelStability, engine: Engine = SERIAL) -> WheelStabilityResult:
     track, lift = RoughTrack(rms=HEIGHT, seed=case.seed), _lift_problems(case)
     long = [LongRun(scheme=name, highest=case.long_highest, steps=case.long_steps) for name in COMPARED]
     laps = [Laps(scheme=name, track=track, wheels=case.wheels, laps=case.laps) for name in COMPARED]
-    linear = [Vibrations(scheme=name, steps=case.steps, turns=case.turns) for name in SCHEMES]
+    linear = [Vibrations(scheme=name, steps=case.steps, natural_periods=case.turns) for name in SCHEMES]
     hertz = [
-        HertzVibrations(scheme=name, step=step, highest=case.highest, turns=case.hertz_turns)
+        HertzVibrations(scheme=name, step=step, highest=case.highest, natural_periods=case.hertz_turns)
         for name in SCHEMES
         for step in case.hertz_steps
     ]
@@ -111,12 +110,11 @@ def _lift_problems(case: WheelStability) -> list[LiftOff]:
     return heights + [rolled("load", part * WHEEL.load, HEIGHT) for part in case.loads]
 
 
-def spacing_problems(case: WheelStability, height: float) -> list[Spacings]:
+def spacing_problems(case: WheelStability, height: float) -> list[RoughTrack]:
     """Tracks of a height h_rms / d_N under springs of many spacings."""
     rms = height * WHEEL.approach
     return [
-        Spacings(track=RoughTrack(rms=rms, seed=case.seed, realisation=i, waves=9, per_wave=FINE))
-        for i in range(case.spacing_tracks)
+        RoughTrack(rms=rms, seed=case.seed, realisation=i, waves=9, per_wave=FINE) for i in range(case.spacing_tracks)
     ]
 
 
