@@ -546,7 +546,7 @@ def test_surfaces_are_the_same_on_all_grids_and_at_all_heights(monkeypatch):
     case = rolling.ForceSpectrum(length=8.0, width=6.0)
     for height in (0.01, 1.0):
         for cells in (4, 8):
-            case.strip(height, 2, cells).surface()
+            case.strips_of(height, cells)[2].surface()
     assert len(set(seen)) == 1
     seen = drawn_by(monkeypatch, rough_punch)
     for cells in (8, 16):

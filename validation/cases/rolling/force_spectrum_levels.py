@@ -7,19 +7,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.statistics import (
-    POWER_DECIBEL,
-    Estimate,
-    Sample,
-    difference_of_halves,
-    extrapolated,
-    log_mean,
-    paired_samples,
-    sample,
-    weighted_mean,
-)
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, Sample, extrapolated, paired_samples, sample
 from validation.cases.rolling.force_spectrum import ForceSpectrum, RollingResult
-from validation.cases.rolling.linear_levels import level_1d, level_3d
+from validation.cases.rolling.linear_levels import ROUNDING, level_1d, level_3d, over_exact, ratio_of_pairs
 from validation.engine.engine import Outcome, random_generator
 from validation.simulation.rolling_strip import BOOTSTRAP
 from validation.simulation.track_spectrum import InputSpectrum
@@ -33,8 +23,6 @@ MODELS = (LINEAR_1D, SPRINGS, LINEAR_3D, ROLLING_SPRINGS)
 RULES: dict[str, InputSpectrum] = {SPRINGS: "geike", ROLLING_SPRINGS: "rolling"}
 EXACT = 10**6
 """Realisations behind a value without scatter."""
-ROUNDING = 1e-300
-"""Where (14.12) has nothing, its level is rounding's, which is no reference."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +34,6 @@ class LevelsAtHeight:
 
     @property
     def case(self) -> ForceSpectrum:
-        """The settings."""
         return self.result.case
 
     @property
@@ -106,23 +93,17 @@ class LevelsAtHeight:
 
     def bem_level(self, weights: FloatArray) -> tuple[Estimate, float]:
         """Boundary elements on cells of no size, and the half-width that the grid leaves."""
-        statistic = difference_of_halves(weighted_mean(weights, log_mean))
-        return extrapolated(self.bem_over_linear.estimate(statistic), self.finer.estimate(statistic))
+        return extrapolated(ratio_of_pairs(self.bem_over_linear, weights), ratio_of_pairs(self.finer, weights))
 
     def model_level(self, model: str, weights: FloatArray) -> Estimate:
         """Another model."""
+        exact = self.linear[LINEAR_3D]
+        if model not in self.linear:
+            return over_exact(self.of_springs[model], exact, weights)
         used = weights > 0
-        reference = float(weights[used] @ np.log(self.linear[LINEAR_3D][used]))
-        if model in self.linear:
-            with np.errstate(divide="ignore"):
-                value = float(weights[used] @ np.log(self.linear[model][used]))
-            return Estimate(value - reference, 0.0, EXACT)
-        found = self.of_springs[model].estimate(weighted_mean(weights, log_mean))
-        return Estimate(found.value - reference, found.error, found.samples)
-
-    def nonlinear_level(self, weights: FloatArray) -> Estimate:
-        """Springs over the linear filter on the same tracks."""
-        return self.springs_over_linear.estimate(difference_of_halves(weighted_mean(weights, log_mean)))
+        with np.errstate(divide="ignore"):
+            model_, reference = (float(weights[used] @ np.log(one[used])) for one in (self.linear[model], exact))
+        return Estimate(model_ - reference, 0.0, EXACT)
 
     def decibels_over_bem(self, model: str, weights: FloatArray) -> float:
         """A model over boundary elements [dB]."""

@@ -1,6 +1,7 @@
 """Numbers of rolling over isotropic roughness: levels over boundary elements, variance and mean of the force."""
 
 import math
+from dataclasses import replace
 
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Place, Role, number_with
@@ -14,6 +15,7 @@ from validation.cases.rolling.force_spectrum_levels import (
     LevelsAtHeight,
     Region,
 )
+from validation.cases.rolling.linear_levels import ratio_of_pairs
 from validation.theory.rolling import level_ratio
 
 LEVEL, NONLINEAR = "mean level", "level of the nonlinear over the linear force"
@@ -66,7 +68,7 @@ def nonlinear(mine: LevelsAtHeight, region: Region) -> Number:
     weights = mine.weights(region)
     bem, grid = mine.bem_level(weights)
     return difference(
-        mine.nonlinear_level(weights),
+        ratio_of_pairs(mine.springs_over_linear, weights),
         bem,
         absolute=True,
         quantity=NONLINEAR,
@@ -126,19 +128,12 @@ def moments(mine: LevelsAtHeight) -> list[Number]:
 
 def _excess(case: ForceSpectrum, numbers: list[Number]) -> Number:
     """By how much Geike's spectrum is too loud along the track, beside the power law without ends."""
-    where = place(case.heights[0], regions(case)[-1])
-    found = number_with(numbers, LEVEL, f"{LINEAR_1D} over bem3d", **where)
-    return Number(
+    found = number_with(numbers, LEVEL, f"{LINEAR_1D} over bem3d", **place(case.heights[0], regions(case)[-1]))
+    return replace(
+        found,
         quantity="mean level beside its limit for q a >> 1",
-        model=found.model,
-        where=where,
-        value=found.value,
         reference=-POWER_DECIBEL * math.log(level_ratio(case.hurst)),
         source="sqrt(π) Γ(H + 2) / Γ(H + 3/2), an unbounded power law in linear theory",
         tolerance=0.5,
-        unit="dB",
         reason="0.5 dB: the band ends, and q a is not infinite",
-        grid=found.grid,
-        sample=found.sample,
-        role=Role.FINDING,
     )

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from validation.analysis.evidence import Table, columns, table_of
-from validation.analysis.statistics import POWER_DECIBEL, difference_of_halves, log_mean, ratio_of_means, weighted_mean
+from validation.analysis.statistics import POWER_DECIBEL, ratio_of_means
 from validation.cases.rolling.force_spectrum import ForceSpectrum, RollingResult
 from validation.cases.rolling.force_spectrum_levels import (
     LINEAR_1D,
@@ -15,7 +15,7 @@ from validation.cases.rolling.force_spectrum_levels import (
     coherence,
     correlation,
 )
-from validation.cases.rolling.linear_levels import force_3d
+from validation.cases.rolling.linear_levels import force_3d, ratio_of_pairs
 from validation.simulation.rolling_strip import HERTZ
 from validation.simulation.track_spectrum import TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, mean_force_spectrum_1d
@@ -35,9 +35,8 @@ def _levels(mine: LevelsAtHeight) -> list[Row]:
     waves = case.bands.counts(2 * np.pi / case.length * np.arange(1, int(case.length * case.springs / 2)))
     rows: list[Row] = []
     for i, weights in enumerate(mine.single_bands):
-        bem, grid = mine.bem_level(weights)
+        (bem, grid), as_rolled = mine.bem_level(weights), ratio_of_pairs(mine.bem_over_linear, weights)
         unit = POWER_DECIBEL * math.log(mine.linear[LINEAR_3D][i] / mine.height**2)
-        as_rolled = mine.bem_over_linear.estimate(difference_of_halves(weighted_mean(weights, log_mean)))
         row: Row = {
             "h/d": mine.height,
             "q a": float(centres[i]),

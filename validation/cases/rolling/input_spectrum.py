@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.analysis.spectra import Bands
+from validation.cases.rolling.settings import RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
-from validation.simulation.rolling_strip import TRACKS, Strip, Tracks, roll_strips, roll_tracks, strip_levels
+from validation.simulation.rolling_strip import TRACKS, roll_strips, roll_tracks, strip_levels
 from validation.simulation.rough_punch import (
     PunchRoughness,
     Surface,
@@ -32,26 +32,18 @@ RollingKey = tuple[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingInput:
+class RollingInput(RollingSettings):
     """Linear theory of springs by input spectrum, over many surfaces; springs and boundary elements over some of them.
 
-    last: q a of the end of all bands but the narrow one; heights: h_rms / d; lowest, length, width, cells, strips,
-    tracks, springs, seed: as in `ForceSpectrum`; punch_cells, surfaces, profiles: of the punches of Fig. 14.1, H = 0.7.
+    punch_cells, surfaces, profiles: of the punches of Fig. 14.1, H = 0.7. The narrow band ends before `last`.
     """
 
-    last: float = 10.0
     heights: tuple[float, ...] = (0.03, 0.3)
-    lowest: float = 0.4
-    length: float = 64.0
-    width: float = 16.0
-    cells: int = 8
     strips: int = 4
     tracks: int = 40
-    springs: int = 32
     punch_cells: int = 64
     surfaces: int = 12
     profiles: int = 200
-    seed: int = 144
 
     @property
     def derived_for(self) -> dict[str, PiecewisePowerLaw]:
@@ -78,11 +70,6 @@ class RollingInput:
         return {"H = 0.7": self.derived_for["H = 0.7"], **self.others}
 
     @property
-    def bands(self) -> Bands:
-        """One-third octaves from the lowest to the end of the bands, one of them around the first zero of sin(q a)."""
-        return Bands.around(math.pi, self.lowest, self.last).on(self.length)
-
-    @property
     def forces(self) -> tuple[float, ...]:
         """Fbar at which the punches are pressed."""
         return (0.03, 0.1, 0.3)
@@ -100,35 +87,6 @@ class RollingInput:
     def below_the_end(self, spectrum: PiecewisePowerLaw) -> list[int]:
         """Indices of the one-third octaves that begin below the end of a spectrum."""
         return [i for i, low in enumerate(self.bands.edges[:-1]) if low < spectrum.edges[-1] * 0.999]
-
-    def strips_of(self, name: str, height: float) -> list[Strip]:
-        """Realisations of boundary elements."""
-        return [
-            Strip(
-                spectrum=self.rolled[name],
-                height=height,
-                realisation=i,
-                length=self.length,
-                width=self.width,
-                cells=self.cells,
-                tolerance=min(1e-5, 1e-4 * height),
-                seed=self.seed,
-            )
-            for i in range(self.strips)
-        ]
-
-    def tracks_of(self, name: str, height: float, rule: InputSpectrum) -> Tracks:
-        """All realisations on springs."""
-        return Tracks(
-            spectrum=self.rolled[name],
-            input_spectrum=rule,
-            height=height,
-            realisations=self.tracks,
-            length=self.length,
-            springs=self.springs,
-            bands=self.bands,
-            seed=self.seed,
-        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -182,8 +140,12 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
     Raises NotConvergedError where fewer than three strips of a spectrum and height, or surfaces at a force, converge.
     """
     keys = [(name, height) for name in case.rolled for height in case.heights]
-    strips, unconverged = roll_strips({key: case.strips_of(*key) for key in keys}, engine)
-    tracks = {(*key, rule): case.tracks_of(*key, rule) for key in keys for rule in INPUT_SPECTRA}
+    groups = {
+        (name, h): [case.strip(case.rolled[name], h, i, case.cells, min(1e-5, 1e-4 * h)) for i in range(case.strips)]
+        for name, h in keys
+    }
+    strips, unconverged = roll_strips(groups, engine)
+    tracks = {(name, h, rule): case.tracks_on(case.rolled[name], h, rule) for name, h in keys for rule in INPUT_SPECTRA}
     on_springs = engine.map(roll_tracks, list(tracks.values()))
     surfaces = [
         Surface(roughness=case.punch, realisation=i, cells=case.punch_cells, forces=case.forces, tolerance=1e-4)

@@ -31,7 +31,7 @@ def evidence(result: RollingInputResult) -> Evidence:
     levels = [InputLevels(result, *key, rule) for key in result.bem for rule in INPUT_SPECTRA]
     numbers = [
         *(number for name in case.spectra for number in linear_numbers(bands, name)),
-        *(one.number() for one in levels),
+        *(one.number for one in levels),
         *(punch_number(result, rule) for rule in INPUT_SPECTRA),
     ]
     rolled, within = rolled_bands(result, levels), bands_within(case, bands)

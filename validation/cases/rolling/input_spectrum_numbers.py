@@ -14,17 +14,14 @@ from validation.analysis.statistics import (
     Estimate,
     Sample,
     at_level,
-    difference_of_halves,
     log_mean,
     nearest,
     paired_samples,
     sample,
-    weighted_mean,
 )
-from validation.cases.rolling.force_spectrum_levels import ROUNDING
 from validation.cases.rolling.force_spectrum_numbers import ONE_DECIBEL, REASON
 from validation.cases.rolling.input_spectrum import RollingInput, RollingInputResult
-from validation.cases.rolling.linear_levels import level_1d, level_3d
+from validation.cases.rolling.linear_levels import ROUNDING, level_1d, level_3d, over_exact, ratio_of_pairs
 from validation.engine.engine import random_generator
 from validation.simulation.rolling_strip import BOOTSTRAP
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum
@@ -106,38 +103,29 @@ def bands_within(case: RollingInput, bands: Table) -> Table:
 
 @dataclass(frozen=True)
 class InputLevels:
-    """Natural logarithms of the levels over one surface and height, of springs with one input spectrum."""
+    """Levels over one surface and height, of boundary elements and of springs with one input spectrum."""
 
     result: RollingInputResult
     spectrum: str
     height: float
     rule: InputSpectrum
 
-    def _rng(self, part: int) -> np.random.Generator:
-        case = self.result.case
+    @cached_property
+    def _samples(self) -> tuple[Sample, Sample]:
+        """Springs; boundary elements and linear theory on the same surfaces, in pairs."""
+        case, bem = self.result.case, self.result.bem[self.spectrum, self.height]
+        springs = np.maximum(self.result.mdr[self.spectrum, self.height, self.rule]["level"], ROUNDING)
         key = list(case.spectra).index(self.spectrum), case.heights.index(self.height), INPUT_SPECTRA.index(self.rule)
-        return random_generator(case.seed, BOOTSTRAP, *key, part)
-
-    @cached_property
-    def bem_over_linear(self) -> Sample:
-        """Boundary elements and linear theory on the same surfaces, in pairs."""
-        bem = self.result.bem[self.spectrum, self.height]
-        return paired_samples(bem["linear level"], bem["level"], self._rng(0))
-
-    @cached_property
-    def springs(self) -> Sample:
-        """Springs."""
-        level = self.result.mdr[self.spectrum, self.height, self.rule]["level"]
-        return sample(np.maximum(level, ROUNDING), self._rng(1))
+        of_bem, of_springs = (random_generator(case.seed, BOOTSTRAP, *key, part) for part in (0, 1))
+        return sample(springs, of_springs), paired_samples(bem["linear level"], bem["level"], of_bem)
 
     def both(self, weights: FloatArray) -> tuple[Estimate, Estimate]:
-        """Springs and boundary elements over linear theory in 3D."""
-        case, used = self.result.case, weights > 0
+        """ln of springs and of boundary elements over linear theory in 3D."""
+        (springs, pairs), case = self._samples, self.result.case
         exact = self.height**2 * level_3d(case.spectra[self.spectrum], case.bands)
-        springs = self.springs.estimate(weighted_mean(weights, log_mean))
-        over = Estimate(springs.value - float(weights[used] @ np.log(exact[used])), springs.error, springs.samples)
-        return over, self.bem_over_linear.estimate(difference_of_halves(weighted_mean(weights, log_mean)))
+        return over_exact(springs, exact, weights), ratio_of_pairs(pairs, weights)
 
+    @property
     def number(self) -> Number:
         """Springs over boundary elements, in the mean over the bands in that of the spectrum."""
         inside = self.result.case.inside(self.result.case.spectra[self.spectrum])
