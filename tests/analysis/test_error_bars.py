@@ -29,9 +29,9 @@ from validation.analysis.statistics import (
     ratio_of_means,
     sample,
 )
-from validation.benchmarks.work_precision.errors import MethodAnswers, error
+from validation.benchmarks.work_precision.errors import MethodValues, error
 from validation.benchmarks.work_precision.exact_problem import logarithm
-from validation.benchmarks.work_precision.measurement import Quantity
+from validation.benchmarks.work_precision.problem import Quantity
 from validation.cases.limits.numbers import exponent_number, threshold_number
 from validation.cases.limits.sweep import Limit, Sweep, swept
 from validation.cases.punch import fractal_punch, fractal_punch_decades
@@ -368,7 +368,7 @@ def test_the_error_of_an_answer_covers_its_truth(size, short, paired, quantity):
         reference = 1 + 0.1 * rng.standard_normal(size)
         own = reference if paired else 1 + 0.1 * rng.standard_normal(size)
         mine = 1.5 * own * (1 + 0.05 * rng.standard_normal(size))
-        one = error(quantity, MethodAnswers({"k": mine}, paired=paired), MethodAnswers({"k": reference}))
+        one = error(quantity, MethodValues({"k": mine}, paired=paired), MethodValues({"k": reference}))
         return one.value, one.half_width
 
     assert holds(covered(drawn, truth, trials=400), trials=400, short=short, wide=0.0 if paired else 0.04)
@@ -379,18 +379,18 @@ def test_the_error_of_an_answer_has_the_quantile_of_its_sample(paired):
     """Of a mean of n: t s / sqrt(n) over the mean of the reference, on both sides where they are not paired."""
     x = np.random.default_rng(0).lognormal(0, 0.1, 5)
     exact = {"k": np.full(5, 2.0)}
-    one = error(MEAN, MethodAnswers({"k": x}, paired=paired), MethodAnswers(exact))
+    one = error(MEAN, MethodValues({"k": x}, paired=paired), MethodValues(exact))
     assert one.half_width == pytest.approx(t(5) * x.std(ddof=1) / math.sqrt(5) / 2)
     # half of it extrapolated the same way leaves the same; twice the change leaves more
-    more = error(MEAN, MethodAnswers({"k": x}, {"k": np.full(5, 1.0)}, 2.0, paired=paired), MethodAnswers(exact))
+    more = error(MEAN, MethodValues({"k": x}, {"k": np.full(5, 1.0)}, 2.0, paired=paired), MethodValues(exact))
     assert more.half_width > 1.5 * one.half_width
 
 
 def test_two_realisations_have_an_error_bar_and_one_has_none():
     x, exact = np.array([1.0, 1.2]), {"k": np.array([1.0, 1.0])}
-    assert error(MEAN, MethodAnswers({"k": x}), MethodAnswers(exact)).half_width == pytest.approx(t(2) * 0.1)
-    assert error(MEAN, MethodAnswers({"k": x[:1]}), MethodAnswers({"k": np.ones(1)})).half_width == 0.0
-    alone = error(MEAN, MethodAnswers({"k": np.ones(1)}, paired=False), MethodAnswers({"k": x}))
+    assert error(MEAN, MethodValues({"k": x}), MethodValues(exact)).half_width == pytest.approx(t(2) * 0.1)
+    assert error(MEAN, MethodValues({"k": x[:1]}), MethodValues({"k": np.ones(1)})).half_width == 0.0
+    alone = error(MEAN, MethodValues({"k": np.ones(1)}, paired=False), MethodValues({"k": x}))
     assert alone.half_width == pytest.approx(t(2) * 0.1 / 1.1**2, rel=0.01)
 
 
@@ -399,9 +399,7 @@ def test_two_realisations_tell_nothing_of_how_a_deviation_scatters():
         name="s", log=lambda a: np.log(np.atleast_1d(a["k"].std(ddof=1) if a["k"].size > 1 else 0.0)), needs=("k",)
     )
     with np.errstate(divide="ignore", invalid="ignore"):
-        found_ = error(
-            deviation, MethodAnswers({"k": np.array([1.0, 1.2])}), MethodAnswers({"k": np.array([1.0, 1.3])})
-        )
+        found_ = error(deviation, MethodValues({"k": np.array([1.0, 1.2])}), MethodValues({"k": np.array([1.0, 1.3])}))
     assert found_.half_width == math.inf
 
 

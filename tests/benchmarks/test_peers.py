@@ -1,4 +1,4 @@
-"""The race: fair to everyone, a row for everyone, and true where peers are installed."""
+"""The solver comparison: the same for all solvers, a row for each, and true where other packages are installed."""
 
 import dataclasses
 import json
@@ -12,47 +12,49 @@ import validation.__main__ as command
 from validation.analysis.evidence import Verdict
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers
-from validation.benchmarks.peers import CONTESTANTS, Contestant, Run
-from validation.benchmarks.solvers import case as race
-from validation.benchmarks.solvers import evidence as race_evidence
-from validation.benchmarks.solvers.dynamic_wheel import SteppingThroughput
-from validation.benchmarks.solvers.rolling import RollingThroughput, interpolated
+from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, PressureField
+from validation.benchmarks.solvers import case as comparison
+from validation.benchmarks.solvers import evidence as comparison_evidence
+from validation.benchmarks.solvers import problems
+from validation.benchmarks.solvers.problems import SurfaceProblem
+from validation.benchmarks.solvers.rolling import RollingThroughput
+from validation.benchmarks.solvers.wheel_steps import SteppingThroughput
 from validation.report import contents
 from validation.report.contents import TIMED
 
-HEAT = race.Heat(race.Course("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, entrants=())
+RUN = comparison.ProblemRun(SurfaceProblem("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, methods=())
 
 
-def dies(task, tolerance):
+def dies(problem, tolerance):
     return lambda: os._exit(1)
 
 
-def raises(task, tolerance):
+def raises(problem, tolerance):
     return lambda: 1 / 0
 
 
-def forgets_a_factor(task, tolerance):
-    solve = peers.bem3d_fast(task, tolerance)
-    return lambda: Run(1.01 * solve().pressure, 1)
+def forgets_a_factor(problem, tolerance):
+    solve = peers.bem3d_fast(problem, tolerance)
+    return lambda: PressureField(1.01 * solve().pressure, 1)
 
 
-def dies_the_second_time(task, tolerance):
+def dies_the_second_time(problem, tolerance):
     if tolerance in solved_before:
         os._exit(1)
     solved_before.append(tolerance)
-    return peers.bem3d_fast(task, tolerance)
+    return peers.bem3d_fast(problem, tolerance)
 
 
 solved_before = []
 
 
-def returns_nan(task, tolerance):
-    return lambda: Run(np.full(task.height.shape, np.nan), 1)
+def returns_nan(problem, tolerance):
+    return lambda: PressureField(np.full(problem.height.shape, np.nan), 1)
 
 
-def warms_up(task, tolerance):
+def warms_up(problem, tolerance):
     """As fast as can be, the second time."""
-    solve, known = peers.bem3d_fast(task, tolerance), []
+    solve, known = peers.bem3d_fast(problem, tolerance), []
 
     def run():
         if not known:
@@ -64,13 +66,13 @@ def warms_up(task, tolerance):
 
 
 def other(name, prepare, package="numpy"):
-    return Contestant(name, package, "for a test", prepare, (1.0, 0.1))
+    return PeerSolver(name, package, "for a test", prepare, (1.0, 0.1))
 
 
-def test_whoever_fails_is_a_row(monkeypatch):
-    entrants = (
-        CONTESTANTS[0],
-        CONTESTANTS[1],
+def test_a_solver_that_fails_is_a_row(monkeypatch):
+    solvers = (
+        SOLVERS[0],
+        SOLVERS[1],
         other("dies", dies),
         other("raises", raises),
         other("wrong", forgets_a_factor),
@@ -79,17 +81,18 @@ def test_whoever_fails_is_a_row(monkeypatch):
         other("absent", dies, package="no-such-package"),
         other("warm", warms_up),
     )
-    monkeypatch.setattr(race, "CONTESTANTS", entrants)
-    outcome = race.run_heat(HEAT)
-    said = dict(zip([entrant.name for entrant in entrants], outcome["status"], strict=True))
-    assert said["bem3d"] == said["bem3d, textbook"] == said["warm"] == "finished"
+    monkeypatch.setattr(problems, "SOLVERS", solvers)
+    outcome = comparison.time_problem(RUN)
+    said = dict(zip(outcome["method"].tolist(), outcome["status"].tolist(), strict=True))
+    assert list(said) == [solver.name for solver in solvers]
+    assert said["bem3d"] == said["bem3d, Polonsky-Keer"] == said["warm"] == "finished"
     assert said["dies"].startswith("failed: BrokenProcessPool")
     assert said["late"].startswith("failed: BrokenProcessPool")
     assert said["raises"].startswith("failed: ZeroDivisionError")
-    assert said["wrong"].startswith("failed: residual 0.0")
-    assert said["nan"] == "failed: pressure is not finite"
+    assert said["wrong"].startswith("failed: RuntimeError: residual 0.0")
+    assert said["nan"] == "failed: RuntimeError: pressure is not finite"
     assert said["absent"] == "not installed"
-    # a start that remembers is prepared anew each time
+    # a solver that remembers is prepared anew each time
     assert outcome["seconds"][-1, 1] >= 0.1
     finished = outcome["status"] == "finished"
     assert np.isnan(outcome["seconds"][~finished, 0]).all()
@@ -97,7 +100,7 @@ def test_whoever_fails_is_a_row(monkeypatch):
     assert (outcome["difference"][finished, 0] <= 1e-4).all()
 
 
-def test_threads_of_the_contestants_are_one(monkeypatch):
+def test_threads_of_the_solvers_are_one(monkeypatch):
     monkeypatch.setenv("OMP_NUM_THREADS", "7")
     monkeypatch.delenv("MKL_NUM_THREADS", raising=False)
     with alone.one_thread():
@@ -106,75 +109,72 @@ def test_threads_of_the_contestants_are_one(monkeypatch):
     assert "MKL_NUM_THREADS" not in os.environ
 
 
-STEPS = SteppingThroughput(springs=(12, 25), heights=(0.1,), wheels=20, steps=40, cells=8, bem_steps=20)
-
-
 def small(**settings):
-    rolls = RollingThroughput(cells=(4, 6), tolerances=(1e-3, 1e-5), finest=12, goal=(8, 1e-4), positions=20, last=6.0)
-    return race.Race(
-        cells=(32,), loads=(0.004,), residual=1e-8, scaling=(32, 64), rolling=rolls, wheel=STEPS, **settings
+    return comparison.SolverComparison(
+        cells=(32,),
+        loads=(0.004,),
+        residual=1e-8,
+        scaling=(32, 64),
+        rolling=RollingThroughput(cells=8, positions=60),
+        wheel=SteppingThroughput(springs=(12, 25), heights=(0.1,), wheels=20, steps=40),
+        **settings,
     )
 
 
 @pytest.fixture(scope="module")
 def result():
-    return race.run(small())
+    return comparison.run(small())
 
 
 def test_evidence(result):
-    evidence = race_evidence.evidence(result)
+    evidence = comparison_evidence.evidence(result)
     heats, scaling = evidence.table("heats"), evidence.table("scaling")
-    assert len(heats["problem"]) == 4 * len(CONTESTANTS)
+    # a contact model beside the solvers where the half-space is free
+    assert len(heats["problem"]) == 4 * len(SOLVERS) + 2
     assert len(scaling["cells"]) == 6
     assert not evidence.unconverged
     assert all(number.verdict is Verdict.AGREE for number in evidence.numbers)
     assert sum("too small for an exponent" in sentence for sentence in evidence.conclusions) == 3
     assert [len(table["problem"]) for table in evidence.page_tables[:2]] == [4, 3]
     assert (scaling["peak memory [MiB]"] > 1).all()
-    for name in ("bem3d", "bem3d, textbook"):
-        mine = heats.where(contestant=name)
+    for name in ("bem3d", "bem3d, Polonsky-Keer"):
+        mine = heats.where(solver=name)
         assert (mine["median [s]"] > 0).all()
         assert (mine["residual"] <= 1e-8).all()
         assert (mine["pressure difference to ours, L2"] <= 1e-4).all()
 
 
+def test_contact_models_are_listed_with_the_difference_of_their_stiffness(result):
+    """Of the sphere the difference of the grid alone; rough faces scatter about the closed form."""
+    heats = comparison_evidence.evidence(result).table("heats").where(solver="closed form")
+    assert heats["surface"].tolist() == ["sphere", "rough"]
+    assert (heats["status"] == "finished").all()
+    sphere, rough = heats["stiffness difference to ours"]
+    assert sphere < 0.05 and rough < 1.0
+    assert np.isnan(heats["residual"]).all()
+    assert (heats["median [s]"] > 0).all()
+
+
 def test_steps_of_the_wheel_are_counted_on_the_same_force(result):
     """The plain sum over all springs is the same force, and slower where only some are in doubt."""
-    rates, goals = race_evidence.evidence(result).table("wheel"), result.wheel[1]
+    rates = comparison_evidence.evidence(result).table("wheel")
     assert (rates["difference to the plain sum"] < 1e-12).all()
     assert (rates["springs examined"] < 2 * 1.5 * rates["a/dx"]).all()
     assert (rates["wheel-steps a second"] > 0).all()
-    assert goals["goal"].tolist() == ["5e+06", "400"]
-    assert (goals["seconds a simulated metre"].astype(float) > 0).all()
 
 
-def test_the_error_of_a_rolling_force_falls_with_the_residual_and_with_the_cells(result):
-    rolls = race_evidence.evidence(result).table("rolling")
-    for height in (0.01, 0.3):
-        for cells in (4, 6):
-            solver = rolls.where(**{"h/d": height, "cells to a radius": cells})["rms error of the force, solver"]
-            assert solver[0] > solver[1] > solver[2] == 0
-    assert (rolls["positions a second"] > 0).all()
-    assert not rolls["not converged"].any()
-    scenes = result.rolling[1]
-    assert (scenes["applications a position"] >= 2).all()
+def test_positions_of_a_rolling_wheel_are_beside_their_floor(result):
+    assert result.rolling["h/d"].tolist() == [0.01, 0.3]
+    assert (result.rolling["positions a second"] > 0).all()
+    assert (result.rolling["applications a position"] >= 2).all()
+    assert (result.rolling["time over applications on 3a x 3a"] > 0).all()
 
 
-def test_series_are_interpolated_by_their_waves():
-    x = np.arange(32) + 0.5
-
-    def wave(x):
-        return np.cos(2 * np.pi * 3 * x / 32 + 0.4) + 2
-
-    places = np.array([0.1, 7.3])
-    np.testing.assert_allclose(interpolated(wave(x), 32.0, places), wave(places), atol=1e-12)
-
-
-@pytest.mark.parametrize("name", [c.name for c in CONTESTANTS if c.package != "mdr-validation"])
+@pytest.mark.parametrize("name", [solver.name for solver in SOLVERS if solver.package != OURS])
 def test_peers_find_the_same_pressure(name, result):
     """Relative L2 under 1e-4 at a residual of 1e-8, force and area too; periodic and free, sphere and rough."""
-    i = [contestant.name for contestant in CONTESTANTS].index(name)
-    if CONTESTANTS[i].version is None:
+    i = [solver.name for solver in SOLVERS].index(name)
+    if SOLVERS[i].version is None:
         pytest.skip(f"{name} is not installed")
     for outcome in result.outcomes:
         assert outcome["status"][i] == "finished"
@@ -187,14 +187,14 @@ def test_peers_find_the_same_pressure(name, result):
 def test_a_difference_of_answers_is_a_missed_criterion(result):
     outcomes = [{**outcome} for outcome in result.outcomes]
     outcomes[0]["difference"] = outcomes[0]["difference"].copy()
-    outcomes[0]["difference"][1] = (2e-4, 2e-6, 0.0)
-    numbers = race_evidence.evidence(dataclasses.replace(result, outcomes=outcomes)).numbers
+    outcomes[0]["difference"][1] = (2e-4, 2e-6, 0.0, np.nan)
+    numbers = comparison_evidence.evidence(dataclasses.replace(result, outcomes=outcomes)).numbers
     assert sum(not number.met for number in numbers) == 2
 
 
 def test_command_line(result, tmp_path, monkeypatch, capsys):
-    """The race has a page, a table on the terminal, and times that are kept apart from results."""
-    entry = dataclasses.replace(TIMED["race"], quick=result.race, run=lambda race, engine: result)
+    """The comparison has a page, a table on the terminal, and times that are kept apart from results."""
+    entry = dataclasses.replace(TIMED["race"], quick=result.case, run=lambda case, engine: result)
     monkeypatch.setitem(TIMED, "race", entry)
     assert command.main(["race", "--out", str(tmp_path)]) == command.Exit.MET
     printed = capsys.readouterr().out
@@ -204,26 +204,26 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     assert json.loads((tmp_path / "results.json").read_text())["cases"] == {}
     assert (tmp_path / "figures" / "race.svg").exists()
     assert (tmp_path / "data" / "race-heats.csv").exists()
-    assert "The race" in (tmp_path / "index.html").read_text()
+    assert "Solver comparison" in (tmp_path / "index.html").read_text()
 
 
 def test_exponents_are_those_of_the_measurements(result):
     """Time n^2.5, memory n^2 planted on grids of 512 and more."""
-    measured = [
-        dataclasses.replace(m, course=dataclasses.replace(m.course, cells=n))
-        for m in result.measured[::2]
+    scalings = [
+        dataclasses.replace(m, problem=dataclasses.replace(m.problem, cells=n))
+        for m in result.scalings[::2]
         for n in (512, 1024, 2048)
     ]
     costs = [
         {
             **result.costs[0],
-            "seconds": np.array(1e-6 * m.course.cells**2.5),
+            "seconds": np.array(1e-6 * m.problem.cells**2.5),
             "idle": np.array(1e6),
-            "peak": np.array(1e6 + 8.0 * m.course.cells**2),
+            "peak": np.array(1e6 + 8.0 * m.problem.cells**2),
         }
-        for m in measured
+        for m in scalings
     ]
-    sentences = race_evidence.evidence(dataclasses.replace(result, measured=measured, costs=costs)).conclusions
+    sentences = comparison_evidence.evidence(dataclasses.replace(result, scalings=scalings, costs=costs)).conclusions
     assert sum("time grows like n^2.50 (n² log n: n^2.1" in s and "process like n^2.00" in s for s in sentences) == 3
 
 

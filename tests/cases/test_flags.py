@@ -13,8 +13,9 @@ import pytest
 import bem3d
 from validation import __main__ as command
 from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict
+from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
 from validation.benchmarks.work_precision import evidence as precision_evidence
-from validation.benchmarks.work_precision.measurement import BEM, FAILED, FINISHED, LOOSE, MDR, PLAIN, REFUSED
+from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
 from validation.cases.limits.solver import Grid, press_grid
 from validation.cases.punch import area_gap_rolloff as mdr_limits
@@ -329,7 +330,7 @@ def test_every_case_hands_on_what_is_lost(name):
 
 def points(**statuses):
     rows = [
-        SimpleNamespace(scene="sphere", line=line, setting="8 cells", status=status)
+        SimpleNamespace(scene="sphere", method=line, setting="8 cells", status=status)
         for line, status in statuses.items()
         for _ in range(2)
     ]
@@ -340,7 +341,7 @@ def test_a_method_that_fails_on_the_clock_is_not_converged_and_a_refusal_is_an_a
     """Once for all of its quantities; the textbook's iteration is there to be seen failing."""
     failed = f"{FAILED}: ConvergenceError: residual 1"
     lost = precision_evidence._unconverged(
-        points(**{BEM: failed, MDR: FINISHED, LOOSE: f"{REFUSED}: no", PLAIN: failed})
+        points(**{BEM: failed, MDR: FINISHED, LOOSE: f"{OUT_OF_RANGE}: no", POLONSKY_KEER: failed})
     )
     assert lost == (f"sphere: {BEM}, 8 cells: {failed}",)
 
@@ -549,7 +550,8 @@ def test_surfaces_are_the_same_on_all_grids_and_at_all_heights(monkeypatch):
     assert len(set(seen)) == 1
     seen = drawn_by(monkeypatch, rough_punch)
     for cells in (8, 16):
-        rough_punch._drawn(PUNCH.surface(0.7, 2, cells))
+        one = PUNCH.surface(0.7, 2, cells)
+        one.roughness.surface(one.cells, one.realisation)
     assert len(set(seen)) == 1
 
 

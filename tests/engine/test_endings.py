@@ -16,7 +16,7 @@ import pytest
 
 from tests.engine.test_engine import ENVIRONMENT, ROOT
 from validation import __main__ as command
-from validation.benchmarks.isolation import own_process
+from validation.benchmarks.isolation import isolated_process
 from validation.engine.engine import Engine, WorkerLostError
 from validation.report.contents import CASES
 
@@ -46,12 +46,12 @@ def stay(job):
 
 def stay_alone(job):
     """In a process of its own, as what is timed."""
-    with own_process() as lane:
+    with isolated_process() as lane:
         return lane.submit(stay, job).result()
 
 
 def lose_alone(job):
-    with own_process() as lane:
+    with isolated_process() as lane:
         return lane.submit(os._exit, 1).result()
 
 
@@ -136,7 +136,7 @@ def test_who_is_asked_to_end_takes_all_workers_along(asked, status, said, solve,
 
 
 def test_a_process_of_its_own_that_nobody_waits_for_is_ended(tmp_path):
-    with pytest.raises(ZeroDivisionError), own_process() as lane:
+    with pytest.raises(ZeroDivisionError), isolated_process() as lane:
         answer = lane.submit(stay, Job(1, str(tmp_path)))
         while not list(tmp_path.glob("*.pid")):
             time.sleep(0.02)

@@ -9,7 +9,7 @@ from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
 from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
 from validation.benchmarks.work_precision import errors as precision_error
-from validation.benchmarks.work_precision import measurement as precision
+from validation.benchmarks.work_precision import problem as precision
 
 
 def as_if_alone(quantity, mine, reference):
@@ -31,7 +31,7 @@ def in_continuous_time(wheel, omega, time_step):
     return -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)
 
 
-log_of_answer = precision_error.MethodAnswers.log
+log_of_answer = precision_error.MethodValues.log
 
 
 FAULTS = {
@@ -48,7 +48,7 @@ FAULTS = {
         test_precision.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
     ),
     "first order for second in an extrapolation": (
-        (precision_error.MethodAnswers, "log", at_first_order),
+        (precision_error.MethodValues, "log", at_first_order),
         functools.partial(test_precision.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
     ),
     "decibels of an amplitude for those of a power": (

@@ -26,7 +26,7 @@ from validation.analysis.evidence import (
     with_reference,
 )
 from validation.analysis.statistics import Estimate
-from validation.benchmarks.work_precision.pareto import in_unit, said
+from validation.benchmarks.work_precision.pareto import format_error, format_seconds
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import numbers as limits_numbers
 from validation.cases.punch import area_gap_rolloff_evidence, fractal_punch_decades, fractal_punch_text
@@ -290,7 +290,7 @@ def test_a_claim_holds_with_all_of_its_numbers():
     ],
 )
 def test_seconds_in_words(seconds, text):
-    assert said(seconds) == text
+    assert format_seconds(seconds) == text
 
 
 @pytest.mark.parametrize(
@@ -298,7 +298,7 @@ def test_seconds_in_words(seconds, text):
     [(0.123, "%", "12 %"), (2.34, "dB", "2.3 dB"), (1.5, "%", "150 %"), (1.0, "%", "100 %"), (0.00012, "%", "0.012 %")],
 )
 def test_errors_in_words(value, unit, text):
-    assert in_unit(value, unit) == text
+    assert format_error(value, unit) == text
 
 
 # --- sentences built from numbers ---

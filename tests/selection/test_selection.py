@@ -6,22 +6,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from validation.benchmarks.work_precision.errors import MethodAnswers, _half_width, error, points, reference_of
+from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
+from validation.benchmarks.work_precision.errors import MethodValues, _half_width, error, points, reference_of
 from validation.benchmarks.work_precision.exact_problem import logarithm
-from validation.benchmarks.work_precision.measurement import EXTRAPOLATED, FINISHED, REFUSED, Configuration, Quantity
 from validation.benchmarks.work_precision.pareto import (
     TOLERANCES,
     Point,
-    asked,
     break_even,
     cheapest,
+    format_error,
+    format_seconds,
     front,
-    in_unit,
-    said,
-    visits,
-    why_nobody,
-    without_luck,
+    in_unit_of_error,
+    monotone_envelope,
+    reason_if_none,
+    work,
 )
+from validation.benchmarks.work_precision.problem import EXTRAPOLATED, Quantity
 from validation.engine.convergence import NotConvergedError
 
 K = Quantity(name="mean", log=logarithm("k"), needs=("k",))
@@ -29,8 +30,8 @@ LEVEL = Quantity(name="level", log=logarithm("k"), needs=("k",), decibel=True, o
 OTHER = Quantity(name="other", log=logarithm("m"), needs=("m",))
 
 
-def attempt(line, value, **settings):
-    return Configuration(line=line, knob="# cells", value=value, **settings)
+def attempt(label, value, **settings):
+    return Configuration(method=None, scene=None, label=label, parameter="# cells", value=value, **settings)
 
 
 COARSE, FINE, SPRINGS = attempt("BEM", 8.0), attempt("BEM", 12.0), attempt("MDR", 64.0, paired=False)
@@ -38,14 +39,15 @@ LOST = attempt("MDR", 99.0)
 
 
 @dataclass(frozen=True)
-class Scene:
+class MadeProblem:
     """Made up."""
 
     quantities: tuple[Quantity, ...] = (K,)
     exact: bool = False
     name = "made up"
+    scene = None
 
-    def attempts(self):
+    def configurations(self):
         return COARSE, FINE, SPRINGS, LOST
 
     def reference(self):
@@ -59,7 +61,7 @@ X = np.array([1.0, 1.1, 0.9])
 OUTCOME = {
     "status": np.array([FINISHED, FINISHED, FINISHED, "failed: lost"]),
     "setup": np.array([0.1, 0.2, 0.4, 0.8]),
-    "visits": np.array([10.0, 20.0, 40.0, math.nan]),
+    "work": np.array([10.0, 20.0, 40.0, math.nan]),
     "seconds 0": np.array([1.0, 2.0, 3.0]),
     "seconds 1": np.array([10.0, 20.0, 30.0, 40.0, 50.0]),
     "seconds 2": np.array([0.5]),
@@ -71,13 +73,13 @@ OUTCOME = {
 
 
 def point_of(found, line, value):
-    (mine,) = (p for p in found if (p.line, p.value) == (line, value))
+    (mine,) = (p for p in found if (p.method, p.value) == (line, value))
     return mine
 
 
 def test_a_reference_of_two_grids_is_extrapolated_and_leaves_its_last_step_open():
     """From 8 to 12 cells, to first order: ln 1.1 - 2 (ln 1.21 - ln 1.1) is -ln 1.1, two steps below the finer."""
-    reference, band = reference_of(Scene(), {COARSE: {"k": 1.21 * X}, FINE: {"k": 1.1 * X}})
+    reference, band = reference_of(MadeProblem(), {COARSE: {"k": 1.21 * X}, FINE: {"k": 1.1 * X}})
     rows = np.arange(3)
     assert reference.log(K, rows) == pytest.approx(-math.log(1.1), abs=1e-12)
     assert reference.ratio == 1.5
@@ -88,18 +90,18 @@ def test_a_reference_of_two_grids_is_extrapolated_and_leaves_its_last_step_open(
 
 def test_a_grid_of_the_reference_must_have_finished():
     with pytest.raises(NotConvergedError, match="made up: the grids of the reference have not finished"):
-        reference_of(Scene(), {FINE: {"k": X}})
+        reference_of(MadeProblem(), {FINE: {"k": X}})
 
 
 def test_an_exact_reference_leaves_what_the_quantity_says():
-    reference, band = reference_of(Scene(exact=True), {})
+    reference, band = reference_of(MadeProblem(exact=True), {})
     assert band(replace(K, band=0.125)) == 0.125
     assert reference.log(K, np.arange(3)) == pytest.approx(math.log(2))
 
 
 def test_points_have_their_errors_and_costs():
-    found = points(Scene(exact=True), OUTCOME)
-    assert [(p.line, p.value) for p in found] == [
+    found = points(MadeProblem(exact=True), OUTCOME)
+    assert [(p.method, p.value) for p in found] == [
         ("BEM", 8.0),
         ("BEM", 12.0),
         ("MDR", 64.0),
@@ -107,53 +109,53 @@ def test_points_have_their_errors_and_costs():
         (EXTRAPOLATED, 12.0),
     ]
     fine = point_of(found, "BEM", 12.0)
-    assert (fine.scene, fine.quantity, fine.unit, fine.knob) == ("made up", "mean", "%", "# cells")
+    assert (fine.scene, fine.quantity, fine.unit, fine.parameter) == ("made up", "mean", "%", "# cells")
     assert (fine.error, fine.over) == pytest.approx((0.45, 0.55))
-    one = error(K, MethodAnswers({"k": 1.1 * X}), MethodAnswers({"k": np.full(3, 2.0)}))
+    one = error(K, MethodValues({"k": 1.1 * X}), MethodValues({"k": np.full(3, 2.0)}))
     assert fine.half_width == one.half_width > 0
-    assert (fine.seconds, fine.runs, fine.setup, fine.visits) == ((20.0, 30.0, 40.0), 5, 0.2, 20.0)
-    assert fine.finished and not fine.referee and fine.setting == "12 cells"
+    assert (fine.seconds, fine.runs, fine.setup, fine.work) == ((20.0, 30.0, 40.0), 5, 0.2, 20.0)
+    assert fine.finished and not fine.is_reference and fine.setting == "12 cells"
 
 
 def test_extrapolated_points_cost_both_grids():
-    both = point_of(points(Scene(exact=True), OUTCOME), EXTRAPOLATED, 12.0)
+    both = point_of(points(MadeProblem(exact=True), OUTCOME), EXTRAPOLATED, 12.0)
     assert both.seconds == pytest.approx((21.5, 32.0, 42.5))
-    assert (both.runs, both.setup, both.visits) == pytest.approx((3, 0.3, 30.0))
+    assert (both.runs, both.setup, both.work) == pytest.approx((3, 0.3, 30.0))
     # 1.1 (1.1 / 1.21)^2 = 1 / 1.1, of 2
     assert both.over == pytest.approx(1 / 2.2)
     assert both.error == pytest.approx(1 - 1 / 2.2)
-    assert both.status == FINISHED and both.knob == "# cells"
+    assert both.status == FINISHED and both.parameter == "# cells"
     assert both.half_width == pytest.approx(
-        error(K, MethodAnswers({"k": 1.1 * X}, {"k": 1.21 * X}, 1.5), MethodAnswers({"k": np.full(3, 2.0)})).half_width
+        error(K, MethodValues({"k": 1.1 * X}, {"k": 1.21 * X}, 1.5), MethodValues({"k": np.full(3, 2.0)})).half_width
     )
 
 
 def test_who_is_lost_or_cannot_say_is_a_point_without_an_error():
-    found = points(Scene(quantities=(K, OTHER), exact=True), {**OUTCOME, "m 0": X, "m 1": X, "m 3": X})
+    found = points(MadeProblem(quantities=(K, OTHER), exact=True), {**OUTCOME, "m 0": X, "m 1": X, "m 3": X})
     lost = point_of(found[:5], "MDR", 99.0)
     assert lost.status == "failed: lost" and math.isnan(lost.error) and not lost.finished
     assert lost.seconds == (7.0, 7.0, 7.0)
     silent = point_of([p for p in found if p.quantity == "other"], "MDR", 64.0)
-    assert silent.status == f"{REFUSED}: it does not give this quantity" and not silent.finished
+    assert silent.status == f"{OUT_OF_RANGE}: it does not have this quantity" and not silent.finished
 
 
 def test_levels_are_in_decibels_and_the_others_in_per_cent():
-    units = {p.quantity: p.unit for p in points(Scene(quantities=(K, LEVEL), exact=True), OUTCOME)}
+    units = {p.quantity: p.unit for p in points(MadeProblem(quantities=(K, LEVEL), exact=True), OUTCOME)}
     assert units == {"mean": "%", "level": "dB"}
 
 
 def test_a_pair_of_which_one_is_lost_is_not_extrapolated():
     outcome = {**OUTCOME, "status": np.array([FINISHED, "failed: lost", FINISHED, FINISHED]), "k 3": X}
-    assert EXTRAPOLATED not in {p.line for p in points(Scene(exact=True), outcome)}
+    assert EXTRAPOLATED not in {p.method for p in points(MadeProblem(exact=True), outcome)}
 
 
 def test_an_answer_alone_has_the_interval_of_either_sample():
     x, exact = {"k": np.array([1.0, 1.2])}, {"k": np.ones(1)}
-    alone = error(K, MethodAnswers(x, paired=False), MethodAnswers(exact))
-    assert alone.half_width == pytest.approx(error(K, MethodAnswers(x), MethodAnswers({"k": np.ones(2)})).half_width)
-    other = error(K, MethodAnswers(exact, paired=False), MethodAnswers(x))
+    alone = error(K, MethodValues(x, paired=False), MethodValues(exact))
+    assert alone.half_width == pytest.approx(error(K, MethodValues(x), MethodValues({"k": np.ones(2)})).half_width)
+    other = error(K, MethodValues(exact, paired=False), MethodValues(x))
     assert other.half_width > 0
-    both = error(K, MethodAnswers(x, paired=False), MethodAnswers(x))
+    both = error(K, MethodValues(x, paired=False), MethodValues(x))
     assert both.half_width == pytest.approx(math.hypot(alone.half_width / 1.1, other.half_width * 1.1), rel=0.02)
 
 
@@ -165,7 +167,7 @@ def test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much(quantity,
 
     def half(factor):
         return error(
-            quantity, MethodAnswers({"k": factor * x}, paired=paired), MethodAnswers({"k": np.ones(5)})
+            quantity, MethodValues({"k": factor * x}, paired=paired), MethodValues({"k": np.ones(5)})
         ).half_width
 
     unit = 10 / math.log(10) if quantity.decibel else 1.0
@@ -178,20 +180,20 @@ def test_several_numbers_have_no_ratio():
         return np.log(answers["k"].mean(axis=0))
 
     two = Quantity(name="bands", log=log, needs=("k",))
-    found = error(two, MethodAnswers({"k": np.array([[1.1, 0.7]])}), MethodAnswers({"k": np.ones((1, 2))}))
+    found = error(two, MethodValues({"k": np.array([[1.1, 0.7]])}), MethodValues({"k": np.ones((1, 2))}))
     assert math.isnan(found.over)
     # the farthest of them; of levels in decibels, their root mean square
     assert found.value == pytest.approx(0.3)
     levels = error(
-        replace(two, decibel=True), MethodAnswers({"k": np.array([[10.0, 1.0]])}), MethodAnswers({"k": np.ones((1, 2))})
+        replace(two, decibel=True), MethodValues({"k": np.array([[10.0, 1.0]])}), MethodValues({"k": np.ones((1, 2))})
     )
     assert levels.value == pytest.approx(10 / math.sqrt(2))
 
 
 def point(line, off, cost, **settings):
-    settings = {"status": FINISHED, "band": 0.001, "unit": "%", "knob": "# cells", "value": 8.0, **settings}
+    settings = {"status": FINISHED, "band": 0.001, "unit": "%", "parameter": "# cells", "value": 8.0, **settings}
     return Point(
-        scene="scene", quantity="force", line=line, error=off, seconds=(0.9 * cost, cost, 1.2 * cost), **settings
+        scene="scene", quantity="force", method=line, error=off, seconds=(0.9 * cost, cost, 1.2 * cost), **settings
     )
 
 
@@ -203,50 +205,50 @@ def test_an_error_counts_with_its_interval_its_reference_and_its_luck():
 
 
 def test_luck_is_what_more_of_the_same_does_not_keep():
-    """The largest upper end at more visits of the same method; no others, and nobody who is lost."""
+    """The largest upper end at more work of the same method; no others, and nobody who is lost."""
     chart = [
-        point("a", 0.01, 1.0, visits=10.0),
-        point("a", 0.2, 2.0, visits=20.0),
-        point("a", 0.05, 3.0, visits=30.0, half_width=0.01),
-        point("a", 0.9, 9.0, visits=30.0, status="failed: lost"),
-        point("b", 0.8, 1.0, visits=99.0),
+        point("a", 0.01, 1.0, work=10.0),
+        point("a", 0.2, 2.0, work=20.0),
+        point("a", 0.05, 3.0, work=30.0, half_width=0.01),
+        point("a", 0.9, 9.0, work=30.0, status="failed: lost"),
+        point("b", 0.8, 1.0, work=99.0),
     ]
-    found = without_luck(chart)
+    found = monotone_envelope(chart)
     assert [p.finer for p in found] == pytest.approx([0.2, 0.06, 0.0, 0.0, 0.0])
     assert [p.rank for p in found[:3]] == pytest.approx([0.2, 0.2, 0.06])
 
 
 def test_a_step_that_gains_too_little_is_not_on_the_front():
     chart = [point("a", 0.2, 1.0), point("b", 0.19, 2.0), point("c", 0.1, 3.0)]
-    assert [p.line for p in front(chart)] == ["a", "b", "c"]
-    assert [p.line for p in front(chart, gain=1.1)] == ["a", "c"]
+    assert [p.method for p in front(chart)] == ["a", "b", "c"]
+    assert [p.method for p in front(chart, gain=1.1)] == ["a", "c"]
     # as close by just that factor is not closer
-    assert [p.line for p in front([point("a", 0.22, 1.0), point("b", 0.11, 2.0)], gain=2.0)] == ["a"]
+    assert [p.method for p in front([point("a", 0.22, 1.0), point("b", 0.11, 2.0)], gain=2.0)] == ["a"]
 
 
 def test_a_tolerance_that_is_just_met_is_met():
-    assert cheapest([point("a", 0.1, 1.0)], 0.1).line == "a"
+    assert cheapest([point("a", 0.1, 1.0)], 0.1).method == "a"
     assert cheapest([point("a", 0.1000001, 1.0)], 0.1) is None
-    assert cheapest([point("a", 0.05, 1.0), point("b", 0.01, 0.5)], 0.1).line == "b"
+    assert cheapest([point("a", 0.05, 1.0), point("b", 0.01, 0.5)], 0.1).method == "b"
 
 
-@pytest.mark.parametrize(("band", "why"), [(0.01, "nobody"), (0.0100001, "the reference cannot tell")])
+@pytest.mark.parametrize(("band", "why"), [(0.01, "none"), (0.0100001, "the reference cannot tell")])
 def test_why_there_is_no_cheapest(band, why):
-    assert why_nobody([point("a", 0.5, 1.0, band=band)], 0.01) == why
+    assert reason_if_none([point("a", 0.5, 1.0, band=band)], 0.01) == why
 
 
 def test_break_even_tells_a_range_and_who_ends_it():
     chart = [
         point("a", 0.2, 1e-3, value=4.0),
         point("a", 0.05, 2e-3, value=8.0),
-        point("b", 0.01, 1.0, half_width=0.03, knob="residual #", value=1e-3),
+        point("b", 0.01, 1.0, half_width=0.03, parameter="residual #", value=1e-3),
     ]
     assert break_even(chart) == (
         "scene, force: down to 5 % a (4 to 8 cells, 1 ms to 2 ms) is the cheapest; beyond, down to 4 %, most of it the "
-        "sample's, b (residual 0.001, 1 s); nobody gets below 4 %."
+        "sample's, b (residual 0.001, 1 s); no method gets below 4 %."
     )
     assert "reference cannot tell" in break_even([point("a", 0.0005, 1.0)])
-    assert "nobody gets below 0.11 %" in break_even([point("a", 0.0011, 1.0)])
+    assert "no method gets below 0.11 %" in break_even([point("a", 0.0011, 1.0)])
 
 
 def test_most_of_an_error_is_the_samples_only_where_it_is():
@@ -260,43 +262,43 @@ def test_most_of_an_error_is_the_samples_only_where_it_is():
 
 
 def test_the_referee_is_told_apart_and_only_if_it_has_finished():
-    referee = point("closed form", 0.0, 1e-6, referee=True)
+    referee = point("closed form", 0.0, 1e-6, is_reference=True)
     assert break_even([referee, point("a", 0.1, 1.0)]).endswith("The closed form itself takes 1 µs.")
     assert "itself" not in break_even([replace(referee, status="failed: lost"), point("a", 0.1, 1.0)])
     assert "closed form (" not in break_even([referee, point("a", 0.1, 1.0)])
 
 
 def test_cost_is_the_median_or_the_count():
-    one = point("a", 0.1, 2.0, visits=7.0)
-    assert cheapest([one, point("b", 0.1, 1.9, visits=8.0)], 0.2).line == "b"
-    assert cheapest([one, point("b", 0.1, 1.9, visits=8.0)], 0.2, visits).line == "a"
+    one = point("a", 0.1, 2.0, work=7.0)
+    assert cheapest([one, point("b", 0.1, 1.9, work=8.0)], 0.2).method == "b"
+    assert cheapest([one, point("b", 0.1, 1.9, work=8.0)], 0.2, work).method == "a"
 
 
 @pytest.mark.parametrize(
     ("value", "text"), [(99.6, "1e+02 s"), (100.0, "100 s"), (0.0996, "1e+02 ms"), (2e-7, "0.2 µs"), (9.9e-4, "990 µs")]
 )
 def test_seconds_are_told_to_two_digits(value, text):
-    assert said(value) == text
+    assert format_seconds(value) == text
 
 
 @pytest.mark.parametrize(("value", "text"), [(0.996, "1e+02 %"), (1.0, "100 %"), (1.234, "123 %"), (0.0456, "4.6 %")])
 def test_errors_are_told_to_two_digits(value, text):
-    assert in_unit(value, "%") == text
+    assert format_error(value, "%") == text
 
 
 def test_tolerances_are_asked_for_relative_or_in_decibels():
     assert TOLERANCES == (0.3, 0.1, 0.03, 0.01, 0.001)
-    assert asked(0.3, "%") == 0.3
-    assert asked(0.3, "dB") == pytest.approx(20 * math.log10(1.3))
+    assert in_unit_of_error(0.3, "%") == 0.3
+    assert in_unit_of_error(0.3, "dB") == pytest.approx(20 * math.log10(1.3))
 
 
 def test_where_nobody_has_finished_there_is_nothing_to_tell():
-    assert break_even([point("a", math.nan, 1.0, status="failed: lost")]) == "scene, force: nobody has finished."
+    assert break_even([point("a", math.nan, 1.0, status="failed: lost")]) == "scene, force: no method has finished."
 
 
 def test_a_single_paired_realisation_is_beside_the_first_of_the_reference():
     assert error(
-        K, MethodAnswers({"k": np.array([1.5])}), MethodAnswers({"k": np.array([1.0, 3.0])})
+        K, MethodValues({"k": np.array([1.5])}), MethodValues({"k": np.array([1.0, 3.0])})
     ).value == pytest.approx(0.5)
 
 

@@ -1,4 +1,4 @@
-"""A process of its own with one thread, for what is to be timed; its time and its memory."""
+"""A process with one thread, isolated for what is to be timed; its time and its memory."""
 
 import multiprocessing
 import os
@@ -16,23 +16,23 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXP
 T = TypeVar("T")
 
 
-class OwnProcess(ProcessPoolExecutor):
-    """Ended at once where an exception leaves it, since nobody waits for its answer then."""
+class IsolatedProcess(ProcessPoolExecutor):
+    """Ended at once where an exception leaves it, since its result is not needed then."""
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Wait for what it is at, or end it."""
+        """Wait for its task, or end it."""
         if kind is not None:
             for process in list((self._processes or {}).values()):
                 process.kill()
         super().__exit__(kind, error, trace)
 
 
-def own_process() -> ProcessPoolExecutor:
+def isolated_process() -> ProcessPoolExecutor:
     """A fresh process, which leaves an interruption to its parent."""
     spawn = multiprocessing.get_context("spawn")
-    return OwnProcess(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
+    return IsolatedProcess(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
 
 
 def timed(function: Callable[[], T]) -> tuple[T, float]:

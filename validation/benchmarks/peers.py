@@ -1,22 +1,23 @@
-"""Who runs in the race: our solver, the textbook's, and the packages of others, each in its best documented mode."""
+"""The solvers that are compared: ours, the published iteration, other packages, each in its best documented mode."""
 
 import importlib.metadata
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
+from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 
 Field = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Task:
-    """A contact problem in plain values: every contestant solves this one, by approach or by force as it prefers."""
+class DiscreteProblem:
+    """A contact problem in plain values, which each solver takes by approach or by force, as its interface asks."""
 
     height: Field
     spacing: float
@@ -57,21 +58,21 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Run:
-    """What a contestant brings home: pressure [Pa], operator applications (NaN where it does not count them)."""
+class PressureField:
+    """Pressure [Pa], and operator applications (NaN where the solver does not count them)."""
 
     pressure: Field
     applications: float
 
 
-Solve = Callable[[], Run]
+ColdSolve = Callable[[], PressureField]
 
 
 @dataclass(frozen=True)
-class Contestant:
-    """A solver in the race.
+class PeerSolver:
+    """A solver of the comparison.
 
-    package: what it is a part of; prepare(task, tolerance): everything that is done once for a grid, returned as a
+    package: what it is a part of; prepare(problem, tolerance): everything that is done once for a grid, returned as a
     function that solves from a cold start; tolerances: its own, tried in this order, as parts of the residual asked
     for, until the residual is reached.
     """
@@ -79,7 +80,7 @@ class Contestant:
     name: str
     package: str
     mode: str
-    prepare: Callable[[Task, float], Solve]
+    prepare: Callable[[DiscreteProblem, float], ColdSolve]
     tolerances: tuple[float, ...] = (1.0,)
 
     @property
@@ -91,89 +92,89 @@ class Contestant:
             return None
 
 
-def bem3d_fast(task: Task, tolerance: float) -> Solve:
+def bem3d_fast(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
     """Our solver, by force; its plans, coarser grids and windows are made beforehand, by a first solve."""
-    half_space = task.half_space()
+    half_space = problem.half_space()
 
-    def solve() -> Run:
-        contact = bem3d.solve(half_space, task.gap, force=task.force, tolerance=tolerance)
-        return Run(contact.pressure, contact.operator_applications)
+    def solve() -> PressureField:
+        contact = bem3d.solve(half_space, problem.gap, force=problem.force, tolerance=tolerance)
+        return PressureField(contact.pressure, contact.operator_applications)
 
     solve()
     return solve
 
 
-def bem3d_plain(task: Task, tolerance: float) -> Solve:
-    """The textbook's iteration on our operator, by force."""
-    half_space = task.half_space()
-    half_space.displacement(task.gap)
+def bem3d_plain(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
+    """The iteration of Polonsky and Keer on our operator, by force."""
+    half_space = problem.half_space()
+    half_space.displacement(problem.gap)
 
-    def solve() -> Run:
+    def solve() -> PressureField:
         contact = bem3d.solve_polonsky_keer(
-            half_space, task.gap, force=task.force, tolerance=tolerance, max_iterations=5000
+            half_space, problem.gap, force=problem.force, tolerance=tolerance, max_iterations=5000
         )
-        return Run(contact.pressure, contact.operator_applications)
+        return PressureField(contact.pressure, contact.operator_applications)
 
     return solve
 
 
-def tamaas(task: Task, tolerance: float) -> Solve:
+def tamaas(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
     """Polonsky, Keer and Rey's solver, by mean pressure; free space by its DC-FFT operator."""
     import tamaas as tm
 
     tm.set_log_level(tm.LogLevel.error)
-    model = tm.Model(tm.model_type.basic_2d, list(task.sides), list(task.height.shape))
-    model.E, model.nu = task.modulus, 0.0
-    if not task.periodic:
+    model = tm.Model(tm.model_type.basic_2d, list(problem.sides), list(problem.height.shape))
+    model.E, model.nu = problem.modulus, 0.0
+    if not problem.periodic:
         # only after E is set: the operator is computed here
         tm.ModelFactory.registerNonPeriodic(model, "dcfft")
-    solver = tm.PolonskyKeerRey(model, task.height.copy(), tolerance)
-    if not task.periodic:
+    solver = tm.PolonskyKeerRey(model, problem.height.copy(), tolerance)
+    if not problem.periodic:
         solver.setIntegralOperator("dcfft")
     solver.max_iter = 10_000
 
-    def solve() -> Run:
-        error = solver.solve(task.force / math.prod(task.sides))
+    def solve() -> PressureField:
+        error = solver.solve(problem.force / math.prod(problem.sides))
         if not error <= tolerance:
             raise RuntimeError(f"stopped at its own error {error:.3g}, asked for {tolerance:.3g}")
-        return Run(np.array(model.traction), math.nan)
+        return PressureField(np.array(model.traction), math.nan)
 
     return solve
 
 
-def contact_mechanics(task: Task, tolerance: float) -> Solve:
+def contact_mechanics(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
     """ContactMechanics: conjugate gradients without restart on the dual problem, by approach."""
     from ContactMechanics import FreeFFTElasticHalfSpace, PeriodicFFTElasticHalfSpace
     from ContactMechanics.Systems import NonSmoothContactSystem
     from NuMPI.Optimization import CCGWithoutRestart
     from SurfaceTopography import Topography
 
-    topography = Topography(task.height, task.sides, periodic=task.periodic)
-    if task.periodic:
-        substrate = PeriodicFFTElasticHalfSpace(task.height.shape, task.modulus, task.sides, stiffness_q0=0.0)
+    topography = Topography(problem.height, problem.sides, periodic=problem.periodic)
+    if problem.periodic:
+        substrate = PeriodicFFTElasticHalfSpace(problem.height.shape, problem.modulus, problem.sides, stiffness_q0=0.0)
     else:
-        substrate = FreeFFTElasticHalfSpace(task.height.shape, task.modulus, task.sides)
+        substrate = FreeFFTElasticHalfSpace(problem.height.shape, problem.modulus, problem.sides)
     system = NonSmoothContactSystem(substrate, topography)
     calls = _count_calls(substrate, "evaluate_disp")
-    cell = task.spacing**2
+    cell = problem.spacing**2
     # a first guess of the size of the answer: the pressure under which each cell alone would yield by its overlap
-    start = np.maximum(task.approach - task.gap, 0.0) * (0.1 * task.modulus / task.spacing * cell)
-    settings = {"gtol": tolerance * task.overlap, "maxiter": 10_000}
+    start = np.maximum(problem.approach - problem.gap, 0.0) * (0.1 * problem.modulus / problem.spacing * cell)
+    settings = {"gtol": tolerance * problem.overlap, "maxiter": 10_000}
 
-    def solve() -> Run:
+    def solve() -> PressureField:
         calls.clear()
-        if task.periodic:
+        if problem.periodic:
             result = system.dual_minimize_proxy(
-                offset=task.approach, init_force=start.copy(), solver="ccg-without-restart", **settings
+                offset=problem.approach, init_force=start.copy(), solver="ccg-without-restart", **settings
             )
         else:
-            objective = system.dual_objective(task.approach, gradient=True)
+            objective = system.dual_objective(problem.approach, gradient=True)
             result = CCGWithoutRestart.constrained_conjugate_gradients(
                 objective, system.dual_hessian_product, x0=start.copy(), **settings
             )
         if not result.success:
             raise RuntimeError(f"no success: {result.message}")
-        return Run(np.array(result.x).reshape(task.height.shape) / cell, len(calls))
+        return PressureField(np.array(result.x).reshape(problem.height.shape) / cell, len(calls))
 
     return solve
 
@@ -191,12 +192,13 @@ def _count_calls(thing: Any, name: str) -> list[None]:
     return calls
 
 
+OURS = "mdr-validation"
 TIGHTER = (3.0, 1.0, 0.3, 0.1, 0.03, 0.01)
-CONTESTANTS = (
-    Contestant("bem3d", "mdr-validation", "solve, by force", bem3d_fast),
-    Contestant("bem3d, textbook", "mdr-validation", "solve_plain, by force", bem3d_plain),
-    Contestant("tamaas", "tamaas", "PolonskyKeerRey, by mean pressure; free space: dcfft", tamaas, TIGHTER),
-    Contestant(
+SOLVERS = (
+    PeerSolver("bem3d", OURS, "solve, by force", bem3d_fast),
+    PeerSolver("bem3d, Polonsky-Keer", OURS, "solve_polonsky_keer, by force", bem3d_plain),
+    PeerSolver("tamaas", "tamaas", "PolonskyKeerRey, by mean pressure; free space: dcfft", tamaas, TIGHTER),
+    PeerSolver(
         "ContactMechanics",
         "ContactMechanics",
         "ccg-without-restart on the dual, by approach; stiffness_q0 = 0",
@@ -207,5 +209,56 @@ CONTESTANTS = (
 
 
 def peers_installed() -> bool:
-    """Whether there is anyone to race against."""
-    return any(c.version for c in CONTESTANTS if c.package != "mdr-validation")
+    """Whether another package is installed."""
+    return any(solver.version for solver in SOLVERS if solver.package != OURS)
+
+
+def versions() -> tuple[str, ...]:
+    """Names and versions of all solvers."""
+    return tuple(f"{solver.name} {solver.version}" for solver in SOLVERS)
+
+
+class DiscreteScene(Protocol):
+    """A scene that other solvers take in plain values."""
+
+    def discrete(self, cells: int) -> DiscreteProblem:
+        """On a grid."""
+
+    def read_pressure(self, discrete: DiscreteProblem, pressure: Field) -> Values:
+        """Values of the scene from a pressure."""
+
+
+@dataclass(frozen=True)
+class PressureMethod:
+    """A solver of pressures at the loosest of its own tolerances that reaches the residual."""
+
+    solver: PeerSolver
+
+    @property
+    def name(self) -> str:
+        """Of the solver."""
+        return self.solver.name
+
+    def prepare(self, scene: DiscreteScene, resolution: Resolution) -> Prepared:
+        """Find the tolerance; the solver itself is set up anew before each run, which may start from the last."""
+        discrete = scene.discrete(round(resolution.size))
+        tolerance = find_tolerance(self.solver, discrete, resolution.residual)
+
+        def read(found: PressureField) -> Result:
+            values = scene.read_pressure(discrete, found.pressure)
+            return Result(values, found.applications * found.pressure.size)
+
+        return lambda _: Solve(self.solver.prepare(discrete, tolerance), read, repeatable=False)
+
+
+def find_tolerance(solver: PeerSolver, discrete: DiscreteProblem, residual: float) -> float:
+    """The loosest of its own tolerances with which a solver reaches a residual. Raises RuntimeError where none does."""
+    reached = math.nan
+    for part in solver.tolerances:
+        pressure = solver.prepare(discrete, part * residual)().pressure
+        if not np.isfinite(pressure).all():
+            raise RuntimeError("pressure is not finite")
+        reached = discrete.residual(pressure)
+        if reached <= residual:
+            return part * residual
+    raise RuntimeError(f"residual {reached:.2g} at its tightest tolerance")

@@ -11,7 +11,7 @@ from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection.compare import models_of
 from validation.selection.hierarchy import needed
-from validation.simulation.rough_punch import PunchRoughness as Band
+from validation.simulation.rough_punch import PunchRoughness
 
 TOLERANCE = 0.1
 TURN = 2 * math.pi
@@ -49,26 +49,16 @@ def square_punch(case: Any) -> str:
 
 def punches(case: Any) -> str:
     """Those of Fig. 14.1, for H = 0.7."""
-    return _punches(Band(hurst=0.7, waves=(1, case.cells // 4), seed=0), case.forces)
+    return _punches(PunchRoughness(hurst=0.7, waves=(1, case.cells // 4), seed=0), case.forces)
 
 
 def rolled_off(case: Any) -> str:
     """With the longest of all roll-offs."""
-    return _punches(Band(hurst=case.hurst, waves=(max(case.roll_offs), case.cells // 4), seed=0), case.forces)
+    return _punches(PunchRoughness(hurst=case.hurst, waves=(max(case.roll_offs), case.cells // 4), seed=0), case.forces)
 
 
-def _punches(band: Band, forces: Sequence[float]) -> str:
-    ground = Roughness(rms=band.height, hurst=band.hurst, longest=1 / band.waves[0], shortest=1 / band.waves[1])
-    scenes = [
-        (
-            force,
-            IndentationScene(
-                name="punch", shape="punch", size=1.0, load=force * band.height, modulus=1.0, ground=ground
-            ),
-        )
-        for force in forces
-    ]
-    return along("Fbar", scenes, "stiffness")
+def _punches(roughness: PunchRoughness, forces: Sequence[float]) -> str:
+    return along("Fbar", [(force, roughness.scene(force)) for force in forces], "stiffness")
 
 
 def rolling(case: Any) -> str:

@@ -12,6 +12,9 @@ import bem3d
 import mdr
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome, random_generator
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.roughness import Roughness
+from validation.simulation.surface import draw_surface
 
 FloatArray = NDArray[np.float64]
 
@@ -56,7 +59,7 @@ class PunchRoughness:
 
     def surface(self, cells: int, realisation: int) -> FloatArray:
         """Height of one realisation at the centres of cells x cells."""
-        height = bem3d.rough_surface(
+        height = draw_surface(
             self.spectrum.c2d,
             shape=(cells, cells),
             spacing=1 / cells,
@@ -77,6 +80,13 @@ class PunchRoughness:
             amplitudes=self.amplitudes,
         )
         return self._normalised(height)
+
+    def scene(self, force: float) -> IndentationScene:
+        """A punch of this roughness under Fbar, E* = 1, for models that know no realisation."""
+        first, last = self.waves
+        ground = Roughness(rms=self.height, hurst=self.hurst, longest=1 / first, shortest=1 / last)
+        load = force * self.height
+        return IndentationScene(name="punch", shape="punch", size=1.0, load=load, modulus=1.0, ground=ground)
 
     def _generator(self, kind: int, realisation: int) -> np.random.Generator:
         """The address of a Hurst exponent is its own, so that adding one leaves the others their numbers."""
@@ -119,7 +129,7 @@ def press_surface(surface: Surface) -> Outcome:
     """
     cells = surface.cells
     half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
-    height = _drawn(surface)
+    height = surface.roughness.surface(cells, surface.realisation)
     # the mean displacement is the work of p on that of a uniform unit pressure
     uniform = half_space.displacement(np.ones(half_space.shape)) / cells**2
     path = bem3d.indent(
@@ -206,13 +216,6 @@ def require_converged(outcomes: Iterable[Outcome], unconverged: Sequence[str]) -
         fewest = int(np.isfinite(outcome["stiffness"]).sum(axis=0).min())
         if fewest < 3:
             raise NotConvergedError(f"{fewest} surfaces converged at one of the forces, 3 are needed", unconverged)
-
-
-def _drawn(surface: Surface) -> FloatArray:
-    """Without a word about waves of few cells: grids are compared, and what they leave open is measured."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        return surface.roughness.surface(surface.cells, surface.realisation)
 
 
 def _gradient(height: FloatArray) -> float:

@@ -1,55 +1,61 @@
-"""What the race shows: times to equal residual, agreement of the answers, and how time and memory grow."""
+"""What the solver comparison shows: times to equal residual, agreement, and how time and memory grow."""
 
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Table
-from validation.benchmarks.peers import CONTESTANTS
-from validation.benchmarks.solvers.case import FINISHED, Errand, Heat, Race, RaceResult, run
-from validation.benchmarks.solvers.dynamic_wheel import SteppingThroughput
+from validation.benchmarks.peers import OURS, SOLVERS
+from validation.benchmarks.solvers.case import (
+    LoadPathWorkload,
+    ProblemRun,
+    SolverComparison,
+    SolverComparisonResult,
+    run,
+)
 from validation.benchmarks.solvers.rolling import RollingThroughput
+from validation.benchmarks.solvers.wheel_steps import SteppingThroughput
+from validation.benchmarks.timing import FINISHED
 from validation.engine.engine import Outcome
 
 # the residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells
 AGREEMENT = (
     ("pressure field, relative L2", 1e-4, "1e4 times the residual, for the condition of the contact on fine grids"),
-    ("force, relative", 1e-6, "100 times the residual: exact for who prescribes it, by stiffness for who does not"),
+    ("force, relative", 1e-6, "100 times the residual: exact where it is prescribed, by stiffness elsewhere"),
     ("contact area, relative", 1e-3, "single cells of vanishing pressure may stand on either side"),
 )
-OTHERS = [i for i, contestant in enumerate(CONTESTANTS) if contestant.package != CONTESTANTS[0].package]
-AGAINST = (("the fastest peer", OTHERS), ("our own textbook iteration", [1]))
+OTHERS = [i for i, solver in enumerate(SOLVERS) if solver.package != OURS]
+AGAINST = (("the fastest peer", OTHERS), ("the iteration of Polonsky and Keer", [1]))
 RATIO = "solve / (applications x one on the whole grid)"
 
 
-def evidence(result: RaceResult) -> Evidence:
+def evidence(result: SolverComparisonResult) -> Evidence:
     """Numbers for what must agree; the times as tables and conclusions, since no time is right or wrong."""
-    cells = " and ".join(f"{n}²" for n in result.race.cells)
+    cells = " and ".join(f"{n}²" for n in result.case.cells)
     return Evidence(
-        title="The race: time to the same residual, one thread each",
+        title="Solver comparison: time to the same residual, one thread each",
         method=(
-            f"Everyone solves the same discrete problems, cold, to a residual of {result.race.residual:g} as this "
+            f"All solvers solve the same discrete problems, cold, to a residual of {result.case.residual:g} as this "
             "project defines it, from a fresh operator application on the returned pressure; with the loosest of their "
-            "own tolerances that reaches it. By force, or by the approach that belongs to this force, as each prefers. "
-            "A process each, in turns, one thread; the median of 5 to 15 runs, or of one that takes long. Set-up "
+            "own tolerances that reaches it. By force, or by the approach that belongs to this force, as its interface "
+            "asks. A process each, in turns, one thread; the median of 5 to 15 runs, or of one that takes long. Set-up "
             "(operators, plans; ours with a whole first solve) is timed apart. Our applications are those on the "
-            "finest grid or a window of it; the coarser grids are in our time. tamaas does not count its own. "
-            "Everyone's transforms are those of the package as it is installed. "
-            + "; ".join(f"{c.name}: {c.mode} ({c.version or 'not installed'})" for c in CONTESTANTS)
+            "finest grid or a window of it; the coarser grids are in our time. tamaas does not count its own. Fourier "
+            "transforms are those of each package as it is installed. Contact models that have no pressure are listed "
+            "with the difference of their stiffness. "
+            + "; ".join(f"{s.name}: {s.mode} ({s.version or 'not installed'})" for s in SOLVERS)
             + "."
         ),
         numbers=tuple(_agreement(result)),
         tables=(
-            _heats(result.heats, result.outcomes, "heats"),
+            _runs(result.runs, result.outcomes, "heats"),
             _scaling(result),
-            _errand(result),
-            result.rolling[0],
-            result.wheel[0],
+            _runs(result.load_path_runs, result.load_path_outcomes, "errand"),
+            result.wheel,
         ),
         page_tables=(
-            _times(result.heats, result.outcomes, "Seconds"),
-            _times(result.errands, result.errand_outcomes, "The same for some of the loads of Fig. 14.1"),
-            result.rolling[1],
-            result.wheel[1],
+            _times(result.runs, result.outcomes, "Seconds"),
+            _times(result.load_path_runs, result.load_path_outcomes, "The same for some of the loads of Fig. 14.1"),
+            result.rolling,
         ),
         conclusions=tuple(_conclusions(result)),
         captions={
@@ -59,32 +65,22 @@ def evidence(result: RaceResult) -> Evidence:
                 "one in free space. (c) As (a), over the median of bem3d.solve. (d) Peak memory of its process, less "
                 "that of an idle one."
             ),
-            "race-rolling": (
-                "A wheel that rolls, one core: error of its force against positions a second, by residual (1e-3 to "
-                "1e-6 from right to left) and cells to a contact radius. Filled: error of solver and grid, against "
-                f"{result.race.rolling.finest} cells to a radius; open: of the solver alone. Dotted: the fluctuation "
-                "of the force, which is to be resolved."
-            ),
             "race-wheel": (
-                f"A dynamic wheel on springs, {result.race.wheel.wheels} in step on one core: steps of one wheel a "
+                f"A dynamic wheel on springs, {result.case.wheel.wheels} in a batch on one core: steps of one wheel a "
                 "second against the springs to a contact radius, by roughness h₀/d. Filled: as simulated; open: plain "
-                f"sums over all springs. Dotted: the goal for Table 14.1 with 100, {result.race.wheel.goal:.2g}."
+                "sums over all springs."
             ),
         },
         unconverged=tuple(
-            f"{heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}"
-            for heat, outcome in zip(result.heats, result.outcomes, strict=True)
+            f"{each.problem.label}: {SOLVERS[i].name} {outcome['status'][i]}"
+            for each, outcome in zip(result.runs, result.outcomes, strict=True)
             for i in range(2)
             if outcome["status"][i] != FINISHED
         ),
     )
 
 
-def _errand(result: RaceResult) -> Table:
-    return _heats(result.errands, result.errand_outcomes, "errand")
-
-
-def _heats(heats: list[Heat], outcomes: list[Outcome], title: str) -> Table:
+def _runs(runs: list[ProblemRun], outcomes: list[Outcome], name_of_table: str) -> Table:
     names = (
         ("seconds", 0, "median [s]"),
         ("seconds", 1, "fastest [s]"),
@@ -96,48 +92,53 @@ def _heats(heats: list[Heat], outcomes: list[Outcome], title: str) -> Table:
         ("difference", 0, "pressure difference to ours, L2"),
         ("difference", 1, "force difference to ours"),
         ("difference", 2, "area difference to ours"),
+        ("difference", 3, "stiffness difference to ours"),
     )
     rows: dict[str, list[object]] = {}
-    for heat, outcome in zip(heats, outcomes, strict=True):
-        course = heat.course
-        for i, contestant in enumerate(CONTESTANTS):
+    for each, outcome in zip(runs, outcomes, strict=True):
+        problem = each.problem
+        for i, name in enumerate(outcome["method"]):
             facts: dict[str, object] = {
-                "problem": course.label,
-                "surface": course.surface,
-                "half-space": "periodic" if course.periodic else "free",
-                "cells": course.cells,
+                "problem": problem.label,
+                "surface": problem.surface,
+                "half-space": "periodic" if problem.periodic else "free",
+                "cells": problem.cells,
                 "area": float(outcome["area"]),
-                "contestant": contestant.name,
+                "solver": str(name),
                 "status": str(outcome["status"][i]),
             }
-            for key, column, name in names:
-                facts[name] = float(outcome[key][i] if column is None else outcome[key][i, column])
-            for name, value in facts.items():
-                rows.setdefault(name, []).append(value)
-    return Table(title, rows)
+            for key, column, title in names:
+                facts[title] = float(outcome[key][i] if column is None else outcome[key][i, column])
+            for key, value in facts.items():
+                rows.setdefault(key, []).append(value)
+    return Table(name_of_table, rows)
 
 
-def _times(heats: list[Heat], outcomes: list[Outcome], title: str) -> Table:
+def _times(runs: list[ProblemRun], outcomes: list[Outcome], title: str) -> Table:
     """Seconds as they stand on the page: median, from the fastest to the slowest, and set-up."""
     rows: dict[str, list[object]] = {"problem": [], "area": []}
-    for heat, outcome in zip(heats, outcomes, strict=True):
-        rows["problem"].append(heat.course.label)
+    for each, outcome in zip(runs, outcomes, strict=True):
+        rows["problem"].append(each.problem.label)
         rows["area"].append(f"{float(outcome['area']):.1%}")
-        for i, contestant in enumerate(CONTESTANTS):
+        for i, name in enumerate(outcome["method"]):
             median, fastest, slowest, _ = outcome["seconds"][i]
             cell = f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {outcome['setup'][i]:.2g} s"
             done = outcome["status"][i] == FINISHED
-            rows.setdefault(contestant.name, []).append(cell if done else str(outcome["status"][i]))
+            rows.setdefault(str(name), [""] * (len(rows["area"]) - 1)).append(
+                cell if done else str(outcome["status"][i])
+            )
+        for cells in rows.values():
+            cells += [""] * (len(rows["area"]) - len(cells))
     return Table(f"{title}: median (from the fastest to the slowest run)", rows)
 
 
-def _scaling(result: RaceResult) -> Table:
+def _scaling(result: SolverComparisonResult) -> Table:
     rows: dict[str, list[object]] = {}
-    for measured, outcome in zip(result.measured, result.costs, strict=True):
-        course = measured.course
+    for scaling, outcome in zip(result.scalings, result.costs, strict=True):
+        problem = scaling.problem
         values = {
-            "problem": f"{course.surface}, {'periodic' if course.periodic else 'free'}",
-            "cells": course.cells,
+            "problem": f"{problem.surface}, {'periodic' if problem.periodic else 'free'}",
+            "cells": problem.cells,
             "solve [s]": float(outcome["seconds"]),
             "first solve, with plans [s]": float(outcome["first"]),
             "one application on the whole grid [s]": float(outcome["application"]),
@@ -152,17 +153,19 @@ def _scaling(result: RaceResult) -> Table:
     return Table("scaling", rows)
 
 
-def _agreement(result: RaceResult) -> list[Number]:
-    """The largest difference to our answer over all heats that a contestant has finished."""
+def _agreement(result: SolverComparisonResult) -> list[Number]:
+    """The largest difference to our answer over all runs that a solver has finished."""
     numbers = []
-    for i, contestant in enumerate(CONTESTANTS[1:], start=1):
+    for i, solver in enumerate(SOLVERS[1:], start=1):
         done = [o["difference"][i] for o in result.outcomes if o["status"][i] == o["status"][0] == FINISHED]
         if not done:
             continue
         for column, (what, tolerance, reason) in enumerate(AGREEMENT):
             numbers.append(
                 Number(
-                    quantity=f"{what}: {contestant.name} beside bem3d.solve, largest of {len(done)} problems",
+                    quantity=f"{what}, difference to bem3d.solve",
+                    model=solver.name,
+                    where={"problems": len(done)},
                     value=float(np.max([row[column] for row in done])),
                     reference=0.0,
                     source="the same discrete problem has one solution",
@@ -173,73 +176,65 @@ def _agreement(result: RaceResult) -> list[Number]:
     return numbers
 
 
-def _conclusions(result: RaceResult) -> list[str]:
+def _conclusions(result: SolverComparisonResult) -> list[str]:
     sentences = [_standing(result, periodic, *against) for periodic in (True, False) for against in AGAINST]
     sentences += [
-        f"Not finished: {heat.course.label}: {CONTESTANTS[i].name} {outcome['status'][i]}."
-        for heat, outcome in zip(
-            [*result.heats, *result.errands], [*result.outcomes, *result.errand_outcomes], strict=True
+        f"Not finished: {each.problem.label}: {SOLVERS[i].name} {outcome['status'][i]}."
+        for each, outcome in zip(
+            [*result.runs, *result.load_path_runs], [*result.outcomes, *result.load_path_outcomes], strict=True
         )
         for i in OTHERS
         if outcome["status"][i].startswith("failed")
     ]
     if result.resumed:
-        sentences.append(f"{result.resumed} of {len(result.heats)} heats were run before this race was interrupted.")
+        sentences.append(
+            f"{result.resumed} of {len(result.runs)} problems were solved before this run was interrupted."
+        )
     sentences += [_work(result), _rolled(result)]
     table = _scaling(result)
     problems = list(dict.fromkeys(table["problem"].tolist()))
     return sentences + [_growth(problem, table.where(problem=problem)) for problem in problems]
 
 
-def _work(result: RaceResult) -> str:
+def _work(result: SolverComparisonResult) -> str:
     """What a contact of Fig. 14.1 costs us, and what it would cost the fastest peer."""
-    errand = result.race.errand
-    seconds = sum(float(path["seconds"]) for path in result.paths) / (len(result.paths) * len(errand.forces))
+    load_path = result.case.load_path
+    seconds = sum(float(path["seconds"]) for path in result.paths) / (len(result.paths) * len(load_path.forces))
     applications = float(np.mean([path["applications"] for path in result.paths]))
     ours = (
-        f"The work of Fig. 14.1 on {errand.cells}² cells to a residual of {errand.tolerance:g}: a contact with its "
-        f"stiffness takes us {1e3 * seconds:.1f} ms and {applications:.1f} operator applications, on load paths of "
-        f"{len(errand.forces)} forces ({len(result.paths)} surfaces, H = 0.7, everything included)"
+        f"The work of Fig. 14.1 on {load_path.cells}² cells to a residual of {load_path.tolerance:g}: a contact with "
+        f"its stiffness takes us {1e3 * seconds:.1f} ms and {applications:.1f} operator applications, on load paths of "
+        f"{len(load_path.forces)} forces ({len(result.paths)} surfaces, H = 0.7, everything included)"
     )
     times = {}
     for i in OTHERS:
-        finished = all(outcome["status"][i] == FINISHED for outcome in result.errand_outcomes)
+        finished = all(outcome["status"][i] == FINISHED for outcome in result.load_path_outcomes)
         if finished:
-            times[CONTESTANTS[i].name] = float(np.mean([o["seconds"][i, 0] for o in result.errand_outcomes]))
+            times[SOLVERS[i].name] = float(np.mean([o["seconds"][i, 0] for o in result.load_path_outcomes]))
     if not times:
         return f"{ours}; no peer has finished all of the sampled loads."
     fastest = min(times, key=lambda name: times[name])
-    cold = float(np.mean([outcome["seconds"][0, 0] for outcome in result.errand_outcomes]))
+    cold = float(np.mean([outcome["seconds"][0, 0] for outcome in result.load_path_outcomes]))
     return (
-        f"{ours}. A cold solve without stiffness takes us {1e3 * cold:.1f} ms in the mean over {len(errand.sampled)} "
-        f"of these loads, and the fastest peer that solves them all, {fastest}, {1e3 * times[fastest]:.0f} ms "
+        f"{ours}. A cold solve without stiffness takes us {1e3 * cold:.1f} ms in the mean over "
+        f"{len(load_path.sampled)} of these loads, and the fastest peer that solves them all, {fastest}, "
+        f"{1e3 * times[fastest]:.0f} ms "
         f"({times[fastest] / cold:.0f} times as long). It has no stiffness: a path of such solves, whose differences "
         f"are secants, takes {times[fastest] / seconds:.0f} times as long as ours, with a second load beside each for "
         f"a tangent {2 * times[fastest] / seconds:.0f} times; set-up not counted."
     )
 
 
-def _rolled(result: RaceResult) -> str:
-    """Positions a second of the scene that has a goal."""
-    scenes = result.rolling[1]
+def _rolled(result: SolverComparisonResult) -> str:
+    """Positions a second, beside warm solves on one window."""
+    rolling = result.case.rolling
+    rows = zip(*(result.rolling[name] for name in result.rolling.columns), strict=True)
     found = "; ".join(
-        f"h/d = {h:g}: {rate:.0f} positions a second (goal {goal:.0f}), {n:.1f} applications each, "
-        f"{rate / warm:.1f} times as fast as warm solves on one window"
-        for h, rate, goal, n, warm in zip(
-            *(
-                scenes[name]
-                for name in (
-                    "h/d",
-                    "positions a second",
-                    "goal",
-                    "applications a position",
-                    "by warm solves on 3a x 3a",
-                )
-            ),
-            strict=True,
-        )
+        f"h/d = {h:g}: {rate:.0f} positions a second, {n:.1f} applications each, {rate / warm:.1f} times as fast as "
+        "warm solves on one window"
+        for h, rate, n, _, _, warm in rows
     )
-    return f"A rolling wheel, a = 32 cells, residual 1e-4, one core: {found}."
+    return f"A rolling wheel, a = {rolling.cells} cells, residual {rolling.tolerance:g}, one core: {found}."
 
 
 def _growth(problem: str, rows: Table) -> str:
@@ -262,16 +257,16 @@ def _growth(problem: str, rows: Table) -> str:
     )
 
 
-def _standing(result: RaceResult, periodic: bool, name: str, others: list[int]) -> str:
-    """Our time beside the fastest of others in each heat."""
+def _standing(result: SolverComparisonResult, periodic: bool, name: str, others: list[int]) -> str:
+    """Our time beside the fastest of others on each problem."""
     where = f"{'Periodic' if periodic else 'Free space'}, beside {name}"
     pairs = []
-    for heat, outcome in zip(result.heats, result.outcomes, strict=True):
+    for each, outcome in zip(result.runs, result.outcomes, strict=True):
         finished = [i for i in others if outcome["status"][i] == FINISHED]
-        if heat.course.periodic == periodic and outcome["status"][0] == FINISHED and finished:
+        if each.problem.periodic == periodic and outcome["status"][0] == FINISHED and finished:
             pairs.append(outcome["seconds"][finished, :2].min(axis=0) / outcome["seconds"][0, :2])
     if not pairs:
-        return f"{where}: nobody has finished."
+        return f"{where}: no solver has finished."
     by_median, by_fastest = np.array(pairs).T
     return (
         f"{where}: first on {np.count_nonzero(by_median > 1)} of {len(pairs)} problems; "
@@ -294,16 +289,14 @@ CASE = Case(
     chapter=Chapter.SPEED,
     place=2,
     claim="Our solver is the fastest at the same residual.",
-    answers="The race: our solver beside the peers that are installed, same problems, same residual",
-    quick=Race(),
-    full=Race(
+    answers="Our solver beside other packages that are installed, same problems, same residual",
+    quick=SolverComparison(),
+    full=SolverComparison(
         cells=(256, 512, 1024),
         scaling=(128, 256, 512, 1024, 2048, 4096),
-        errand=Errand(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
-        rolling=RollingThroughput(cells=(8, 16, 32), finest=64, positions=1600),
-        wheel=SteppingThroughput(
-            springs=(12, 25, 50, 100, 200, 400), heights=(0.01, 0.1, 0.3, 1.0), steps=8000, bem_steps=1600
-        ),
+        load_path=LoadPathWorkload(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
+        rolling=RollingThroughput(positions=1600),
+        wheel=SteppingThroughput(springs=(12, 25, 50, 100, 200, 400), heights=(0.01, 0.1, 0.3, 1.0), steps=8000),
     ),
     run=run,
     evidence=evidence,

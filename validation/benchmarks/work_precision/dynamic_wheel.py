@@ -1,32 +1,22 @@
-"""Speed against accuracy of a dynamic wheel: the spectrum of its acceleration in one-third octaves."""
+"""A dynamic wheel on the charts: the spectrum of its acceleration in one-third octaves."""
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
-from validation.benchmarks.work_precision.grids import Refined
-from validation.benchmarks.work_precision.measurement import (
-    CLOSED,
-    FED,
-    FILTER_1D,
-    FILTER_3D,
-    MDR,
-    Configuration,
-    Draw,
-    FloatArray,
-    Quantity,
-    SolveResult,
-    TimedSolve,
-)
+from validation.benchmarks.timing import Configuration
+from validation.benchmarks.work_precision.grids import Grids, GridSeries
+from validation.benchmarks.work_precision.problem import CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING, Quantity
 from validation.benchmarks.work_precision.rolling import log_levels
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
+from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve
 from validation.simulation.motion import Motion, periodic_motion, simulate
 from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d, simulate_on_half_space
 from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, InputSpectrum, WheelEnsemble, linear_law_1d
@@ -39,27 +29,27 @@ WARM = 40
 """Places before the clock runs: frames that find their size, plans."""
 
 
+GRIDS = Grids(cells=(6, 12), fixed=6, tolerances=(1e-2, 1e-3), per="to a radius")
+
+
 @dataclass(frozen=True, kw_only=True)
-class WheelProblem(Refined):
+class WheelProblem:
     """Wheels of a scene over isotropic surfaces, in one round of a track.
 
-    scene: whose rail alone is rough; turns: whole, of the resonance, to which a half is added; width: of surfaces over
-    the longest wave; strips: realisations; wheels: on springs, in step; filtered: cells for the linear filter; shared:
-    of which all cells are multiples; springs: to a contact radius; seed: zero or positive.
+    wheel_scene: whose rail alone is rough; turns: whole, of the resonance, to which a half is added; width: of
+    surfaces over the longest wave; strips: realisations; wheels: on springs, in a batch; filtered: cells for the linear
+    filter; shared: of which all cells are multiples; springs: to a contact radius; seed: zero or positive.
     """
 
-    scene: WheelScene = field(default=SCENE)
+    wheel_scene: WheelScene = field(default=SCENE)
     turns: int = 0
     width: int = 2
     strips: int = 3
     wheels: int = 20
-    cells: tuple[int, ...] = (6, 12)
+    grids: Grids = GRIDS
     filtered: tuple[int, ...] = (6, 12)
     shared: int = 3
     springs: tuple[int, ...] = (12, 25)
-    fixed: int = 6
-    per: ClassVar[str] = "to a radius"
-    tolerances: tuple[float, ...] = (1e-2, 1e-3)
     seed: int = 152
 
     @property
@@ -76,7 +66,7 @@ class WheelProblem(Refined):
     def strip(self, realisation: int, cells: int, tolerance: float) -> WheelStrip:
         """The same surface on every grid."""
         return WheelStrip(
-            scene=self.scene,
+            scene=self.wheel_scene,
             realisation=realisation,
             natural_periods=self.turns,
             width=self.width,
@@ -89,51 +79,83 @@ class WheelProblem(Refined):
     @property
     def duration(self) -> float:
         """Of a record on boundary elements [s]."""
-        strip = self.strip(0, self.shared, self.tight)
-        return strip.shape[0] * strip.spacing / self.scene.speed
+        strip = self.strip(0, self.shared, self.grids.tight)
+        return strip.shape[0] * strip.spacing / self.wheel_scene.speed
 
     @property
     def edges(self) -> FloatArray:
         """One-third octaves that hold two lines of a record and end where the roughness does [rad/s]."""
         lines = 2 * 2 * math.pi / self.duration / (2 ** (1 / 3) - 1)
-        return one_third_octaves(max(2 * self.scene.eigenfrequency, lines), self.scene.cutoff)
+        return one_third_octaves(max(2 * self.wheel_scene.eigenfrequency, lines), self.wheel_scene.cutoff)
 
     def levels(self, acceleration: FloatArray, time_step: float) -> FloatArray:
         """int A df in each band, with Hann's window, one row a wheel."""
         record = record_spectra(acceleration, time_step=time_step, window="hann")
         return band_levels(record.omega, record.density, self.edges).T
 
-    def attempts(self) -> tuple[Configuration, ...]:
-        """Linear theory three times, springs fed twice, boundary elements in the time loop."""
-        along: dict[str, Any] = {"knob": "# springs to a radius", "paired": False, "scene": self}
+    @property
+    def scene(self) -> None:
+        """No models are found: these values are those of a periodic strip."""
+
+    def configurations(self) -> tuple[Configuration, ...]:
+        """Linear theory three times, springs with both input spectra, boundary elements in the time loop."""
+        along = partial(Configuration, scene=self, parameter="# springs to a radius", paired=False)
+        springs = (WheelsOnSprings(FILTER_1D, linear=True), WheelsOnSprings(MDR), FOR_ROLLING)
         return (
-            WheelLinearSpectrum(line=CLOSED, knob="linear theory", value=1.0, paired=False, scene=self),
-            *(WheelOnSprings(line=line, value=n, **along) for line in (FILTER_1D, MDR, FED) for n in self.springs),
+            Configuration(
+                method=WheelLinearSpectrum(),
+                scene=self,
+                label=CLOSED,
+                parameter="linear theory",
+                value=1.0,
+                paired=False,
+            ),
             *(
-                WheelFiltered(line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self)
+                along(method=method, resolution=Resolution(size=n), label=method.name, value=n)
+                for method in springs
+                for n in self.springs
+            ),
+            *(
+                Configuration(
+                    method=WheelFiltered(),
+                    scene=self,
+                    resolution=Resolution(size=n),
+                    label=FILTER_3D,
+                    parameter="# cells to a radius",
+                    value=n,
+                    realisations=self.strips,
+                )
                 for n in self.filtered
             ),
-            *self.grids(),
+            *self._grid_series.configurations(),
         )
 
-    def on_grid(self, **settings: Any) -> "InTheLoop":
-        """Boundary elements."""
-        return InTheLoop(realisations=self.strips, scene=self, **settings)
+    def reference(self) -> tuple[Configuration, Configuration]:
+        """The two finest grids."""
+        return self._grid_series.finest()
 
-    def read(self, acceleration: FloatArray, beside: "Beside", visits: float) -> SolveResult:
+    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
+        """Grids that are extrapolated, too."""
+        return self._grid_series.pairs_below_reference()
+
+    @property
+    def _grid_series(self) -> GridSeries:
+        return GridSeries(grids=self.grids, scene=self, method=WheelInTimeLoop(), realisations=self.strips)
+
+    def read(self, acceleration: FloatArray, linear: "LinearStrip", work: float) -> Result:
         """Levels of a wheel, and of the linear one on the same surface."""
-        level = self.levels(acceleration[:, np.newaxis], beside.time_step)[0]
-        return SolveResult({"level": level, "linear level": beside.level, "mean level": beside.mean}, visits)
+        level = self.levels(acceleration[:, np.newaxis], linear.time_step)[0]
+        return Result({"level": level, "linear level": linear.level, "mean level": linear.mean}, work)
 
-    def alone(self, level: FloatArray, visits: float, count: int = 1) -> SolveResult:
-        """What has no surface of its own."""
-        return SolveResult(
-            {"level": level, "linear level": np.ones(level.shape), "mean level": np.ones(level.shape)}, visits, count
+    def without_surface(self, level: FloatArray, work: float, count: int = 1) -> Result:
+        """Of a model without a surface of its own."""
+        return Result(
+            {"level": level, "linear level": np.ones(level.shape), "mean level": np.ones(level.shape)}, work, count
         )
 
 
 @dataclass(frozen=True, eq=False)
-class Beside:
+class LinearStrip:
     """A surface, and what linear theory has on it: its contact, levels, and their mean over all phases of its waves."""
 
     surface: FloatArray
@@ -143,13 +165,13 @@ class Beside:
     mean: FloatArray
 
 
-def beside(scene: WheelProblem, realisation: int, cells: int, tolerance: float) -> Beside:
+def linear_strip(scene: WheelProblem, realisation: int, cells: int, tolerance: float) -> LinearStrip:
     """One strip, drawn."""
     strip = scene.strip(realisation, cells, tolerance)
-    surface, time_step = strip.surface(), strip.spacing / scene.scene.speed
+    surface, time_step = strip.surface(), strip.spacing / scene.wheel_scene.speed
     linear = linear_law_3d(strip, surface)
     found = scene.levels(steady_acceleration(linear, time_step), time_step)[0]
-    return Beside(surface, linear, time_step, found, mean_levels(scene, surface, strip.spacing, time_step))
+    return LinearStrip(surface, linear, time_step, found, mean_levels(scene, surface, strip.spacing, time_step))
 
 
 def transfer(wheel: Wheel, omega: NDArray[np.floating], time_step: float) -> FloatArray:
@@ -170,29 +192,29 @@ def mean_levels(scene: WheelProblem, surface: FloatArray, spacing: float, time_s
 
     Hann's window mixes a line with its neighbours: 2/3 of itself, 1/6 of each.
     """
-    wheel, (nx, ny) = scene.scene.body, surface.shape
+    wheel, (nx, ny) = scene.wheel_scene.body, surface.shape
     qx, qy = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in (nx, ny))
     response = rolling_theory.response(
         np.hypot(qx[:, np.newaxis], qy), contact_radius=wheel.contact_radius, modulus=wheel.modulus
     )
     force = (np.abs(response * np.fft.fft2(surface, norm="forward")) ** 2).sum(axis=1)
-    omega = np.asarray(qx * scene.scene.speed, dtype=np.float64)
+    omega = np.asarray(qx * scene.wheel_scene.speed, dtype=np.float64)
     density = transfer(wheel, omega, time_step) ** 2 * force * nx * time_step
     mixed = 2 / 3 * density + (np.roll(density, 1) + np.roll(density, -1)) / 6
     along = slice(1, nx // 2)
     return band_levels(omega[along], mixed[along], scene.edges)
 
 
-@dataclass(frozen=True, kw_only=True)
-class WheelLinearSpectrum(Configuration):
+@dataclass(frozen=True)
+class WheelLinearSpectrum:
     """Linear theory in closed form at the lines of a record."""
 
-    scene: WheelProblem
+    name: str = CLOSED
 
-    def prepare(self) -> Draw:
+    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
         """Nothing to do."""
-        scene, wheel = self.scene, self.scene.scene.body
-        rough = scene.strip(0, scene.shared, scene.tight).roughness
+        wheel = scene.wheel_scene.body
+        rough = scene.strip(0, scene.shared, scene.grids.tight).roughness
         line = 2 * math.pi / scene.duration
         omega = line * np.arange(1, math.ceil(scene.edges[-1] / line) + 1)
         seen = [0]
@@ -204,19 +226,19 @@ class WheelLinearSpectrum(Configuration):
         def solve() -> FloatArray:
             seen[0] = 0
             force = rolling_theory.force_spectrum_3d(
-                omega / scene.scene.speed,
+                omega / scene.wheel_scene.speed,
                 c2d,
                 edges=(rough.q_min, rough.q_max),
                 contact_radius=wheel.contact_radius,
                 modulus=wheel.modulus,
             )
             dynamic = wheel_theory.acceleration_over_force(omega, eigenfrequency=wheel.eigenfrequency, mass=wheel.mass)
-            return np.asarray(dynamic * wheel_theory.over_frequency(force, speed=scene.scene.speed))
+            return np.asarray(dynamic * wheel_theory.over_frequency(force, speed=scene.wheel_scene.speed))
 
-        def read(density: FloatArray) -> SolveResult:
-            return scene.alone(band_levels(omega, density, scene.edges), seen[0])
+        def read(density: FloatArray) -> Result:
+            return scene.without_surface(band_levels(omega, density, scene.edges), seen[0])
 
-        return lambda _: TimedSolve(solve, read)
+        return lambda _: Solve(solve, read)
 
 
 class CountedSprings(SpringsLaw):
@@ -232,26 +254,27 @@ class CountedSprings(SpringsLaw):
         return found
 
 
-@dataclass(frozen=True, kw_only=True)
-class WheelOnSprings(Configuration):
-    """Wheels on springs, all in step, in the motion that repeats itself; or the filter (14.11) under them."""
+@dataclass(frozen=True)
+class WheelsOnSprings:
+    """Wheels on springs, batched, in the periodic motion; or the filter (14.11) under them."""
 
-    scene: WheelProblem
+    name: str
+    input_spectrum: InputSpectrum = "geike"
+    linear: bool = False
 
-    def prepare(self) -> Draw:
+    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
         """Tracks of all wheels."""
-        scene, count = self.scene, self.scene.wheels
-        spectrum: InputSpectrum = "rolling" if self.line == FED else "geike"
-        distance = scene.duration * scene.scene.speed
-        on = replace(scene.scene, distance=distance, springs=round(self.value))
+        count, spectrum = scene.wheels, self.input_spectrum
+        distance = scene.duration * scene.wheel_scene.speed
+        on = replace(scene.wheel_scene, distance=distance, springs=round(resolution.size))
         rides = WheelEnsemble(scene=on, count=count, track="steady-state", input_spectrum=spectrum, seed=scene.seed)
         heights = rides.heights()
-        roll = _filter(rides, heights) if self.line == FILTER_1D else _springs(rides, heights)
+        roll = _filter(rides, heights) if self.linear else _springs(rides, heights)
 
-        def read(found: tuple[FloatArray, float]) -> SolveResult:
-            return scene.alone(scene.levels(found[0], on.time_step), found[1], count)
+        def read(found: tuple[FloatArray, float]) -> Result:
+            return scene.without_surface(scene.levels(found[0], on.time_step), found[1], count)
 
-        return lambda _: TimedSolve(roll, read)
+        return lambda _: Solve(roll, read)
 
 
 def _filter(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
@@ -284,45 +307,46 @@ def _springs(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[Fl
     return roll
 
 
-@dataclass(frozen=True, kw_only=True)
-class WheelFiltered(Configuration):
+FOR_ROLLING = WheelsOnSprings(MDR_ROLLING, input_spectrum="rolling")
+
+
+@dataclass(frozen=True)
+class WheelFiltered:
     """Linear theory on the same surface: force and wheel by their responses."""
 
-    scene: WheelProblem
+    name: str = FILTER_3D
 
-    def prepare(self) -> Draw:
+    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
         """Nothing to do."""
-        scene, cells = self.scene, round(self.value)
+        cells = round(resolution.size)
 
-        def draw(realisation: int) -> TimedSolve:
-            known = beside(scene, realisation, cells, scene.tight)
-            strip = scene.strip(realisation, cells, scene.tight)
+        def draw(realisation: int) -> Solve:
+            known = linear_strip(scene, realisation, cells, scene.grids.tight)
+            strip = scene.strip(realisation, cells, scene.grids.tight)
 
             def solve() -> FloatArray:
                 return steady_acceleration(linear_law_3d(strip, known.surface), known.time_step)[:, 0]
 
-            return TimedSolve(solve, lambda found: scene.read(found, known, known.surface.size))
+            return Solve(solve, lambda found: scene.read(found, known, known.surface.size))
 
         return draw
 
 
-@dataclass(frozen=True, kw_only=True)
-class InTheLoop(Configuration):
+@dataclass(frozen=True)
+class WheelInTimeLoop:
     """Boundary elements at each time step, each contact from the two before."""
 
-    scene: WheelProblem
-    cells: int
-    tolerance: float
+    name: str = "BEM"
 
-    def prepare(self) -> Draw:
-        """Refuses waves that cells do not resolve."""
-        scene, wheel = self.scene, self.scene.scene.body
-        spacing = scene.strip(0, self.cells, self.tolerance).spacing
+    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
+        """Raises ValueError for waves that cells do not resolve."""
+        cells, wheel = round(resolution.size), scene.wheel_scene.body
+        spacing = scene.strip(0, cells, resolution.residual).spacing
 
-        def draw(realisation: int) -> TimedSolve:
-            known = beside(scene, realisation, self.cells, self.tolerance)
+        def draw(realisation: int) -> Solve:
+            known = linear_strip(scene, realisation, cells, resolution.residual)
             contact = BoundaryElementsLaw(
-                wheel, [crop_to_reach(known.surface, spacing, wheel)], spacing, tolerance=self.tolerance
+                wheel, [crop_to_reach(known.surface, spacing, wheel)], spacing, tolerance=resolution.residual
             )
             # frames and their plans belong to a strip: they are made over its beginning
             for place in range(min(WARM, len(known.surface))):
@@ -333,10 +357,10 @@ class InTheLoop(Configuration):
                 motion = simulate_on_half_space(contact, known.linear, known.time_step, len(known.surface))
                 return motion.acceleration[:, 0]
 
-            def read(acceleration: FloatArray) -> SolveResult:
-                return scene.read(acceleration, known, contact.operator_applications * (2.0 * self.cells) ** 2)
+            def read(acceleration: FloatArray) -> Result:
+                return scene.read(acceleration, known, contact.operator_applications * (2.0 * cells) ** 2)
 
-            return TimedSolve(solve, read)
+            return Solve(solve, read)
 
         draw(0)
         return draw

@@ -10,35 +10,33 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from validation.analysis.statistics import jackknife_error
-from validation.benchmarks.work_precision.measurement import (
-    EXTRAPOLATED,
-    FINISHED,
-    REFUSED,
-    Answers,
-    Configuration,
-    FloatArray,
-    Quantity,
-    Scene,
-    answers_of,
-)
+from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
 from validation.benchmarks.work_precision.pareto import Point
+from validation.benchmarks.work_precision.problem import (
+    EXTRAPOLATED,
+    ChartProblem,
+    Quantity,
+    configurations_of,
+    values_by_configuration,
+)
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
+from validation.simulation.method import FloatArray, Values
 
 IntArray = NDArray[np.int64]
-Found = Mapping[Configuration, Answers]
+Found = Mapping[Configuration, Values]
 
 
 @dataclass(frozen=True, eq=False)
-class MethodAnswers:
+class MethodValues:
     """What one method says, and on two grids what it tends to.
 
     fine: answers; coarse: of the grid with cells `ratio` times as long, None where nothing is extrapolated; paired:
     whether its realisations are the first of the reference.
     """
 
-    fine: Answers
-    coarse: Answers | None = None
+    fine: Values
+    coarse: Values | None = None
     ratio: float = 2.0
     paired: bool = True
 
@@ -56,8 +54,8 @@ class MethodAnswers:
         return np.asarray(fine + change / (self.ratio**quantity.order - 1))
 
 
-def _rows(answers: Answers, rows: IntArray) -> Answers:
-    return {name: values[rows] for name, values in answers.items()}
+def _rows(values: Values, rows: IntArray) -> Values:
+    return {name: value[rows] for name, value in values.items()}
 
 
 @dataclass(frozen=True)
@@ -70,7 +68,7 @@ class Error:
     over: float
 
 
-def error(quantity: Quantity, mine: MethodAnswers, reference: MethodAnswers) -> Error:
+def error(quantity: Quantity, mine: MethodValues, reference: MethodValues) -> Error:
     """How far an answer is from the reference; its interval by leaving out one realisation after the other.
 
     Paired, of both at once: what the realisation has of its own drops out. Otherwise of either by itself.
@@ -82,7 +80,7 @@ def error(quantity: Quantity, mine: MethodAnswers, reference: MethodAnswers) -> 
         return mine.log(quantity, rows) - reference.log(quantity, theirs)
 
     def off(rows: IntArray, theirs: IntArray) -> float:
-        """With the sign of a single number: one that luck has put on the reference scatters as much as any other."""
+        """With the sign of a single number: one that happens to lie on the reference scatters as much as any other."""
         log_ratio = ratio(rows, theirs)
         return quantity.distance(log_ratio) * (math.copysign(1.0, log_ratio[0]) if log_ratio.size == 1 else 1.0)
 
@@ -109,20 +107,20 @@ def _half_width(without: list[float]) -> float:
     return float(stats.t.ppf(0.975, len(without) - 1) * jackknife_error(without))
 
 
-def reference_of(scene: Scene, found: Found) -> tuple[MethodAnswers, Callable[[Quantity], float]]:
+def reference_of(problem: ChartProblem, found: Found) -> tuple[MethodValues, Callable[[Quantity], float]]:
     """The reference, and its uncertainty for each quantity.
 
     Exact ones have what the quantity says. Others are extrapolated from the two finest grids, and the whole step from
     the finer of them is left open: enough for every order of convergence above 0.6.
     Raises NotConvergedError where one of these grids has not finished.
     """
-    given = scene.reference()
+    given = problem.reference()
     if not isinstance(given, tuple):
-        return MethodAnswers(given), lambda quantity: quantity.band
+        return MethodValues(given), lambda quantity: quantity.band
     coarse, fine = given
     if not (coarse in found and fine in found):
-        raise NotConvergedError(f"{scene.name}: the grids of the reference have not finished")
-    answer = MethodAnswers(found[fine], found[coarse], fine.value / coarse.value)
+        raise NotConvergedError(f"{problem.name}: the grids of the reference have not finished")
+    answer = MethodValues(found[fine], found[coarse], fine.value / coarse.value)
 
     def band(quantity: Quantity) -> float:
         rows = np.arange(answer.size)
@@ -131,28 +129,28 @@ def reference_of(scene: Scene, found: Found) -> tuple[MethodAnswers, Callable[[Q
     return answer, band
 
 
-def points(scene: Scene, outcome: Outcome) -> list[Point]:
-    """Every attempt at every quantity, and every pair of grids extrapolated, its costs added."""
-    attempts = scene.attempts()
+def points(problem: ChartProblem, outcome: Outcome) -> list[Point]:
+    """Every configuration and every quantity, and every pair of grids extrapolated, its costs added."""
+    configurations = configurations_of(problem)
     status = [str(s) for s in outcome["status"]]
-    found = {a: answers_of(outcome, i) for i, a in enumerate(attempts) if status[i] == FINISHED}
-    reference, band = reference_of(scene, found)
-    costs = {a: _cost(outcome, i) for i, a in enumerate(attempts)}
+    found = values_by_configuration(problem, outcome)
+    reference, band = reference_of(problem, found)
+    costs = {a: _cost(outcome, i) for i, a in enumerate(configurations)}
     rows: list[Point] = []
-    for quantity in scene.quantities:
+    for quantity in problem.quantities:
         blank = Point(
-            scene=scene.name,
+            scene=problem.name,
             quantity=quantity.name,
             unit="dB" if quantity.decibel else "%",
             band=band(quantity),
         )
         rows += [
             _point(replace(blank, **costs[a]), a, s, quantity, found.get(a), reference)
-            for a, s in zip(attempts, status, strict=True)
+            for a, s in zip(configurations, status, strict=True)
         ]
-        for coarse, fine in scene.pairs():
+        for coarse, fine in problem.pairs():
             if coarse in found and fine in found:
-                both = MethodAnswers(found[fine], found[coarse], fine.value / coarse.value)
+                both = MethodValues(found[fine], found[coarse], fine.value / coarse.value)
                 rows.append(_extrapolated(blank, costs, coarse, fine, error(quantity, both, reference)))
     return rows
 
@@ -163,26 +161,31 @@ def _cost(outcome: Outcome, i: int) -> dict[str, Any]:
         "seconds": (low, median, high),
         "runs": outcome[f"seconds {i}"].size,
         "setup": float(outcome["setup"][i]),
-        "visits": float(outcome["visits"][i]),
+        "work": float(outcome["work"][i]),
     }
 
 
 def _point(
     blank: Point,
-    attempt: Configuration,
+    configuration: Configuration,
     status: str,
     quantity: Quantity,
-    answers: Answers | None,
-    reference: MethodAnswers,
+    values: Values | None,
+    reference: MethodValues,
 ) -> Point:
     named = replace(
-        blank, line=attempt.line, knob=attempt.knob, value=attempt.value, referee=attempt.referee, status=status
+        blank,
+        method=configuration.label,
+        parameter=configuration.parameter,
+        value=configuration.value,
+        is_reference=configuration.is_reference,
+        status=status,
     )
-    if answers is None:
+    if values is None:
         return named
-    if not set(quantity.needs) <= answers.keys():
-        return replace(named, status=f"{REFUSED}: it does not give this quantity")
-    found = error(quantity, MethodAnswers(answers, paired=attempt.paired), reference)
+    if not set(quantity.needs) <= values.keys():
+        return replace(named, status=f"{OUT_OF_RANGE}: it does not have this quantity")
+    found = error(quantity, MethodValues(values, paired=configuration.paired), reference)
     return replace(named, error=found.value, half_width=found.half_width, over=found.over)
 
 
@@ -197,14 +200,14 @@ def _extrapolated(
     low, median, high = (x + y for x, y in zip(one.seconds, other.seconds, strict=True))
     return replace(
         blank,
-        line=EXTRAPOLATED,
-        knob=fine.knob,
+        method=EXTRAPOLATED,
+        parameter=fine.parameter,
         value=fine.value,
         status=FINISHED,
         seconds=(low, median, high),
         runs=min(one.runs, other.runs),
         setup=one.setup + other.setup,
-        visits=one.visits + other.visits,
+        work=one.work + other.work,
         error=found.value,
         half_width=found.half_width,
         over=found.over,

@@ -1,4 +1,4 @@
-"""What speed against accuracy shows: every point, who is the cheapest, break-even in words, orders, equal answers."""
+"""What error against cost shows: every point, the cheapest methods, break-even in words, orders, equal values."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,42 +8,34 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
+from validation.benchmarks.timing import FAILED, FINISHED
 from validation.benchmarks.work_precision.case import Precision, PrecisionResult, run
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
 from validation.benchmarks.work_precision.errors import points
-from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
-from validation.benchmarks.work_precision.measurement import (
-    BEM,
-    CLOSED,
-    FAILED,
-    FED,
-    FILTER_1D,
-    FINISHED,
-    LOOSE,
-    MDR,
-    PLAIN,
-)
+from validation.benchmarks.work_precision.exact_problems import RESIDUALS, PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.grids import Grids
 from validation.benchmarks.work_precision.pareto import (
     TOLERANCES,
     Point,
     break_even,
     cheapest,
+    format_seconds,
     front,
-    said,
+    monotone_envelope,
+    reason_if_none,
     seconds,
-    visits,
-    why_nobody,
-    without_luck,
+    work,
 )
+from validation.benchmarks.work_precision.problem import BEM, CLOSED, FILTER_1D, LOOSE, MDR, MDR_ROLLING, POLONSKY_KEER
 from validation.benchmarks.work_precision.rolling import RollingProblem
-from validation.benchmarks.work_precision.rough_punch import Fractal
+from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 
-MODELS = (CLOSED, FILTER_1D, MDR, FED)
-"""Whose error no setting of a knob brings to zero, where the surface is rough."""
-SOLVED = (MDR, FED, BEM, LOOSE)
-"""What has to finish, or to refuse; of the textbook's iteration and of peers a failure is a row."""
-TEN, ONE = 0.1, 1.0
-"""Relative, and in dB: within which a model is said to agree."""
+MODELS = (CLOSED, FILTER_1D, MDR, MDR_ROLLING)
+"""Methods whose error no parameter brings to zero, where the surface is rough."""
+SOLVED = (MDR, MDR_ROLLING, BEM, LOOSE)
+"""Methods that must finish, or be out of range; of the published iteration and of other solvers a failure is a row."""
+TEN_PERCENT, ONE_DECIBEL = 0.1, 1.0
+"""Within which a model is said to agree."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +47,7 @@ class Charts:
     @cached_property
     def points(self) -> list[Point]:
         """All of them."""
-        scenes = zip(self.result.case.scenes(), self.result.outcomes, strict=True)
+        scenes = zip(self.result.case.problems(), self.result.outcomes, strict=True)
         return [point for scene, outcome in scenes for point in points(scene, outcome)]
 
     @cached_property
@@ -64,18 +56,18 @@ class Charts:
         found: dict[tuple[str, str], list[Point]] = {}
         for point in self.points:
             found.setdefault((point.scene, point.quantity), []).append(point)
-        return [without_luck(group) for group in found.values()]
+        return [monotone_envelope(group) for group in found.values()]
 
-    def of(self, scene: str, quantity: str, line: str) -> list[Point]:
-        """A line of a chart, as far as it has finished."""
-        return [p for p in self.points if (p.scene, p.quantity, p.line) == (scene, quantity, line) and p.finished]
+    def of(self, scene: str, quantity: str, method: str) -> list[Point]:
+        """A method on a chart, as far as it has finished."""
+        return [p for p in self.points if (p.scene, p.quantity, p.method) == (scene, quantity, method) and p.finished]
 
 
 def evidence(result: PrecisionResult) -> Evidence:
     """Criteria where something is predicted exactly; the times are tables and conclusions, none right or wrong."""
     charts = Charts(result)
     return Evidence(
-        title="Speed against accuracy: which method is enough, and what it costs",
+        title="Speed against accuracy: the error and the cost of every method",
         method=_method(result),
         numbers=(*_orders(charts), *_equal(charts), *_models(charts)),
         tables=(_table(charts), _summary(charts)),
@@ -89,21 +81,21 @@ def evidence(result: PrecisionResult) -> Evidence:
 def _method(result: PrecisionResult) -> str:
     case = result.case
     return (
-        "Each method is a line, its knob turned along it: cells, springs, residual. Error: beside closed forms where "
-        "there are any; elsewhere beside the two finest grids of boundary elements on the same surfaces, extrapolated "
-        "to cells of no size, of which the last step is left open as a band; nothing is ranked below that, and each "
-        "method by the upper end of its 95 % interval, or of a finer setting's, where that is larger: luck is no "
-        "accuracy. Errors of those two grids are steps of their own extrapolation. Spectra: root mean square, over "
-        "one-third octaves, of level differences. "
+        "Each method is a curve along a parameter: cells, springs, residual. Error: beside closed forms where there "
+        "are any; elsewhere beside the two finest grids of boundary elements on the same surfaces, extrapolated to "
+        "cells of no size. The last step of this extrapolation is the uncertainty of the reference, and errors below "
+        "it are treated as equal to it. Methods are ranked by the upper 95 % bound; if a finer setting has a larger "
+        "bound, that one is used. Errors of the two finest grids are steps of their own extrapolation. Spectra: root "
+        "mean square, over one-third octaves, of level differences. "
         f"Springs have roughness of their own, {case.fractal.profiles} profiles, {case.rolling.tracks} "
         f"tracks, {case.wheel.wheels} wheels; boundary elements {case.fractal.surfaces} surfaces, "
         f"{case.rolling.strips} and {case.wheel.strips} strips, whose linear force takes most of their scatter away; "
-        "these are periodic, of which closed forms know nothing. "
+        "these are periodic, which closed forms are not. "
         "Cost: seconds of one realisation, methods in turns, one thread, median and quartiles; set-up "
-        "(operators, plans, a first drawing) is timed apart. Beside it what no machine changes: cells times operator "
-        "applications, as if on the whole grid (rolling: on a square around the smooth contact), springs looked at, "
-        "points filtered, nodes of a quadrature. Extrapolated boundary elements cost both grids. Who prescribes a "
-        "force where an approach is given is carried over along the closed form."
+        "(operators, plans, a first drawing) is timed apart. Work, the same on every machine: cells times operator "
+        "applications, as if on the whole grid (rolling: on a square around the smooth contact), springs evaluated, "
+        "points filtered, nodes of a quadrature. Extrapolated boundary elements cost both grids. Results of "
+        "force-controlled solvers are converted to the prescribed approach with the closed-form load curve."
     )
 
 
@@ -111,7 +103,7 @@ def _captions() -> dict[str, str]:
     marks = (
         "Grey: the uncertainty of the reference, or, of closed forms, what is better than all others; marks at its "
         "edge, pointing down, lie within it. Thick line: the Pareto front, by upper ends of errors. Bars: 95 % of the "
-        "sample, quartiles of times. Crosses along the top: failed or refused, for the reason in the table."
+        "sample, quartiles of times. Crosses along the top: failed or out of range, for the reason in the table."
     )
     return {
         "precision-summary": (
@@ -121,8 +113,7 @@ def _captions() -> dict[str, str]:
         ),
         "precision": f"Error against seconds, a chart a quantity. {marks}",
         "precision-visits": (
-            "The same against what no machine changes: cells times operator applications, springs looked at, points "
-            f"filtered. {marks}"
+            f"The same against work: cells times operator applications, springs evaluated, points filtered. {marks}"
         ),
     }
 
@@ -130,7 +121,7 @@ def _captions() -> dict[str, str]:
 def _table(charts: Charts) -> Table:
     rows: list[dict[str, object]] = []
     for group in charts.groups:
-        ahead = {cost: front([p for p in group if not p.referee], cost) for cost in (seconds, visits)}
+        ahead = {cost: front([p for p in group if not p.is_reference], cost) for cost in (seconds, work)}
         for point in group:
             low, median, high = point.seconds
             rows.append(
@@ -138,9 +129,9 @@ def _table(charts: Charts) -> Table:
                     "scene": point.scene,
                     "quantity": point.quantity,
                     "unit": point.unit,
-                    "method": point.line,
+                    "method": point.method,
                     "setting": point.setting,
-                    "knob": point.value,
+                    "value": point.value,
                     "status": point.status,
                     "error": point.error,
                     "± sample": point.half_width,
@@ -151,10 +142,10 @@ def _table(charts: Charts) -> Table:
                     "upper quartile [s]": high,
                     "runs": point.runs,
                     "set-up [s]": point.setup,
-                    "visits": point.visits,
-                    "reference itself": point.referee,
+                    "work": point.work,
+                    "reference itself": point.is_reference,
                     "front": point in ahead[seconds],
-                    "front by visits": point in ahead[visits],
+                    "front by work": point in ahead[work],
                 }
             )
     return table_of("points", rows)
@@ -163,7 +154,7 @@ def _table(charts: Charts) -> Table:
 def _summary(charts: Charts) -> Table:
     rows: list[dict[str, object]] = []
     for group in charts.groups:
-        others = [point for point in group if not point.referee]
+        others = [point for point in group if not point.is_reference]
         for tolerance in TOLERANCES:
             best = cheapest(others, tolerance)
             rows.append(
@@ -171,7 +162,7 @@ def _summary(charts: Charts) -> Table:
                     "scene": group[0].scene,
                     "quantity": group[0].quantity,
                     "tolerance": tolerance,
-                    "method": best.line if best else why_nobody(group, tolerance),
+                    "method": best.method if best else reason_if_none(group, tolerance),
                     "setting": best.setting if best else "",
                     "median [s]": seconds(best) if best else float("nan"),
                 }
@@ -182,12 +173,14 @@ def _summary(charts: Charts) -> Table:
 def _cheapest(charts: Charts) -> Table:
     rows: list[dict[str, object]] = []
     for group in charts.groups:
-        others = [point for point in group if not point.referee]
+        others = [point for point in group if not point.is_reference]
         row: dict[str, object] = {"scene": group[0].scene, "quantity": group[0].quantity}
         for tolerance in TOLERANCES:
             best = cheapest(others, tolerance)
             row[f"within {100 * tolerance:g} %"] = (
-                f"{best.line}, {best.setting}: {said(seconds(best))}" if best else why_nobody(group, tolerance)
+                f"{best.method}, {best.setting}: {format_seconds(seconds(best))}"
+                if best
+                else reason_if_none(group, tolerance)
             )
         rows.append(row)
     return table_of("the cheapest method within a tolerance, seconds of one realisation", rows)
@@ -197,9 +190,9 @@ def _without(charts: Charts) -> Table:
     rows: dict[tuple[str, str, str, str], list[str]] = {}
     for point in charts.points:
         if point.status != FINISHED:
-            rows.setdefault((point.scene, point.line, point.setting, point.status), []).append(point.quantity)
+            rows.setdefault((point.scene, point.method, point.setting, point.status), []).append(point.quantity)
     return Table(
-        "failed or refused",
+        "failed or out of range",
         {
             **{name: [key[i] for key in rows] for i, name in enumerate(("scene", "method", "setting"))},
             "quantities": [", ".join(quantities) for quantities in rows.values()],
@@ -209,8 +202,8 @@ def _without(charts: Charts) -> Table:
 
 
 def _unconverged(charts: Charts) -> tuple[str, ...]:
-    lost = (p for p in charts.points if p.line in SOLVED and p.status.startswith(FAILED))
-    return tuple(dict.fromkeys(f"{p.scene}: {p.line}, {p.setting}: {p.status}" for p in lost))
+    lost = (p for p in charts.points if p.method in SOLVED and p.status.startswith(FAILED))
+    return tuple(dict.fromkeys(f"{p.scene}: {p.method}, {p.setting}: {p.status}" for p in lost))
 
 
 def _orders(charts: Charts) -> list[Number]:
@@ -225,7 +218,9 @@ def _orders(charts: Charts) -> list[Number]:
         if len(points) > 2:
             found.append(
                 Number(
-                    quantity=f"{scene}, {quantity}, {line}: order of the error",
+                    quantity=f"order of the error of the {quantity}",
+                    model=line,
+                    where={"scene": scene},
                     value=_order(points),
                     reference=order,
                     source="error model",
@@ -243,15 +238,17 @@ def _order(points: Sequence[Point]) -> float:
 
 
 def _equal(charts: Charts) -> list[Number]:
-    """Plain and fast boundary elements at the same residual on the same grids have the same answer."""
+    """The published iteration and ours at the same residual on the same grids have the same values."""
     found = []
     for scene, quantity in (("sphere", "force"), ("square punch", "stiffness"), ("Westergaard's wave", "approach")):
         fast = {p.value: p.over for p in charts.of(scene, quantity, BEM)}
-        pairs = [(p.over, fast[p.value]) for p in charts.of(scene, quantity, PLAIN) if p.value in fast]
+        pairs = [(p.over, fast[p.value]) for p in charts.of(scene, quantity, POLONSKY_KEER) if p.value in fast]
         if pairs:
             found.append(
                 Number(
-                    quantity=f"{scene}, {quantity}: plain over fast boundary elements, farthest of {len(pairs)} grids",
+                    quantity=f"{quantity}, over that of bem3d.solve",
+                    model=POLONSKY_KEER,
+                    where={"scene": scene, "grids": len(pairs)},
                     value=max((plain / other for plain, other in pairs), key=lambda ratio: abs(ratio - 1)),
                     reference=1.0,
                     source="the same discrete problem has one solution",
@@ -263,24 +260,26 @@ def _equal(charts: Charts) -> list[Number]:
 
 
 def _models(charts: Charts) -> list[Number]:
-    """What is left of the error of each model where its knob has done what it can: findings."""
+    """What is left of the error of each model at its finest setting: findings."""
     found = []
     for group in charts.groups:
-        if any(point.referee for point in group):
+        if any(point.is_reference for point in group):
             continue
         for line in MODELS:
-            mine = [point for point in group if point.line == line and point.finished]
+            mine = [point for point in group if point.method == line and point.finished]
             if not mine:
                 continue
             last = mine[-1]
             decibel = last.unit == "dB"
             found.append(
                 Number(
-                    quantity=f"{last.scene}, {last.quantity}: error of {line} with {last.setting}",
+                    quantity=f"error of the {last.quantity}",
+                    model=line,
+                    where={"scene": last.scene, "setting": last.setting},
                     value=last.error if decibel else 100 * last.error,
                     reference=0.0,
                     source="boundary elements, extrapolated",
-                    tolerance=ONE if decibel else 100 * TEN,
+                    tolerance=ONE_DECIBEL if decibel else 100 * TEN_PERCENT,
                     reason="a model is said to agree within 10 %, or 1 dB",
                     unit=last.unit,
                     grid=last.band if decibel else 100 * last.band,
@@ -296,29 +295,60 @@ CASE = Case(
     chapter=Chapter.SPEED,
     place=1,
     claim="Springs are the cheapest up to some error, boundary elements beyond; scene by scene the chart says which.",
-    answers="Speed against accuracy: error against cost of every method, who is the cheapest within which error",
+    answers="Speed against accuracy: error against cost of every method, and the cheapest within each error",
     quick=Precision(),
     full=Precision(
         sphere=SphereProblem(
-            cells=(4, 8, 16, 32, 64),
-            plain=(4, 8, 16, 32),
+            grids=Grids(
+                cells=(4, 8, 16, 32, 64),
+                polonsky_keer=(4, 8, 16, 32),
+                fixed=16,
+                tight=1e-8,
+                tolerances=RESIDUALS,
+                per="to a radius",
+            ),
             peers=(4, 8, 16, 32),
             springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
         ),
-        punch=PunchProblem(cells=(8, 16, 32, 64, 128, 256), plain=(8, 16, 32, 64), peers=(8, 16), fixed=64),
-        wave=WaveProblem(
-            cells=(16, 32, 64, 128, 256, 512, 1024), plain=(16, 64, 256, 1024), peers=(16, 64, 256, 1024), fixed=256
+        punch=PunchProblem(
+            grids=Grids(
+                cells=(8, 16, 32, 64, 128, 256),
+                polonsky_keer=(8, 16, 32, 64),
+                fixed=64,
+                tight=1e-8,
+                tolerances=RESIDUALS,
+            ),
+            peers=(8, 16),
         ),
-        fractal=Fractal(
+        wave=WaveProblem(
+            grids=Grids(
+                cells=(16, 32, 64, 128, 256, 512, 1024),
+                polonsky_keer=(16, 64, 256, 1024),
+                fixed=256,
+                tight=1e-8,
+                tolerances=RESIDUALS,
+                per="to a wavelength",
+            ),
+            peers=(16, 64, 256, 1024),
+        ),
+        fractal=RoughPunchProblem(
             surfaces=100,
             profiles=500,
-            cells=(24, 32, 64, 128, 256),
-            plain=(32, 64, 128),
+            grids=Grids(cells=(24, 32, 64, 128, 256), polonsky_keer=(32, 64, 128), fixed=128),
             springs=(24, 32, 64, 128, 256, 512, 1024),
-            fixed=128,
         ),
-        rolling=RollingProblem(length=32, strips=8, tracks=60, cells=(3, 4, 6, 8, 12, 16, 32), plain=(4, 6), fixed=12),
-        wheel=WheelProblem(strips=8, wheels=60, cells=(6, 9, 12, 15, 30), springs=(12, 25, 50, 100), fixed=12),
+        rolling=RollingProblem(
+            length=32,
+            strips=8,
+            tracks=60,
+            grids=Grids(cells=(3, 4, 6, 8, 12, 16, 32), polonsky_keer=(4, 6), fixed=12, per="to a radius"),
+        ),
+        wheel=WheelProblem(
+            strips=8,
+            wheels=60,
+            grids=Grids(cells=(6, 9, 12, 15, 30), fixed=12, tolerances=(1e-2, 1e-3), per="to a radius"),
+            springs=(12, 25, 50, 100),
+        ),
         slow=1.0,
         enough=0.2,
     ),

@@ -1,31 +1,74 @@
-"""Speed against accuracy where the answer is known: a sphere, a square punch, a periodic wave.
+"""Problems of the charts where the answer is known: a sphere, a square punch, a periodic wave.
 
 Units: E* = 1 and a length of each scene.
 """
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.work_precision.exact_problem import FROZEN, ExactScene, logarithm
-from validation.benchmarks.work_precision.measurement import Answers, FloatArray, Quantity
+from validation.benchmarks.timing import Configuration
+from validation.benchmarks.work_precision.exact_problem import (
+    ExactProblem,
+    exact_configurations,
+    grid_series,
+    logarithm,
+)
+from validation.benchmarks.work_precision.grids import Grids
+from validation.benchmarks.work_precision.problem import Quantity
+from validation.scenes.indentation import IndentationScene
+from validation.simulation.method import FloatArray, Values
+from validation.simulation.pressed import FIXED_AREA_RESIDUAL
 from validation.theory import closed_forms
+
+RESIDUALS = (0.1, 1e-2, 1e-3, 1e-4)
+"""Looser than those of all other solves."""
+
+
+class OnExactProblem:
+    """What all of these share."""
+
+    def configurations(self: ExactProblem) -> tuple[Configuration, ...]:
+        """See `exact_configurations`."""
+        return exact_configurations(self)
+
+    def reference(self: ExactProblem) -> Values:
+        """What is exact."""
+        return self.exact()
+
+    def pairs(self: ExactProblem) -> tuple[tuple[Configuration, Configuration], ...]:
+        """Grids of which one has twice the cells of the other."""
+        return grid_series(self).pairs()
+
+    def load(self, cells: int) -> dict[str, float]:
+        """A unit approach."""
+        return {"approach": 1.0}
+
+    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
+        """Nothing beside the contact."""
+        return None
+
+    @property
+    def scene(self) -> IndentationScene | None:
+        """The scene of which models are found."""
+        return None
+
+
+SPHERE_GRIDS = Grids(
+    cells=(4, 8, 16, 32), polonsky_keer=(4, 8, 16), fixed=16, per="to a radius", tight=1e-8, tolerances=RESIDUALS
+)
 
 
 @dataclass(frozen=True, kw_only=True)
-class SphereProblem(ExactScene):
+class SphereProblem(OnExactProblem):
     """A rigid sphere, R = a = d = 1, on a grid of 4 a."""
 
-    cells: tuple[int, ...] = (4, 8, 16, 32)
-    plain: tuple[int, ...] = (4, 8, 16)
+    grids: Grids = SPHERE_GRIDS
     peers: tuple[int, ...] = (8, 16)
     springs: tuple[float, ...] = (2.4, 4.4, 8.4, 16.4, 32.4, 64.4)
-    fixed: int = 16
-    per: ClassVar[str] = "to a radius"
 
     @property
     def name(self) -> str:
@@ -41,7 +84,12 @@ class SphereProblem(ExactScene):
             Quantity(name="stiffness", log=logarithm("stiffness"), needs=("stiffness",)),
         )
 
-    def exact(self) -> Answers:
+    @property
+    def scene(self) -> IndentationScene:
+        """Under the force of Hertz."""
+        return IndentationScene(name=self.name, shape="sphere", size=1.0, load=self.peer_force(0), modulus=1.0)
+
+    def exact(self) -> Values:
         """Hertz and Boussinesq."""
         return {
             "force": np.array([closed_forms.hertz_force(radius=1.0, modulus=1.0, approach=1.0)]),
@@ -53,42 +101,42 @@ class SphereProblem(ExactScene):
         """4 a wide."""
         return bem3d.HalfSpace(shape=(4 * cells, 4 * cells), spacing=1 / cells, modulus=1.0)
 
-    def gap(self, cells: int) -> FloatArray:
+    def gap(self, cells: int, realisation: int = 0) -> FloatArray:
         """r^2 / 2R."""
         x = (np.arange(4 * cells) + 0.5) / cells - 2
         return np.asarray((x[:, np.newaxis] ** 2 + x**2) / 2)
 
-    def force(self, cells: int) -> float:
+    def peer_force(self, cells: int) -> float:
         """Of Hertz."""
         return float(self.exact()["force"][0])
 
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
         """The stiffness."""
-        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FROZEN)
+        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FIXED_AREA_RESIDUAL)
 
-    def read(self, contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> Answers:
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
         """Force, radius of a circle of that area, stiffness."""
-        assert frozen is not None
+        assert fixed is not None
         return {
             "force": np.array(contact.force),
             "radius": np.array(math.sqrt(contact.area / math.pi)),
-            "stiffness": np.array(frozen.stiffness),
+            "stiffness": np.array(fixed.stiffness),
         }
 
-    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Answers:
+    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
         """F ~ d^(3/2) and a ~ d^(1/2)."""
         return {
             "force": np.array(force * approach**-1.5),
             "radius": np.array(math.sqrt(area / math.pi / approach)),
         }
 
-    def profile(self, springs: float) -> tuple[FloatArray, float]:
+    def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
         """x^2 / R, about 4 a long; the contact ends between springs unless a whole number of them makes a radius."""
         half = round(2 * springs)
         x = (np.arange(-half, half) + 0.5) / springs
         return -mdr.sphere_profile(x, radius=1.0), 2 * half / springs
 
-    def read_springs(self, point: mdr.LoadPoint[float]) -> Answers:
+    def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
         """The radius is half the length of the springs in contact."""
         return {
             "force": np.array(point.force),
@@ -97,15 +145,16 @@ class SphereProblem(ExactScene):
         }
 
 
+PUNCH_GRIDS = Grids(cells=(8, 16, 32, 64), polonsky_keer=(8, 16, 32), fixed=32, tight=1e-8, tolerances=RESIDUALS)
+
+
 @dataclass(frozen=True, kw_only=True)
-class PunchProblem(ExactScene):
+class PunchProblem(OnExactProblem):
     """A rigid flat square punch of side L = 1 on a grid that just holds it."""
 
-    cells: tuple[int, ...] = (8, 16, 32, 64)
-    plain: tuple[int, ...] = (8, 16, 32)
+    grids: Grids = PUNCH_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (4, 16, 64)
-    fixed: int = 32
 
     @property
     def name(self) -> str:
@@ -118,7 +167,12 @@ class PunchProblem(ExactScene):
         band = 5e-5 / closed_forms.SQUARE_PUNCH
         return (Quantity(name="stiffness", log=logarithm("stiffness"), needs=("stiffness",), band=band),)
 
-    def exact(self) -> Answers:
+    @property
+    def scene(self) -> IndentationScene:
+        """At about a unit approach."""
+        return IndentationScene(name=self.name, shape="punch", size=1.0, load=self.peer_force(0), modulus=1.0)
+
+    def exact(self) -> Values:
         """1.1523 E* L."""
         return {"stiffness": np.array([closed_forms.square_punch_stiffness(side=1.0, modulus=1.0)])}
 
@@ -126,45 +180,52 @@ class PunchProblem(ExactScene):
         """As wide as the punch."""
         return bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
 
-    def gap(self, cells: int) -> FloatArray:
+    def gap(self, cells: int, realisation: int = 0) -> FloatArray:
         """Flat."""
         return np.zeros((cells, cells))
 
-    def force(self, cells: int) -> float:
+    def peer_force(self, cells: int) -> float:
         """At about a unit approach."""
         return closed_forms.SQUARE_PUNCH
 
-    def read(self, contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> Answers:
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
         """F / d."""
         return {"stiffness": np.array(contact.force / contact.approach)}
 
-    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Answers:
+    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
         """F / d."""
         return {"stiffness": np.array(force / approach)}
 
-    def profile(self, springs: float) -> tuple[FloatArray, float]:
+    def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
         """Flat, L long."""
         return np.zeros(round(springs)), 1.0
 
-    def read_springs(self, point: mdr.LoadPoint[float]) -> Answers:
+    def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
         """All springs."""
         return {"stiffness": np.array(point.stiffness)}
 
 
+WAVE_GRIDS = Grids(
+    cells=(16, 32, 64, 128, 256),
+    polonsky_keer=(16, 64, 256),
+    fixed=128,
+    per="to a wavelength",
+    tight=1e-8,
+    tolerances=RESIDUALS,
+)
+
+
 @dataclass(frozen=True, kw_only=True)
-class WaveProblem(ExactScene):
+class WaveProblem(OnExactProblem):
     """A rigid wave cos(2 pi x) in line contact, amplitude and wavelength one, at a mean pressure, on one row of cells.
 
     pressure: mean, over that of full contact.
     """
 
-    cells: tuple[int, ...] = (16, 32, 64, 128, 256)
-    plain: tuple[int, ...] = (16, 64, 256)
+    grids: Grids = WAVE_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (64,)
-    fixed: int = 128
     pressure: float = 0.3
-    per: ClassVar[str] = "to a wavelength"
 
     @property
     def name(self) -> str:
@@ -179,7 +240,7 @@ class WaveProblem(ExactScene):
             Quantity(name="approach", log=logarithm("approach"), needs=("approach",), order=2.0),
         )
 
-    def exact(self) -> Answers:
+    def exact(self) -> Values:
         """Westergaard; the approach from the first touch."""
         unit = {"amplitude": 1.0, "wavelength": 1.0, "modulus": 1.0}
         mean = self.pressure * math.pi
@@ -192,27 +253,27 @@ class WaveProblem(ExactScene):
         """One row, periodic."""
         return bem3d.HalfSpace(shape=(cells, 1), spacing=1 / cells, modulus=1.0, periodic=True)
 
-    def gap(self, cells: int) -> FloatArray:
+    def gap(self, cells: int, realisation: int = 0) -> FloatArray:
         """2 sin^2(pi x)."""
         x = (np.arange(cells) + 0.5) / cells - 0.5
         return np.asarray(2 * np.sin(np.pi * x) ** 2)[:, np.newaxis]
 
     def load(self, cells: int) -> dict[str, float]:
         """A force."""
-        return {"force": self.force(cells)}
+        return {"force": self.peer_force(cells)}
 
-    def force(self, cells: int) -> float:
+    def peer_force(self, cells: int) -> float:
         """Mean pressure times a row of cells."""
         return self.pressure * math.pi / cells
 
-    def read(self, contact: bem3d.Contact, frozen: bem3d.FixedContactArea | None) -> Answers:
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
         """Area over the length of the row's side; the approach of the mean plane."""
         return {
             "width": np.array(contact.area / contact.problem.half_space.steps[1]),
             "approach": np.array(contact.approach),
         }
 
-    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Answers:
+    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
         """Of a row as wide as a cell; dd = -ln(s) ds, s the mean pressure over that of full contact."""
         missing = self.pressure - force * cells / math.pi
         return {
@@ -220,6 +281,6 @@ class WaveProblem(ExactScene):
             "approach": np.array(approach - math.log(self.pressure) * missing),
         }
 
-    def profile(self, springs: float) -> tuple[FloatArray, float]:
+    def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
         """None."""
         raise ValueError("a line contact that repeats itself has no one-dimensional image of independent springs")

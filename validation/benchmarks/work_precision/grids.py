@@ -1,66 +1,76 @@
-"""Boundary elements on a chart of speed against accuracy: along cells, along residuals, and two finest grids beyond."""
+"""Boundary elements on the charts: along cells, along residuals, and the two finest grids, which are extrapolated."""
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
-from validation.benchmarks.work_precision.measurement import BEM, LOOSE, PLAIN, Configuration
+from validation.benchmarks.timing import Configuration
+from validation.benchmarks.work_precision.problem import BEM, LOOSE, POLONSKY_KEER
+from validation.simulation.method import Method, Resolution
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnGrids:
-    """A scene that boundary elements solve on several grids.
+class Grids:
+    """Resolutions of boundary elements.
 
-    cells: on a length of the scene, ascending; plain: those of them for the textbook's iteration; tight: residual on
-    all of these; tolerances: residuals on the grid `fixed`.
+    cells: on a length of the problem, ascending; polonsky_keer: those of them for the published iteration; tight:
+    residual on all of these; tolerances: residuals on the grid `fixed`; per: the length.
     """
 
     cells: tuple[int, ...]
-    plain: tuple[int, ...] = ()
     fixed: int
+    polonsky_keer: tuple[int, ...] = ()
     tight: float = 1e-5
     tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3)
-    per: ClassVar[str] = "a side"
-    """The length."""
-
-    def on_grid(self, **settings: Any) -> Configuration:
-        """An attempt with its line, knob, value, cells and tolerance."""
-        raise NotImplementedError
-
-    def grids(self) -> tuple[Configuration, ...]:
-        """Plain and fast boundary elements along cells, and along the residual on one grid."""
-        return (
-            *(self._along_cells(PLAIN, n) for n in self.plain),
-            *(self._along_cells(BEM, n) for n in self.cells),
-            *(
-                self.on_grid(
-                    line=LOOSE,
-                    knob=f"residual #, {self.fixed} cells {self.per}",
-                    value=tolerance,
-                    cells=self.fixed,
-                    tolerance=tolerance,
-                )
-                for tolerance in self.tolerances
-            ),
-        )
-
-    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
-        """Grids of which one has twice the cells of the other."""
-        doubled = [n for n in self.cells if 2 * n in self.cells]
-        return tuple((self._along_cells(BEM, n), self._along_cells(BEM, 2 * n)) for n in doubled)
-
-    def _along_cells(self, line: str, cells: int) -> Configuration:
-        return self.on_grid(line=line, knob=f"# cells {self.per}", value=cells, cells=cells, tolerance=self.tight)
+    per: str = "a side"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Refined(OnGrids):
-    """A scene whose answer nobody knows: its two finest grids give the reference."""
+class GridSeries:
+    """Configurations of a problem along its grids. settings: of each of them."""
 
-    def reference(self) -> tuple[Configuration, Configuration]:
+    grids: Grids
+    scene: Any
+    method: Method
+    published: Method | None = None
+    realisations: int = 0
+
+    def configurations(self) -> tuple[Configuration, ...]:
+        """The published iteration and ours along cells, and ours along the residual on one grid."""
+        grids = self.grids
+        published = self.published or self.method
+        loose = f"residual #, {grids.fixed} cells {grids.per}"
+        return (
+            *(self._at(published, n, grids.tight, POLONSKY_KEER) for n in grids.polonsky_keer),
+            *(self.on(n) for n in grids.cells),
+            *(self._at(self.method, grids.fixed, residual, LOOSE, loose, residual) for residual in grids.tolerances),
+        )
+
+    def on(self, cells: int) -> Configuration:
+        """Our solver on one grid."""
+        return self._at(self.method, cells, self.grids.tight, BEM)
+
+    def finest(self) -> tuple[Configuration, Configuration]:
         """The two finest grids."""
-        coarse, fine = (self._along_cells(BEM, n) for n in self.cells[-2:])
+        coarse, fine = (self.on(n) for n in self.grids.cells[-2:])
         return coarse, fine
 
     def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
-        """Grids of which one has twice the cells of the other; not those of the reference."""
-        return tuple(pair for pair in super().pairs() if pair != self.reference())
+        """Grids of which one has twice the cells of the other."""
+        return tuple((self.on(n), self.on(2 * n)) for n in self.grids.cells if 2 * n in self.grids.cells)
+
+    def pairs_below_reference(self) -> tuple[tuple[Configuration, Configuration], ...]:
+        """The same without the two finest, where these are the reference."""
+        return tuple(pair for pair in self.pairs() if pair != self.finest())
+
+    def _at(
+        self, method: Method, cells: int, residual: float, label: str, parameter: str = "", value: float = 0.0
+    ) -> Configuration:
+        return Configuration(
+            method=method,
+            scene=self.scene,
+            resolution=Resolution(size=cells, residual=residual),
+            label=label,
+            parameter=parameter or f"# cells {self.grids.per}",
+            value=value or cells,
+            realisations=self.realisations,
+        )

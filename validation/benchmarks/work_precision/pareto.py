@@ -5,7 +5,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
-from validation.benchmarks.work_precision.measurement import CLOSED, FINISHED
+from validation.benchmarks.timing import FINISHED
+from validation.benchmarks.work_precision.problem import CLOSED
 
 TOLERANCES = (0.3, 0.1, 0.03, 0.01, 0.001)
 """That are asked for, relative; as levels 20 lg (1 + tolerance) dB."""
@@ -20,18 +21,18 @@ class Point:
     unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; line, knob,
     value: the method and its setting; referee: whether it is the reference itself; status: "finished", or why not;
     error, half_width: with the interval of the sample; finer: the largest upper end of an error that more of the same
-    leaves, see `without_luck`; over: the answer over the reference; seconds: quartiles and
-    median, low, middle, high; runs: behind them; setup: seconds; visits: the cost that no machine changes.
+    leaves, see `monotone_envelope`; over: the answer over the reference; seconds: quartiles and
+    median, low, middle, high; runs: behind them; setup: seconds; work: the cost that no machine changes.
     """
 
     scene: str
     quantity: str
     unit: str
     band: float
-    line: str = ""
-    knob: str = ""
+    method: str = ""
+    parameter: str = ""
     value: float = NAN
-    referee: bool = False
+    is_reference: bool = False
     status: str = ""
     error: float = NAN
     half_width: float = 0.0
@@ -40,7 +41,7 @@ class Point:
     seconds: tuple[float, float, float] = (NAN, NAN, NAN)
     runs: int = 0
     setup: float = NAN
-    visits: float = NAN
+    work: float = NAN
 
     @property
     def finished(self) -> bool:
@@ -55,16 +56,16 @@ class Point:
     @property
     def setting(self) -> str:
         """The knob, in words."""
-        return self.knob.replace("#", f"{self.value:g}")
+        return self.parameter.replace("#", f"{self.value:g}")
 
 
-def without_luck(points: Sequence[Point]) -> list[Point]:
-    """Each point with the largest upper end of an error that its method leaves at more visits: luck is not accuracy."""
+def monotone_envelope(points: Sequence[Point]) -> list[Point]:
+    """Each point with the largest upper end of an error that its method leaves at more work: luck is not accuracy."""
     return [replace(point, finer=max((p.rank for p in points if _finer(p, point)), default=0.0)) for point in points]
 
 
 def _finer(other: Point, point: Point) -> bool:
-    return other.line == point.line and other.finished and other.visits > point.visits
+    return other.method == point.method and other.finished and other.work > point.work
 
 
 Cost = Callable[[Point], float]
@@ -75,9 +76,9 @@ def seconds(point: Point) -> float:
     return point.seconds[1]
 
 
-def visits(point: Point) -> float:
+def work(point: Point) -> float:
     """Cells times applications, or springs."""
-    return point.visits
+    return point.work
 
 
 def front(points: Sequence[Point], cost: Cost = seconds, *, gain: float = 1.0) -> list[Point]:
@@ -94,21 +95,21 @@ def front(points: Sequence[Point], cost: Cost = seconds, *, gain: float = 1.0) -
     return found
 
 
-def asked(tolerance: float, unit: str) -> float:
+def in_unit_of_error(tolerance: float, unit: str) -> float:
     """A relative tolerance in the unit of the error."""
     return 20 * math.log10(1 + tolerance) if unit == "dB" else tolerance
 
 
 def cheapest(points: Sequence[Point], tolerance: float, cost: Cost = seconds) -> Point | None:
     """Who reaches a relative tolerance at the least cost; None where nobody does, or the reference cannot tell."""
-    within = [point for point in front(points, cost) if point.rank <= asked(tolerance, point.unit)]
+    within = [point for point in front(points, cost) if point.rank <= in_unit_of_error(tolerance, point.unit)]
     return within[0] if within else None
 
 
-def why_nobody(points: Sequence[Point], tolerance: float) -> str:
+def reason_if_none(points: Sequence[Point], tolerance: float) -> str:
     """What to say where there is no cheapest."""
-    wanted = asked(tolerance, points[0].unit)
-    return "the reference cannot tell" if points[0].band > wanted else "nobody"
+    wanted = in_unit_of_error(tolerance, points[0].unit)
+    return "the reference cannot tell" if points[0].band > wanted else "none"
 
 
 def break_even(points: Sequence[Point]) -> str:
@@ -117,31 +118,35 @@ def break_even(points: Sequence[Point]) -> str:
     A step along the front that gains less than a tenth is not told.
     """
     first = points[0]
-    others = [point for point in points if not point.referee]
+    others = [point for point in points if not point.is_reference]
     steps = front(others, gain=TELLING)
     head = f"{first.scene}, {first.quantity}: "
     if not steps:
-        return head + "nobody has finished."
+        return head + "no method has finished."
     parts: list[str] = []
-    for line, group in groupby(steps, key=lambda p: p.line):
+    for method, group in groupby(steps, key=lambda p: p.method):
         mine = list(group)
         begin, end = mine[0], mine[-1]
-        settings = begin.setting if begin is end else end.knob.replace("#", f"{begin.value:g} to {end.value:g}")
-        times = said(seconds(begin)) if begin is end else f"{said(seconds(begin))} to {said(seconds(end))}"
+        settings = begin.setting if begin is end else end.parameter.replace("#", f"{begin.value:g} to {end.value:g}")
+        times = (
+            format_seconds(seconds(begin))
+            if begin is end
+            else f"{format_seconds(seconds(begin))} to {format_seconds(seconds(end))}"
+        )
         sample = ", most of it the sample's," if end.half_width > max(end.error, end.finer / 2) else ""
-        parts.append(f"down to {in_unit(end.rank, end.unit)}{sample} {line} ({settings}, {times})")
+        parts.append(f"down to {format_error(end.rank, end.unit)}{sample} {method} ({settings}, {times})")
     last = front(others)[-1]
     below = (
-        f"; below {in_unit(first.band, first.unit)} the reference cannot tell"
+        f"; below {format_error(first.band, first.unit)} the reference cannot tell"
         if last.rank <= first.band
-        else f"; nobody gets below {in_unit(last.rank, last.unit)}"
+        else f"; no method gets below {format_error(last.rank, last.unit)}"
     )
-    referee = next((point for point in points if point.referee and point.finished), None)
-    exact = f" The {CLOSED} itself takes {said(seconds(referee))}." if referee else ""
+    referee = next((point for point in points if point.is_reference and point.finished), None)
+    exact = f" The {CLOSED} itself takes {format_seconds(seconds(referee))}." if referee else ""
     return f"{head}{parts[0]} is the cheapest{''.join(f'; beyond, {part}' for part in parts[1:])}{below}.{exact}"
 
 
-def said(value: float) -> str:
+def format_seconds(value: float) -> str:
     """Seconds in words."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
         if value >= size or unit == "µs":
@@ -149,7 +154,7 @@ def said(value: float) -> str:
     raise AssertionError
 
 
-def in_unit(value: float, unit: str) -> str:
+def format_error(value: float, unit: str) -> str:
     """An error in words."""
     size = value if unit == "dB" else 100 * value
     return f"{size:.0f} {unit}" if size >= 100 else f"{size:.2g} {unit}"

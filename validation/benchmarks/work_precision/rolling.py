@@ -1,4 +1,4 @@
-"""Speed against accuracy of a wheel that rolls over isotropic roughness: rms and spectrum of its force.
+"""A wheel that rolls over isotropic roughness, on the charts: rms and spectrum of its force.
 
 Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 1, and the force of Hertz is 4/3.
 """
@@ -7,30 +7,26 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, ClassVar
+from typing import Literal
 
 import numpy as np
 
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.benchmarks.work_precision.exact_problem import MOST_ITERATIONS
-from validation.benchmarks.work_precision.grids import Refined
-from validation.benchmarks.work_precision.measurement import (
+from validation.benchmarks.timing import Configuration
+from validation.benchmarks.work_precision.grids import Grids, GridSeries
+from validation.benchmarks.work_precision.problem import (
     CLOSED,
-    FED,
     FILTER_1D,
     FILTER_3D,
     MDR,
-    PLAIN,
-    Answers,
-    Configuration,
-    Draw,
-    FloatArray,
+    MDR_ROLLING,
+    POLONSKY_KEER,
     Quantity,
-    SolveResult,
-    TimedSolve,
 )
+from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
+from validation.simulation.pressed import MOST_ITERATIONS
 from validation.simulation.rolling_strip import HERTZ, Strip, Tracks, crop_to_reach
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 from validation.theory import rolling as rolling_theory
@@ -39,24 +35,27 @@ SMOOTH = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 WARM = 40
 """Positions before the clock runs: frames that find their size, plans."""
 WINDOW = 3
-"""Contact radii of the window on which the textbook's iteration solves each position."""
+"""Contact radii of the window on which Polonsky and Keer's iteration solves each position."""
 
 
-def log_rms(answers: Answers) -> FloatArray:
+def log_rms(values: Values) -> FloatArray:
     """ln of the root mean square, over that of linear theory on the same surfaces, times what this has in the mean."""
-    variance, linear, exact = (answers[name].mean(axis=0) for name in ("variance", "linear variance", "mean variance"))
+    variance, linear, exact = (values[name].mean(axis=0) for name in ("variance", "linear variance", "mean variance"))
     return np.asarray(np.log(np.atleast_1d(variance / linear * exact)) / 2)
 
 
-def log_levels(answers: Answers) -> FloatArray:
+def log_levels(values: Values) -> FloatArray:
     """The same of the level in each band, which is a power."""
-    level, linear, mean = (answers[name].mean(axis=0) for name in ("level", "linear level", "mean level"))
+    level, linear, mean = (values[name].mean(axis=0) for name in ("level", "linear level", "mean level"))
     with np.errstate(divide="ignore"):
         return np.asarray(np.log(level / linear * mean))
 
 
+GRIDS = Grids(cells=(3, 4, 6, 12), polonsky_keer=(4,), fixed=6, per="to a radius")
+
+
 @dataclass(frozen=True, kw_only=True)
-class RollingProblem(Refined):
+class RollingProblem:
     """A wheel over self-affine roughness, q a from 1 to `last`, at a fixed approach.
 
     hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; strips, tracks:
@@ -70,12 +69,9 @@ class RollingProblem(Refined):
     width: int = 16
     strips: int = 3
     tracks: int = 20
-    cells: tuple[int, ...] = (3, 4, 6, 12)
-    plain: tuple[int, ...] = (4,)
+    grids: Grids = GRIDS
     filtered: tuple[int, ...] = (4, 6)
     springs: tuple[int, ...] = (3, 4, 8, 16, 32)
-    fixed: int = 6
-    per: ClassVar[str] = "to a radius"
     seed: int = 151
 
     @property
@@ -111,7 +107,7 @@ class RollingProblem(Refined):
             length=float(self.length),
             width=float(self.width),
             cells=cells,
-            tolerance=self.tight,
+            tolerance=self.grids.tight,
             seed=self.seed,
         )
 
@@ -129,33 +125,62 @@ class RollingProblem(Refined):
         )
         return tracks.track(realisation)
 
-    def attempts(self) -> tuple[Configuration, ...]:
-        """Linear theory three times, springs fed twice, plain and fast boundary elements."""
-        along: dict[str, Any] = {
-            "knob": "# springs to a radius",
-            "realisations": self.tracks,
-            "paired": False,
-            "scene": self,
-        }
+    @property
+    def scene(self) -> None:
+        """No models are found: these values are those of a periodic strip."""
+
+    def configurations(self) -> tuple[Configuration, ...]:
+        """Linear theory three times, springs with both input spectra, boundary elements."""
+        linear = RollingLinearSpectrum()
         return (
-            RollingLinearSpectrum(line=CLOSED, knob="linear theory", value=1.0, paired=False, scene=self),
-            *(OnTrack(line=line, value=n, **along) for line in (FILTER_1D, MDR, FED) for n in self.springs),
+            Configuration(method=linear, scene=self, label=CLOSED, parameter="linear theory", value=1.0, paired=False),
             *(
-                RollingFiltered(
-                    line=FILTER_3D, knob="# cells to a radius", value=n, realisations=self.strips, scene=self
+                Configuration(
+                    method=method,
+                    scene=self,
+                    resolution=Resolution(size=n),
+                    label=method.name,
+                    parameter="# springs to a radius",
+                    value=n,
+                    realisations=self.tracks,
+                    paired=False,
+                )
+                for method in (RollingTracks(FILTER_1D, contact="linear"), RollingTracks(MDR), FOR_ROLLING)
+                for n in self.springs
+            ),
+            *(
+                Configuration(
+                    method=RollingFiltered(),
+                    scene=self,
+                    resolution=Resolution(size=n),
+                    label=FILTER_3D,
+                    parameter="# cells to a radius",
+                    value=n,
+                    realisations=self.strips,
                 )
                 for n in self.filtered
             ),
-            *self.grids(),
+            *self._grid_series.configurations(),
         )
 
-    def on_grid(self, **settings: Any) -> "OnStrip":
-        """Boundary elements."""
-        return OnStrip(realisations=self.strips, scene=self, **settings)
+    def reference(self) -> tuple[Configuration, Configuration]:
+        """The two finest grids."""
+        return self._grid_series.finest()
 
-    def read(self, force: FloatArray, linear: FloatArray, mean: Answers, spacing: float, visits: float) -> SolveResult:
+    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
+        """Grids that are extrapolated, too."""
+        return self._grid_series.pairs_below_reference()
+
+    @property
+    def _grid_series(self) -> GridSeries:
+        published = RollingStrips(POLONSKY_KEER, polonsky_keer=True)
+        return GridSeries(
+            grids=self.grids, scene=self, method=RollingStrips(), published=published, realisations=self.strips
+        )
+
+    def read(self, force: FloatArray, linear: FloatArray, mean: Values, spacing: float, work: float) -> Result:
         """Variance and levels of a force, and of the linear one on the same surface; over the force of Hertz."""
-        return SolveResult(
+        return Result(
             {
                 "variance": np.array(force.var()),
                 "level": levels(waves(force, spacing=spacing), self.bands),
@@ -163,16 +188,16 @@ class RollingProblem(Refined):
                 "linear level": levels(waves(linear, spacing=spacing), self.bands),
                 **mean,
             },
-            visits,
+            work,
         )
 
-    def alone(self, variance: float, level: FloatArray, visits: float) -> SolveResult:
-        """What has no surface of its own, or many tracks."""
+    def without_surface(self, variance: float, level: FloatArray, work: float) -> Result:
+        """Of a model without a surface of its own, or with many tracks."""
         one, ones = np.ones(()), np.ones(level.size)
         found = {"variance": np.array(variance), "linear variance": one, "mean variance": one}
-        return SolveResult({**found, "level": level, "linear level": ones, "mean level": ones}, visits)
+        return Result({**found, "level": level, "linear level": ones, "mean level": ones}, work)
 
-    def mean(self, surface: FloatArray, spacing: float) -> Answers:
+    def mean(self, surface: FloatArray, spacing: float) -> Values:
         """Variance at a place and levels of the linear force, in the mean over all phases of these waves."""
         nx, ny = surface.shape
         qx, qy = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in (nx, ny))
@@ -183,15 +208,14 @@ class RollingProblem(Refined):
         return {"mean variance": np.array(power.sum()), "mean level": level}
 
 
-@dataclass(frozen=True, kw_only=True)
-class RollingLinearSpectrum(Configuration):
+@dataclass(frozen=True)
+class RollingLinearSpectrum:
     """Linear theory in closed form: the variance at a place, and C_F along the track at the waves of a strip."""
 
-    scene: RollingProblem
+    name: str = CLOSED
 
-    def prepare(self) -> Draw:
+    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
         """Nothing to do."""
-        scene = self.scene
         seen = [0]
 
         def c2d(q: FloatArray) -> FloatArray:
@@ -207,92 +231,95 @@ class RollingLinearSpectrum(Configuration):
             variance = rolling_theory.force_variance(c2d, **settings)  # type: ignore[arg-type]
             return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)  # type: ignore[arg-type]
 
-        def read(found: tuple[float, FloatArray]) -> SolveResult:
+        def read(found: tuple[float, FloatArray]) -> Result:
             level = scene.bands.sums(q, found[1]).real
-            return scene.alone(found[0] / HERTZ**2, level / HERTZ**2, seen[0])
+            return scene.without_surface(found[0] / HERTZ**2, level / HERTZ**2, seen[0])
 
-        return lambda _: TimedSolve(solve, read)
+        return lambda _: Solve(solve, read)
 
 
-@dataclass(frozen=True, kw_only=True)
-class OnTrack(Configuration):
+@dataclass(frozen=True)
+class RollingTracks:
     """Springs along a track of their own, one-sided or the filter (14.11) on them."""
 
-    scene: RollingProblem
+    name: str
+    input_spectrum: InputSpectrum = "geike"
+    contact: Literal["one-sided", "linear"] = "one-sided"
 
-    def prepare(self) -> Draw:
-        """Refuses waves that springs do not resolve."""
-        scene, springs = self.scene, round(self.value)
-        input_spectrum: InputSpectrum = "rolling" if self.line == FED else "geike"
-        contact = "linear" if self.line == FILTER_1D else "one-sided"
-        scene.track(input_spectrum, springs, 0)
+    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
+        """Raises ValueError for waves that springs do not resolve."""
+        springs = round(resolution.size)
+        scene.track(self.input_spectrum, springs, 0)
 
-        def draw(realisation: int) -> TimedSolve:
-            track = scene.track(input_spectrum, springs, realisation)
-            solve = partial(mdr.roll, track, spacing=1 / springs, contact=contact, **SMOOTH)  # type: ignore[arg-type]
+        def draw(realisation: int) -> Solve:
+            track = scene.track(self.input_spectrum, springs, realisation)
+            solve = partial(mdr.roll, track, spacing=1 / springs, contact=self.contact, **SMOOTH)
 
-            def read(found: mdr.RollingTrack) -> SolveResult:
+            def read(found: mdr.RollingTrack) -> Result:
                 force = found.force / HERTZ
                 # sums of neighbours cost as much as two looks at each spring
-                visits = float(found.examined.sum()) + 2 * track.size
+                work = float(found.examined.sum()) + 2 * track.size
                 level = levels(waves(force, spacing=1 / springs), scene.bands)
-                return scene.alone(float(force.var()), level, visits)
+                return scene.without_surface(float(force.var()), level, work)
 
-            return TimedSolve(solve, read)
+            return Solve(solve, read)
 
         return draw
 
 
-@dataclass(frozen=True, kw_only=True)
-class RollingFiltered(Configuration):
+FOR_ROLLING = RollingTracks(MDR_ROLLING, input_spectrum="rolling")
+
+
+@dataclass(frozen=True)
+class RollingFiltered:
     """Linear theory on the same surface: each wave by its response."""
 
-    scene: RollingProblem
+    name: str = FILTER_3D
 
-    def prepare(self) -> Draw:
+    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
         """Nothing to do."""
-        scene, cells = self.scene, round(self.value)
+        cells = round(resolution.size)
 
-        def draw(realisation: int) -> TimedSolve:
+        def draw(realisation: int) -> Solve:
             surface = scene.strip(realisation, cells).surface()
             mean = scene.mean(surface, 1 / cells)
 
-            def read(force: FloatArray) -> SolveResult:
+            def read(force: FloatArray) -> Result:
                 return scene.read(force / HERTZ, force / HERTZ, mean, 1 / cells, surface.size)
 
-            return TimedSolve(partial(rolling_theory.linear_force, surface, spacing=1 / cells, **SMOOTH), read)
+            return Solve(partial(rolling_theory.linear_force, surface, spacing=1 / cells, **SMOOTH), read)
 
         return draw
 
 
-@dataclass(frozen=True, kw_only=True)
-class OnStrip(Configuration):
-    """Boundary elements, position by position: fast ones each from the two before, plain ones each cold."""
+@dataclass(frozen=True)
+class RollingStrips:
+    """Boundary elements, position by position: ours each from the two before, Polonsky and Keer's each cold."""
 
-    scene: RollingProblem
-    cells: int
-    tolerance: float
+    name: str = "BEM"
+    polonsky_keer: bool = False
 
-    def prepare(self) -> Draw:
-        """Refuses waves that cells do not resolve."""
-        scene, spacing = self.scene, 1 / self.cells
+    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
+        """Raises ValueError for waves that cells do not resolve."""
+        cells = round(resolution.size)
+        spacing, roller = 1 / cells, _roll_published if self.polonsky_keer else _roll
 
-        def draw(realisation: int) -> TimedSolve:
-            surface = scene.strip(realisation, self.cells).surface()
+        def draw(realisation: int) -> Solve:
+            surface = scene.strip(realisation, cells).surface()
             linear = rolling_theory.linear_force(surface, spacing=spacing, **SMOOTH) / HERTZ
             mean = scene.mean(surface, spacing)
-            roll = (_plain if self.line == PLAIN else _fast)(surface, self.cells, self.tolerance)
+            roll = roller(surface, cells, resolution.residual)
 
-            def read(found: tuple[FloatArray, float]) -> SolveResult:
+            def read(found: tuple[FloatArray, float]) -> Result:
                 return scene.read(found[0] / HERTZ, linear, mean, spacing, found[1])
 
-            return TimedSolve(roll, read)
+            return Solve(roll, read)
 
         draw(0)
         return draw
 
 
-def _fast(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
+def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
     """Force, and applications times the cells of a square around the smooth contact.
 
     Frames and their plans belong to the strip: they are made by rolling over its beginning.
@@ -303,18 +330,18 @@ def _fast(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tup
     def roll(positions: int) -> tuple[FloatArray, float]:
         wheel = bem3d.RollingContact(track, tolerance=tolerance)
         along = [wheel.press(position, SMOOTH["approach"]) for position in range(positions)]
-        lost = sum(not contact.converged for contact in along)
-        if lost:
-            raise RuntimeError(f"{lost} of {positions} positions did not converge")
-        visits = sum(contact.operator_applications for contact in along) * (2 * cells) ** 2
-        return np.array([contact.force for contact in along]), float(visits)
+        failed = sum(not contact.converged for contact in along)
+        if failed:
+            raise RuntimeError(f"{failed} of {positions} positions did not converge")
+        work = sum(contact.operator_applications for contact in along) * (2 * cells) ** 2
+        return np.array([contact.force for contact in along]), float(work)
 
     roll(min(WARM, len(height)))
     return lambda: roll(len(height))
 
 
-def _plain(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
-    """The same by one cold solve of the textbook's a position, on a window that moves with the wheel."""
+def _roll_published(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
+    """The same by one cold solve of Polonsky and Keer's a position, on a window that moves with the wheel."""
     n, spacing = 2 * math.ceil(WINDOW * cells / 2), 1 / cells
     first = (surface.shape[1] - n) // 2
     height = surface[:, first : first + n]
@@ -325,15 +352,15 @@ def _plain(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tu
     sphere = (x[:, np.newaxis] ** 2 + y**2) / 2
 
     def roll() -> tuple[FloatArray, float]:
-        force, visits = np.empty(len(surface)), 0.0
+        force, work = np.empty(len(surface)), 0.0
         for position in range(len(surface)):
             gap = sphere - height.take(ahead + position, axis=0, mode="wrap")
             contact = bem3d.solve_polonsky_keer(
                 half_space, gap, approach=1.0, tolerance=tolerance, max_iterations=MOST_ITERATIONS
             )
             force[position] = contact.force
-            visits += contact.operator_applications * n**2
-        return force, visits
+            work += contact.operator_applications * n**2
+        return force, work
 
     half_space.displacement(sphere)
     return roll

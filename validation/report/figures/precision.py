@@ -1,4 +1,4 @@
-"""Figures of speed against accuracy: a chart a quantity, and all of them in one."""
+"""Figures of error against cost: a chart a quantity, and all of them in one."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,14 +13,16 @@ STYLES: dict[str, Style] = {
     "linear filter, 1D": {"color": "#E69F00", "marker": "P", "linestyle": "-."},
     "linear filter, 3D": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
     "MDR": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
-    "MDR, fed for rolling": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
-    "plain BEM": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "white", "linestyle": ":"},
+    "MDR, rolling spectrum": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
+    "Polonsky-Keer": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "white", "linestyle": ":"},
     "BEM, finer cells": {"color": "#0072B2", "marker": "o", "linestyle": "-"},
     "BEM, looser residual": {"color": "#0072B2", "marker": "d", "markerfacecolor": "white", "linestyle": "--"},
     "BEM, extrapolated": {"color": "#332288", "marker": "h", "linestyle": "-."},
     "tamaas": {"color": "#882255", "marker": "<", "markerfacecolor": "white", "linestyle": ":"},
     "ContactMechanics": {"color": "#777777", "marker": ">", "markerfacecolor": "white", "linestyle": ":"},
 }
+NEW: Style = {"color": "#AA4499", "marker": "p", "markerfacecolor": "white", "linestyle": "-"}
+"""Of a model that has no style of its own."""
 COMMON: Style = {"markersize": 4.5, "linewidth": 0.9}
 BARS: Style = {"capsize": 1.5, "elinewidth": 0.7}
 PLACES = {"left": 0.055, "right": 0.985, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
@@ -37,9 +39,18 @@ def draw(evidence: Evidence) -> Figure:
 
 def draw_visits(evidence: Evidence) -> Figure:
     """Error against what no machine changes."""
-    return _charts(
-        evidence.table("points"), "visits", "front by visits", "cell-applications, springs or points visited"
-    )
+    return _charts(evidence.table("points"), "work", "front by work", "cell applications, springs or points")
+
+
+def _style(method: str) -> Style:
+    return STYLES.get(method, NEW)
+
+
+def _methods(points: Table) -> list[str]:
+    """In the order of the styles, new models last."""
+    known = list(STYLES)
+    names = dict.fromkeys(points["method"].tolist())
+    return sorted(names, key=lambda name: known.index(name) if name in known else len(known))
 
 
 def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
@@ -57,8 +68,8 @@ def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
         axis.set_ylabel("error")
     for axis in axes[max(len(charts) - 4, 0) : len(charts)]:
         axis.set_xlabel(label)
-    used = [line for line in STYLES if line in points["method"]]
-    handles = [axes[-1].plot([], [], label=line, **{**COMMON, **STYLES[line]})[0] for line in used]
+    used = _methods(points)
+    handles = [axes[-1].plot([], [], label=method, **{**COMMON, **_style(method)})[0] for method in used]
     axes[-1].legend(handles=handles, loc="center", fontsize=9)
     return figure
 
@@ -78,11 +89,11 @@ def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
     order = np.argsort(points[cost][at])
     ahead = points[cost][at][order], rank[order]
     axis.step(*ahead, where="post", color="#bbbbbb", linewidth=4.0, zorder=0.5, solid_capstyle="round")
-    for line in dict.fromkeys(points["method"].tolist()):
-        some = (points["method"] == line) & done
-        _line(axis, points, some, cost, error, half, floor, {**COMMON, **STYLES[line]})
-        for x in points[cost][(points["method"] == line) & ~done]:
-            color = STYLES[line]["color"]
+    for method in dict.fromkeys(points["method"].tolist()):
+        some = (points["method"] == method) & done
+        _curve(axis, points, some, cost, error, half, floor, {**COMMON, **_style(method)})
+        for x in points[cost][(points["method"] == method) & ~done]:
+            color = _style(method)["color"]
             known = np.isfinite(x) and x > 0
             place = (x, axis.get_xaxis_transform()) if known else (0.015, axis.transAxes)
             axis.plot([place[0]], [0.96], marker="x", color=color, transform=place[1], markersize=6, linestyle="none")
@@ -97,7 +108,7 @@ def _limits(error: np.ndarray, half: np.ndarray, band: float) -> tuple[float, fl
     return floor, max(top, 2 * floor) * ROOM
 
 
-def _line(
+def _curve(
     axis: Axes,
     points: Table,
     some: np.ndarray,
@@ -136,8 +147,10 @@ def draw_summary(evidence: Evidence) -> Figure:
     axis.set(xscale="log", xlabel="seconds of one realisation", ylim=(len(rows) - 0.4, -0.7))
     axis.set_xlim(known.min() / ROOM, known.max() * ROOM)
     axis.set_yticks(range(len(rows)), [f"{scene}: {quantity}" for scene, quantity in rows])
-    used = [line for line in STYLES if line in summary["method"]]
-    handles = [axis.plot([], [], label=line, **{**COMMON, **STYLES[line], "linestyle": "none"})[0] for line in used]
+    used = [method for method in _methods(evidence.table("points")) if method in summary["method"]]
+    handles = [
+        axis.plot([], [], label=method, **{**COMMON, **_style(method), "linestyle": "none"})[0] for method in used
+    ]
     figure.legend(handles=handles, loc="upper center", ncols=5, fontsize=8)
     return figure
 
@@ -145,23 +158,23 @@ def draw_summary(evidence: Evidence) -> Figure:
 def _stairs(axis: Axes, place: int, row: Table) -> None:
     """Marks from cheap to dear, each with the tolerances that it is the cheapest for; at the least of its costs."""
     steps: dict[tuple[str, float], list[float]] = {}
-    nobody: dict[str, list[float]] = {}
+    none: dict[str, list[float]] = {}
     for tolerance, method, seconds in zip(row["tolerance"], row["method"], row["median [s]"], strict=True):
         if np.isfinite(seconds):
             near = [step for step in steps if step[0] == method and seconds < SHARED * step[1]]
             steps.setdefault(near[-1] if near else (str(method), float(seconds)), []).append(float(tolerance))
         else:
-            nobody.setdefault(str(method), []).append(float(tolerance))
+            none.setdefault(str(method), []).append(float(tolerance))
     x = [seconds for _, seconds in steps]
     axis.plot(x, [place] * len(x), color="#bbbbbb", linewidth=1.2, zorder=0.5)
     for i, ((method, seconds), tolerances) in enumerate(steps.items()):
-        axis.plot([seconds], [place], **{**COMMON, **STYLES[method], "markersize": 8, "linestyle": "none"})
+        axis.plot([seconds], [place], **{**COMMON, **_style(method), "markersize": 8, "linestyle": "none"})
         beside = (0, -14) if i % 2 else (0, 7)
         axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
-    said = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in nobody.items())
-    if said:
+    without = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in none.items())
+    if without:
         beyond: Style = {"transform": axis.get_yaxis_transform(), "ha": "left", "va": "center"}
-        axis.text(1.01, place, said, fontsize=7.5, color="#555555", **beyond)
+        axis.text(1.01, place, without, fontsize=7.5, color="#555555", **beyond)
 
 
 def _span(tolerances: list[float]) -> str:

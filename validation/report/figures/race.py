@@ -1,17 +1,19 @@
-"""Figure of the race."""
+"""Figures of the solver comparison."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import GUIDE, Style, graded, panels
+from validation.report.style import Style, graded, panels
 
 MARKS: dict[str, Style] = {
     "bem3d": {"color": "#0072B2", "marker": "o"},
-    "bem3d, textbook": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "none"},
+    "bem3d, Polonsky-Keer": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "none"},
     "tamaas": {"color": "#D55E00", "marker": "s", "markerfacecolor": "none"},
     "ContactMechanics": {"color": "#009E73", "marker": "^"},
 }
+OTHER: Style = {"color": "#777777", "marker": "v", "markerfacecolor": "none"}
+"""Of contact models that are found."""
 LINES: tuple[Style, ...] = (
     {"color": "#000000", "marker": "*", "linestyle": "-"},
     {"color": "#CC79A7", "marker": "P", "linestyle": "--"},
@@ -27,11 +29,13 @@ def draw(evidence: Evidence) -> Figure:
         2, 2, width=11.0, height=2.4 + 0.6 * len(problems)
     )
     place = np.array([problems.index(name) for name in heats["problem"].tolist()])
-    ours = {row: t for row, t, c in zip(place, heats["median [s]"], heats["contestant"], strict=True) if c == "bem3d"}
+    ours = {row: t for row, t, c in zip(place, heats["median [s]"], heats["solver"], strict=True) if c == "bem3d"}
     mine = np.array([ours[row] for row in place])
     spread = np.abs(np.array([heats["fastest [s]"], heats["slowest [s]"]]) - heats["median [s]"])
-    for shift, (name, style) in zip((-0.27, -0.09, 0.09, 0.27), MARKS.items(), strict=True):
-        rows = (heats["contestant"] == name) & (heats["status"] == "finished")
+    names = list(dict.fromkeys(heats["solver"].tolist()))
+    for shift, name in zip(np.linspace(-0.3, 0.3, len(names)), names, strict=True):
+        style = MARKS.get(name, OTHER)
+        rows = (heats["solver"] == name) & (heats["status"] == "finished")
         for axis, unit in ((time_axis, np.ones(place.size)), (ratio_axis, mine)):
             if rows.any() and (axis is time_axis or name != "bem3d"):
                 x, bars = heats["median [s]"] / unit, spread / unit
@@ -60,27 +64,6 @@ def draw(evidence: Evidence) -> Figure:
     return figure
 
 
-def draw_rolling(evidence: Evidence) -> Figure:
-    """Error of the force against positions a second."""
-    rolls = evidence.table("rolling")
-    heights, cells = np.unique(rolls["h/d"]), np.unique(rolls["cells to a radius"])
-    figure, axes = panels(1, heights.size, sharey="all")
-    for axis, height in zip(axes, heights, strict=True):
-        mine = rolls.where(**{"h/d": height})
-        for i, n in enumerate(cells):
-            some = mine.where(**{"cells to a radius": n})
-            asked = some["tolerance"] > some["tolerance"].min()
-            rate, style = some["positions a second"][asked], graded(i, cells.size)
-            both, alone = (some[f"rms error of the force, solver{and_grid}"][asked] for and_grid in (" and grid", ""))
-            axis.loglog(rate, both, label=f"a = {n} cells", **style)
-            axis.loglog(rate, alone, **{**style, "markerfacecolor": "white", "linestyle": "--"})
-        axis.axhline(mine["rms fluctuation of the force"][0], **GUIDE)
-        axis.set(xlabel="positions a second", title=f"h/d = {height:g}")
-    axes[0].set_ylabel("rms error of the force / F_Hertz")
-    axes[0].legend()
-    return figure
-
-
 def draw_wheel(evidence: Evidence) -> Figure:
     """Wheel-steps a second against springs to a radius."""
     rates = evidence.table("wheel")
@@ -94,7 +77,6 @@ def draw_wheel(evidence: Evidence) -> Figure:
         axis.loglog(springs, mine["plain sums a second"], **open_)
         axis.set_xticks(springs, [f"{n:g}" for n in springs])
     axis.minorticks_off()
-    axis.axhline(5e6, **GUIDE)
     axis.set(xlabel="springs to a contact radius, a / dx", ylabel="steps of one wheel a second")
     axis.legend()
     return figure

@@ -1,0 +1,112 @@
+"""A contact model is one file: found there, it is in `compare`, on the charts and in the solver comparison."""
+
+import math
+import sys
+
+import numpy as np
+import pytest
+
+from tests.benchmarks.test_work_precision import use_a_clock_of_its_own
+from validation.benchmarks import timing
+from validation.benchmarks.solvers import problems
+from validation.benchmarks.solvers.case import ProblemRun, time_problem
+from validation.benchmarks.timing import RunLimits
+from validation.benchmarks.work_precision.errors import points
+from validation.benchmarks.work_precision.grids import Grids
+from validation.benchmarks.work_precision.problem import TimedProblem, measure
+from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.rolling import RollingScene
+from validation.selection.compare import compare, kinds_below_boundary_elements, models_of, summary
+from validation.simulation import models
+from validation.simulation.method import Resolution
+from validation.simulation.model import models_serving
+from validation.simulation.rough_punch import PunchRoughness
+from validation.theory.closed_forms import rough_punch_stiffness
+
+TOY = """
+import numpy as np
+
+from validation.simulation.method import Result, Solve
+from validation.simulation.model import Cost, ErrorEstimate, Model
+
+
+class Toy(Model):
+    name, setting = "toy", "three realisations"
+
+    def serves(self, scene, quantity):
+        return quantity == "stiffness" and getattr(scene, "shape", "") == "punch" and scene.ground is not None
+
+    def estimate(self, scene):
+        return ErrorEstimate(error=0.01, reason="by decree")
+
+    def cost(self, scene):
+        return Cost(work=3, unit="toys", seconds=1e-5)
+
+    def prepare(self, scene, resolution):
+        k = scene.stiffness * np.array([0.4, 0.5, 0.6])
+        return lambda _: Solve(lambda: k, lambda found: Result({"stiffness": found}, 3.0, count=3))
+
+
+MODEL = Toy()
+"""
+
+
+@pytest.fixture
+def toy(tmp_path, monkeypatch):
+    """A model in a folder of its own, beside those that are there."""
+    (tmp_path / "toy_model.py").write_text(TOY)
+    monkeypatch.setattr(models, "__path__", [*models.__path__, str(tmp_path)])
+    yield
+    sys.modules.pop(f"{models.__name__}.toy_model", None)
+
+
+PUNCH = PunchRoughness(hurst=0.7, waves=(1, 8), seed=0).scene(force=0.1)
+
+
+def test_a_model_that_is_found_is_a_candidate(toy):
+    assert models_of(PUNCH, "stiffness", 0.1, 0)[0].name == "toy"
+    found = compare(PUNCH, tolerance=1.0)
+    best = found.selection.best
+    assert best.model.name == "toy" and best.status == "accepted"
+    assert best.answer.value == pytest.approx(PUNCH.stiffness / 2)
+    # of three realisations
+    assert best.answer.sample == pytest.approx(4.303 * 0.2 / math.sqrt(3), rel=1e-3)
+    assert "by toy" in "\n".join(summary(found))
+    assert "toy" in kinds_below_boundary_elements()
+
+
+def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
+    use_a_clock_of_its_own(monkeypatch)
+    grids = Grids(cells=(16, 32), fixed=16, tolerances=())
+    problem = RoughPunchProblem(waves=7, surfaces=3, profiles=3, grids=grids, springs=(16,))
+    chart = points(problem, measure(TimedProblem(problem, RunLimits(slow=1.0, enough=0.0))))
+    mine = {point.quantity: point for point in chart if point.method == "toy"}
+    assert {"mean stiffness", "relative deviation"} == set(mine)
+    assert all(point.finished and point.work == 1.0 for point in mine.values())
+    assert mine["mean stiffness"].setting == "three realisations"
+
+
+def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
+    use_a_clock_of_its_own(monkeypatch)
+    monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
+    problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1)
+    outcome = time_problem(ProblemRun(problem, 1e-6, 1.0, problems.methods()))
+    assert outcome["method"].tolist() == ["bem3d", "bem3d, Polonsky-Keer", "closed form", "toy"]
+    assert set(outcome["status"].tolist()) == {timing.FINISHED}
+    assert np.isfinite(outcome["difference"][-1, 3]) and np.isnan(outcome["difference"][-1, :3]).all()
+    assert "toy" in problems.methods()
+
+
+def test_the_closed_form_of_a_rough_punch_is_one_of_them():
+    (model,) = models_serving(PUNCH, "stiffness")
+    result = model.prepare(PUNCH, Resolution())(0)()
+    ground = PUNCH.ground
+    expected = rough_punch_stiffness(side=1.0, modulus=1.0, force=PUNCH.load, height=ground.rms)
+    assert result.values["stiffness"] == expected
+    # two springs in series: the flat punch, and the interface
+    assert 1 / expected == pytest.approx(1 / 1.1523 + 0.48 * ground.rms / PUNCH.load)
+    smooth = IndentationScene(name="smooth", shape="punch", size=1.0, load=1.0, modulus=1.0)
+    assert [one.setting for one in models_serving(smooth, "stiffness")] == ["smooth body"]
+    wheel = RollingScene(name="wheel", radius=1.0, load=1.0, modulus=1.0, ground=ground)
+    assert models_serving(wheel, "force-rms") == ()

@@ -1,0 +1,102 @@
+"""What is pressed, by either method: one sort of springs, or one solve of boundary elements on a grid."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+import mdr
+from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
+
+FloatArray = NDArray[np.float64]
+
+MOST_ITERATIONS = 5000
+FIXED_AREA_RESIDUAL = 1e-4
+"""Residual of a fixed contact area, whose stiffness is good to some tens of times its square."""
+
+
+class PressedScene(Protocol):
+    """A body that is pressed onto a half-space, E* = 1 unless its half-space says otherwise."""
+
+    def load(self, cells: int) -> dict[str, float]:
+        """The force or the approach that is prescribed, by its name."""
+
+    def half_space(self, cells: int) -> bem3d.HalfSpace:
+        """The grid."""
+
+    def gap(self, cells: int, realisation: int) -> FloatArray:
+        """Undeformed separation."""
+
+    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
+        """What is solved beside the contact, on the clock."""
+
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
+        """Values by boundary elements."""
+
+    def profile(self, springs: float, realisation: int) -> tuple[FloatArray, float]:
+        """Heights and length of the foundation. Raises ValueError where there is no image in one dimension."""
+
+    def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
+        """Values of the foundation."""
+
+
+@dataclass(frozen=True)
+class PressedSprings:
+    """The foundation: one sort."""
+
+    name: str = "MDR"
+
+    def prepare(self, scene: PressedScene, resolution: Resolution) -> Prepared:
+        """Raises ValueError for waves that springs do not resolve."""
+        scene.profile(resolution.size, 0)
+
+        def draw(realisation: int) -> Solve:
+            height, length = scene.profile(resolution.size, realisation)
+
+            def run() -> mdr.LoadPoint[float]:
+                curve = mdr.load_curve(height, length=length, modulus=1.0)
+                load = scene.load(height.size)
+                return curve.at_force(load["force"]) if "force" in load else curve.at_approach(load["approach"])
+
+            return Solve(run, lambda point: Result(scene.read_springs(point), height.size))
+
+        return draw
+
+
+@dataclass(frozen=True)
+class PressedGrid:
+    """Boundary elements, from a cold start: our solver, or the iteration of Polonsky and Keer."""
+
+    name: str = "BEM"
+    polonsky_keer: bool = False
+
+    def prepare(self, scene: PressedScene, resolution: Resolution) -> Prepared:
+        """Plans, coarser grids and windows, by a first solve."""
+        cells = round(resolution.size)
+        half_space = scene.half_space(cells)
+        published = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
+        solver: Callable[..., bem3d.Contact] = published if self.polonsky_keer else bem3d.solve
+
+        def draw(realisation: int) -> Solve:
+            gap = scene.gap(cells, realisation)
+
+            def run() -> tuple[bem3d.Contact, bem3d.FixedContactArea | None]:
+                contact = solver(half_space, gap, **scene.load(cells), tolerance=resolution.residual)
+                return contact, scene.finish(contact)
+
+            return Solve(run, lambda found: Result(scene.read(*found), cell_applications(*found)))
+
+        draw(0).run()
+        return draw
+
+
+def cell_applications(contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> float:
+    """Cells times operator applications, as if each were on the whole of its grid."""
+    applications = contact.operator_applications + (fixed.operator_applications if fixed else 0)
+    coarse = sum(math.prod(shape) * count for shape, count in contact.coarse_applications)
+    return float(contact.pressure.size * applications + coarse)
