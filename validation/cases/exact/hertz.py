@@ -53,6 +53,11 @@ class Hertz:
         return closed_forms.hertz_contact_radius(radius=self.radius, approach=self.approach)
 
     @property
+    def approaches(self) -> list[float]:
+        """Of the load curve [m]."""
+        return [float(s * self.approach) for s in np.linspace(0, 1, self.load_steps + 1)[1:]]
+
+    @property
     def force(self) -> float:
         """Force of Hertz [N]."""
         return closed_forms.hertz_force(radius=self.radius, modulus=self.modulus, approach=self.approach)
@@ -74,26 +79,21 @@ class Sphere:
 
 @dataclass(frozen=True)
 class HertzResult:
-    """Refinement at the approach of the case, and a load curve; one outcome a grid or step for each method."""
+    """Outcomes of each method: of all "grids" at the approach of the case, of all "loads" on the second grid."""
 
     case: Hertz
-    bem: list[Outcome]
-    mdr: list[Outcome]
-    approaches: list[float]
-    bem_loads: list[Outcome]
-    mdr_loads: list[Outcome]
+    bem: dict[str, list[Outcome]]
+    mdr: dict[str, list[Outcome]]
 
 
 def run(case: Hertz, engine: Engine = SERIAL) -> HertzResult:
     """Press the sphere with both methods."""
-    approaches = [float(s * case.approach) for s in np.linspace(0, 1, case.load_steps + 1)[1:]]
     second = case.cells_per_radius[1]
     spheres = {
         "grids": [Sphere(case=case, resolution=n, approach=case.approach) for n in case.cells_per_radius],
-        "loads": [Sphere(case=case, resolution=second, approach=d) for d in approaches],
+        "loads": [Sphere(case=case, resolution=second, approach=d) for d in case.approaches],
     }
-    bem, springs = engine.map_groups(press_by_bem, spheres), engine.map_groups(press_by_springs, spheres)
-    return HertzResult(case, bem["grids"], springs["grids"], approaches, bem["loads"], springs["loads"])
+    return HertzResult(case, engine.map_groups(press_by_bem, spheres), engine.map_groups(press_by_springs, spheres))
 
 
 def press_by_bem(sphere: Sphere) -> Outcome:
@@ -142,14 +142,14 @@ def press_by_springs(sphere: Sphere) -> Outcome:
 def evidence(result: HertzResult) -> Evidence:
     """Force, approach, contact radius, stiffness and pressure over Hertz on the finest grid; order of the force."""
     case, n = result.case, result.case.cells_per_radius
-    methods = float(result.mdr[-1]["force"] / result.bem[-1]["force"])
+    methods = float(result.mdr["grids"][-1]["force"] / result.bem["grids"][-1]["force"])
     numbers = (
-        *_over_hertz(case, "bem3d", result.bem),
-        *_over_hertz(case, "mdr", result.mdr),
+        *_over_hertz(case, "bem3d", result.bem["grids"]),
+        *_over_hertz(case, "mdr", result.mdr["grids"]),
         Number(
             quantity="relative L2 error of the pressure",
             model="bem3d",
-            value=float(result.bem[-1]["pressure_error"]),
+            value=float(result.bem["grids"][-1]["pressure_error"]),
             reference=0.0,
             source="Hertz",
             tolerance=1 / n[-1],
@@ -237,26 +237,26 @@ def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> tuple[Numbe
 
 
 def _data(result: HertzResult) -> dict[str, dict[str, ArrayLike]]:
-    case, second = result.case, result.bem[1]
+    case, bem, springs = result.case, result.bem, result.mdr
     scene = {"radius": case.radius, "modulus": case.modulus}
     x = np.linspace(0, 2 * case.contact_radius, 401)
     return {
         "load": {
-            "approach [m]": result.approaches,
-            "hertz force [N]": [closed_forms.hertz_force(approach=d, **scene) for d in result.approaches],
-            "bem3d force [N]": [o["force"] for o in result.bem_loads],
-            "mdr force [N]": [o["force"] for o in result.mdr_loads],
+            "approach [m]": case.approaches,
+            "hertz force [N]": [closed_forms.hertz_force(approach=d, **scene) for d in case.approaches],
+            "bem3d force [N]": [o["force"] for o in bem["loads"]],
+            "mdr force [N]": [o["force"] for o in springs["loads"]],
         },
-        "pressure": {"x [m]": second["x"], "bem3d pressure [Pa]": second["pressure"]},
+        "pressure": {"x [m]": bem["grids"][1]["x"], "bem3d pressure [Pa]": bem["grids"][1]["pressure"]},
         "exact-pressure": {
             "x [m]": x,
             "hertz pressure [Pa]": closed_forms.hertz_pressure(x, approach=case.approach, **scene),
         },
         "refinement": {
             "cells per contact radius": case.cells_per_radius,
-            "bem3d force error": [o["force"] / case.force - 1 for o in result.bem],
-            "mdr force error": [o["force"] / case.force - 1 for o in result.mdr],
-            "bem3d pressure error": [o["pressure_error"] for o in result.bem],
+            "bem3d force error": [o["force"] / case.force - 1 for o in bem["grids"]],
+            "mdr force error": [o["force"] / case.force - 1 for o in springs["grids"]],
+            "bem3d pressure error": [o["pressure_error"] for o in bem["grids"]],
         },
     }
 

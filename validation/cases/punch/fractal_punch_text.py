@@ -37,8 +37,9 @@ def method(case: FractalPunch) -> str:
 
 
 def captions(case: FractalPunch) -> dict[str, str]:
-    interval = "95 % interval of the sample"
-    few = f"open where the mean contact has fewer than {FEW_CELLS} cells"
+    interval, few = "95 % interval of the sample", f"open where the mean contact has fewer than {FEW_CELLS} cells"
+    circles = f"Circles: boundary elements, {interval}; {few}."
+    lines = "Line in a band: MDR with L_1D = L and its interval; dashed: L_1D = 1.1523 L."
     return {
         "fractal_punch": (
             f"Relative standard deviation of the stiffness against force, Fbar = F / (E* h L). (a) {case.surfaces} "
@@ -46,10 +47,7 @@ def captions(case: FractalPunch) -> dict[str, str]:
             "profiles of springs, L_1D = L; lines end where all springs of all profiles are in contact. Intervals: in "
             "the next figure."
         ),
-        "fractal_punch-overlay": (
-            f"The same, both methods in one panel. Circles: boundary elements, {interval}; {few}. Line in a band: MDR "
-            "with L_1D = L and its interval; dashed: MDR with L_1D = 1.1523 L."
-        ),
+        "fractal_punch-overlay": f"The same, both methods in one panel. {circles} {lines}",
         "fractal_punch-difference": (
             f"Relative deviation of MDR over that of boundary elements. Circles: at each force on {case.cells}² cells, "
             f"{interval}; {few}; ratios below the axis, and ratios to a deviation of zero, are not drawn. Thick: "
@@ -58,14 +56,12 @@ def captions(case: FractalPunch) -> dict[str, str]:
             "tolerance of 3 %; dotted: 3 dB. = agree, ≠ differ, ? undecided."
         ),
         "fractal_punch-mean": (
-            f"Mean stiffness kbar = k / (E* L). Circles: boundary elements, {interval}; {few}. Full line: MDR with "
-            "L_1D = L; dashed: L_1D = 1.1523 L. Dotted: slope 1 / (1 + H), through the boundary elements at the middle "
-            "of the forces."
+            f"Mean stiffness kbar = k / (E* L). {circles} {lines} Dotted: slope 1 / (1 + H), through the boundary "
+            "elements at the middle of the forces."
         ),
         "fractal_punch-exponent": (
-            "Local exponent d ln k / d ln F of the mean stiffness, between neighbouring forces. Circles: boundary "
-            f"elements, {interval}; {few}. Full line in a band: MDR, L_1D = L; dashed: L_1D = 1.1523 L. Dotted: "
-            f"1 / (1 + H). Grey: the published exponents of fractal dimensions 2 to 3, {PUBLISHED[0]} to "
+            f"Local exponent d ln k / d ln F of the mean stiffness, between neighbouring forces. {circles} {lines} "
+            f"Dotted: 1 / (1 + H). Grey: the published exponents of fractal dimensions 2 to 3, {PUBLISHED[0]} to "
             f"{PUBLISHED[1]}."
         ),
     }

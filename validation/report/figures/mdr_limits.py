@@ -41,23 +41,18 @@ def _draw(axis: Axes, curves: Table, name: str, over_force: bool = False) -> Non
     roll_offs = np.unique(curves["q_r L / 2π"])
     for i, roll_off in enumerate(roll_offs):
         mine = curves.where(**{"q_r L / 2π": roll_off})
-        style = graded(i, roll_offs.size)
-        force = mine["Fbar"]
+        style = {**graded(i, roll_offs.size), "linestyle": "none"}
+        force, few = mine["Fbar"], mine["bem3d few cells"]
         unit = force if over_force else np.ones(force.size)
         value, low, high = (mine[f"bem3d {name}{end}"] / unit for end in ("", " low", " high"))
-        points = {**style, "linestyle": "none"}
-        bars = [value - low, high - value]
-        few = mine["bem3d few cells"]
-        for drawn, face in ((~few, style["color"]), (few, "white")):
-            label = f"boundary elements, q_r L / 2π = {roll_off:g}" if face != "white" else "_"
-            some = {**points, "markerfacecolor": face}
-            mine_bars = [bar[drawn] for bar in bars]
-            axis.errorbar(force[drawn], value[drawn], yerr=mine_bars, capsize=2, label=label, **some)
+        named = f"q_r L / 2π = {roll_off:g}"
+        for drawn, face, label in ((~few, style["color"], f"boundary elements, {named}"), (few, "white", "_")):
+            bars = [(value - low)[drawn], (high - value)[drawn]]
+            look = {**style, "markerfacecolor": face}
+            axis.errorbar(force[drawn], value[drawn], yerr=bars, capsize=2, label=label, **look)
         value, low, high = (_positive(mine[f"mdr {name}{end}"]) / unit for end in ("", " low", " high"))
-        line = ("-", "--", "-.")[i % 3]
-        axis.plot(
-            force, value, color=style["color"], linestyle=line, linewidth=1.6, label=f"MDR, q_r L / 2π = {roll_off:g}"
-        )
+        line = {"color": style["color"], "linestyle": ("-", "--", "-.")[i % 3], "linewidth": 1.6}
+        axis.plot(force, value, label=f"MDR, {named}", **line)
         axis.fill_between(force, low, high, color=style["color"], alpha=0.2, linewidth=0)
 
 
