@@ -30,6 +30,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.engine import SERIAL, Engine
+from validation.report import build
 from validation.report.contents import CASES
 from validation.simulation.rough_punch import press_surface
 
@@ -109,9 +110,11 @@ SMALL = {
 }
 
 
-MORE_FIGURES = 4 + 3 + 2 + 1 + 1 + 1 + 2
-"""Than one of each case: fractal punch, rolling, its input; the wheel, without its parameters, and two more of it; the
-limits."""
+TABLES = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 4}
+TABLES |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
+TABLES |= {"wheel": 6, "wheel_distance": 7, "wheel_3d": 2, "wheel_stability": 6, "limits": 4, "ladder": 2}
+FIGURES = dict.fromkeys(TABLES, 1) | {"fractal_punch": 5, "rolling": 4, "rolling_input": 3}
+FIGURES |= {"wheel": 2, "wheel_distance": 2, "wheel_stability": 2, "limits": 3}
 
 
 @pytest.fixture
@@ -137,26 +140,33 @@ def contents(folder, *patterns):
 NUMBERS = ("results.json", "data/*.csv", "figures/*.svg", "figures/*.pdf")
 
 
-def test_two_runs_give_equal_bytes(small, tmp_path):
-    """Whatever the number of workers, stored results or none."""
-    for name, workers in (("one", "1"), ("two", "2")):
+@pytest.mark.slow
+@pytest.mark.parametrize("name", list(CASES))
+def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch):
+    """By any number of workers, and from stored results. No contact warns: a case avoids it, or is about it."""
+    one, two = tmp_path / "one", tmp_path / "two"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", bem3d.ContactWarning)
+        warnings.simplefilter("error", mdr.SpringContactWarning)
         # grids this small may miss a criterion
-        assert report("--only", *small, "--out", str(tmp_path / name), "--workers", workers) in (0, 1)
-    one, two = (contents(tmp_path / name, *NUMBERS) for name in ("one", "two"))
-    assert one.keys() == two.keys()
-    tables = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 4}
-    tables |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
-    tables |= {"wheel": 6, "wheel_distance": 7, "wheel_3d": 2, "wheel_stability": 6, "limits": 4, "ladder": 2}
-    # so many figures more than one of each case, twice each
-    assert len(one) == 1 + sum(tables.values()) + 2 * (MORE_FIGURES + len(tables))
-    for name in one:
-        assert one[name] == two[name], name
-    whole_page(tmp_path / "one", small)
-    report("--only", *small, "--out", str(tmp_path / "one"), "--workers", "1")
-    assert contents(tmp_path / "one", *NUMBERS) == one
-    other = tmp_path / "other"
-    report("--only", "fractal_punch", "--out", str(other), "--workers", "1", "--seed", "5")
-    assert contents(other, "data/fractal*") != contents(tmp_path / "one", "data/fractal*")
+        assert report("--only", name, "--out", str(one), "--workers", "1") in (0, 1)
+    report("--only", name, "--out", str(two), "--workers", "2")
+    by_one = contents(one, *NUMBERS)
+    assert len(by_one) == 1 + TABLES[name] + 2 * FIGURES[name]
+    assert contents(two, *NUMBERS) == by_one
+    whole_page(one, [name])
+    # the same tables draw the same figures
+    monkeypatch.setattr(build, "drawn", lambda draw, evidence, profile: None)
+    monkeypatch.setattr(build, "svg", lambda figure: b"<svg/>")
+    monkeypatch.setattr(build, "pdf", lambda figure: b"%PDF")
+    report("--only", name, "--out", str(one), "--workers", "1")
+    assert contents(one, "results.json", "data/*.csv") == contents(two, "results.json", "data/*.csv")
+
+
+def test_another_seed_draws_other_surfaces(small, tmp_path):
+    for seed in ("5", "6"):
+        report("--only", "geike", "--out", str(tmp_path / seed), "--workers", "1", "--seed", seed)
+    assert contents(tmp_path / "5", "data/*") != contents(tmp_path / "6", "data/*")
 
 
 def test_results_hold_every_number_with_its_verdict(small, tmp_path):
@@ -172,22 +182,20 @@ def test_results_hold_every_number_with_its_verdict(small, tmp_path):
     assert results["cases"]["hertz"]["settings"]["radius"] == 0.5
 
 
-def test_page_is_self_contained(small, tmp_path):
-    some = ["hertz", "fractal_punch", "limits"]
-    report("--only", *some, "--out", str(tmp_path), "--workers", "1")
-    whole_page(tmp_path, some)
-    page = (tmp_path / "index.html").read_text()
+def whole_page(folder, names):
+    """Assert that the page has each case, each figure in it, and needs nothing from elsewhere."""
+    page = (folder / "index.html").read_text()
+    for name in names:
+        assert f'id="{name}"' in page
+    assert page.count("data:image/svg+xml,") == len(list((folder / "figures").glob("*.svg"))) >= len(names)
     for external in ("http://", "https://", "<script", "@import", 'rel="stylesheet"'):
         assert external not in page
     assert "profile: quick" in page
 
 
-def whole_page(folder, names):
-    """Assert that the page has each case, and each figure in it."""
-    page = (folder / "index.html").read_text()
-    for name in names:
-        assert f'id="{name}"' in page
-    assert page.count("data:image/svg+xml,") == len(list((folder / "figures").glob("*.svg"))) >= len(names)
+def test_a_page_holds_several_cases(small, tmp_path):
+    report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1")
+    whole_page(tmp_path, ["hertz", "geike"])
 
 
 def test_provenance_names_no_machine(small, tmp_path):
@@ -332,12 +340,9 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept
 
 
-@pytest.mark.parametrize("name", list(CASES))
-def test_cases_deal_with_every_warning(name):
-    """What a contact warns of is either avoided by the case or what the case is about."""
-    entry = CASES[name]
-    case = entry.quick if name in ("hertz", "geike") else SMALL.get(name, entry.quick)
+@pytest.mark.parametrize("name", ["hertz", "geike"])
+def test_cases_of_the_quick_report_deal_with_every_warning(name):
     with warnings.catch_warnings():
         warnings.simplefilter("error", bem3d.ContactWarning)
         warnings.simplefilter("error", mdr.SpringContactWarning)
-        entry.run(case, SERIAL)
+        CASES[name].run(CASES[name].quick, SERIAL)
