@@ -49,7 +49,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import distance_levels, distance_numbers, spectrum_numbers
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_levels as wheel_3d_levels
-from validation.cases.wheel.features import FLOOR, Spectrum, found
+from validation.cases.wheel.features import FLOOR, Spectrum, measured
 from validation.simulation.rough_punch import BEM, MDR
 
 TRIALS = 600
@@ -611,7 +611,7 @@ def test_a_feature_covers_its_truth():
     def drawn():
         plain = 7.0 * shape * rng.gamma(100, 1 / 100, (8, 1))
         hann = (scene.jump / omega) ** 4 + 1e-3 * shape + 0 * plain
-        return ends(found(Spectrum(scene, omega, plain, hann, rng.standard_normal(8), 1e-6, 0.05))[FLOOR])
+        return ends(measured(Spectrum(scene, omega, plain, hann, rng.standard_normal(8), 1e-6, 0.05))[FLOOR])
 
     assert holds(covered(drawn, 7.0, trials=60), trials=60)
 

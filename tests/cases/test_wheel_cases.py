@@ -263,14 +263,14 @@ def test_the_floor_of_an_open_record_is_its_jump():
     wave near the end of the band, at 1 / 1.3 of where the floor begins, has 1 / (1 - 1 / 1.3)^2 = 19 shares."""
     ride = rides(count=40, groups=10, linear=True)
     spectrum = Spectrum.of(SMALL, [simulate_ensemble(ride)])
-    value = wheel_features.found(spectrum)[FLOOR + PREDICTED]
+    value = wheel_features.measured(spectrum)[FLOOR + PREDICTED]
     slopes = 3 * 3.4 / 1.4 * (SMALL.jump / (1.3 * SMALL.cutoff)) ** 2
     near = 19 * (SMALL.jump / SMALL.cutoff) ** 3.4
     assert value.value == pytest.approx(1, abs=slopes + near)
     assert slopes + near < 0.02
     # and not that of Hann's window, which has no jump
     of_hann = Spectrum(**{**vars(spectrum), "plain": spectrum.hann})
-    assert wheel_features.found(of_hann)[FLOOR + PREDICTED].value < 0.01
+    assert wheel_features.measured(of_hann)[FLOOR + PREDICTED].value < 0.01
 
 
 def jump_of_waves(scene, ride):
@@ -568,6 +568,9 @@ def test_distance_evidence_is_whole(distances):
     assert slope == pytest.approx(np.full(slope.size, 1 / 2.4), rel=1e-9)
     middle = (np.mean(np.log(table["break [rad/s]"])) for table in (line, breaks))
     assert next(middle) == pytest.approx(next(middle), rel=1e-12)
+    # to second order in the amplitude
+    hertz = found.table("hertz")
+    assert hertz["peak over omega_eigen"][0] == pytest.approx(1 - hertz["release / d"][0] ** 2 / 24, abs=1e-6)
 
 
 def test_distances_take_whole_natural_periods_and_double():

@@ -6,7 +6,7 @@ import numpy as np
 
 from validation.analysis.statistics import Estimate
 from validation.cases.wheel.distance import DistanceResult
-from validation.cases.wheel.features import PEAK, Spectrum, found
+from validation.cases.wheel.features import PEAK, Spectrum, measured
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -50,7 +50,7 @@ def peaks(result: DistanceResult) -> dict[float, Estimate]:
     """The frequency of the peak over omega_eigen, by release."""
     frequencies = {}
     for release, ensemble in result.case.vibrations().items():
-        value = found(Spectrum.of(ensemble.scene, [result.vibrations[release]]))[PEAK]
+        value = measured(Spectrum.of(ensemble.scene, [result.vibrations[release]]))[PEAK]
         frequency = ensemble.scene.eigenfrequency
         frequencies[release] = Estimate(value.value / frequency, value.error / frequency, value.samples)
     return frequencies

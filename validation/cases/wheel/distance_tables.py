@@ -19,7 +19,7 @@ def breaks_of(result: DistanceResult) -> Table:
     rows: list[dict[str, object]] = []
     for ensemble, outcome in zip(result.case.distances(), result.distances, strict=True):
         spectrum = Spectrum.of(ensemble.scene, [outcome])
-        values, theory = features.found(spectrum), features.expected(spectrum)
+        values, theory = features.measured(spectrum), features.expected(spectrum)
         rows.append(
             {
                 "distance [m]": ensemble.steps * ensemble.scene.spacing,

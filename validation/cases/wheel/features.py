@@ -21,15 +21,15 @@ FloatArray = NDArray[np.float64]
 PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
 PREDICTED = " over predicted"
 """Of floor and break, which the same records predict by their jumps: as ratios they err less."""
-AFTER, BEFORE, HALF = 1.1, 0.9, 0.5
-"""Region 3 from so many times the jump to so many times the end of the roughness; half of it for the oscillation,
-which the roughness at the edge of the contact washes out from the end."""
-BEYOND = (1.3, 2.6)
-"""Where the floor is measured, over the end of the roughness."""
-FEWEST_PERIODS = 3
-APART, CLEAR = 1.5, 3.0
-"""So many times the eigenfrequency the jump must be, or it is part of the peak; and where power laws of the force are
-those of the acceleration."""
+THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
+"""Region 3 begins at this multiple of the jump, and ends at this of q_max v_0; the oscillation ends earlier, since
+roughness at the edge of the contact smears it from the end."""
+FLOOR_BAND = (1.3, 2.6)
+"""Where the floor is measured, over q_max v_0."""
+MIN_PERIODS = 3
+PEAK_LAST, FREE_MASS = 1.5, 3.0
+"""Over the eigenfrequency: a jump below the first is part of the peak; above the second the wheel moves as a free mass,
+and power laws of the force are those of the acceleration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +63,24 @@ def linear_spectrum(scene: WheelScene, omega: FloatArray) -> FloatArray:
     force = rolling_theory.force_spectrum_1d(
         omega / scene.speed, roughness(scene), contact_radius=scene.contact_radius, modulus=scene.modulus
     )
-    resonator = wheel_theory.acceleration_over_force(omega, eigenfrequency=scene.eigenfrequency, mass=scene.mass)
-    return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator)
+    return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator(scene, omega))
+
+
+def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
+    """C_F of linear theory in three dimensions, over a rough rail."""
+    assert scene.rail is not None  # strips refuse a smooth rail
+    return rolling_theory.force_spectrum_3d(
+        q,
+        scene.rail.spectrum.c2d,
+        edges=scene.rail.edges,
+        contact_radius=scene.contact_radius,
+        modulus=scene.modulus,
+    )
+
+
+def resonator(scene: WheelScene, omega: FloatArray) -> FloatArray:
+    """|a / dF|^2 of the wheel on its contact spring."""
+    return wheel_theory.acceleration_over_force(omega, eigenfrequency=scene.eigenfrequency, mass=scene.mass)
 
 
 def roughness(scene: WheelScene) -> Callable[[FloatArray], FloatArray]:
@@ -85,8 +101,8 @@ def spectrum_rows(omega: FloatArray, density: FloatArray, low: float, high: floa
             yield {"omega [rad/s]": float(centre), "A [(m/s2)2 s]": float(mean)}
 
 
-def found(spectrum: Spectrum) -> dict[str, Estimate]:
-    """All features that there are, each with its standard error by leaving out one group of wheels after the other."""
+def measured(spectrum: Spectrum) -> dict[str, Estimate]:
+    """The features that stand out, with standard errors by the jackknife over groups of wheels."""
     groups = len(spectrum.plain)
     shares = spectrum.jumps.reshape(groups, -1)
     all_of_them = _features(spectrum, spectrum.plain.mean(axis=0), spectrum.hann.mean(axis=0), spectrum.jumps)
@@ -127,7 +143,7 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
         first, last = _third(scene, scene.jump)
         fine = np.arange(1, math.ceil(1.1 * scene.cutoff / spectrum.omega[0])) * spectrum.omega[0]
         linear = linear_spectrum(scene, fine)
-        if last - first >= FEWEST_PERIODS * period:
+        if last - first >= MIN_PERIODS * period:
             exponent = regions.slope(fine, linear, first, last, period)
             power = np.asarray(regions.power_level(fine, linear, first, last, period, exponent))
     return {
@@ -142,7 +158,7 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
 
 def _third(scene: WheelScene, jump: float) -> tuple[float, float]:
     """Where region 3 is looked at, clear of its ends and of the resonance."""
-    return max(AFTER * jump, CLEAR * scene.eigenfrequency), BEFORE * scene.cutoff
+    return max(THIRD_FIRST * jump, FREE_MASS * scene.eigenfrequency), THIRD_LAST * scene.cutoff
 
 
 def _shape(rough: Roughness) -> tuple[float, float, float]:
@@ -154,22 +170,22 @@ def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: Fl
     the oscillation in region 3, frequencies beyond the roughness."""
     scene, omega = spectrum.scene, spectrum.omega
     between = math.sqrt(scene.eigenfrequency * scene.jump)
-    apart = scene.jump > APART * scene.eigenfrequency
-    values = {PEAK: regions.peak(omega, hann, between if apart else APART * scene.eigenfrequency)}
+    apart = scene.jump > PEAK_LAST * scene.eigenfrequency
+    values = {PEAK: regions.peak(omega, hann, between if apart else PEAK_LAST * scene.eigenfrequency)}
     if apart:
         values[JUMP] = regions.jump(omega, hann, between, 0.5 * scene.cutoff)
     expect = expected(spectrum, jumps)
-    first, last = (beyond * scene.cutoff for beyond in BEYOND)
-    last = min(last, BEFORE * float(omega[-1]))
-    if first < BEFORE * last:
+    first, last = (beyond * scene.cutoff for beyond in FLOOR_BAND)
+    last = min(last, THIRD_LAST * float(omega[-1]))
+    if first < THIRD_LAST * last:
         values[FLOOR] = regions.floor_level(omega, plain, first, last, spectrum.time_step)
         values[FLOOR + PREDICTED] = values[FLOOR] / expect[FLOOR]
     first, last = _third(scene, values.get(JUMP, scene.jump))
     period = expect[PERIOD]
-    if last - first < FEWEST_PERIODS * period:
+    if last - first < MIN_PERIODS * period:
         return values
     values[SLOPE] = regions.slope(omega, hann, first, last, period)
-    values[PERIOD] = regions.oscillation_period(omega, hann, first, HALF * scene.cutoff, FEWEST_PERIODS)
+    values[PERIOD] = regions.oscillation_period(omega, hann, first, OSCILLATION_LAST * scene.cutoff, MIN_PERIODS)
     power = regions.power_level(omega, hann, first, last, period, expect[SLOPE])
     if FLOOR in values:
         values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from validation.analysis.spectra import RecordSpectra, band_levels, one_third_octaves, record_spectra
 from validation.analysis.statistics import Estimate, jackknife_error
-from validation.cases.wheel.features import linear_spectrum
+from validation.cases.wheel.features import linear_force_3d, linear_spectrum, resonator
 from validation.cases.wheel.half_space import COARSER, FINEST, LOOSE, TIGHT, Result3D
 from validation.engine.engine import Outcome
 from validation.simulation.wheel_on_springs import InputSpectrum
-from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
 FloatArray = NDArray[np.float64]
@@ -100,16 +99,8 @@ class WheelLevels:
 
     def _density_3d(self, omega: FloatArray) -> FloatArray:
         scene = self.result.case.scene
-        assert scene.rail is not None  # strips refuse a smooth rail
-        force = rolling_theory.force_spectrum_3d(
-            omega / scene.speed,
-            scene.rail.spectrum.c2d,
-            edges=scene.rail.edges,
-            contact_radius=scene.contact_radius,
-            modulus=scene.modulus,
-        )
-        resonator = wheel_theory.acceleration_over_force(omega, eigenfrequency=scene.eigenfrequency, mass=scene.mass)
-        return wheel_theory.over_frequency(force, speed=scene.speed) * resonator
+        force = linear_force_3d(scene, omega / scene.speed)
+        return wheel_theory.over_frequency(force, speed=scene.speed) * resonator(scene, omega)
 
     @cached_property
     def bem(self) -> FloatArray:

@@ -7,9 +7,9 @@ import numpy as np
 from validation.analysis.evidence import Number, Table, columns, numbers_with, table_of, with_reference
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL
+from validation.cases.wheel.features import linear_force_3d
 from validation.cases.wheel.half_space_levels import GEIKE, LINEAR_3D, MODELS, WheelLevels, hann_spectra
 from validation.cases.wheel.half_space_numbers import LEVEL, ONE_DECIBEL, OVER_BEM, SLOPE
-from validation.theory import rolling as rolling_theory
 
 THREE_DECIBELS = 3.0
 
@@ -51,49 +51,38 @@ def shown_regions(levels: WheelLevels, numbers: list[Number]) -> Table:
     scene = levels.result.case.scene
     plateau = numbers_with(numbers, LEVEL, OVER_BEM[LINEAR_3D], range="region 2")
     slope = numbers_with(numbers, SLOPE)
-    rows = [
-        (
-            "1",
-            "excited by the start alone: no wave of the track has the resonance",
-            f"excited by the roughness: its force there over that at q_min v₀ is {_at_resonance(levels):+.1f} dB",
-            f"{scene.eigenfrequency:.4g}",
-        ),
-        (
-            "2",
-            "leakage and nonlinearity",
-            f"real; linear theory over it {with_reference(plateau[0])}" if plateau else "no band holds it",
-            f"up to {scene.jump:.4g}",
-        ),
-        (
-            "3",
-            "-2 H - 3, and zeros of sin²(q a)",
-            f"slope {with_reference(slope[0])}; zeros filled" if slope else "too few periods for a slope; zeros filled",
-            f"up to {scene.cutoff:.4g}",
-        ),
-        (
-            "4",
-            "leakage; the roughness ends at q_max",
-            f"beyond 1.3 q_max v₀ {_beyond(levels):.0f} dB below the last tenth of the roughness, with Hann's window",
-            f"from {scene.cutoff:.4g}",
-        ),
+    resonance = f"excited by the roughness: its force there over that at q_min v₀ is {_at_resonance(levels):+.1f} dB"
+    beyond = f"beyond 1.3 q_max v₀ {_beyond(levels):.0f} dB below the last tenth of the roughness, with Hann's window"
+    on_springs = [
+        "excited by the start alone: no wave of the track has the resonance",
+        "leakage and nonlinearity",
+        "-2 H - 3, and zeros of sin²(q a)",
+        "leakage; the roughness ends at q_max",
     ]
-    names = ("region", "on springs of Geike's spectrum", "by boundary elements", "ω [rad/s]")
-    return table_of("the regions in three dimensions", [dict(zip(names, row, strict=True)) for row in rows])
+    by_boundary_elements = [
+        resonance,
+        f"real; linear theory over it {with_reference(plateau[0])}" if plateau else "no band holds it",
+        f"{f'slope {with_reference(slope[0])}' if slope else 'too few periods for a slope'}; zeros filled",
+        beyond,
+    ]
+    eigenfrequency, jump, cutoff = (f"{omega:.4g}" for omega in (scene.eigenfrequency, scene.jump, scene.cutoff))
+    return Table(
+        "the regions in three dimensions",
+        {
+            "region": ["1", "2", "3", "4"],
+            "on springs of Geike's spectrum": on_springs,
+            "by boundary elements": by_boundary_elements,
+            "ω [rad/s]": [eigenfrequency, f"up to {jump}", f"up to {cutoff}", f"from {cutoff}"],
+        },
+    )
 
 
 def _at_resonance(levels: WheelLevels) -> float:
     """C_F of linear theory in 3D at the resonance over that where the band begins [dB]."""
     scene = levels.result.case.scene
-    rough = scene.rail
-    assert rough is not None  # strips refuse a smooth rail
-    force = rolling_theory.force_spectrum_3d(
-        np.array([scene.eigenfrequency / scene.speed, 1.001 * rough.q_min]),
-        rough.spectrum.c2d,
-        edges=rough.edges,
-        contact_radius=scene.contact_radius,
-        modulus=scene.modulus,
-    )
-    return POWER_DECIBEL * math.log(force[0] / force[1])
+    edge = 1.001 * scene.jump / scene.speed
+    at_resonance, behind = linear_force_3d(scene, np.array([scene.eigenfrequency / scene.speed, edge]))
+    return POWER_DECIBEL * math.log(at_resonance / behind)
 
 
 def _beyond(levels: WheelLevels) -> float:

@@ -5,7 +5,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Verdict, if_confirmed, with_reference
 from validation.cases.wheel import spectrum_tables as tables
-from validation.cases.wheel.features import APART, BREAK, FLOOR, JUMP, PEAK, PERIOD, PREDICTED, SLOPE, Spectrum
+from validation.cases.wheel.features import BREAK, FLOOR, JUMP, PEAK, PEAK_LAST, PERIOD, PREDICTED, SLOPE, Spectrum
 from validation.cases.wheel.spectrum import WheelResult, WheelSpectrum, run
 from validation.cases.wheel.spectrum_numbers import FEATURES, exact_numbers, feature_numbers, level_over_linear
 from validation.engine.engine import Outcome
@@ -58,11 +58,11 @@ def _method(scene: WheelScene, spectrum: Spectrum) -> str:
 
 
 def _hidden(scene: WheelScene) -> list[str]:
-    if scene.jump > APART * scene.eigenfrequency:
+    if scene.jump > PEAK_LAST * scene.eigenfrequency:
         return []
     return [
         f"q_min v₀ = {scene.jump:.4g} rad/s is not above ω_eigen = {scene.eigenfrequency:.4g} rad/s by a factor of "
-        f"{APART:g}: the roughness excites the resonance itself, and there is no plateau and no jump to find."
+        f"{PEAK_LAST:g}: the roughness excites the resonance itself, and there is no plateau and no jump to find."
     ]
 
 

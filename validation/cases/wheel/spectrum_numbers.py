@@ -63,7 +63,7 @@ def _tolerance(key: str, reference: float, line: float) -> tuple[float, str]:
 
 def feature_numbers(name: str, spectrum: Spectrum) -> dict[str, Number]:
     """The features that the spectrum of a scene has, beside theory."""
-    values, theory = features.found(spectrum), features.expected(spectrum)
+    values, theory = features.measured(spectrum), features.expected(spectrum)
     line, numbers = float(spectrum.omega[0]), {}
     for key in (key for key in FEATURES if key in values):
         reference = theory.get(key, 1.0)
@@ -88,7 +88,7 @@ def feature_numbers(name: str, spectrum: Spectrum) -> dict[str, Number]:
 def level_over_linear(spectrum: Spectrum) -> Iterator[Number]:
     """Level of region 3 over (14.12) through the resonator, up to where the floor is far below; if there is room."""
     scene, omega = spectrum.scene, spectrum.omega
-    first = max(1.2 * scene.jump, features.CLEAR * scene.eigenfrequency)
+    first = max(1.2 * scene.jump, features.FREE_MASS * scene.eigenfrequency)
     last = min(0.7 * features.expected(spectrum)[BREAK], 0.9 * scene.cutoff)
     if first >= last:
         return
