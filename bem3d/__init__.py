@@ -1,6 +1,7 @@
 """Boundary elements for the frictionless contact of a rough elastic half-space in three dimensions.
 
-All lengths in metres, forces in newtons; ``modulus`` is always the contact modulus E*.
+All lengths are in metres, forces in newtons; ``modulus`` is always the contact modulus E*. Examples assume
+``import bem3d`` and ``import numpy as np``.
 """
 
 from bem3d.contact import Contact, Status, residual

@@ -18,7 +18,13 @@ Level = tuple[tuple[int, int], int]
 
 
 class Status(StrEnum):
-    """How a solve ended. Only CONVERGED is a solution."""
+    """How a solve ended: only CONVERGED is a solution.
+
+    Examples
+    --------
+    >>> [str(status) for status in bem3d.Status]
+    ['converged', 'iteration limit', 'stagnation', 'breakdown']
+    """
 
     CONVERGED = "converged"
     ITERATION_LIMIT = "iteration limit"
@@ -28,14 +34,36 @@ class Status(StrEnum):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Contact(ReadOnly):
-    """Pressure between a rigid indenter and a half-space, with the problem it answers and the tolerance asked for.
+    """Solution of a contact problem, with the problem. Made by `solve`, `indent` and `solve_polonsky_keer`.
 
-    pressure: never negative, shape of the half-space [Pa]; approach: [m];
-    history: residual at the start and after each iteration; the last, like the first, from a fresh operator
-    application on the pressure as returned;
-    operator_applications: all of them on this grid or a window of it, start included; coarse_applications: those on the
-    coarser grids that gave the start, (shape, count) of each; status: see `Status`;
-    frozen: this contact pressed as a flat punch, where `indent` was asked for the stiffness.
+    Attributes
+    ----------
+    problem : Problem
+        What was solved.
+    tolerance : float
+        Residual that was asked for.
+    pressure : ndarray, shape of the half-space
+        Pressure on each cell, nowhere negative [Pa].
+    approach : float
+        Rigid approach [m].
+    history : tuple of float
+        Residual at the start and after each iteration. The first and the last are of a fresh operator application.
+    operator_applications : int
+        Applications of u = K p on this grid or a window of it, the start included.
+    status : Status
+        How the solve ended.
+    coarse_applications : tuple of ((int, int), int)
+        Shape of each coarser grid that gave the start, and the applications on it.
+    frozen : FixedContactArea or None
+        Contact area pressed as a flat punch, where `indent` was asked for the stiffness.
+
+    Examples
+    --------
+    >>> x = (np.arange(65) - 32) * 5e-5
+    >>> gap = (x[:, None] ** 2 + x**2) / (2 * 0.1)
+    >>> contact = bem3d.solve(bem3d.HalfSpace(shape=(65, 65), spacing=5e-5, modulus=1e11), gap, approach=5e-6)
+    >>> print(f"F = {contact.force:.1f} N, k = {contact.stiffness():.3g} N/m, {contact.status}")
+    F = 471.5 N, k = 1.42e+08 N/m, converged
     """
 
     problem: Problem = field(repr=False)
@@ -88,14 +116,24 @@ class Contact(ReadOnly):
         return self.status is Status.CONVERGED
 
     def stiffness(self, *, tolerance: float | None = None) -> float:
-        """k = dF/dd of the discrete problem: the frozen contact pressed by a unit approach [N/m].
+        """Incremental stiffness k = dF/dd of the discrete problem, at a constant contact area.
 
-        tolerance: relative residual of the linear solve; the relative error of k is some tens of times its square, see
-        `press_frozen`. None takes what `indent` has brought along, and where it has not, solves to the tolerance that
-        `press_frozen` has of itself. A stiffness
-        that was brought along with a residual below the tolerance is not solved for again, any other is, at each call.
-        Zero where there is no contact; infinite for a periodic half-space in full contact.
-        Raises ConvergenceError if this contact is no solution, or the linear solve fails.
+        Parameters
+        ----------
+        tolerance : float, optional
+            Relative residual of the linear solve; the relative error of k is some tens of times its square. By
+            default the stiffness that `indent` has stored, or else the default of `solve_fixed_area`. A stored
+            stiffness is also used where its residual is within the tolerance; any other is solved for at each call.
+
+        Returns
+        -------
+        float
+            k [N/m]. Zero without contact, infinite for the full contact of a periodic half-space.
+
+        Raises
+        ------
+        ConvergenceError
+            If this contact is no solution, or the linear solve fails.
         """
         if not self.converged:
             raise ConvergenceError(f"no stiffness of a contact that ended with: {self.status}", self.history, self)
@@ -108,15 +146,31 @@ class Contact(ReadOnly):
 
 
 def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
-    """How far a pressure is from solving the contact problem, dimensionless.
+    """Residual of a pressure in the contact problem, dimensionless.
 
-    With s = approach - min(gap), the deepest geometric overlap: the larger of sum(p |w|) / (s sum(p)), a gap under
-    pressure, and max(-w) / s, a penetration.
-    One deep spike makes s large and this figure small for all the rest: ask for a finer tolerance there.
-    Without overlap, s <= 0, only p = 0 is a solution (residual 0), anything else is none (infinite).
+    Parameters
+    ----------
+    pressure : ndarray
+        Pressure on each cell, nowhere negative [Pa].
+    w : ndarray, shape of ``pressure``
+        gap + u - approach, with u of a fresh operator application on that pressure [m].
+    overlap : float
+        s = approach - min(gap), the deepest geometric overlap [m].
 
-    pressure: [Pa]; overlap: s [m];
-    w: gap + u - approach, with u from a fresh operator application on that pressure [m].
+    Returns
+    -------
+    float
+        The larger of sum(p abs(w)) / (s sum(p)), a gap under pressure, and max(-w) / s, a penetration. Without
+        overlap, s <= 0, it is 0 for p = 0 and infinite otherwise. It is NaN where a pressure is not finite.
+
+    Notes
+    -----
+    One high spike makes s large, and the residual of all other cells small: ask for a smaller tolerance there.
+
+    Examples
+    --------
+    >>> bem3d.residual(np.array([2.0, 0.0]), np.array([1e-9, 3e-9]), 1e-6)
+    0.001
     """
     total = float(pressure.sum())
     if not math.isfinite(total):

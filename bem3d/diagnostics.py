@@ -16,19 +16,57 @@ HIGHEST_PRESSURE = 0.1
 
 
 class ContactWarning(UserWarning):
-    """A contact problem was solved as it was put, but it may not be the one that was meant."""
+    """A contact may not be the one that was meant.
+
+    The base class of the warnings of `bem3d`: the problem was solved as it was given.
+
+    Examples
+    --------
+    >>> issubclass(bem3d.EdgeWarning, bem3d.ContactWarning)
+    True
+    """
 
 
 class ResolutionWarning(ContactWarning):
-    """Too few cells: in the contact, in the part of it that counts, or to the shortest wave."""
+    """Too few cells: in the contact, in the part of it that counts, or to the shortest wave.
+
+    A flat punch of N < 32 cells is too soft by about 0.3 / sqrt(N).
+
+    Examples
+    --------
+    >>> body = bem3d.HalfSpace(shape=(9, 9), spacing=1e-4, modulus=1e11)
+    >>> gap = np.ones((9, 9))
+    >>> gap[4, 4] = 0.0
+    >>> contact = bem3d.solve_polonsky_keer(body, gap, force=1.0)
+    >>> contact.diagnostics[0][0].__name__
+    'ResolutionWarning'
+    """
 
 
 class EdgeWarning(ContactWarning):
-    """The contact reaches the edge of a grid in free space. No cause for doubt under a punch that ends there."""
+    """The contact reaches the edge of a grid in free space. It may be ignored for a punch that ends there.
+
+    Examples
+    --------
+    >>> body = bem3d.HalfSpace(shape=(8, 8), spacing=1e-4, modulus=1e11)
+    >>> contact = bem3d.solve_polonsky_keer(body, np.zeros((8, 8)), force=1.0)
+    >>> contact.diagnostics[0][0].__name__
+    'EdgeWarning'
+    """
 
 
 class UnitsWarning(ContactWarning):
-    """A load that a body of these units would hardly bear, as where a modulus in GPa is taken as one in Pa."""
+    """A pressure or an approach that no elastic body bears: the units are probably wrong.
+
+    As where a modulus in GPa is given for one in Pa.
+
+    Examples
+    --------
+    >>> body = bem3d.HalfSpace(shape=(8, 8), spacing=1e-4, modulus=100.0, periodic=True)
+    >>> contact = bem3d.solve_polonsky_keer(body, np.zeros((8, 8)), force=1.0)
+    >>> contact.diagnostics[0][0].__name__
+    'UnitsWarning'
+    """
 
 
 Diagnostic = tuple[type[ContactWarning], str]

@@ -31,18 +31,58 @@ def indent(
     max_iterations: int = 500,
     raise_on_failure: bool = True,
 ) -> Iterator[Contact]:
-    """Press along a path of approaches [m] or forces [N], in the order given, loading or unloading; one Contact each.
+    """Press along a path of approaches or forces, loading or unloading, one contact each.
 
-    half_space, gap, tolerance, max_iterations, raise_on_failure: as those of `solve`;
-    stiffness: have each contact bring its `frozen` contact along, which `Contact.stiffness()` then reads, good to about
-    1e-7; it costs about half as many operator applications as the contact itself, and saves a few of the next one's.
+    Parameters
+    ----------
+    half_space, gap
+        As in `solve`.
+    approaches, forces : sequence of float, optional
+        Either approaches [m] or forces [N], in the order of the path.
+    stiffness : bool, optional
+        Whether each contact stores its ``frozen`` contact area, whose stiffness is good to about 1e-7. It costs about
+        half as many operator applications as the contact itself, and saves a few of the next one's.
+    tolerance, max_iterations, raise_on_failure
+        As in `solve`.
 
-    Each contact starts from the last: along its tangent p + f dd where the stiffness is asked for, along the secant
-    through the last two otherwise. That saves the coarser grids of a cold start, and iterations as far as the loads lie
-    close: where a third of the contact is new, most of the work is new too.
-    Raises as `solve` does, input out of range before the first contact; warns as `solve` does, once of a kind, at the
-    first load that gives cause: `Contact.diagnostics` has them for each.
+    Yields
+    ------
+    Contact
+        The contact at each load. It starts from the last along the tangent p + f dd where the stiffness is known, or
+        else along the secant through the last two.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of range, before the first contact.
+    ConvergenceError
+        If a contact does not reach the tolerance.
+
+    Warns
+    -----
+    ResolutionWarning, EdgeWarning, UnitsWarning
+        As `solve`, once of a kind, at the first load that gives cause. ``Contact.diagnostics`` has them for each.
+
+    Examples
+    --------
+    >>> x = (np.arange(65) - 32) * 5e-5
+    >>> body = bem3d.HalfSpace(shape=(65, 65), spacing=5e-5, modulus=1e11)
+    >>> contacts = bem3d.indent(body, (x[:, None] ** 2 + x**2) / (2 * 0.1), approaches=[2e-6, 4e-6], stiffness=True)
+    >>> [f"{contact.stiffness():.3g} N/m" for contact in contacts]
+    ['9.01e+07 N/m', '1.26e+08 N/m']
     """
+    problems = _problems(half_space, gap, approaches, forces)
+    tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
+    return _path(problems, stiffness, tolerance, max_iterations, raise_on_failure)
+
+
+def _problems(
+    half_space: HalfSpace,
+    gap: ArrayLike,
+    approaches: Sequence[float] | FloatArray | None,
+    forces: Sequence[float] | FloatArray | None,
+) -> list[Problem]:
+    """One a load, checked before the first is solved."""
     if (approaches is None) == (forces is None):
         raise ValueError(f"give either approaches or forces, got approaches={approaches} and forces={forces}")
     name, path = ("approaches", approaches) if forces is None else ("forces", forces)
@@ -53,9 +93,7 @@ def indent(
     first, *others = [accepted(f"{name}[{i}]", value) for i, value in enumerate(values.tolist())]
     prescribed = {"approach": first} if forces is None else {"force": first}
     begin = Problem(half_space=half_space, gap=cast(FloatArray, gap), **prescribed)
-    problems = [begin, *(begin.under(value) for value in others)]
-    tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
-    return _path(problems, stiffness, tolerance, max_iterations, raise_on_failure)
+    return [begin, *(begin.under(value) for value in others)]
 
 
 def _path(

@@ -1,4 +1,7 @@
-"""The constrained conjugate gradient of Polonsky and Keer, as published: the baseline of every speed chart."""
+"""The constrained conjugate gradient of Polonsky and Keer, as published: the baseline of every speed chart.
+
+Source: Polonsky and Keer, Wear 231 (1999) 206.
+"""
 
 import math
 from collections.abc import Iterator
@@ -38,13 +41,42 @@ def solve_polonsky_keer(
     max_iterations: int = 2000,
     raise_on_failure: bool = True,
 ) -> Contact:
-    """`solve` by the constrained conjugate gradient of Polonsky and Keer: two operator applications an iteration.
+    """`solve` by the constrained conjugate gradient of Polonsky and Keer, as published.
 
-    Cold start on the whole grid, no preconditioner. Arguments and errors as those of `solve`, without `start`; no
-    warnings; every entry of the
-    history is from a fresh operator application. Its iterations grow with the grid, and at a prescribed force it can
-    cycle on a spike over a plateau of equal heights.
-    Source: Polonsky and Keer, Wear 231 (1999) 206.
+    Parameters
+    ----------
+    half_space, gap, approach, force, tolerance, max_iterations, raise_on_failure
+        As in `solve`.
+
+    Returns
+    -------
+    Contact
+        Every entry of its history is of a fresh operator application.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of range.
+    ConvergenceError
+        If the tolerance is not reached.
+
+    Notes
+    -----
+    Two operator applications an iteration, a cold start on the whole grid, no preconditioner, no warnings [1]_. The
+    number of iterations grows with the grid. At a prescribed force the iteration can cycle on a spike over a plateau
+    of equal heights. ``bem3d.solve_plain`` in 0.1.
+
+    References
+    ----------
+    .. [1] Polonsky and Keer, Wear 231 (1999) 206.
+
+    Examples
+    --------
+    >>> gap = 1e-8 * np.random.default_rng(1).standard_normal((32, 32))
+    >>> body = bem3d.HalfSpace(shape=(32, 32), spacing=1e-5, modulus=1e9, periodic=True)
+    >>> contact = bem3d.solve_polonsky_keer(body, gap, force=0.1)
+    >>> bool(abs(contact.approach - bem3d.solve(body, gap, force=0.1).approach) < 1e-12)
+    True
     """
     problem = Problem(half_space=half_space, gap=cast(FloatArray, gap), approach=approach, force=force)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)

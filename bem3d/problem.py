@@ -9,14 +9,35 @@ from bem3d.read_only import ReadOnly, kept
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Problem(ReadOnly):
-    """p >= 0, w = gap + u - approach >= 0, p w = 0, at a given approach or a given force.
+    """Statement of a contact problem: p >= 0, w = gap + u - approach >= 0, p w = 0.
 
-    half_space: the operator u = K p and its grid; gap: undeformed separation, shape of the half-space, a bump makes
-    it smaller [m]; exactly one of approach, of any sign [m], and force, zero or positive [N].
+    Parameters
+    ----------
+    half_space : HalfSpace
+        Operator u = K p and its grid.
+    gap : array_like, shape of the half-space
+        Undeformed separation; a bump makes it smaller [m].
+    approach : float, optional
+        Rigid approach, of any sign [m]. Give either ``approach`` or ``force``.
+    force : float, optional
+        Normal force, zero or positive [N].
 
-    A periodic half-space measures the approach from its mean plane, so an approach of mean(gap) or more is full
-    contact under an unknown mean pressure: it is refused, give the force.
-    Raises ValueError or TypeError naming the argument that is out of range.
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of range; the message names it.
+
+    Notes
+    -----
+    A periodic half-space counts the approach from its mean plane. At mean(gap) or more the contact is full under an
+    unknown mean pressure: such an approach is refused, give the force.
+
+    Examples
+    --------
+    >>> body = bem3d.HalfSpace(shape=(4, 4), spacing=1e-4, modulus=1e11)
+    >>> problem = bem3d.Problem(half_space=body, gap=np.full((4, 4), 1e-6), approach=3e-6)
+    >>> print(f"contact begins at {problem.first_touch:.3g} m, overlap {problem.depth:.3g} m")
+    contact begins at 1e-06 m, overlap 2e-06 m
     """
 
     half_space: HalfSpace

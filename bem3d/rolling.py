@@ -10,17 +10,34 @@ from bem3d.checks import FloatArray, count, positive
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import warn
 from bem3d.read_only import ReadOnly
-from bem3d.rolling_contact import RollingContact, hertz_approach
+from bem3d.rolling_contact import RollingContact, WheelContact, hertz_approach
 from bem3d.rolling_frame import Track
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rolling(ReadOnly):
-    """A wheel at each cell of its track: arrays of shape (positions,).
+    """Wheel at each cell of its track. Made by `roll`.
 
-    force: normal force [N]; approach: of the sphere to the plane of height zero [m]; area: of the cells in contact
-    [m^2]; residual: see `contact.residual`, with the deepest overlap in the frame that was solved on;
-    operator_applications: of u = K p; converged: whether the residual is within the tolerance.
+    Attributes
+    ----------
+    force : ndarray, shape (positions,)
+        Normal force [N].
+    approach : ndarray, shape (positions,)
+        Approach to the plane of height zero [m].
+    area : ndarray, shape (positions,)
+        Area of the cells in contact [m^2].
+    residual : ndarray, shape (positions,)
+        `residual` of each contact, over the deepest overlap in the frame.
+    operator_applications : ndarray of int, shape (positions,)
+        Applications of u = K p.
+    converged : ndarray of bool, shape (positions,)
+        Whether the residual is within the tolerance.
+
+    Examples
+    --------
+    >>> rolled = bem3d.roll(np.zeros((64, 48)), spacing=1e-4, radius=0.5, modulus=2e11, force=500.0, positions=2)
+    >>> rolled.force, rolled.converged
+    (array([500., 500.]), array([ True,  True]))
     """
 
     force: FloatArray
@@ -44,25 +61,41 @@ def roll(
     max_iterations: int = 500,
     raise_on_failure: bool = True,
 ) -> Rolling:
-    """Roll a rigid sphere along a rough strip, quasi-statically, at a prescribed approach or a prescribed force.
+    """Roll a rigid sphere along a rough strip, quasi-statically.
 
-    The wheel stands over the centres of the cells along axis 0, one after the other, and over the middle of axis 1.
+    Parameters
+    ----------
+    height : array_like, shape (nx, ny)
+        Heights, positive towards the sphere, periodic along axis 0 [m].
+    spacing, radius, modulus
+        As in `Track`.
+    approach, force : float, optional
+        Either the approach to the plane of height zero [m] or the normal force [N], both positive.
+    positions : int, optional
+        Number of positions, from the first cell of axis 0. All by default.
+    tolerance, max_iterations, raise_on_failure
+        As in `solve`, at each position. The tolerance is about the relative error of the force.
 
-    height: shape (nx, ny), positive towards the sphere, periodic along axis 0, longer and wider than the contact of the
-    smooth sphere [m]; spacing: one number or (dx, dy) [m];
-    radius: R [m]; modulus: E* [Pa]; exactly one of approach, counted from where the smooth sphere touches the plane of
-    height zero [m], and force [N], both positive; positions: how many, from the first, all by default;
-    tolerance: the residual to reach; max_iterations: a position;
-    raise_on_failure: False goes on, from a cold start, after a position that did not converge, and marks it.
-    The error of the force is about as large as the tolerance, as a part of the force of the smooth sphere: it is of
-    first order in the residual, and larger at single positions of very rough strips (see the race of the report).
+    Returns
+    -------
+    Rolling
+        Force, approach, area and convergence, with the wheel over the centre of each cell and the middle of axis 1.
 
-    Each position is solved on a frame of cells that moves with the wheel, from the pressures of the two before, carried
-    along with the ground. The frame is proved large enough at each position, see `Frame.outside`, and grows where it is
-    not.
-    Warns of a smooth contact of few cells (ResolutionWarning), and of one as `solve` does (UnitsWarning).
-    Raises ValueError or TypeError for input out of range, and where the contact reaches the edge of the strip;
-    ConvergenceError with the history of the position that did not converge.
+    Raises
+    ------
+    ValueError, TypeError, ConvergenceError
+        As `solve`, and if the contact reaches the edge of the strip.
+
+    Warns
+    -----
+    ResolutionWarning, UnitsWarning
+        As `solve`, of the smooth sphere.
+
+    Examples
+    --------
+    >>> rolled = bem3d.roll(np.zeros((64, 48)), spacing=1e-4, radius=0.5, modulus=2e11, approach=2e-6, positions=3)
+    >>> print(f"{rolled.force.mean():.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
+    534 N, by Hertz 533 N
     """
     track = Track(height=cast(FloatArray, height), spacing=spacing, radius=radius, modulus=modulus)
     if (approach is None) == (force is None):
@@ -73,17 +106,23 @@ def roll(
     warn(track.diagnose(smooth))
     stop = track.height.shape[0] if positions is None else count("positions", positions)
     wheel = RollingContact(track, tolerance=tolerance, max_iterations=max_iterations)
-    along = []
-    for position in range(stop):
-        contact = wheel.press(position, prescribed) if force is None else wheel.carry(position, prescribed)
-        if raise_on_failure and not contact.converged:
-            raise ConvergenceError(
-                f"residual {contact.residual:.3g} after {len(contact.history) - 1} iterations ({contact.status}), "
-                f"asked for {wheel.tolerance:g}, at position {position}",
-                contact.history,
-                contact,
-            )
-        along.append(contact)
+    press = wheel.press if force is None else wheel.carry
+    return _joined([_accepted(press(i, prescribed), i, wheel, raise_on_failure) for i in range(stop)])
+
+
+def _accepted(contact: WheelContact, position: int, wheel: RollingContact, raise_on_failure: bool) -> WheelContact:
+    """The contact at a position; ConvergenceError where it is no solution and that matters."""
+    if contact.converged or not raise_on_failure:
+        return contact
+    raise ConvergenceError(
+        f"residual {contact.residual:.3g} after {len(contact.history) - 1} iterations ({contact.status}), "
+        f"asked for {wheel.tolerance:g}, at position {position}",
+        contact.history,
+        contact,
+    )
+
+
+def _joined(along: list[WheelContact]) -> Rolling:
     return Rolling(
         force=np.array([contact.force for contact in along]),
         approach=np.array([contact.approach for contact in along]),
@@ -103,7 +142,34 @@ def rolling_force(
     approach: float,
     tolerance: float = 1e-5,
 ) -> FloatArray:
-    """The normal force of a sphere that rolls along a rough strip at a fixed approach, shape (nx,) [N]: see `roll`."""
+    """Force of a sphere that rolls along a rough strip at a given approach.
+
+    Parameters
+    ----------
+    height, spacing, radius, modulus, approach, tolerance
+        As in `roll`.
+
+    Returns
+    -------
+    ndarray, shape (nx,)
+        ``roll(...).force`` [N], which may be written to.
+
+    Raises
+    ------
+    ValueError, TypeError, ConvergenceError
+        As `roll`.
+
+    Warns
+    -----
+    ResolutionWarning, UnitsWarning
+        As `roll`.
+
+    Examples
+    --------
+    >>> force = bem3d.rolling_force(np.zeros((32, 32)), spacing=1e-4, radius=0.5, modulus=2e11, approach=1e-6)
+    >>> force.shape
+    (32,)
+    """
     rolled = roll(height, spacing=spacing, radius=radius, modulus=modulus, approach=approach, tolerance=tolerance)
     return rolled.force.copy()
 

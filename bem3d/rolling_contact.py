@@ -23,7 +23,26 @@ REFIT = 32
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WheelContact:
-    """The wheel at one position: force [N], approach [m], area [m^2]; how the solve went, as in `Contact`."""
+    """Wheel at one position of its track. Made by `RollingContact`.
+
+    Attributes
+    ----------
+    force, approach, area : float
+        Normal force [N], approach to the plane of height zero [m], area of the cells in contact [m^2].
+    history : tuple of float
+        Residual at the start and after each iteration.
+    operator_applications : int
+        Applications of u = K p.
+    status : Status
+        How the solve ended.
+
+    Examples
+    --------
+    >>> track = bem3d.Track(height=np.zeros((64, 48)), spacing=1e-4, radius=0.5, modulus=2e11)
+    >>> contact = bem3d.RollingContact(track).press(0, 2e-6)
+    >>> contact.converged, contact.residual <= 1e-5
+    (True, True)
+    """
 
     force: float
     approach: float
@@ -44,13 +63,30 @@ class WheelContact:
 
 
 class RollingContact:
-    """A sphere over a strip, solved position by position, at any approach or force.
+    """Sphere over a rough strip, solved position by position, at any approach or force.
 
-    A position that follows the one before is begun from the pressures of the last two, any other from none.
-    On a frame that moves with the wheel, cells that may touch are iterated on; a fresh application then gives the
-    residual of all cells of the frame. Outside of it no cell can touch, see `Frame.outside`, or else it grows.
+    Parameters
+    ----------
+    track : Track
+        Strip, sphere and modulus.
+    tolerance : float, optional
+        `residual` to reach, in (0, 1).
+    max_iterations : int, optional
+        Limit at each position, at least 1.
 
-    track: strip, sphere and modulus; tolerance, max_iterations: as those of `roll`.
+    Notes
+    -----
+    A position that follows the one before is begun from the pressures of the last two, any other from none. Cells
+    that may touch are iterated on, in a frame that moves with the wheel. A fresh application gives the residual of
+    all cells of the frame. Outside of the frame no cell can touch, see `rolling_frame.Frame.outside`, or else the
+    frame grows.
+
+    Examples
+    --------
+    >>> track = bem3d.Track(height=np.zeros((64, 48)), spacing=1e-4, radius=0.5, modulus=2e11)
+    >>> wheel = bem3d.RollingContact(track)
+    >>> print(f"{wheel.press(0, 2e-6).force:.0f} N, then {wheel.carry(1, 500.0).approach:.3g} m")
+    534 N, then 1.91e-06 m
     """
 
     def __init__(self, track: Track, *, tolerance: float = 1e-5, max_iterations: int = 500):
@@ -62,19 +98,67 @@ class RollingContact:
         self._position = -1
 
     def press(self, position: int, approach: float) -> WheelContact:
-        """The contact over a cell of the track, a whole number, at an approach of any sign [m]."""
+        """Contact over a cell of the track, at an approach.
+
+        Parameters
+        ----------
+        position : int
+            Number of the cell along axis 0, from zero.
+        approach : float
+            Approach to the plane of height zero, of any sign [m].
+
+        Returns
+        -------
+        WheelContact
+            Converged or not, see its ``status``.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If an argument is out of range, or the contact reaches the edge of the strip.
+        """
         d = finite("approach", approach)
         return self._solve(count("position", position, least=0), d, lambda touch, _: Load(overlap=d - touch))
 
     def carry(self, position: int, force: float) -> WheelContact:
-        """The contact over a cell of the track, a whole number, under a force above zero [N]."""
+        """Contact over a cell of the track, under a force.
+
+        Parameters
+        ----------
+        position : int
+            Number of the cell along axis 0, from zero.
+        force : float
+            Normal force, positive [N].
+
+        Returns
+        -------
+        WheelContact
+            Converged or not, see its ``status``.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If an argument is out of range, or the contact reaches the edge of the strip.
+        """
         d = hertz_approach(self.track, positive("force", force))
         return self._solve(count("position", position, least=0), d, lambda _, area: Load(total=force / area))
 
     def pressure(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Of the last position: x ahead of the wheel, y beside its middle [m], and the pressure at both [Pa].
+        """Pressure at the last position.
 
-        Raises ValueError where there is none, or where it did not converge.
+        Returns
+        -------
+        x : ndarray, shape (n,)
+            Distance ahead of the wheel [m].
+        y : ndarray, shape (m,)
+            Distance from the middle of the strip [m].
+        pressure : ndarray, shape (n, m)
+            Pressure at both [Pa].
+
+        Raises
+        ------
+        ValueError
+            If no position is solved, or the last one has not converged.
         """
         if not self._past:
             raise ValueError("there is no pressure: no position is solved, or the last one has not converged")

@@ -20,16 +20,34 @@ Spans = tuple[Span, Span]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Track(ReadOnly):
-    """A strip of roughness, periodic along axis 0, and a rigid sphere of which the lowest point runs along its middle.
+    """Rough strip, periodic along axis 0, and a rigid sphere that rolls along its middle.
 
-    Where the contact reaches further along the track than a period, it meets the same roughness again.
+    Parameters
+    ----------
+    height : array_like, shape (nx, ny)
+        Heights, positive towards the sphere [m].
+    spacing : float or tuple of float
+        Sides of a cell, one number or (dx, dy) [m].
+    radius : float
+        Radius R of the sphere [m].
+    modulus : float
+        Contact modulus E* [Pa].
 
-    Undeformed separation at the wheel's position i, at the centres of the cells:
-    g = ((x - x_i)^2 + y^2) / (2 R) - h(x, y),  y = 0 in the middle of axis 1.
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument is out of range; the message names it.
 
-    height: shape (nx, ny), positive towards the other body [m]; spacing: one number or (dx, dy) [m]; radius: R [m];
-    modulus: E* [Pa].
-    Raises ValueError or TypeError naming the argument that is out of range.
+    Notes
+    -----
+    With the sphere at x_i the gap is g = ((x - x_i)^2 + y^2) / (2 R) - h(x, y), y = 0 in the middle of axis 1. A
+    contact longer than a period meets the same roughness again.
+
+    Examples
+    --------
+    >>> track = bem3d.Track(height=np.zeros((64, 32)), spacing=1e-4, radius=0.5, modulus=2e11)
+    >>> track.steps, track.highest
+    ((0.0001, 0.0001), 0.0)
     """
 
     height: FloatArray

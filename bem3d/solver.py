@@ -1,4 +1,10 @@
-"""The contact problem: approach or force in, Contact out."""
+"""The contact problem: approach or force in, Contact out.
+
+Method: nested iteration (`nested`), on the smallest window that holds the contact (`window_solve`), by projected and
+preconditioned conjugate directions (`projected_cg`), one operator application an iteration. The published iteration
+of Polonsky and Keer, the baseline, is `solve_polonsky_keer`. A modulus of exactly 1 is taken as the unit of pressure:
+its pressures are not checked for their units.
+"""
 
 from typing import cast
 
@@ -26,24 +32,48 @@ def solve(
     max_iterations: int = 500,
     raise_on_failure: bool = True,
 ) -> Contact:
-    """Press a rigid indenter on the half-space: p >= 0, w = gap + u - approach >= 0, p w = 0.
+    """Press a rigid indenter onto an elastic half-space: p >= 0, w = gap + u - approach >= 0, p w = 0.
 
-    half_space: operator and grid; gap: undeformed separation, shape of the half-space, a bump makes it smaller [m];
-    exactly one of approach, of any sign [m], and force, zero or positive [N]. In free space the approach counts from
-    where gap is zero; periodic, from the mean plane of the deformed surface, so that it must stay below mean(gap),
-    beyond which the contact is full and only a force says how hard it is pressed;
-    start: a previous contact, or a pressure, zero or positive, shape of the half-space [Pa];
-    tolerance: the residual to reach, see `contact.residual`, in (0, 1); max_iterations: at least 1, on each grid;
-    raise_on_failure: False returns an unconverged Contact, whose status says so.
+    Parameters
+    ----------
+    half_space : HalfSpace
+        Operator u = K p and its grid.
+    gap : array_like, shape of the half-space
+        Undeformed separation; a bump makes it smaller [m].
+    approach, force : float, optional
+        Either the rigid approach, of any sign [m], or the normal force, zero or positive [N]. In free space the
+        approach counts from where the gap is zero, periodic from the mean plane of the deformed surface.
+    start : Contact or array_like, shape of the half-space, optional
+        A previous contact, or a pressure, to begin with [Pa].
+    tolerance : float, optional
+        `residual` to reach, in (0, 1).
+    max_iterations : int, optional
+        Limit on each grid, at least 1.
+    raise_on_failure : bool, optional
+        Whether to raise, or to return a contact whose ``status`` says that it is no solution.
 
-    An approach at or below min(gap), or zero force, is no contact: zero pressure, zero stiffness.
-    Raises ValueError or TypeError for input out of range, ConvergenceError with the history if not converged.
-    Warns, with numbers, of few cells in contact or a lone one that carries much (ResolutionWarning), and of contact at
-    the edge of a free-space grid (EdgeWarning). Asks whether the units are right (UnitsWarning) where the mean pressure
-    is above 0.1 E*, or the approach, from the first touch, is more than the longer side of the grid. A modulus of
-    exactly 1 is taken as the unit of pressure, which may be anything: it is not asked about its pressure.
-    Method: nested iteration (`nested`), on the smallest window (`window`), by projected and preconditioned conjugate
-    directions (`projected_cg`), one operator application an iteration. The textbook's: `solve_plain`.
+    Returns
+    -------
+    Contact
+        Pressure, approach, and how the solve went.
+
+    Raises
+    ------
+    ValueError, TypeError, ConvergenceError
+        If an argument is out of range, a periodic approach not below mean(gap), or the tolerance not reached.
+
+    Warns
+    -----
+    ResolutionWarning, EdgeWarning, UnitsWarning
+        If few cells touch, the contact reaches the edge of a free grid, or the mean pressure is above 0.1 E*.
+
+    Examples
+    --------
+    >>> x = (np.arange(65) - 32) * 5e-5
+    >>> body = bem3d.HalfSpace(shape=(65, 65), spacing=5e-5, modulus=1e11)
+    >>> contact = bem3d.solve(body, (x[:, None] ** 2 + x**2) / (2 * 0.1), approach=5e-6)
+    >>> print(f"{contact.force:.1f} N, by Hertz {4 / 3 * 1e11 * np.sqrt(0.1) * 5e-6**1.5:.1f} N")
+    471.5 N, by Hertz 471.4 N
     """
     problem = Problem(half_space=half_space, gap=cast(FloatArray, gap), approach=approach, force=force)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)

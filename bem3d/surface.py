@@ -1,4 +1,10 @@
-"""Rough surfaces drawn from an isotropic spectrum."""
+"""Rough surfaces drawn from an isotropic spectrum.
+
+h(x) = sum_q B(q) exp(i (q.x + phi(q))), B(q) = 2 pi sqrt(C_2D(q) / (Lx Ly)), over the waves q = 2 pi (i/Lx, j/Ly) of
+the grid, with phi uniform in [0, 2 pi) and phi(-q) = -phi(q); Popov and Hess, (14.8) in two dimensions. The mean
+square is sum_q (2 pi)^2 C_2D / (Lx Ly) over these waves, which tends to int C_2D d^2q. It exceeds that integral where
+the band begins at 2 pi / L.
+"""
 
 from typing import Literal
 
@@ -24,49 +30,82 @@ def rough_surface(
     rms: float | None = None,
     amplitudes: Literal["fixed", "gaussian"] = "fixed",
 ) -> FloatArray:
-    """A periodic rough surface with a given isotropic spectrum.
+    """Draw a periodic rough surface with a given isotropic spectrum.
 
-    h(x) = sum_q B(q) exp(i (q.x + phi(q))),  B(q) = 2 pi sqrt(C_2D(|q|) / (Lx Ly)),  x at the cell centres,
-    over the waves q = 2 pi (i/Lx, j/Ly) of the grid, phi uniform in [0, 2 pi), phi(-q) = -phi(q), mean zero.
+    Parameters
+    ----------
+    c2d : callable
+        Isotropic spectrum C_2D(q) [m^4] of arrays of q > 0 [rad/m], zero beyond the smaller Nyquist wavenumber.
+    shape, spacing
+        Cells (nx, ny) and their sides, as in `HalfSpace`.
+    rng : numpy.random.Generator
+        Source of the phases. The same seed on a finer grid of the same proportions draws the same surface.
+    rms : float, optional
+        Root mean square height [m], exact (fixed) or expected (Gaussian). By default the amplitudes follow the
+        spectrum.
+    amplitudes : {"fixed", "gaussian"}, optional
+        "fixed": every draw has the mean square of the sum over its waves. "gaussian": only the expectation has.
 
-    c2d: callable of |q|, zero beyond the Nyquist wavenumber of the coarser axis [m^4]; shape: cells (nx, ny);
-    spacing: one number or (dx, dy) [m]; rng: the source of the phases. Waves take their random numbers in rings
-    from the longest to the shortest, so that the same generator on a finer grid of the same proportions draws the same
-    surface, if its band ends below the Nyquist wavenumber of the coarser one.
-    amplitudes: "fixed", where every draw has the same mean square, sum_q (2 pi)^2 C_2D / (Lx Ly), exactly (the sum
-    over the waves of the grid, which exceeds int C_2D d^2q when the band begins at 2 pi / L); or "gaussian", where
-    only its expectation has.
-    rms: where given, all amplitudes are scaled by one constant that makes this root mean square exact (fixed) or
-    expected (gaussian) [m].
-    Returns height, shape (nx, ny), positive towards the other body [m].
-    Warns (ResolutionWarning) of a shortest wave of fewer than four cells.
-    Raises ValueError for a spectrum with power beyond the Nyquist wavenumber, or none that the grid can carry;
-    MemoryError for a shape that this machine has no room for.
-    Source: Popov and Hess, (14.8) in two dimensions; sum B^2 must tend to int C_2D d^2q, which sets B.
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Heights at the centres of the cells, of mean zero, positive towards the other body [m].
+
+    Raises
+    ------
+    ValueError, TypeError, MemoryError
+        If the spectrum has power beyond the Nyquist wavenumber or none below, or an argument is out of range.
+
+    Warns
+    -----
+    ResolutionWarning
+        If the shortest wave has fewer than four cells.
+
+    Examples
+    --------
+    >>> def c2d(q):
+    ...     return np.where((q > 1e4) & (q < 1e5), q**-3.6, 0.0)
+    >>> height = bem3d.rough_surface(c2d, shape=(64, 64), spacing=1e-5, rng=np.random.default_rng(1), rms=1e-6)
+    >>> print(f"rms = {height.std():.4g} m")
+    rms = 1e-06 m
     """
     shape, steps = grid_shape(shape), grid_spacing(spacing)
+    _check_draw(rng, amplitudes)
+    fits("shape", f"{shape[0]} x {shape[1]}", BYTES_A_CELL * shape[0] * shape[1])
+    lengths = shape[0] * steps[0], shape[1] * steps[1]
+    i, j, q = _waves(shape, lengths)
+    values = _resolved(c2d, q, steps)
+    warn(diagnose_waves(values, q, steps))
+    variance = (2 * np.pi) ** 2 / (lengths[0] * lengths[1]) * values
+    spectrum = _amplitudes(variance, (j == 0) | (2 * j == shape[1]), rms) * _random_waves(i, j, shape, amplitudes, rng)
+    spectrum *= _half_a_cell(i, shape[0]) * _half_a_cell(j, shape[1])
+    return np.asarray(fft.irfft2(spectrum, shape, norm="forward"))
+
+
+def _waves(shape: tuple[int, int], lengths: tuple[float, float]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Numbers of waves along both axes, and wavenumbers, of the half spectrum of a real field."""
+    i = np.rint(fft.fftfreq(shape[0]) * shape[0])[:, np.newaxis]
+    j = np.arange(shape[1] // 2 + 1.0)[np.newaxis, :]
+    return i, j, 2 * np.pi * np.hypot(i / lengths[0], j / lengths[1])
+
+
+def _check_draw(rng: object, amplitudes: str) -> None:
     if not isinstance(rng, np.random.Generator):
         raise TypeError(f"rng must be a numpy.random.Generator, got {type(rng).__name__}")
     if amplitudes not in ("fixed", "gaussian"):
         raise ValueError(f'amplitudes must be "fixed" or "gaussian", got {amplitudes!r}')
-    fits("shape", f"{shape[0]} x {shape[1]}", BYTES_A_CELL * shape[0] * shape[1])
-    i = np.rint(fft.fftfreq(shape[0]) * shape[0])[:, np.newaxis]
-    j = np.arange(shape[1] // 2 + 1.0)[np.newaxis, :]
-    lengths = shape[0] * steps[0], shape[1] * steps[1]
-    q = 2 * np.pi * np.hypot(i / lengths[0], j / lengths[1])
-    values = _resolved(c2d, q, steps)
-    warn(diagnose_waves(values, q, steps))
-    variance = (2 * np.pi) ** 2 / (lengths[0] * lengths[1]) * values
-    # the half spectrum shows each wave once, but those of its first and Nyquist column with their mirror images
-    twice = np.where((j == 0) | (2 * j == shape[1]), 1, 2)
-    total = np.sum(twice * variance)
+
+
+def _amplitudes(variance: FloatArray, mirrored: NDArray[np.bool_], rms: float | None) -> FloatArray:
+    """Amplitudes of waves of these variances, scaled to the root mean square height.
+
+    mirrored: columns of the half spectrum that show waves with their mirror images; all others show each wave once.
+    """
+    total = np.sum(np.where(mirrored, 1, 2) * variance)
     if total == 0:
         raise ValueError("c2d has no power at any wave that shape and spacing can carry")
     scale = 1.0 if rms is None else positive("rms", rms) / np.sqrt(total)
-    spectrum = scale * np.sqrt(variance) * _random_waves(i, j, shape, amplitudes, rng)
-    spectrum *= _half_a_cell(i, shape[0]) * _half_a_cell(j, shape[1])
-    height: FloatArray = fft.irfft2(spectrum, shape, norm="forward")
-    return height
+    return np.asarray(scale * np.sqrt(variance))
 
 
 def _resolved(c2d: Spectrum, q: FloatArray, steps: tuple[float, float]) -> FloatArray:

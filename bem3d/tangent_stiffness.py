@@ -1,4 +1,4 @@
-"""The frozen contact: a known set of cells pressed as a flat punch. A linear problem, solved by conjugate gradients."""
+"""Incremental stiffness: a known set of cells pressed as a flat punch, a linear problem, by conjugate gradients."""
 
 from dataclasses import dataclass
 
@@ -13,9 +13,27 @@ from bem3d.window import Candidates, dot, smallest_box
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FixedContactArea(ReadOnly):
-    """Pressure under a unit approach of a fixed contact set [Pa/m], its stiffness [N/m] and how it was reached.
+    """Fixed contact area under a unit approach. Made by `solve_fixed_area`; ``bem3d.FrozenContact`` in 0.1.
 
-    history: relative residual |1 - K p| / |1| over the contact, before and after each iteration.
+    Attributes
+    ----------
+    pressure : ndarray, shape of the half-space
+        Pressure under a unit approach [Pa/m].
+    stiffness : float
+        k = dF/dd [N/m].
+    history : tuple of float
+        Relative residual of the linear solve, before and after each iteration.
+    operator_applications : int
+        Applications of u = K p.
+    converged : bool
+        Whether the tolerance is reached.
+
+    Examples
+    --------
+    >>> body = bem3d.HalfSpace(shape=(8, 8), spacing=1e-4, modulus=1e11)
+    >>> area = bem3d.solve_fixed_area(body, np.zeros((8, 8), dtype=bool))
+    >>> area.stiffness, area.iterations
+    (0.0, 0)
     """
 
     pressure: FloatArray
@@ -44,36 +62,48 @@ def solve_fixed_area(
     max_iterations: int = 500,
     raise_on_failure: bool = True,
 ) -> FixedContactArea:
-    """Press a fixed set of cells by a unit approach: K p = 1 on the contact, p = 0 elsewhere; k = dF/dd.
+    """Press a fixed set of cells by a unit approach: K p = 1 on the contact, p = 0 elsewhere.
 
-    For the discrete frictionless problem this is the incremental stiffness exactly, as long as no cell is about to
-    enter or leave the contact. k = (2 sum(p) - sum(p K p)) dx dy, the energy that p gains, whose relative error is ten
-    to some tens of times the residual squared (measured), growing slowly with the grid.
+    Parameters
+    ----------
+    half_space : HalfSpace
+        Operator u = K p and its grid.
+    contact : ndarray of bool, shape of the half-space
+        The cells in contact.
+    start : ndarray, shape of the half-space, optional
+        Pressure to begin with [Pa/m]; only its values on the contact count.
+    tolerance, max_iterations, raise_on_failure
+        As in `solve`; the residual is the relative one of the linear solve by preconditioned conjugate gradients.
 
-    contact: boolean, shape of the half-space; start: a pressure to begin with, same shape, of which the contact's part
-    is used [Pa/m]; tolerance: relative residual; max_iterations: of preconditioned conjugate gradients, one operator
-    application each, on the smallest window that holds the contact;
-    raise_on_failure: False returns an unconverged result, which says so.
-    Empty contact: zero stiffness. Full contact of a periodic half-space: infinite stiffness, since its mean plane
-    cannot yield.
-    Raises ValueError for a contact of another shape or type, ConvergenceError with the history if not converged.
+    Returns
+    -------
+    FixedContactArea
+        The incremental stiffness, exact for the discrete problem while no cell enters or leaves the contact. Zero for
+        an empty contact, infinite for the full contact of a periodic half-space.
+
+    Raises
+    ------
+    ValueError, ConvergenceError
+        If the contact has another shape or type, or the tolerance is not reached.
+
+    Notes
+    -----
+    k = (2 sum(p) - sum(p K p)) dx dy, the energy that p gains. Its relative error is ten to some tens of times the
+    squared residual, and grows slowly with the grid. ``bem3d.press_frozen`` in 0.1.
+
+    Examples
+    --------
+    >>> body = bem3d.HalfSpace(shape=(32, 32), spacing=1e-3 / 32, modulus=1e11)
+    >>> k = bem3d.solve_fixed_area(body, np.ones(body.shape, dtype=bool)).stiffness
+    >>> print(f"{k / (1e11 * 1e-3):.3f} E* L for a square punch")
+    1.140 E* L for a square punch
     """
-    contact = np.asarray(contact)
-    if contact.dtype != np.bool_ or contact.shape != half_space.shape:
-        raise ValueError(
-            f"contact must be a boolean array of shape {half_space.shape}, got {contact.dtype} {contact.shape}"
-        )
+    contact = _checked(contact, half_space)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     if start is not None:
         start = field("start", start, half_space.shape)
     if not contact.any() or (half_space.periodic and contact.all()):
-        return FixedContactArea(
-            pressure=np.zeros(half_space.shape),
-            stiffness=np.inf if contact.any() else 0.0,
-            history=(0.0,),
-            operator_applications=0,
-            converged=True,
-        )
+        return _at_once(half_space, np.inf if contact.any() else 0.0)
     result = _conjugate_gradients(half_space, contact, start, tolerance, max_iterations)
     if raise_on_failure and not result.converged:
         raise ConvergenceError(
@@ -83,6 +113,26 @@ def solve_fixed_area(
             result,
         )
     return result
+
+
+def _checked(contact: BoolArray, half_space: HalfSpace) -> BoolArray:
+    contact = np.asarray(contact)
+    if contact.dtype != np.bool_ or contact.shape != half_space.shape:
+        raise ValueError(
+            f"contact must be a boolean array of shape {half_space.shape}, got {contact.dtype} {contact.shape}"
+        )
+    return contact
+
+
+def _at_once(half_space: HalfSpace, stiffness: float) -> FixedContactArea:
+    """What needs no iteration: no contact, or the full contact of a periodic half-space."""
+    return FixedContactArea(
+        pressure=np.zeros(half_space.shape),
+        stiffness=stiffness,
+        history=(0.0,),
+        operator_applications=0,
+        converged=True,
+    )
 
 
 def _conjugate_gradients(

@@ -1,4 +1,9 @@
-"""Rough profiles drawn from a spectrum."""
+"""Rough profiles drawn from a spectrum.
+
+h(x) = sum_q B(q) exp(i (q x + phi(q))), B(q) = sqrt(2 pi C_1D(q) / L), over all waves q = 2 pi j / L, with phi
+uniform in [0, 2 pi) and phi(-q) = -phi(q); Popov and Hess, (14.8), and (14.9) with the root over all of it. The mean
+square is sum_q 2 pi C_1D(q) / L over these waves. That exceeds int C_1D dq where the band begins at 2 pi / L.
+"""
 
 from typing import Literal
 
@@ -27,18 +32,16 @@ def rough_profile(
     Parameters
     ----------
     c1d : callable
-        Two-sided power spectral density C_1D(q) [m^3] of wavenumbers q > 0 [rad/m]: an array in, an array of the same
-        shape out. It must vanish beyond the Nyquist wavenumber, pi points / L.
-    length : float
-        Period L [m].
-    points : int
-        Number of heights, at least 2.
+        Two-sided power spectral density C_1D(q) [m^3] of wavenumbers q > 0 [rad/m], for arrays. It must vanish beyond
+        the Nyquist wavenumber, pi points / L.
+    length, points : float, int
+        Period L [m]; number of heights, at least 2.
     rng : numpy.random.Generator
         Source of the phases. Waves take their random numbers in the order of q, so that the same seed on more points
         draws the same profile.
     rms : float, optional
-        Root mean square height [m]. All amplitudes are scaled by one number that makes it exact (fixed amplitudes) or
-        expected (Gaussian amplitudes). By default the amplitudes follow the spectrum.
+        Root mean square height [m], exact (fixed) or expected (Gaussian). By default the amplitudes follow the
+        spectrum.
     amplitudes : {"fixed", "gaussian"}, optional
         "fixed": every draw has the mean square of the sum over its waves. "gaussian": only the expectation has.
 
@@ -49,13 +52,8 @@ def rough_profile(
 
     Raises
     ------
-    ValueError
-        If the spectrum has power beyond the Nyquist wavenumber, or none at a wave of the period, or an argument is
-        out of range.
-    TypeError
-        If ``c1d`` is not callable, or ``rng`` is not a generator.
-    MemoryError
-        If ``points`` need more memory than there is.
+    ValueError, TypeError, MemoryError
+        If the spectrum has power beyond the Nyquist wavenumber or none below, or an argument is out of range.
 
     Warns
     -----
@@ -64,22 +62,14 @@ def rough_profile(
 
     Notes
     -----
-    h(x) = sum_q B(q) exp(i (q x + phi(q))), B(q) = sqrt(2 pi C_1D(q) / L), over all waves q = 2 pi j / L, with phi
-    uniform in [0, 2 pi) and phi(-q) = -phi(q) [1]_. The mean square is sum_q 2 pi C_1D(q) / L over these waves. That
-    exceeds int C_1D dq where the band begins at 2 pi / L.
-
-    References
-    ----------
-    .. [1] Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, (14.8), and (14.9)
-       with the root over all of it.
+    Waves of the amplitudes sqrt(2 pi C_1D / L) and random phases; Popov and Hess, (14.8) and (14.9).
 
     Examples
     --------
     >>> rough = mdr.SelfAffine(hurst=0.8, q_min=1e4, q_max=1e5, rms=1e-6)
     >>> height = mdr.rough_profile(rough.c1d, length=2e-3, points=512, rng=np.random.default_rng(1), rms=rough.rms)
-    >>> height.shape, print(f"rms = {height.std():.4g} m")
+    >>> print(f"rms = {height.std():.4g} m")
     rms = 1e-06 m
-    ((512,), None)
     """
     length, points = positive("length", length), whole("points", points, least=2)
     _check_draw(rng, amplitudes)

@@ -1,4 +1,9 @@
-"""The wheel on the spring foundation: contact force along a periodic rough track."""
+"""The wheel on the spring foundation: contact force along a periodic rough track.
+
+At a given force the approach is found by Newton's method: the force is convex and piecewise linear in the approach.
+Where rounding keeps Newton's method from an end, the springs are sorted. Springs that must touch enter by prefix
+sums, and springs that cannot touch are left out.
+"""
 
 import math
 from typing import Literal
@@ -38,21 +43,16 @@ def roll(
     ----------
     height : array_like, shape (points,)
         Heights of the periodic track, positive towards the wheel [m].
-    spacing : float
-        Distance dx of the springs [m].
-    radius : float
-        Radius R of the wheel, whose profile is x^2 / R [m].
-    modulus : float
-        Contact modulus E* [Pa].
+    spacing, radius, modulus : float
+        Distance dx of the springs [m], radius R of the wheel [m], contact modulus E* [Pa].
     approach : float or array_like, shape (points,), optional
         Approach of the smooth wheel to the plane of height zero [m]: one positive number, or one of any sign at each
         point. Give either ``approach`` or ``force``.
     force : float, optional
         Normal force, positive [N].
     contact : {"one-sided", "full", "linear"}, optional
-        "one-sided": springs do not pull. "full": all springs within the Hertz radius a = sqrt(R d) of the smooth
-        wheel, and no others. "linear": the filter of the same radius, with the transfer function 2 E* sin(q a) / q
-        from height to force.
+        "one-sided": springs do not pull. "full": all springs within the Hertz radius a = sqrt(R d), and no others.
+        "linear": the filter with the transfer function 2 E* sin(q a) / q from height to force.
 
     Returns
     -------
@@ -61,40 +61,25 @@ def roll(
 
     Raises
     ------
-    ValueError
-        If a value is out of range, the track is not longer than the contact of the smooth wheel, or the wheel
-        overlaps more than 2^28 springs on a side.
-    TypeError
-        If an argument is not a real number.
+    ValueError, TypeError
+        If a value is out of range, or the track is not longer than the contact of the smooth wheel.
 
     Warns
     -----
-    SpringResolutionWarning
-        If the contact of the smooth wheel has fewer than 16 springs.
+    SpringResolutionWarning, SpringUnitsWarning
+        If the contact of the smooth wheel has fewer than 16 springs, or is larger than the wheel.
     LinearityWarning
         If roughness moves the ends of a "full" or "linear" contact by too much.
-    SpringUnitsWarning
-        If the radius of contact is larger than the wheel.
 
     Notes
     -----
-    F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0) [1]_.
-
-    At a given force the approach is found by Newton's method: the force is convex and piecewise linear in the
-    approach. Where rounding keeps Newton's method from an end, the springs are sorted. Springs that must touch enter
-    by prefix sums, and springs that cannot touch are left out. If roughness makes the contact longer than the track,
-    it meets the same roughness again.
-
-    References
-    ----------
-    .. [1] Popov and Hess, Method of Dimensionality Reduction in Contact Mechanics and Friction, (14.2), (14.5),
-       (14.11).
+    F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0); Popov and Hess, (14.2), (14.5), (14.11). A contact
+    longer than the track meets the same roughness again.
 
     Examples
     --------
     >>> track = 1e-7 * np.cos(2 * np.pi * np.arange(256) / 64)
-    >>> wheel = {"spacing": 1e-4, "radius": 0.5, "modulus": 2e11, "approach": 2e-6}
-    >>> rolled = mdr.roll(track, **wheel)
+    >>> rolled = mdr.roll(track, spacing=1e-4, radius=0.5, modulus=2e11, approach=2e-6)
     >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
     499.3 to 567.0 N
     """

@@ -1,4 +1,15 @@
-"""The input spectrum with which a wheel on springs has the force level of the half-space."""
+"""The input spectrum with which springs have, for rolling, the force level of the half-space.
+
+C_1D(q) = int_{-inf}^{inf} e(s a) / e(q a) C_2D(s) dk, s^2 = q^2 + k^2, e(t) = 1 / (1 + t^2).
+
+A wave of wavenumber s that crosses the track at an angle appears along it as a longer wave q. On the half-space its
+force goes as sin^2(s a) / s^2; that of the springs goes as sin^2(q a) / q^2. Averaged over their oscillation both go
+from a^2 for long waves to 1 / (2 s^2) for short ones; a^2 e stands for that average. The result is exact in level
+where both waves are long (then it is the line trace) or both short (then it is the integral of q^2 / s^2 C_2D, the
+default). For an unbounded power law the default is Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)) times Geike's spectrum.
+Between these limits it is a compromise. Where s a >> 1 and q a << 1 it is 3 dB too high; e = 1 / (1 + 2 t^2) would be
+right there, and 3 dB too low where waves of s a = 1 appear so.
+"""
 
 import math
 from collections.abc import Sequence
@@ -37,25 +48,15 @@ def rolling_spectrum(
 
     Raises
     ------
-    ValueError
-        If a value is out of range.
-    TypeError
-        If ``c2d`` is not callable.
+    ValueError, TypeError
+        If a value is out of range, or ``c2d`` is not callable.
 
     Notes
     -----
-    C_1D(q) = int_{-inf}^{inf} e(s a) / e(q a) C_2D(s) dk, s^2 = q^2 + k^2, e(t) = 1 / (1 + t^2).
-
-    A wave of wavenumber s that crosses the track at an angle appears along it as a longer wave q. On the half-space
-    its force goes as sin^2(s a) / s^2; that of the springs goes as sin^2(q a) / q^2. Averaged over their oscillation
-    both go from a^2 for long waves to 1 / (2 s^2) for short ones; a^2 e stands for that average. The result is exact
-    in level where both waves are long (then it is the line trace) or both short (then it is the integral of q^2 / s^2
-    C_2D, the default). For an unbounded power law the default is Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)) times
-    Geike's spectrum. Between these limits it is a compromise. Where s a >> 1 and q a << 1 it is 3 dB too high; e = 1
-    / (1 + 2 t^2) would be right there, and 3 dB too low where waves of s a = 1 appear so.
-
-    Source: linear elasticity of a circular contact of constant radius, by reciprocity with the flat punch; derived
-    here.
+    C_1D(q) = int_{-inf}^{inf} e(s a) / e(q a) C_2D(s) dk, s^2 = q^2 + k^2, e(t) = 1 / (1 + t^2). The level is exact
+    for waves much longer or much shorter than the contact, and up to 3 dB off between; see the top of this file for
+    the reasons. Source: linear elasticity of a circular contact of constant radius, by reciprocity with the flat
+    punch.
 
     Examples
     --------

@@ -24,9 +24,8 @@ class RollingTrack(ReadOnlyArrays):
     Examples
     --------
     >>> rolled = mdr.roll(np.zeros(64), spacing=1e-4, radius=0.5, modulus=2e11, force=1e3)
-    >>> rolled.approach.shape, print(f"{rolled.approach[0]:.3g} m")
+    >>> print(f"{rolled.approach[0]:.3g} m")
     3.04e-06 m
-    ((64,), None)
     """
 
     force: FloatArray

@@ -81,10 +81,8 @@ def press_sphere(
 
     Parameters
     ----------
-    radius : float
-        Radius R of the sphere [m].
-    modulus : float
-        Contact modulus E* [Pa].
+    radius, modulus : float
+        Radius R of the sphere [m], contact modulus E* [Pa].
     approach : float, optional
         Rigid approach d [m]. Zero or less is no contact. Give either ``approach`` or ``force``.
     force : float, optional
@@ -97,10 +95,8 @@ def press_sphere(
 
     Raises
     ------
-    ValueError
+    ValueError, TypeError
         If both or neither of ``approach`` and ``force`` are given, or an argument is out of range.
-    TypeError
-        If an argument is not a real number.
 
     Warns
     -----

@@ -13,7 +13,7 @@ import validation
 
 PUBLIC = {
     f"{package.__name__}.{member.__name__}": member
-    for package in (mdr, validation)
+    for package in (mdr, bem3d, validation)
     for member in (getattr(package, name) for name in package.__all__)
     if callable(member)
 }
