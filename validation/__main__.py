@@ -36,7 +36,7 @@ CLOCKED = {
 
 
 class Exit(IntEnum):
-    """What the status of the command says."""
+    """Exit status of the command."""
 
     MET = 0
     CRITERION_FAILED = 1
@@ -57,19 +57,19 @@ def main(words: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
             return status
     except (Exception, KeyboardInterrupt) as error:
-        status, said = _ended(error, f"; {RESUME_NOTE}" if "out" in arguments else "")
+        status, sentence = _ended(error, f"; {RESUME_NOTE}" if "out" in arguments else "")
         if status is Exit.FAULT:
             traceback.print_exc()
         if isinstance(error, BrokenPipeError):
             # what is left in its buffer would be written, and fail, once more
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         with suppress(OSError):
-            print(printable(said, lines=isinstance(error, SceneError)), file=sys.stderr)
+            print(printable(sentence, lines=isinstance(error, SceneError)), file=sys.stderr)
         return status
 
 
 def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
-    """What the end of a command says to who called it, by status and in a sentence. kept: what is kept of a report."""
+    """Exit status and sentence for an exception that ended a command. kept: what is kept of a report."""
     if isinstance(error, TerminatedError):
         return Exit.TERMINATED, f"terminated{kept}"
     if isinstance(error, KeyboardInterrupt):
@@ -90,7 +90,7 @@ def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
 
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases and write their report."""
-    # what is timed is run last, when nothing else is; a race needs somebody to race against
+    # what is timed is run last, when nothing else is; a race needs other solvers
     timed = timed_here()
     everything = [*CASES, *timed] if arguments.scene is None else ["wheel"]
     names = list(dict.fromkeys(arguments.only or everything))
@@ -107,7 +107,7 @@ def clock(arguments: argparse.Namespace) -> Exit:
 
 
 def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
-    """The scene that was asked for, refused where no case takes one."""
+    """The scene of `--scene`, refused where a case takes none."""
     if arguments.scene is None:
         return None
     without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
@@ -182,8 +182,19 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=importlib.metadata.version("mdr-validation"))
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    making = commands.add_parser("report", help="run the cases and write a report folder")
-    making.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
+    _describe_report(commands.add_parser("report", help="run the cases and write a report folder"))
+    _describe_compare(
+        commands.add_parser("compare", help="select the cheapest model of a scene that meets a tolerance")
+    )
+    for name, what in CLOCKED.items():
+        _describe_timed(commands.add_parser(name, help=what), name)
+    listing = commands.add_parser("cases", help="list the cases, and the figure or question of each")
+    listing.set_defaults(command=cases)
+    return parser
+
+
+def _describe_report(making: argparse.ArgumentParser) -> None:
+    _add_profile(making)
     making.add_argument(
         "--only",
         nargs="+",
@@ -213,7 +224,9 @@ def _parser() -> argparse.ArgumentParser:
         f"example scene ({', '.join(bundled_wheels())}); alone, it means --only wheel",
     )
     making.set_defaults(command=report)
-    comparing = commands.add_parser("compare", help="select the cheapest model of a scene that meets a tolerance")
+
+
+def _describe_compare(comparing: argparse.ArgumentParser) -> None:
     comparing.add_argument(
         "scene",
         metavar="SCENE",
@@ -227,23 +240,23 @@ def _parser() -> argparse.ArgumentParser:
         "--want",
         choices=QUANTITIES,
         metavar="QUANTITY",
-        help=f"one of {', '.join(QUANTITIES)} (default: the first that the scene has); --want in 0.1",
+        help=f"one of {', '.join(QUANTITIES)} (default: the first that the scene has); --want until 0.3",
     )
     comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the roughness that is drawn (default: 0)")
     comparing.set_defaults(command=compare)
-    for name, what in CLOCKED.items():
-        timing = commands.add_parser(name, help=what)
-        timing.add_argument(
-            "--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)"
-        )
-        timing.add_argument(
-            "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"
-        )
-        timing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
-        timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None)
-    listing = commands.add_parser("cases", help="list the cases, and the figure or question of each")
-    listing.set_defaults(command=cases)
-    return parser
+
+
+def _describe_timed(timing: argparse.ArgumentParser, name: str) -> None:
+    _add_profile(timing)
+    timing.add_argument(
+        "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"
+    )
+    timing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
+    timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None)
+
+
+def _add_profile(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
 
 
 def _at_least(least: int) -> Callable[[str], int]:
