@@ -623,7 +623,7 @@ def test_a_number_is_told_with_the_parts_of_its_error():
     lines = summary(Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2))).splitlines()
     assert "stiffness = (2.00 ± 0.25)e7 N/m (12 %: model 10 %, grid 2 %, sample 0.3 %), by fake" in lines
     assert lines[-1].startswith("solves: about 5 s by their count")
-    assert lines[-1].endswith("the models that were not asked would have cost 10 s")
+    assert lines[-1].endswith("the models that were not solved would have cost 10 s")
 
 
 @pytest.mark.parametrize(("quantity", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])
@@ -636,7 +636,7 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     at = next(i for i, line in enumerate(lines) if "one-third octaves" in line)
     # 20 lg 1.123 = 1.0 dB
     assert lines[at].endswith("± 12 %, 1 dB, over all bands (model 10 %, grid 2 %, sample 0.3 %)")
-    assert lines[at + 1].split("  ")[-1].strip() == f"level [{unit}]"
+    assert lines[at + 1].split("  ")[-1].strip() == f"rms [{unit}]"
     rows = [[float(word) for word in line.split()] for line in lines[at + 2 : at + 2 + len(levels)]]
     for (q, turns, frequency, level), centre, expected in zip(rows, bands.centres, levels, strict=True):
         assert (q, level) == pytest.approx((centre, expected), rel=1e-3)

@@ -5,7 +5,7 @@ import math
 from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
-from validation.selection.compare import MOVING, Comparison
+from validation.selection.compare import MOVING, UNITS, Comparison
 from validation.selection.hierarchy import Candidate
 
 
@@ -68,7 +68,7 @@ def _result(comparison: Comparison, best: Candidate) -> list[str]:
     lines = [
         f"{comparison.quantity} by {best.name}, one-third octaves, root mean square in each, "
         f"± {_percent(answer.error)}, {_short(decibels)} dB, over all bands ({parts})",
-        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if speed else '':>10s}{'level [' + comparison.unit + ']':>16s}",
+        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if speed else '':>10s}{'rms [' + UNITS[comparison.quantity] + ']':>16s}",
     ]
     for q, level in zip(comparison.wavenumbers, answer.value, strict=True):
         frequency = f"{q * speed / (2 * math.pi):.4g}" if speed else ""
