@@ -35,7 +35,7 @@ def draw(evidence: Evidence) -> Figure:
 
 def draw_overlay(evidence: Evidence) -> Figure:
     """The relative deviation, a panel for each Hurst exponent."""
-    return _by_hurst(evidence, _overlay, "relative standard deviation", loc="lower left")
+    return _by_hurst(evidence, _overlay, "relative standard deviation")
 
 
 def _overlay(axis: Axes, evidence: Evidence, hurst: float) -> None:
@@ -45,7 +45,7 @@ def _overlay(axis: Axes, evidence: Evidence, hurst: float) -> None:
 
 def draw_difference(evidence: Evidence) -> Figure:
     """MDR over boundary elements: level by level, and decade by decade with the verdict."""
-    return _by_hurst(evidence, _difference, "deviation, MDR over boundary elements", loc="upper right")
+    return _by_hurst(evidence, _difference, "deviation, MDR over boundary elements")
 
 
 def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
@@ -77,7 +77,7 @@ def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
 
 def draw_mean(evidence: Evidence) -> Figure:
     """The mean stiffness, a panel for each Hurst exponent."""
-    return _by_hurst(evidence, _mean, "mean stiffness kbar = k / (E* L)", loc="lower right")
+    return _by_hurst(evidence, _mean, "mean stiffness kbar = k / (E* L)")
 
 
 def _mean(axis: Axes, evidence: Evidence, hurst: float) -> None:
@@ -94,7 +94,7 @@ def _mean(axis: Axes, evidence: Evidence, hurst: float) -> None:
 
 def draw_exponent(evidence: Evidence) -> Figure:
     """The local exponent, a panel for each Hurst exponent."""
-    return _by_hurst(evidence, _exponent, "exponent d ln k / d ln F", loc="lower left")
+    return _by_hurst(evidence, _exponent, "exponent d ln k / d ln F")
 
 
 def _exponent(axis: Axes, evidence: Evidence, hurst: float) -> None:
@@ -106,7 +106,7 @@ def _exponent(axis: Axes, evidence: Evidence, hurst: float) -> None:
     axis.set_ylim(0, 1)
 
 
-def _by_hurst(evidence: Evidence, one: Callable[[Axes, Evidence, float], None], quantity: str, *, loc: str) -> Figure:
+def _by_hurst(evidence: Evidence, one: Callable[[Axes, Evidence, float], None], quantity: str) -> Figure:
     """A panel for each Hurst exponent on common axes, four in a row, and the legend in the next one."""
     hursts = np.unique(evidence.table("curves")["H"])
     columns = min(4, hursts.size + 1)
