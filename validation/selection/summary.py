@@ -63,12 +63,12 @@ def _result(comparison: Comparison, best: Candidate) -> list[str]:
         shown = f"{_scaled(value, value * answer.error)} {comparison.unit}"
         return [f"{comparison.quantity} = {shown} ({_percent(answer.error)}: {parts}), by {best.name}"]
     assert not isinstance(comparison.scene, IndentationScene)  # which has one number
-    radius, speed = comparison.scene.contact_radius, comparison.scene.speed
+    radius, speed, unit = comparison.scene.contact_radius, comparison.scene.speed, UNITS[comparison.quantity]
     decibels = 20 * math.log10(1 + answer.error)
     lines = [
         f"{comparison.quantity} by {best.name}, one-third octaves, root mean square in each, "
         f"± {_percent(answer.error)}, {_short(decibels)} dB, over all bands ({parts})",
-        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if speed else '':>10s}{'rms [' + UNITS[comparison.quantity] + ']':>16s}",
+        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if speed else '':>10s}{f'rms [{unit}]':>16s}",
     ]
     for q, level in zip(comparison.wavenumbers, answer.value, strict=True):
         frequency = f"{q * speed / (2 * math.pi):.4g}" if speed else ""
