@@ -1,4 +1,4 @@
-"""A wheel rolled over isotropic roughness by either method: one solve of every case about it.
+"""A wheel rolled over isotropic roughness, by boundary elements and by springs.
 
 Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 1, and the force of Hertz is 4/3.
 """
@@ -26,7 +26,7 @@ K = TypeVar("K", bound=Hashable)
 
 HERTZ = 4 / 3
 TRACKS, STRIPS, BOOTSTRAP = 1, 2, 3
-"""The spawn keys under which each kind of roughness draws, and what is drawn again to tell the error of a sample."""
+"""Keys of random numbers: the roughness of both methods, and resampling."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +55,7 @@ class Strip:
     def surface(self) -> FloatArray:
         """Heights at the centres of the cells, all of them; the same surface on every grid."""
         with warnings.catch_warnings():
-            # grids are compared, and what they leave open is measured
+            # the error of the grid is measured
             warnings.simplefilter("ignore", bem3d.ResolutionWarning)
             unit = bem3d.rough_surface(
                 self.spectrum.c2d,
@@ -70,8 +70,7 @@ class Strip:
 def roll_strip(strip: Strip) -> Outcome:
     """Force over that of Hertz at each cell: boundary elements, and linear theory on the same surface.
 
-    area: in contact, over pi a^2; applications: of the operator; failed: positions that did not converge, whose force
-    is NaN; height: rms of the surface, over d.
+    applications: of the operator; failed: positions that did not converge, whose force is NaN.
     """
     surface, spacing = strip.surface(), 1 / strip.cells
     linear = linear_force(surface, spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
@@ -87,10 +86,8 @@ def roll_strip(strip: Strip) -> Outcome:
     return {
         "force": np.where(found.converged, found.force, np.nan) / HERTZ,
         "linear": linear / HERTZ,
-        "area": found.area / np.pi,
         "applications": found.operator_applications.astype(np.float64),
         "failed": np.array(float(np.count_nonzero(~found.converged))),
-        "height": np.array(surface.std()),
     }
 
 
@@ -127,7 +124,7 @@ class Tracks:
     """The first so many rough tracks on springs, rolled over at d = 1.
 
     spectrum: of the surface; input_spectrum: that of the tracks made for it; height: rms of the surface,
-    over d; length: over a; springs: to a contact radius; bands: in which levels are wanted; seed: zero or positive.
+    over d; length: over a; springs: to a contact radius; bands: of the levels; seed: zero or positive.
     """
 
     spectrum: PiecewisePowerLaw
@@ -153,9 +150,9 @@ class Tracks:
 
 
 def roll_tracks(tracks: Tracks) -> Outcome:
-    """One-sided springs, and the linear filter on the same tracks: what `levels_beside_linear` has of them.
+    """One-sided springs and the linear filter on the same tracks: their `levels_beside_linear`.
 
-    examined: springs of a position that were looked at one by one, of each track; wavenumber, spectrum: C_F itself of
+    examined: springs examined one by one at a position, mean of each track; wavenumber, spectrum: C_F itself of
     one-sided springs, the mean of all tracks.
     """
     points, spacing = round(tracks.length * tracks.springs), 1 / tracks.springs
@@ -165,7 +162,7 @@ def roll_tracks(tracks: Tracks) -> Outcome:
         roll = partial(mdr.roll, tracks.track(i), spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
         found = roll()
         with warnings.catch_warnings():
-            # how far the filter holds is what is asked
+            # the range of the filter is under test
             warnings.simplefilter("ignore", mdr.LinearityWarning)
             force[i], linear[i] = found.force / HERTZ, roll(contact="linear").force / HERTZ
         examined[i] = found.examined.mean()
@@ -180,7 +177,7 @@ def roll_tracks(tracks: Tracks) -> Outcome:
 
 
 def strip_levels(outcomes: list[Outcome], spacing: float, bands: Bands) -> Outcome:
-    """What `levels_beside_linear` has of strips; NaN in rows of strips with a position that did not converge."""
+    """`levels_beside_linear` of strips; NaN in rows of strips with a position that did not converge."""
     force, linear = (np.array([outcome[name] for outcome in outcomes]) for name in ("force", "linear"))
     return levels_beside_linear(force, linear, spacing, bands)
 

@@ -2,19 +2,14 @@
 
 import math
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 from scipy import stats
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
-from validation.cases.selection.model_selection import (
-    CHEAP,
-    MODELS,
-    CalibrationResult,
-    CalibrationTest,
-    run,
-)
+from validation.cases.selection.model_selection import CHEAP, MODELS, CalibrationResult, CalibrationTest, run
 from validation.cases.selection.random_scenes import KINDS, RANGES
 from validation.engine.engine import Outcome
 
@@ -26,7 +21,7 @@ Row = dict[str, object]
 
 def evidence(result: CalibrationResult) -> Evidence:
     """Coverage of the estimated errors, savings, and the estimates of each model by itself."""
-    case, scenes, claims = result.case, _scenes(result), _claims(result)
+    case, scenes, estimates = result.case, _scenes(result), _estimates(result)
     known = [(tolerance, _known(scenes.where(tolerance=tolerance))) for tolerance in case.tolerances]
     known = [(tolerance, table) for tolerance, table in known if table["kind"].size]
     return Evidence(
@@ -40,7 +35,7 @@ def evidence(result: CalibrationResult) -> Evidence:
             "the time of one, so that they are the same on every machine; all models that were solved count."
         ),
         numbers=tuple(number for tolerance, table in known for number in _numbers(tolerance, table)),
-        tables=(scenes, claims),
+        tables=(scenes, estimates),
         conclusions=tuple(_conclusion(tolerance, scenes, table) for tolerance, table in known),
         captions={
             "ladder": (
@@ -51,7 +46,7 @@ def evidence(result: CalibrationResult) -> Evidence:
             )
         },
         unconverged=result.unconverged,
-        page_tables=(_by_kind(case, scenes), _by_model(claims)),
+        page_tables=(_by_kind(case, scenes), _by_model(estimates)),
     )
 
 
@@ -156,16 +151,10 @@ def _scenes(result: CalibrationResult) -> Table:
     return table_of("scenes", rows)
 
 
-def _claims(result: CalibrationResult) -> Table:
+def _estimates(result: CalibrationResult) -> Table:
     """A row a scene and model below boundary elements."""
     rows: list[Row] = [
-        {
-            **named,
-            **_scene(outcome),
-            "model": name,
-            "estimated error": float(estimated),
-            "true error": float(true),
-        }
+        {**named, **_scene(outcome), "model": name, "estimated error": float(estimated), "true error": float(true)}
         for outcome, named in _trials(result)
         for name, estimated, true in zip(CHEAP, outcome["every estimated"], outcome["every true"], strict=True)
         if np.isfinite(true)
@@ -175,30 +164,29 @@ def _claims(result: CalibrationResult) -> Table:
 
 def _by_kind(case: CalibrationTest, scenes: Table) -> Table:
     rows: list[Row] = []
-    for kind in KINDS:
-        for tolerance in case.tolerances:
-            mine = scenes.where(kind=kind, tolerance=tolerance)
-            known = _known(mine)
-            if known["kind"].size:
-                rows.append(
-                    {
-                        "scene": kind,
-                        "tolerance": f"{tolerance:.0%}",
-                        "scenes": len(mine["kind"]),
-                        "tolerance met": int(mine["met"].sum()),
-                        "true error within the estimate": f"{_covered(known).mean():.0%}",
-                        "median saving": f"{np.median(known['saved']):.3g}",
-                        "selected models": _selected(mine),
-                    }
-                )
+    for kind, tolerance in product(KINDS, case.tolerances):
+        mine = scenes.where(kind=kind, tolerance=tolerance)
+        known = _known(mine)
+        if known["kind"].size:
+            rows.append(
+                {
+                    "scene": kind,
+                    "tolerance": f"{tolerance:.0%}",
+                    "scenes": len(mine["kind"]),
+                    "tolerance met": int(mine["met"].sum()),
+                    "true error within the estimate": f"{_covered(known).mean():.0%}",
+                    "median saving": f"{np.median(known['saved']):.3g}",
+                    "selected models": _selected(mine),
+                }
+            )
     return table_of("Estimated errors, and what selection saves", rows)
 
 
-def _by_model(claims: Table) -> Table:
+def _by_model(estimates: Table) -> Table:
     """Of every model below boundary elements on all scenes: a wide estimate of one must not hide a narrow one."""
     rows: list[Row] = []
     for name in CHEAP:
-        mine = claims.where(model=name)
+        mine = estimates.where(model=name)
         inside, ratio = _covered(mine), mine["true error"] / mine["estimated error"]
         if not inside.size:
             continue
@@ -219,7 +207,7 @@ CASE = Case(
     name="ladder",
     chapter=Chapter.SELECTION,
     place=1,
-    claim="The cheapest model that a scene needs can be chosen beforehand, with an honest error.",
+    claim="The cheapest model that a scene needs can be chosen beforehand, with an error estimate that holds.",
     answers="Calibration test of model selection on random scenes: estimated beside true error, and what was saved",
     quick=CalibrationTest(),
     full=CalibrationTest(punches=110, spheres=24, rolling=8, wheels=4, tolerances=(0.1, 0.3)),

@@ -14,7 +14,7 @@ SMALLEST = 1e-4
 
 def draw(evidence: Evidence) -> Figure:
     """True over estimated error of selected models, what selection saved, and the estimates of all cheap models."""
-    scenes, claims = evidence.table("scenes"), evidence.table("claims")
+    scenes, estimates = evidence.table("scenes"), evidence.table("claims")
     figure, (truth, saving, every) = panels(1, 3, height=3.9)
     met = scenes["met"] == 1
     first = scenes["tolerance"] == scenes["tolerance"].min()
@@ -24,7 +24,7 @@ def draw(evidence: Evidence) -> Figure:
         for some, face, label in ((mine & first, style["color"], model), (mine & ~first, "white", "_")):
             _dots(truth, scenes, some, "true error", {**style, "markerfacecolor": face, "label": label})
             _dots(saving, scenes, some, "saved", {**style, "markerfacecolor": face})
-        _dots(every, claims, claims["model"] == model, "true error", style)
+        _dots(every, estimates, estimates["model"] == model, "true error", style)
     for axis, title in ((truth, "selected models"), (every, "all cheap models")):
         ends = np.array([SMALLEST, 1.0])
         axis.plot(ends, ends, **GUIDE)

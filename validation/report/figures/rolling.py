@@ -8,9 +8,9 @@ from validation.analysis.evidence import Evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_1D, LINEAR_3D, MODELS, SPRINGS
 from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels
 
-FINE = 12
-"""Places in a cell of the map, for its border lines."""
-MOST = 12.0
+POINTS_PER_CELL = 12
+"""Of the map, for its border lines."""
+LARGEST = 12.0
 """dB at which the colours of the map end."""
 
 
@@ -21,8 +21,8 @@ def draw_line(evidence: Evidence) -> Figure:
     q = found["q a"]
     axis.plot(q, found["linear 3D"], color="#999999", linewidth=3.0, label="linear theory, 3D")
     axis.plot(q, found["springs"], color=MDR["color"], marker=".", markersize=2.5, linestyle="none", label="springs")
-    axis.plot(q, _seen(found["(14.12)"]), label="(14.12)", **EXACT)
-    axis.plot(q, _seen(found["(14.14)"]), label="(14.14)", **{**MDR_OTHER, "linewidth": 1.8})
+    axis.plot(q, _positive(found["(14.12)"]), label="(14.12)", **EXACT)
+    axis.plot(q, _positive(found["(14.14)"]), label="(14.14)", **{**MDR_OTHER, "linewidth": 1.8})
     top = float(found["linear 3D"].max())
     axis.set(xscale="log", yscale="log", ylim=(1e-7 * top, 6 * top))
     axis.set(xlabel="q a", ylabel="C_F / (F_Hertz² a (h/d)²)")
@@ -43,8 +43,8 @@ def draw(evidence: Evidence) -> Figure:
         mine = levels.where(**{"h/d": height})
         q = mine["q a"]
         axis.plot(q, mine[f"{LINEAR_3D} [dB]"], label="linear theory, 3D", **EXACT)
-        axis.plot(q, _above(mine[f"{LINEAR_1D} [dB]"], top), label="linear theory, 1D (14.12)", **MDR_OTHER)
-        axis.plot(q, _above(mine[f"{SPRINGS} [dB]"], top), label="springs", **MDR)
+        axis.plot(q, _on_axis(mine[f"{LINEAR_1D} [dB]"], top), label="linear theory, 1D (14.12)", **MDR_OTHER)
+        axis.plot(q, _on_axis(mine[f"{SPRINGS} [dB]"], top), label="springs", **MDR)
         bars = mine["± sample [dB]"] + mine["± grid [dB]"]
         axis.errorbar(q, mine["bem3d [dB]"], yerr=bars, capsize=2, label="boundary elements", **BEM)
         axis.axvspan(0.9 * q[0], 1.0, color="#000000", alpha=0.06, linewidth=0)
@@ -62,7 +62,7 @@ def draw(evidence: Evidence) -> Figure:
 
 
 def draw_coherence(evidence: Evidence) -> Figure:
-    """Coherence with linear theory, departure from it, and the force itself."""
+    """Coherence with linear theory, change of level by nonlinearity, and the force itself."""
     levels, forces = evidence.table("levels"), evidence.table("forces")
     heights = np.unique(levels["h/d"])
     figure, (coherence, departure, force) = panels(1, 3, width=10.5, height=3.6)
@@ -98,18 +98,18 @@ def draw_map(evidence: Evidence) -> Figure:
     figure, axes = panels(2, 2, height=6.6, sharex=True, sharey="all", within=place)
     heights, q = np.unique(levels["h/d"]), np.unique(levels["q a"])
     across = np.unique(np.append(levels["from"], levels["to"][-1]))
-    up = _borders(heights)
-    fine_q, fine_h = _inside(across), _inside(up)
+    up = _cell_edges(heights)
+    fine_q, fine_h = _points_in_cells(across), _points_in_cells(up)
     for axis, model in zip(axes, MODELS, strict=True):
         errors = levels[f"{model} over bem3d [dB]"].reshape(heights.size, q.size)
-        shown = np.clip(np.where(np.isfinite(errors), errors, -99.0), -MOST, MOST)
-        image = axis.pcolormesh(across, up, shown, cmap="PuOr", vmin=-MOST, vmax=MOST)
-        cells = np.kron(shown, np.ones((FINE, FINE)))
+        shown = np.clip(np.where(np.isfinite(errors), errors, -99.0), -LARGEST, LARGEST)
+        image = axis.pcolormesh(across, up, shown, cmap="PuOr", vmin=-LARGEST, vmax=LARGEST)
+        cells = np.kron(shown, np.ones((POINTS_PER_CELL, POINTS_PER_CELL)))
         for border, dash in ((1.0, "solid"), (3.0, "dashed")):
             levels_at = [-border, border]
             axis.contour(fine_q, fine_h, cells, levels=levels_at, colors="black", linestyles=dash, linewidths=1.1)
         # too low and too high are alike without colour
-        axis.contourf(fine_q, fine_h, cells, levels=[-2 * MOST, -3], colors="none", hatches=["//"])
+        axis.contourf(fine_q, fine_h, cells, levels=[-2 * LARGEST, -3], colors="none", hatches=["//"])
         axis.axvline(1.0, **{**GUIDE, "color": "#000000"})
         axis.set(xscale="log", yscale="log", title=model)
         axis.set_yticks(heights, [f"{height:g}" for height in heights])
@@ -125,27 +125,27 @@ def draw_map(evidence: Evidence) -> Figure:
     return figure
 
 
-def _borders(values: np.ndarray) -> np.ndarray:
-    """Of cells around values on a logarithmic axis."""
+def _cell_edges(values: np.ndarray) -> np.ndarray:
+    """Edges of cells around values on a logarithmic axis."""
     logs = np.log(values)
     middles = (logs[1:] + logs[:-1]) / 2
     first, last = logs[0] - (middles[0] - logs[0]), logs[-1] + (logs[-1] - middles[-1])
     return np.asarray(np.exp(np.concatenate([[first], middles, [last]])))
 
 
-def _inside(borders: np.ndarray) -> np.ndarray:
-    """Places in each cell, so that border lines run along cells and not across them."""
+def _points_in_cells(borders: np.ndarray) -> np.ndarray:
+    """So many in each cell that contours run along cells and not across them."""
     logs = np.log(borders)
-    part = (np.arange(FINE) + 0.5) / FINE
+    part = (np.arange(POINTS_PER_CELL) + 0.5) / POINTS_PER_CELL
     return np.asarray(np.exp((logs[:-1, np.newaxis] + np.diff(logs)[:, np.newaxis] * part).ravel()))
 
 
-def _seen(values: np.ndarray) -> np.ndarray:
+def _positive(values: np.ndarray) -> np.ndarray:
     return np.where(values > 0, values, np.nan)
 
 
-def _above(levels: np.ndarray, top: float) -> np.ndarray:
-    """What is on the axis."""
+def _on_axis(levels: np.ndarray, top: float) -> np.ndarray:
+    """Levels down to 60 dB below the top; NaN for others."""
     return np.where(levels > top - 60, levels, np.nan)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence
 from validation.cases.rolling.input_spectrum_numbers import NAMES
 from validation.report.style import graded, panels
 
@@ -12,7 +12,8 @@ STYLES = {
     name: {**graded(i, 3), "linestyle": dash}
     for i, (name, dash) in enumerate(zip(NAMES.values(), ("-", "--", "-."), strict=True))
 }
-ROOM = (-11.0, 11.0)
+DECIBELS = (-11.0, 11.0)
+"""Limits of the axis."""
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -22,11 +23,11 @@ def draw(evidence: Evidence) -> Figure:
     figure, axes = panels(2, 3, height=5.6, sharex=True, sharey="all")
     for axis, name in zip(axes, names, strict=True):
         mine = bands.where(spectrum=name)
-        _within(axis)
+        _shade_tolerance(axis)
         for label in NAMES.values():
-            axis.plot(mine["q a"], _seen(mine[f"{label} [dB]"]), label=label, **STYLES[label])
-        _dressed(axis, mine, f"{name}")
-    _labelled(figure, axes, 3, "(14.12) over linear theory in 3D [dB]")
+            axis.plot(mine["q a"], _on_axis(mine[f"{label} [dB]"]), label=label, **STYLES[label])
+        _format_axis(axis, str(name))
+    _label_axes(figure, axes, 3, "(14.12) over linear theory in 3D [dB]")
     return figure
 
 
@@ -39,14 +40,14 @@ def draw_springs(evidence: Evidence) -> Figure:
     )
     for axis, (height, name) in zip(axes, [(h, n) for h in heights for n in names], strict=True):
         mine = rolled.where(**{"spectrum": name, "h/d": height})
-        _within(axis)
+        _shade_tolerance(axis)
         for label in NAMES.values():
             bars = mine[f"{label} ± [dB]"]
             axis.errorbar(
-                mine["q a"], _seen(mine[f"{label} [dB]"]), yerr=bars, capsize=1.5, label=label, **STYLES[label]
+                mine["q a"], _on_axis(mine[f"{label} [dB]"]), yerr=bars, capsize=1.5, label=label, **STYLES[label]
             )
-        _dressed(axis, mine, f"{name}, h/d = {height:g}")
-    _labelled(figure, axes, len(names), "springs over boundary\nelements [dB]")
+        _format_axis(axis, f"{name}, h/d = {height:g}")
+    _label_axes(figure, axes, len(names), "springs over boundary\nelements [dB]")
     return figure
 
 
@@ -68,25 +69,25 @@ def draw_punch(evidence: Evidence) -> Figure:
     return figure
 
 
-def _within(axis: Axes) -> None:
+def _shade_tolerance(axis: Axes) -> None:
     axis.axhspan(-3, 3, color="#000000", alpha=0.07, linewidth=0)
     axis.axhline(0, color="#000000", linewidth=0.8)
 
 
-def _seen(errors: np.ndarray) -> np.ndarray:
-    """What is on the axis, or at its lower end."""
+def _on_axis(errors: np.ndarray) -> np.ndarray:
+    """Errors above -60 dB; NaN for others."""
     return np.where(np.isfinite(errors) & (errors > -60), errors, np.nan)
 
 
-def _dressed(axis: Axes, mine: Table, title: str) -> None:
-    axis.set(xscale="log", ylim=ROOM)
+def _format_axis(axis: Axes, title: str) -> None:
+    axis.set(xscale="log", ylim=DECIBELS)
     axis.set_title(title)
     ticks = (0.5, 1, 2, 5, 10, 20)
     axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axis.xaxis.minorticks_off()
 
 
-def _labelled(figure: Figure, axes: list[Axes], columns: int, label: str) -> None:
+def _label_axes(figure: Figure, axes: list[Axes], columns: int, label: str) -> None:
     for axis in axes[::columns]:
         axis.set_ylabel(label)
     for axis in axes[-columns:]:
