@@ -1,4 +1,4 @@
-"""Contact forces under a wheel that rolls: Hertz, a linear filter, springs, boundary elements, all behind one face."""
+"""Contact forces under a wheel that rolls: Hertz, a linear filter, springs, boundary elements, with one interface."""
 
 import math
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 
 
 class ContactLaw(Protocol):
-    """The force of several wheels, each on a track of its own, all over the same place of it."""
+    """The contact of several wheels, each on a track of its own, all at the same place."""
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:
         """At approaches of any sign, shape (wheels,) [N]; not negative, but for a linear law; place: a cell."""

@@ -1,7 +1,7 @@
-"""Steps of an equation of motion y'' = f(place, y): explicit and symplectic Euler, velocity Verlet, Runge and Kutta.
+"""Integrators of y'' = f(place, y): explicit and symplectic Euler, velocity Verlet, Runge and Kutta.
 
-Each is a generator of position, velocity and acceleration at the beginning of every step. Forces are known at whole
-cells of a track alone: one cell a step, two cells a step where half steps are wanted.
+Each is a generator of position, velocity and acceleration at the beginning of every step. Forces are known only
+at whole cells of a track: one cell a step, or two cells where the scheme has half steps.
 """
 
 import math
@@ -20,8 +20,8 @@ State = tuple[FloatArray, FloatArray, FloatArray]
 class Integrator:
     """A scheme of motion.
 
-    march(f, y, v, dt): all steps, on and on, dt of one cell; cells: of a step; order: of its error; limit: omega dt of
-    a step up to which a linear vibration stays bounded; evaluations: of f, a step.
+    march(f, y, v, dt): endless iterator of steps, dt of one cell; cells: of a step; order: of its error; limit: omega dt
+    of a step up to which a linear vibration stays bounded; evaluations: of f, a step.
     """
 
     name: str

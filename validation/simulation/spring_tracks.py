@@ -1,4 +1,4 @@
-"""Wheels on springs over rough tracks: many laps, lift-off, springs too far apart; one solve of each."""
+"""Wheels on springs over rough tracks: many laps, lift-off, and springs too far apart."""
 
 import math
 import warnings
@@ -20,9 +20,9 @@ FloatArray = NDArray[np.float64]
 HEIGHT = 0.5e-6
 """h_rms of Table 14.1 [m]."""
 FINE = 100
-"""Springs to the shortest wave of the track that stands for the continuum."""
+"""Springs to the shortest wave of a track that is resolved as a continuum."""
 STRIDES = (3, 5, 9, 15, 25, 45, 75)
-"""Of coarser springs on the same track: odd, so that they stand on the same places; 25 is a quarter of a wave."""
+"""Between springs of a coarser track: odd, so that these are at places of the fine one; 25 is a quarter of a wave."""
 
 
 @dataclass(frozen=True, kw_only=True)
