@@ -112,7 +112,7 @@ def _captions() -> dict[str, str]:
             "a mark."
         ),
         "precision": f"Error against seconds, a chart a quantity. {marks}",
-        "precision-visits": (
+        "precision-work": (
             f"The same against work: cells times operator applications, springs evaluated, points filtered. {marks}"
         ),
     }

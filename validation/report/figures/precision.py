@@ -37,8 +37,8 @@ def draw(evidence: Evidence) -> Figure:
     return _charts(evidence.table("points"), "median [s]", "front", "seconds of one realisation")
 
 
-def draw_visits(evidence: Evidence) -> Figure:
-    """Error against what no machine changes."""
+def draw_work(evidence: Evidence) -> Figure:
+    """Error against work, which is the same on every machine."""
     return _charts(evidence.table("points"), "work", "front by work", "cell applications, springs or points")
 
 
