@@ -107,7 +107,7 @@ class LinearFilter:
         """By the height, and what Geike's spectrum makes of levels along the track."""
         if said := beyond_spectrum(self.quantity.scene.ground) or _outside(self.quantity):
             return ErrorEstimate.out_of_range(said)
-        own = MEASURED_SCATTER if self.quantity.scene.ground.is_single else 0.0
+        own = _own_scatter(self.quantity)
         if self.quantity.name == "force-rms":
             error, reason = _claimed(LINEAR_RMS, self.quantity)
             return ErrorEstimate(error=error + own, reason=f"{reason}; Geike's rule keeps the variance of the force")
@@ -183,7 +183,7 @@ class RollingOnSprings:
             return ErrorEstimate.out_of_range(
                 f"{TRACKS} tracks need {springs:.2g} springs, more than {MOST_ON_TRACKS:.2g}"
             )
-        own = self._own_scatter + self.tolerance / 10
+        own = _own_scatter(self.quantity) + self.tolerance / 10
         if self.quantity.name == "force-rms":
             error, reason = _claimed(SPRINGS_RMS, self.quantity)
             return ErrorEstimate(error=error + own, reason=reason)
@@ -207,10 +207,6 @@ class RollingOnSprings:
             sample=mean_error(change),
             reason=expected.reason,
         )
-
-    @property
-    def _own_scatter(self) -> float:
-        return MEASURED_SCATTER if self.quantity.scene.ground.is_single else 0.0
 
 
 @dataclass(frozen=True)
@@ -236,13 +232,13 @@ class RollingOnGrid:
     def cost(self) -> Cost:
         """Cells of the window times applications times positions, of all strips and the one beside."""
         strips = realisations(self._scatter, self.tolerance / 2, least=FEWEST_STRIPS, most=MOST_STRIPS)
-        return self._cost(1 if self._measured else strips, 1)
+        return self._cost(1 if self.quantity.scene.ground.is_single else strips, 1)
 
     def estimate(self) -> ErrorEstimate:
         """Of the sample what as many strips as there may be leave at the least; only a solve tells of the grid."""
         if said := self.quantity.unsteady or self._too_large():
             return ErrorEstimate.out_of_range(said)
-        sample = 0.0 if self._measured else self._scatter / math.sqrt(MOST_STRIPS)
+        sample = 0.0 if self.quantity.scene.ground.is_single else self._scatter / math.sqrt(MOST_STRIPS)
         return ErrorEstimate(
             error=sample, reason=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted"
         )
@@ -263,22 +259,18 @@ class RollingOnGrid:
             return Answer(value=np.array([np.nan]), cost=cost, failed="some contact along a strip did not converge")
         mean, apart = np.mean(change, axis=0), distance(np.exp(change[0]), np.exp(other))
         return Answer(
-            value=np.exp(mean) * (1.0 if self._measured else self.quantity.expected(one_dimensional=False)),
+            value=np.exp(mean)
+            * (1.0 if self.quantity.scene.ground.is_single else self.quantity.expected(one_dimensional=False)),
             cost=cost,
             grid=apart * (OF_COARSE if self.beside > self.cells else OF_FINE),
-            sample=0.0 if self._measured else mean_error(np.array(change)),
+            sample=0.0 if self.quantity.scene.ground.is_single else mean_error(np.array(change)),
             reason=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change it by "
             f"{apart:.1%}; strips: {len(change)}",
         )
 
-    @property
-    def _measured(self) -> bool:
-        """Whether there is one strip, as it was measured."""
-        return self.quantity.scene.ground.is_single
-
     def _enough(self, change: list[FloatArray]) -> bool:
         """Whether the sample leaves half of the tolerance, or there is no more of it, or no use in more."""
-        if self._measured or not np.isfinite(change).all():
+        if self.quantity.scene.ground.is_single or not np.isfinite(change).all():
             return len(change) > 0
         if len(change) < FEWEST_STRIPS:
             return False
@@ -323,6 +315,11 @@ def _outside(quantity: RollingQuantity) -> str:
     if ground.hurst is not None:
         conditions[HURST] = ground.hurst
     return outside(conditions, RANGES)
+
+
+def _own_scatter(quantity: RollingQuantity) -> float:
+    """Of one measured track about all that have its spectrum."""
+    return MEASURED_SCATTER if quantity.scene.ground.is_single else 0.0
 
 
 def _left_out(quantity: RollingQuantity, value: FloatArray) -> float:

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field, replace
 from validation.benchmarks.peers import versions
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
-from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.exact_problems import RESIDUALS, PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.grids import Grids
 from validation.benchmarks.work_precision.problem import ChartProblem, TimedProblem, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
@@ -35,6 +36,63 @@ class Precision:
         """First those with a closed form, then those without."""
         rough = (replace(problem, seed=self.seed) for problem in (self.fractal, self.rolling, self.wheel))
         return (self.sphere, self.punch, self.wave, *rough)
+
+
+FULL = Precision(
+    sphere=SphereProblem(
+        grids=Grids(
+            cells=(4, 8, 16, 32, 64),
+            polonsky_keer=(4, 8, 16, 32),
+            fixed=16,
+            tight=1e-8,
+            tolerances=RESIDUALS,
+            per="to a radius",
+        ),
+        peers=(4, 8, 16, 32),
+        springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
+    ),
+    punch=PunchProblem(
+        grids=Grids(
+            cells=(8, 16, 32, 64, 128, 256),
+            polonsky_keer=(8, 16, 32, 64),
+            fixed=64,
+            tight=1e-8,
+            tolerances=RESIDUALS,
+        ),
+        peers=(8, 16),
+    ),
+    wave=WaveProblem(
+        grids=Grids(
+            cells=(16, 32, 64, 128, 256, 512, 1024),
+            polonsky_keer=(16, 64, 256, 1024),
+            fixed=256,
+            tight=1e-8,
+            tolerances=RESIDUALS,
+            per="to a wavelength",
+        ),
+        peers=(16, 64, 256, 1024),
+    ),
+    fractal=RoughPunchProblem(
+        surfaces=100,
+        profiles=500,
+        grids=Grids(cells=(24, 32, 64, 128, 256), polonsky_keer=(32, 64, 128), fixed=128),
+        springs=(24, 32, 64, 128, 256, 512, 1024),
+    ),
+    rolling=RollingProblem(
+        length=32,
+        strips=8,
+        tracks=60,
+        grids=Grids(cells=(3, 4, 6, 8, 12, 16, 32), polonsky_keer=(4, 6), fixed=12, per="to a radius"),
+    ),
+    wheel=WheelProblem(
+        strips=8,
+        wheels=60,
+        grids=Grids(cells=(6, 9, 12, 15, 30), fixed=12, tolerances=(1e-2, 1e-3), per="to a radius"),
+        springs=(12, 25, 50, 100),
+    ),
+    slow=1.0,
+    enough=0.2,
+)
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,15 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.benchmarks.timing import Configuration
-from validation.benchmarks.work_precision.grids import Grids, GridSeries
-from validation.benchmarks.work_precision.problem import CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING, Quantity
+from validation.benchmarks.work_precision.grids import ExtrapolatedProblem, Grids, GridSeries
+from validation.benchmarks.work_precision.problem import CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING, Quantity, along
 from validation.benchmarks.work_precision.rolling import log_levels
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
@@ -33,7 +34,7 @@ GRIDS = Grids(cells=(6, 12), fixed=6, tolerances=(1e-2, 1e-3), per="to a radius"
 
 
 @dataclass(frozen=True, kw_only=True)
-class WheelProblem:
+class WheelProblem(ExtrapolatedProblem):
     """Wheels of a scene over isotropic surfaces, in one round of a track.
 
     wheel_scene: whose rail alone is rough; turns: whole, of the resonance, to which a half is added; width: of
@@ -51,6 +52,9 @@ class WheelProblem:
     shared: int = 3
     springs: tuple[int, ...] = (12, 25)
     seed: int = 152
+
+    scene: ClassVar = None
+    """No models are found: these values are those of a periodic strip."""
 
     @property
     def name(self) -> str:
@@ -93,53 +97,21 @@ class WheelProblem:
         record = record_spectra(acceleration, time_step=time_step, window="hann")
         return band_levels(record.omega, record.density, self.edges).T
 
-    @property
-    def scene(self) -> None:
-        """No models are found: these values are those of a periodic strip."""
-
     def configurations(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs with both input spectra, boundary elements in the time loop."""
-        along = partial(Configuration, scene=self, parameter="# springs to a radius", paired=False)
         springs = (WheelsOnSprings(FILTER_1D, linear=True), WheelsOnSprings(MDR), FOR_ROLLING)
+        batches = partial(along, scene=self, parameter="# springs to a radius", paired=False)
+        strips = partial(along, scene=self, parameter="# cells to a radius", realisations=self.strips)
         return (
-            Configuration(
-                method=WheelLinearSpectrum(),
-                scene=self,
-                label=CLOSED,
-                parameter="linear theory",
-                value=1.0,
-                paired=False,
-            ),
-            *(
-                along(method=method, resolution=Resolution(size=n), label=method.name, value=n)
-                for method in springs
-                for n in self.springs
-            ),
-            *(
-                Configuration(
-                    method=WheelFiltered(),
-                    scene=self,
-                    resolution=Resolution(size=n),
-                    label=FILTER_3D,
-                    parameter="# cells to a radius",
-                    value=n,
-                    realisations=self.strips,
-                )
-                for n in self.filtered
-            ),
-            *self._grid_series.configurations(),
+            *along(WheelLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
+            *(each for method in springs for each in batches(method, sizes=self.springs)),
+            *strips(WheelFiltered(), sizes=self.filtered),
+            *self.grid_series.configurations(),
         )
 
-    def reference(self) -> tuple[Configuration, Configuration]:
-        """The two finest grids."""
-        return self._grid_series.finest()
-
-    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
-        """Grids that are extrapolated, too."""
-        return self._grid_series.pairs_below_reference()
-
     @property
-    def _grid_series(self) -> GridSeries:
+    def grid_series(self) -> GridSeries:
+        """Boundary elements."""
         return GridSeries(grids=self.grids, scene=self, method=WheelInTimeLoop(), realisations=self.strips)
 
     def read(self, acceleration: FloatArray, linear: "LinearStrip", work: float) -> Result:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -11,7 +10,7 @@ from validation.benchmarks import peers
 from validation.benchmarks.peers import DiscreteProblem, PressureMethod
 from validation.benchmarks.timing import Configuration
 from validation.benchmarks.work_precision.grids import Grids, GridSeries
-from validation.benchmarks.work_precision.problem import CLOSED, MDR, POLONSKY_KEER, Quantity
+from validation.benchmarks.work_precision.problem import CLOSED, POLONSKY_KEER, Quantity, along
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import PressedGrid, PressedScene, PressedSprings
 
@@ -54,10 +53,9 @@ def exact_configurations(problem: ExactProblem) -> tuple[Configuration, ...]:
     closed = Configuration(
         method=ClosedForm(), scene=problem, label=CLOSED, parameter="exact", value=1.0, is_reference=True
     )
-    springs = partial(Configuration, method=PressedSprings(), scene=problem, label=MDR, parameter=f"# springs {per}")
     return (
         closed,
-        *(springs(resolution=Resolution(size=n), value=n) for n in problem.springs),
+        *along(PressedSprings(), problem, problem.springs, f"# springs {per}"),
         *grid_series(problem).configurations(),
         *(
             Configuration(

@@ -1,5 +1,6 @@
 """Boundary elements on the charts: along cells, along residuals, and the two finest grids, which are extrapolated."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
@@ -58,10 +59,6 @@ class GridSeries:
         """Grids of which one has twice the cells of the other."""
         return tuple((self.on(n), self.on(2 * n)) for n in self.grids.cells if 2 * n in self.grids.cells)
 
-    def pairs_below_reference(self) -> tuple[tuple[Configuration, Configuration], ...]:
-        """The same without the two finest, where these are the reference."""
-        return tuple(pair for pair in self.pairs() if pair != self.finest())
-
     def _at(
         self, method: Method, cells: int, residual: float, label: str, parameter: str = "", value: float = 0.0
     ) -> Configuration:
@@ -74,3 +71,20 @@ class GridSeries:
             value=value or cells,
             realisations=self.realisations,
         )
+
+
+class ExtrapolatedProblem(ABC):
+    """A problem whose reference is extrapolated from its two finest grids."""
+
+    @property
+    @abstractmethod
+    def grid_series(self) -> GridSeries:
+        """Boundary elements along its grids."""
+
+    def reference(self) -> tuple[Configuration, Configuration]:
+        """The two finest grids."""
+        return self.grid_series.finest()
+
+    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
+        """Other grids of which one has twice the cells of the other."""
+        return tuple(pair for pair in self.grid_series.pairs() if pair != self.reference())

@@ -1,6 +1,6 @@
 """A problem of the charts: its quantities, its configurations, its reference, and the measurement of all of them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -9,7 +9,7 @@ import numpy as np
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.benchmarks.timing import FINISHED, Configuration, RunLimits, Timing, time_in_turns
 from validation.engine.engine import Outcome
-from validation.simulation.method import FloatArray, Values
+from validation.simulation.method import FloatArray, Method, Resolution, Values
 from validation.simulation.model import models_serving
 
 CLOSED = "closed form"
@@ -85,6 +85,24 @@ def configurations_of(problem: ChartProblem) -> tuple[Configuration, ...]:
         if model.name not in names
     )
     return (*models, *own)
+
+
+def along(
+    method: Method, scene: Any, sizes: Iterable[float], parameter: str, **settings: Any
+) -> tuple[Configuration, ...]:
+    """A method along the sizes of its resolution."""
+    return tuple(
+        Configuration(
+            method=method,
+            scene=scene,
+            resolution=Resolution(size=size),
+            label=method.name,
+            parameter=parameter,
+            value=size,
+            **settings,
+        )
+        for size in sizes
+    )
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -15,7 +15,7 @@ import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
 from validation.benchmarks.timing import Configuration
-from validation.benchmarks.work_precision.grids import Grids, GridSeries
+from validation.benchmarks.work_precision.grids import ExtrapolatedProblem, Grids, GridSeries
 from validation.benchmarks.work_precision.problem import (
     CLOSED,
     FILTER_1D,
@@ -24,6 +24,7 @@ from validation.benchmarks.work_precision.problem import (
     MDR_ROLLING,
     POLONSKY_KEER,
     Quantity,
+    along,
 )
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import MOST_ITERATIONS
@@ -55,7 +56,7 @@ GRIDS = Grids(cells=(3, 4, 6, 12), polonsky_keer=(4,), fixed=6, per="to a radius
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingProblem:
+class RollingProblem(ExtrapolatedProblem):
     """A wheel over self-affine roughness, q a from 1 to `last`, at a fixed approach.
 
     hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; strips, tracks:
@@ -73,6 +74,9 @@ class RollingProblem:
     filtered: tuple[int, ...] = (4, 6)
     springs: tuple[int, ...] = (3, 4, 8, 16, 32)
     seed: int = 151
+
+    scene: ClassVar = None
+    """No models are found: these values are those of a periodic strip."""
 
     @property
     def name(self) -> str:
@@ -125,54 +129,21 @@ class RollingProblem:
         )
         return tracks.track(realisation)
 
-    @property
-    def scene(self) -> None:
-        """No models are found: these values are those of a periodic strip."""
-
     def configurations(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs with both input spectra, boundary elements."""
-        linear = RollingLinearSpectrum()
+        springs = (RollingTracks(FILTER_1D, contact="linear"), RollingTracks(MDR), FOR_ROLLING)
+        tracks = partial(along, scene=self, parameter="# springs to a radius", realisations=self.tracks, paired=False)
+        strips = partial(along, scene=self, parameter="# cells to a radius", realisations=self.strips)
         return (
-            Configuration(method=linear, scene=self, label=CLOSED, parameter="linear theory", value=1.0, paired=False),
-            *(
-                Configuration(
-                    method=method,
-                    scene=self,
-                    resolution=Resolution(size=n),
-                    label=method.name,
-                    parameter="# springs to a radius",
-                    value=n,
-                    realisations=self.tracks,
-                    paired=False,
-                )
-                for method in (RollingTracks(FILTER_1D, contact="linear"), RollingTracks(MDR), FOR_ROLLING)
-                for n in self.springs
-            ),
-            *(
-                Configuration(
-                    method=RollingFiltered(),
-                    scene=self,
-                    resolution=Resolution(size=n),
-                    label=FILTER_3D,
-                    parameter="# cells to a radius",
-                    value=n,
-                    realisations=self.strips,
-                )
-                for n in self.filtered
-            ),
-            *self._grid_series.configurations(),
+            *along(RollingLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
+            *(each for method in springs for each in tracks(method, sizes=self.springs)),
+            *strips(RollingFiltered(), sizes=self.filtered),
+            *self.grid_series.configurations(),
         )
 
-    def reference(self) -> tuple[Configuration, Configuration]:
-        """The two finest grids."""
-        return self._grid_series.finest()
-
-    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
-        """Grids that are extrapolated, too."""
-        return self._grid_series.pairs_below_reference()
-
     @property
-    def _grid_series(self) -> GridSeries:
+    def grid_series(self) -> GridSeries:
+        """Boundary elements."""
         published = RollingStrips(POLONSKY_KEER, polonsky_keer=True)
         return GridSeries(
             grids=self.grids, scene=self, method=RollingStrips(), published=published, realisations=self.strips

@@ -8,10 +8,10 @@ import bem3d
 import mdr
 from validation.benchmarks.timing import Configuration
 from validation.benchmarks.work_precision.exact_problem import logarithm
-from validation.benchmarks.work_precision.grids import Grids, GridSeries
-from validation.benchmarks.work_precision.problem import MDR, POLONSKY_KEER, Quantity
+from validation.benchmarks.work_precision.grids import ExtrapolatedProblem, Grids, GridSeries
+from validation.benchmarks.work_precision.problem import POLONSKY_KEER, Quantity, along
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.method import FloatArray, Resolution, Values
+from validation.simulation.method import FloatArray, Values
 from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedGrid, PressedSprings
 from validation.simulation.rough_punch import PunchRoughness
 
@@ -28,7 +28,7 @@ GRIDS = Grids(cells=(24, 32, 64, 128), polonsky_keer=(32, 64), fixed=64)
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoughPunchProblem:
+class RoughPunchProblem(ExtrapolatedProblem):
     """A square punch of side L = 1, self-affine from q_min = 2 pi / L to q_max, under Fbar = F / (E* h L).
 
     hurst; waves: on a side, of the shortest; force: Fbar; surfaces: realisations; profiles: of springs, their own;
@@ -69,31 +69,13 @@ class RoughPunchProblem:
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Springs and boundary elements."""
-        springs = (
-            Configuration(
-                method=PressedSprings(),
-                scene=self,
-                resolution=Resolution(size=n),
-                label=MDR,
-                parameter="# springs a side",
-                value=n,
-                realisations=self.profiles,
-                paired=False,
-            )
-            for n in self.springs
-        )
-        return (*springs, *self._grid_series.configurations())
-
-    def reference(self) -> tuple[Configuration, Configuration]:
-        """The two finest grids."""
-        return self._grid_series.finest()
-
-    def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
-        """Grids that are extrapolated, too."""
-        return self._grid_series.pairs_below_reference()
+        own = {"realisations": self.profiles, "paired": False}
+        springs = along(PressedSprings(), self, self.springs, "# springs a side", **own)
+        return (*springs, *self.grid_series.configurations())
 
     @property
-    def _grid_series(self) -> GridSeries:
+    def grid_series(self) -> GridSeries:
+        """Boundary elements."""
         published = PressedGrid(POLONSKY_KEER, polonsky_keer=True)
         return GridSeries(
             grids=self.grids, scene=self, method=PressedGrid(), published=published, realisations=self.surfaces
