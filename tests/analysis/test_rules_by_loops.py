@@ -116,7 +116,7 @@ def test_levels_by_a_loop(first, last, period):
     """The last band may end just where the range does; and at the last line."""
     omega, density = noise(1, 60)
     for exponent in (0.0, -2.4):
-        found = regions.levelled(omega, density, first, last, period, exponent)
+        found = regions.compensated_band_means(omega, density, first, last, period, exponent)
         expected = levelled_by_loop(omega, density, first, last, period, exponent)
         np.testing.assert_allclose(found, expected, rtol=1e-12)
     power = regions.power_level(omega, density, first, last, period, -2.4)

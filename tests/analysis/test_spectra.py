@@ -235,7 +235,7 @@ def law(exponent, period=PERIOD, last=14.0):
 def lever():
     """How much a fit of a slope makes of errors of its values: sum |x| / sum x^2."""
     omega, density = law(0.0)
-    x = np.log(regions.levelled(omega, density, FIRST, LAST, PERIOD, 0.0)[0])
+    x = np.log(regions.compensated_band_means(omega, density, FIRST, LAST, PERIOD, 0.0)[0])
     x -= x.mean()
     return float(np.abs(x).sum() / (x**2).sum())
 
@@ -253,7 +253,7 @@ def test_slope_under_an_oscillation(hurst):
 def test_slope_of_means_that_are_not_levelled_is_wrong(hurst):
     """Negative control: the first band holds frequencies in a ratio of 2.6."""
     omega, density = law(-2 * hurst - 3)
-    centres, means = regions.levelled(omega, density, FIRST, LAST, PERIOD, 0.0)
+    centres, means = regions.compensated_band_means(omega, density, FIRST, LAST, PERIOD, 0.0)
     naive = np.polyfit(np.log(centres), np.log(means), 1)[0]
     assert abs(naive + 2 * hurst + 3) > 10 * lever() * LINE / PERIOD
 

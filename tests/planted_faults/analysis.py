@@ -49,7 +49,7 @@ def half_a_line_on(omega, hann, below):
 
 
 def slope_of_what_is_steep(omega, density, first, last, period):
-    centres, means = regions.levelled(omega, density, first, last, period, 0.0)
+    centres, means = regions.compensated_band_means(omega, density, first, last, period, 0.0)
     return float(np.polyfit(np.log(centres), np.log(means), 1)[0])
 
 

@@ -55,7 +55,7 @@ def jump(omega: FloatArray, density: FloatArray, above: float, upto: float) -> f
     return float(omega[rise - 1] + part * omega[0])
 
 
-def levelled(
+def compensated_band_means(
     omega: FloatArray, density: FloatArray, first: float, last: float, period: float, exponent: float
 ) -> tuple[FloatArray, FloatArray]:
     """Centres of bands of one period of the oscillation, from first to last, and means of A omega^-exponent."""
@@ -71,7 +71,7 @@ def slope(omega: FloatArray, density: FloatArray, first: float, last: float, per
     """
     exponent = 0.0
     for _ in range(20):
-        centres, means = levelled(omega, density, first, last, period, exponent)
+        centres, means = compensated_band_means(omega, density, first, last, period, exponent)
         exponent += (rest := float(np.polyfit(np.log(centres), np.log(means), 1)[0]))
         if abs(rest) < 1e-9:
             break
@@ -113,7 +113,7 @@ def power_level(
     omega: FloatArray, density: FloatArray, first: float, last: float, period: float, exponent: float
 ) -> float:
     """P of P omega^exponent, the geometric mean over bands of one period of the oscillation."""
-    _, means = levelled(omega, density, first, last, period, exponent)
+    _, means = compensated_band_means(omega, density, first, last, period, exponent)
     return float(np.exp(np.mean(np.log(means))))
 
 

@@ -22,7 +22,7 @@ THREE_PER_CENT, FIVE_PER_CENT = DECIBEL * math.log(1.03), DECIBEL * math.log(1.0
 RESAMPLES = 999
 BATCH = 100
 ROUNDING = 1e-12
-CLOSE = 1e-9
+LOG10_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,10 @@ class Estimate:
 
     def minus(self, other: "Estimate") -> "Estimate":
         """The difference to an independent estimate; degrees of freedom by Welch and Satterthwaite."""
-        return _added(self.value - other.value, (self, other))
+        return _sum_of_independent(self.value - other.value, (self, other))
 
 
-def _added(value: float, estimates: Sequence[Estimate]) -> Estimate:
+def _sum_of_independent(value: float, estimates: Sequence[Estimate]) -> Estimate:
     """A sum or difference of independent estimates; degrees of freedom by Welch and Satterthwaite."""
     squares = [e.error**2 for e in estimates]
     error = math.sqrt(sum(squares))
@@ -69,7 +69,7 @@ def jackknife_error(without: NDArray[np.floating] | Sequence[float]) -> FloatArr
 
 def mean_of(estimates: Sequence[Estimate]) -> Estimate:
     """Of independent estimates."""
-    both = _added(sum(e.value for e in estimates), estimates)
+    both = _sum_of_independent(sum(e.value for e in estimates), estimates)
     return Estimate(both.value / len(estimates), both.error / len(estimates), both.samples)
 
 
@@ -192,8 +192,8 @@ def weighted_mean(weights: FloatArray, statistic: Statistic) -> Statistic:
 def decade_weights(forces: Sequence[float], first: float) -> FloatArray:
     """The trapezoidal rule over ln F from F = first to 10 first: the weights of a mean over that decade of levels."""
     levels = np.log10(np.array(forces) / first)
-    inside = (levels > -CLOSE) & (levels < 1 + CLOSE)
-    ends = (np.abs(levels) < CLOSE) | (np.abs(levels - 1) < CLOSE)
+    inside = (levels > -LOG10_TOLERANCE) & (levels < 1 + LOG10_TOLERANCE)
+    ends = (np.abs(levels) < LOG10_TOLERANCE) | (np.abs(levels - 1) < LOG10_TOLERANCE)
     weights = np.where(inside, np.where(ends, 0.5, 1.0), 0.0)
     return np.asarray(weights / weights.sum())
 

@@ -1,4 +1,4 @@
-"""What linear elasticity knows of simple contacts. The referees: they import neither method.
+"""Linear elasticity of simple contacts: references, which import neither method.
 
 Lengths in metres, forces in newtons, pressures in pascals; ``modulus`` is the contact modulus E*.
 All arguments with a unit must be finite and positive unless said otherwise; ValueError names the one that is not.

@@ -1,4 +1,4 @@
-"""What linear elasticity knows of a wheel that rolls over roughness. The referees: they import neither method.
+"""Linear elasticity of a wheel that rolls over roughness: references, which import neither method.
 
 The contact is a circle that keeps its radius a. A wave of roughness h exp(i k.x) under it then changes the normal force
 by what reciprocity with the flat punch says: dF = (E* / pi) int h dA / sqrt(a^2 - r^2).
@@ -74,11 +74,15 @@ def _section(q: float, c2d: Spectrum, edges: Sequence[float], period: float) -> 
     ends = np.array(_panels(q, edges, period))
     if ends.size < 2:
         return 0.0
-    k = np.sqrt(np.maximum(ends**2 - q**2, 0.0))
+    k, weight = _gauss(np.sqrt(np.maximum(ends**2 - q**2, 0.0)))
+    return float(2 * np.sum(weight * c2d(np.hypot(q, k))))
+
+
+def _gauss(ends: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Nodes and weights of Gauss and Legendre on each panel between these ends."""
     node, weight = np.polynomial.legendre.leggauss(NODES)
-    half, middle = np.diff(k)[:, np.newaxis] / 2, (k[1:] + k[:-1])[:, np.newaxis] / 2
-    values = c2d(np.hypot(q, middle + half * node))
-    return float(2 * np.sum(half * weight * values))
+    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
+    return middle + half * node, half * weight
 
 
 def _panels(q: float, edges: Sequence[float], period: float) -> list[float]:
@@ -96,12 +100,9 @@ def force_variance(c2d: Spectrum, *, edges: Sequence[float], contact_radius: flo
 
     With C_1D = pi q C_2D it is int (14.12) dq too: Geike's rule keeps the variance of the force exactly.
     """
-    ends = np.array(_panels(edges[0], edges, math.pi / contact_radius))
-    node, weight = np.polynomial.legendre.leggauss(NODES)
-    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
-    s = middle + half * node
+    s, weight = _gauss(np.array(_panels(edges[0], edges, math.pi / contact_radius)))
     power = response(s, contact_radius=contact_radius, modulus=modulus) ** 2 * c2d(s) * s
-    return float(2 * math.pi * np.sum(half * weight * power))
+    return float(2 * math.pi * np.sum(weight * power))
 
 
 def contact_lost(c2d: Spectrum, *, edges: Sequence[float], contact_radius: float, radius: float) -> float:
@@ -112,14 +113,11 @@ def contact_lost(c2d: Spectrum, *, edges: Sequence[float], contact_radius: float
     int_0^1 Phi(-p_0 u / (E* h' / 2)) 2 u du, u^2 = 1 - r^2/a^2. The modulus cancels.
     Source: Hertz; Westergaard's wave, whose full pressure is E* q h / 2; Johnson, Contact Mechanics, chapters 4, 13.
     """
-    ends = np.array(_panels(edges[0], edges, math.inf))
-    node, weight = np.polynomial.legendre.leggauss(NODES)
-    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
-    s = middle + half * node
-    slope = math.sqrt(2 * math.pi * float(np.sum(half * weight * s**3 * c2d(s))))
+    s, weight = _gauss(np.array(_panels(edges[0], edges, math.inf)))
+    slope = math.sqrt(2 * math.pi * float(np.sum(weight * s**3 * c2d(s))))
     peak = 2 * _positive("contact_radius", contact_radius) / (math.pi * _positive("radius", radius))
-    u = (1 + node) / 2
-    return float(np.sum(weight * u * special.ndtr(-peak * u / (slope / 2))))
+    u, weight = _gauss(np.array([0.0, 1.0]))
+    return float(2 * np.sum(weight * u * special.ndtr(-peak * u / (slope / 2))))
 
 
 def level_ratio(hurst: float) -> float:

@@ -1,6 +1,6 @@
-"""What is known of a wheel on its contact spring: the resonance, its anharmonicity, and what a finite record leaks.
+"""A wheel on its contact spring: the resonance, its anharmonicity, and the leakage of a finite record.
 
-The referees of the dynamic wheel: they import neither method. M z'' = F - F_N, z upward, the approach d downward.
+References of the dynamic wheel, which import neither method. M z'' = F - F_N, z upward, the approach d downward.
 Frequencies are angular, omega in rad/s; spectra are those of (14.17), two-sided over the frequency f: <x^2> = int A df.
 """
 
@@ -53,7 +53,7 @@ def hertz_period(highest: float) -> float:
 
 
 def _potential(x: float) -> float:
-    """V over that of rest at u = 1 + x; by its series where the rest would be lost in rounding."""
+    """V over that of rest at u = 1 + x; by its series where rounding would leave no digits."""
     if x < -1:
         return -2 / 3 * (x + 0.4)
     if abs(x) < 0.03:
@@ -97,7 +97,7 @@ def over_frequency(force_spectrum: ArrayLike, *, speed: float) -> FloatArray:
 
 
 def leakage(omega: ArrayLike, *, jump: ArrayLike, time_step: float, duration: float) -> FloatArray:
-    """What a jump between the end and the beginning of a record adds to (14.17): the floor ~ omega^-2.
+    """The floor ~ omega^-2 that a jump between the end and the beginning of a record adds to (14.17).
 
     The periodic continuation of a ramp with a jump J has |FFT| = |J| / |2 sin(omega dt / 2)|, so A = J^2 dt^2 /
     (4 T sin^2(omega dt / 2)), which is J^2 / (omega^2 T) for omega dt << 1.

@@ -1,6 +1,7 @@
 """The tables of the limits: what the panels of the figures are made of, and the summary on the page."""
 
 import math
+from dataclasses import asdict
 
 from validation.analysis.evidence import Table, table_of
 from validation.cases.limits.limits import HALF_SPACE_LIMITS, LimitsResult
@@ -17,18 +18,9 @@ def limits_table(result: LimitsResult) -> Table:
         "limits",
         [
             {
-                "limit": s.limit.name,
                 "figure": "limits-bem" if s.limit in HALF_SPACE_LIMITS else "limits",
-                "method": s.limit.method,
-                "title": s.limit.title,
-                "parameter": s.limit.parameter,
-                "error": s.limit.error,
-                "reference": s.limit.reference,
-                "condition": s.limit.condition,
                 "predicted threshold": s.predicted_threshold,
-                "failing side": s.limit.failing_side,
-                "tolerance": s.limit.tolerance,
-                "factor": s.limit.factor,
+                **asdict(s.limit),
                 "predicted": float(s.predicted),
                 "warning": s.verdict,
             }

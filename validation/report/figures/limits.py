@@ -38,8 +38,8 @@ def draw_bem(evidence: Evidence) -> Figure:
 
 def _draw_all(evidence: Evidence, figure: str, axes: list[Axes]) -> None:
     limits, sweeps = evidence.table("limits").where(figure=figure), evidence.table("sweeps")
-    for name, axis in zip(limits["limit"], axes, strict=True):
-        _panel(axis, limits.where(limit=name), sweeps.where(limit=name))
+    for name, axis in zip(limits["name"], axes, strict=True):
+        _panel(axis, limits.where(name=name), sweeps.where(limit=name))
     _explain(axes[0].figure)  # type: ignore[arg-type]
 
 
@@ -61,7 +61,7 @@ def _explain(figure: Figure) -> None:
 def _panel(axis: Axes, limit: Table, rows: Table) -> None:
     """Error against the parameter; open marks where the software warned."""
     (method,), (title,), (parameter,), (error,) = (limit[name] for name in ("method", "title", "parameter", "error"))
-    (threshold,), (side,) = limit["predicted threshold"], limit["failing side"]
+    (threshold,), (side,) = limit["predicted threshold"], limit["failing_side"]
     (tolerance,), (factor,) = limit["tolerance"], limit["factor"]
     x, y, warned = rows["value"], rows["error"], rows["warned"] > 0
     answered = np.isfinite(y)
