@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 import bem3d
 from validation.cases.limits.spheres import RESIDUAL, half_space
 from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
-from validation.engine.engine import Outcome
+from validation.engine.engine import Outcome, random_generator
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
 
@@ -85,7 +85,8 @@ def sweep_cells_to_a_wave(problem: RoughGrids) -> Outcome:
     true = [_area(r, problem.finest, i, problem.force) for i in surfaces]
 
     def point(cells: int) -> Point:
-        _, message = call_and_record_warnings(partial(r.surface, cells, 0))
+        draw = partial(bem3d.rough_surface, r.spectrum.c2d, shape=(cells, cells), spacing=1 / cells, rms=r.height)
+        _, message = call_and_record_warnings(partial(draw, rng=random_generator(r.seed)))
         found = [_area(r, cells, i, problem.force) for i in surfaces]
         squares = sum((area / one - 1) ** 2 for area, one in zip(found, true, strict=True))
         return math.sqrt(squares / len(true)), message
