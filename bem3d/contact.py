@@ -1,4 +1,4 @@
-"""The answer to a contact problem, with the problem it answers, and its residual."""
+"""The solution of a contact problem, with the problem, and its residual."""
 
 import math
 from dataclasses import dataclass, field
@@ -98,7 +98,7 @@ class Contact(ReadOnly):
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """What a converged answer may still be wrong about, (category, sentence) of each."""
+        """Category and sentence of each warning about a converged contact."""
         half_space, cells = self.problem.half_space, int(np.count_nonzero(self.pressure))
         units = diagnose_units(
             pressure=float(self.pressure.sum()) / max(cells, 1),

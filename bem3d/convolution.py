@@ -15,9 +15,9 @@ Planning = Literal["estimate", "measure"]
 ComplexArray = NDArray[np.complex128]
 PLANNER = threading.Lock()
 """FFTW has one planner, and one memory of what it has measured, in a process."""
-COLUMNS = 16
+COLUMNS_AT_ONCE = 16
 """Columns transformed at a time: few enough to stay in the cache, forwards, times the symbol, and back."""
-SMALL = 2**15
+CACHED_NUMBERS = 2**15
 """A spectrum of no more numbers stays in the cache as a whole: `CachedConvolution`."""
 
 
@@ -112,20 +112,20 @@ class PaddedConvolution(Convolution):
         half = symbol.T / (padded[0] * padded[1])
         self._symbol = np.concatenate([half, half[:, (padded[0] - 1) // 2 : 0 : -1]], axis=1)
         self._spectrum = pyfftw.empty_aligned((shape[0], padded[1] // 2 + 1), dtype=np.complex128)
-        self._columns = pyfftw.empty_aligned((COLUMNS, padded[0]), dtype=np.complex128)
+        self._columns = pyfftw.empty_aligned((COLUMNS_AT_ONCE, padded[0]), dtype=np.complex128)
         self._forward, self._inverse = self._plan(self._rows, self._spectrum, (1,))
         self._down, self._up = self._plan(self._columns, self._columns, (1,))
 
     def _convolve(self) -> None:
         self._forward()
         filled = self.shape[0]
-        for first in range(0, self._spectrum.shape[1], COLUMNS):
-            some = self._spectrum[:, first : first + COLUMNS]
+        for first in range(0, self._spectrum.shape[1], COLUMNS_AT_ONCE):
+            some = self._spectrum[:, first : first + COLUMNS_AT_ONCE]
             columns = self._columns[: some.shape[1]]
             columns[:, :filled] = some.T
             columns[:, filled:] = 0.0
             self._down()
-            columns *= self._symbol[first : first + COLUMNS]
+            columns *= self._symbol[first : first + COLUMNS_AT_ONCE]
             self._up()
             some[:] = columns[:, :filled].T
         self._inverse()
@@ -158,5 +158,5 @@ def padded_convolution(
     symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning
 ) -> Convolution:
     """The faster of the two for this grid."""
-    small = padded[0] * (padded[1] // 2 + 1) <= SMALL
+    small = padded[0] * (padded[1] // 2 + 1) <= CACHED_NUMBERS
     return (CachedConvolution if small else PaddedConvolution)(symbol, shape=shape, padded=padded, planning=planning)

@@ -1,4 +1,4 @@
-"""What a converged answer may still be wrong about: too few cells, a spike, or a grid that ends too early."""
+"""Warnings of a converged contact: too few cells, a spike, or a grid that ends too early."""
 
 import math
 import warnings
@@ -73,7 +73,7 @@ Diagnostic = tuple[type[ContactWarning], str]
 
 
 def diagnose_pressure(pressure: FloatArray, *, periodic: bool) -> tuple[Diagnostic, ...]:
-    """What to doubt about a pressure and its contact set.
+    """Diagnostics of a pressure and its contact set.
 
     A flat punch of N < 32 cells is too soft by about 0.3 / sqrt(N), measured on squares: that
     error remains where the cells in contact are the right ones. For a handful of cells even that is unknown.
@@ -116,7 +116,7 @@ def _diagnose_spike(pressure: FloatArray) -> tuple[Diagnostic, ...]:
     i, j = divmod(highest, ny)
     around = pressure[np.ix_(sorted({(i - 1) % nx, i, (i + 1) % nx}), sorted({(j - 1) % ny, j, (j + 1) % ny}))]
     if not math.isfinite(pressure[i, j]):
-        return ()  # what has overflowed is not converged, and says so
+        return ()  # a pressure that has overflowed is not converged
     part = 1 / float((pressure / pressure[i, j]).sum())
     if np.count_nonzero(around) > 1 or not part > MOST_ALONE:
         return ()
@@ -130,7 +130,7 @@ def _diagnose_spike(pressure: FloatArray) -> tuple[Diagnostic, ...]:
 
 
 def diagnose_units(*, pressure: float, modulus: float, approach: float, side: float) -> tuple[Diagnostic, ...]:
-    """What to doubt about a mean pressure under an E* [Pa], and an approach from the first touch on a grid [m]."""
+    """Diagnostics of a mean pressure under an E* [Pa], and an approach from the first touch on a grid [m]."""
     found = []
     if modulus != 1 and pressure > HIGHEST_PRESSURE * modulus:
         found.append(
@@ -144,7 +144,7 @@ def diagnose_units(*, pressure: float, modulus: float, approach: float, side: fl
 
 
 def diagnose_sphere(cells: float) -> tuple[Diagnostic, ...]:
-    """What to doubt about a sphere whose smooth contact has so many cells, whatever roughness makes of it."""
+    """Diagnostics of a sphere whose smooth contact has so many cells, whatever roughness makes of it."""
     if cells >= FEWEST_CELLS:
         return ()
     return (
@@ -157,7 +157,7 @@ def diagnose_sphere(cells: float) -> tuple[Diagnostic, ...]:
 
 
 def diagnose_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -> tuple[Diagnostic, ...]:
-    """What to doubt about a spectrum on a grid: values at the wavenumbers q, cells of these sides."""
+    """Diagnostics of a spectrum on a grid: values at the wavenumbers q, cells of these sides."""
     cells = 2 * math.pi / (float(q[values > 0].max(initial=0.0)) * max(steps)) if (values > 0).any() else math.inf
     if cells > FEWEST_CELLS_A_WAVE * (1 - 1e-9):
         return ()
@@ -171,6 +171,6 @@ def diagnose_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]
 
 
 def warn(diagnostics: tuple[Diagnostic, ...]) -> None:
-    """Hand them to Python's warnings, as of the caller of the public function that found them."""
+    """Issue them as warnings of the caller of the public function that found them."""
     for category, sentence in diagnostics:
         warnings.warn(sentence, category, stacklevel=3)

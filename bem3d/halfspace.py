@@ -14,7 +14,7 @@ from bem3d.checks import FloatArray, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import Convolution, PlainConvolution, Planning, padded_convolution
 
 KEEPING = threading.Lock()
-RELATIVES = 4
+GRIDS_KEPT = 4
 """Windows and coarser grids that a half-space keeps ready."""
 
 
@@ -143,7 +143,7 @@ class HalfSpace:
         with KEEPING:
             kept = self._relatives.pop(wanted, wanted)
             self._relatives[wanted] = kept
-            while len(self._relatives) > RELATIVES:
+            while len(self._relatives) > GRIDS_KEPT:
                 del self._relatives[next(iter(self._relatives))]
         return kept
 

@@ -116,7 +116,7 @@ def _path(
                 raise_on_failure=raise_on_failure,
             )
             contact = replace(contact, frozen=frozen)
-        warn(tuple(doubt for doubt in contact.diagnostics if doubt[0] not in warned))
+        warn(tuple(found for found in contact.diagnostics if found[0] not in warned))
         warned |= {category for category, _ in contact.diagnostics}
         past = (*past[-1:], contact) if contact.converged else ()
         yield contact

@@ -6,7 +6,7 @@ from scipy import fft
 
 from bem3d.checks import FloatArray
 
-UNIFORM = 0.3
+WAVE_OF_UNIFORM_PRESSURE = 0.3
 """The wave, as a part of the longest, to whose pressure a contact yields about as to a uniform one."""
 
 
@@ -72,7 +72,9 @@ def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus
     Source: the inverse of Stanley and Kato's symbol, as used by Vollebregt, J. Comput. Phys. 257 (2014) 269.
     """
     longest = max(shape[0] * spacing[0], shape[1] * spacing[1])
-    return np.asarray(modulus / 2 * np.hypot(wavenumbers(shape, spacing), UNIFORM * 2 * np.pi / longest))
+    return np.asarray(
+        modulus / 2 * np.hypot(wavenumbers(shape, spacing), WAVE_OF_UNIFORM_PRESSURE * 2 * np.pi / longest)
+    )
 
 
 def wavenumbers(shape: tuple[int, int], spacing: tuple[float, float]) -> FloatArray:

@@ -10,7 +10,7 @@ from bem3d.window_solve import InitialGuess, solve_on_window
 
 FEWEST_CELLS = 32
 """An axis of fewer cells is not coarsened."""
-PART = 0.03
+COARSE_TOLERANCE = 0.03
 """A coarser grid is solved to so much of the error that its own start had, which the finer one will have again."""
 
 
@@ -20,7 +20,7 @@ def initial_guess_from_coarse_grids(problem: Problem, max_iterations: int) -> tu
     if coarse is None or coarse.uniform or not coarse.touching:
         return first_pressure(problem), ()
     start, levels = initial_guess_from_coarse_grids(coarse, max_iterations)
-    attempt = solve_on_window(coarse, start, PART * min(start.error, 1.0), max_iterations)
+    attempt = solve_on_window(coarse, start, COARSE_TOLERANCE * min(start.error, 1.0), max_iterations)
     levels = (*levels, (coarse.half_space.shape, attempt.operator_applications))
     pressure = prolong(attempt.pressure, problem.half_space)
     overlap = attempt.overlap + coarse.first_touch - problem.first_touch

@@ -30,7 +30,7 @@ class Problem(ReadOnly):
     Notes
     -----
     A periodic half-space counts the approach from its mean plane. At mean(gap) or more the contact is full under an
-    unknown mean pressure: such an approach is refused, give the force.
+    unknown mean pressure: such an approach is a ValueError, give the force.
 
     Examples
     --------

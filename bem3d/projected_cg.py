@@ -10,7 +10,7 @@ from bem3d.checks import BoolArray, FloatArray
 from bem3d.contact import residual
 from bem3d.window import dot, dots
 
-MEMORY = 3
+STEPS_REMEMBERED = 3
 """Steps remembered, with their images: what conjugacy and truncation need, measured on rough contacts."""
 FIRST_STEP = 0.4
 """The approximate inverse is too stiff by up to a factor of a few: eigenvalues of M K on a contact are 1 and more."""
@@ -68,13 +68,13 @@ class Memory:
     """The last steps s_i and their images y_i = K s_i, as rows."""
 
     def __init__(self, size: int) -> None:
-        self._rows = np.empty((2, MEMORY, size))
+        self._rows = np.empty((2, STEPS_REMEMBERED, size))
         self.forget()
 
     def forget(self) -> None:
         """Begin anew."""
         self._count = self._next = 0
-        self._gram = np.zeros((MEMORY, MEMORY))
+        self._gram = np.zeros((STEPS_REMEMBERED, STEPS_REMEMBERED))
 
     def add(self, step: FloatArray, image: FloatArray) -> None:
         """Remember a step, in units of its largest pressure, in the place of the oldest."""
@@ -82,11 +82,11 @@ class Memory:
         steps, images = self._rows
         np.divide(step, scale, out=steps[self._next])
         np.divide(image, scale, out=images[self._next])
-        self._count = min(self._count + 1, MEMORY)
+        self._count = min(self._count + 1, STEPS_REMEMBERED)
         known = slice(0, self._count)
         self._gram[self._next, known] = dots(images[known], steps[self._next])
         self._gram[known, self._next] = self._gram[self._next, known]
-        self._next = (self._next + 1) % MEMORY
+        self._next = (self._next + 1) % STEPS_REMEMBERED
 
     def improve(self, direction: FloatArray, downhill: FloatArray) -> FloatArray:
         """The direction made conjugate to what is remembered, plus the step among that which gains the most energy."""

@@ -13,11 +13,11 @@ from bem3d.rolling_frame import Frame, Spans, Track
 from bem3d.rolling_solve import FramePressure, FrameSolve
 from bem3d.window_solve import IterationState
 
-AHEAD = 2
+ROWS_AHEAD = 2
 """Rows that a frame has ahead of what it must hold: the past two positions have no pressure there."""
-MARGIN = 0.07
+FRAME_MARGIN = 0.07
 """How much wider than a contact a frame begins, on each side: for cells that `Frame.outside` cannot rule out."""
-REFIT = 32
+REFIT_INTERVAL = 32
 """Positions after which the frame, which else only grows, is fitted anew."""
 
 
@@ -171,7 +171,7 @@ class RollingContact:
 
         expected: approach, about; prescribed: the load, from the approach of first touch and the area of a cell.
         """
-        frame = self._frame or self._around(self.track.smooth_contact(expected), MARGIN)
+        frame = self._frame or self._around(self.track.smooth_contact(expected), FRAME_MARGIN)
         start, attempt = self._carried(position), IterationState(np.empty(frame.shape), math.nan)
         while True:
             gap = frame.gap(position)
@@ -225,8 +225,8 @@ class RollingContact:
         frame = pressed.frame
         past = [p for p in self._past[-1:] if position == self._position + 1 and p.frame is frame]
         self._past = (*past, pressed) if status is Status.CONVERGED else ()
-        if position % REFIT == 0 and pressed.pressure.any():
-            fitting = self._around(frame.spans_of(pressed.pressure > 0), MARGIN)
+        if position % REFIT_INTERVAL == 0 and pressed.pressure.any():
+            fitting = self._around(frame.spans_of(pressed.pressure > 0), FRAME_MARGIN)
             if fitting.shape != frame.shape and fitting.within(frame):
                 frame, self._past = fitting, tuple(p.on(fitting) for p in self._past)
         self._frame, self._position = frame, position
@@ -235,7 +235,7 @@ class RollingContact:
         """A frame that holds these cells, and so many more on each side, in parts of that, and rows ahead."""
         (first, last), columns = spans
         margin = int(more * max(last - first, columns[1] - columns[0]))
-        return Frame(self.track, self.track.widened(((first, last + AHEAD), columns), margin))
+        return Frame(self.track, self.track.widened(((first, last + ROWS_AHEAD), columns), margin))
 
 
 def hertz_approach(track: Track, force: float) -> float:

@@ -108,7 +108,7 @@ class Track(ReadOnly):
         return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
 
     def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
-        """What to doubt about the contact of the smooth sphere, p = 4 / (3 pi) E* a / R on average by Hertz."""
+        """Diagnostics of the contact of the smooth sphere, p = 4 / (3 pi) E* a / R on average by Hertz."""
         (nx, ny), (dx, dy) = self.height.shape, self.steps
         pressure = 4 / (3 * math.pi) * math.sqrt(approach / self.radius) * self.modulus
         units = diagnose_units(pressure=pressure, modulus=self.modulus, approach=approach, side=max(nx * dx, ny * dy))

@@ -126,7 +126,7 @@ def raise_if_failed(contact: Contact) -> Contact:
 
 
 def contact_of(problem: Problem, tolerance: float, attempt: IterationState, levels: tuple[Level, ...] = ()) -> Contact:
-    """What an attempt has come to."""
+    """The contact at the end of an iteration."""
     return Contact(
         problem=problem,
         tolerance=tolerance,

@@ -11,9 +11,9 @@ from bem3d.problem import Problem
 from bem3d.projected_cg import Load, projected_cg
 from bem3d.window import Candidates, smallest_box
 
-REACH = 1.1
+WINDOW_MARGIN = 1.1
 """Under a prescribed force, a window is laid around the cells that overlap at so many times the expected overlap."""
-MARGIN = 1.0
+CANDIDATE_MARGIN = 1.0
 """Cells no further from touching than so many times the error that the contact still has are candidates for it."""
 PATIENCE = 100
 """Iterations in which the running residual has to halve; a fresh application then measures it."""
@@ -42,7 +42,7 @@ class IterationState:
     status: Status | None = None
 
     def record_residual(self, residual: float, tolerance: float, max_iterations: int) -> None:
-        """Note the residual of a new pressure, and whether it ends the iteration."""
+        """Append the residual of a new pressure to the history, and set the status if it ends the iteration."""
         self.history.append(residual)
         if residual <= tolerance:
             self.status = Status.CONVERGED
@@ -59,13 +59,13 @@ def solve_on_window(problem: Problem, start: InitialGuess, tolerance: float, max
     """
     gap, s = problem.gap - problem.first_touch, problem.depth
     attempt = IterationState(start.pressure, s or start.overlap or math.inf)
-    reach = attempt.overlap if s is not None else REACH * attempt.overlap
+    reach = attempt.overlap if s is not None else WINDOW_MARGIN * attempt.overlap
     while True:
         attempt.status = None
         _press_window(problem, gap, gap < reach, attempt, tolerance, max_iterations)
         if problem.half_space.periodic or not attempt.overlap > reach:
             return attempt
-        reach = REACH * attempt.overlap
+        reach = WINDOW_MARGIN * attempt.overlap
 
 
 def _press_window(
@@ -117,7 +117,7 @@ def _iterate(
         best, since = (state.residual, 0) if state.residual < best / 2 else (best, since + 1)
         if state.residual <= tolerance or attempt.status is not None or since > PATIENCE:
             break
-    # only a fresh application may say how it has ended
+    # only a fresh application decides how it has ended
     attempt.status = None
     return cells.spread(state.pressure)
 
@@ -126,4 +126,4 @@ def contact_candidates(pressure: FloatArray, w: FloatArray) -> BoolArray:
     """Cells in contact, and those that are no further from it than the error that the start still has."""
     touching = (pressure > 0) | (w < 0)
     error = float(np.abs(w[touching]).max(initial=0.0))
-    return np.asarray(touching | (w < MARGIN * error))
+    return np.asarray(touching | (w < CANDIDATE_MARGIN * error))

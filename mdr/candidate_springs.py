@@ -5,9 +5,9 @@ import numpy as np
 from mdr.checks import FloatArray
 from mdr.spring_track import SpringTrack
 
-WORTH = 0.5
+MAX_WORK_SHARE = 0.5
 """Springs that stand out are looked at by themselves where that leaves so little of the work, or less."""
-DEARER = 16
+COST_OF_AN_OUTLIER = 16
 """A spring that stands out costs so many times as much as a neighbour, measured."""
 ROUNDING = 4 * float(np.finfo(np.float64).eps)
 
@@ -41,16 +41,16 @@ class Near:
 
     def _divided(self, heights: FloatArray, approach: float) -> tuple[int, float]:
         """The distance to which all springs are looked at, and the height above which one stands out."""
-        most = min(2 * self.farthest // DEARER, heights.size)
+        most = min(2 * self.farthest // COST_OF_AN_OUTLIER, heights.size)
         if most < 1:
             return self.farthest, self.highest
         highest = np.sort(np.partition(heights, heights.size - most)[heights.size - most :])[::-1]
         track = self.track
         # the square root scales with the level, so that one distance is enough
         unit = track.distance(1.0)
-        work = 2 * unit * np.sqrt(np.maximum(approach + highest, 0.0)) + DEARER * np.arange(most)
+        work = 2 * unit * np.sqrt(np.maximum(approach + highest, 0.0)) + COST_OF_AN_OUTLIER * np.arange(most)
         best = int(work.argmin())
-        if work[best] > WORTH * 2 * self.farthest:
+        if work[best] > MAX_WORK_SHARE * 2 * self.farthest:
             return self.farthest, self.highest
         level = float(highest[best])
         beyond_rounding = approach + level + ROUNDING * (abs(approach) + abs(level))

@@ -78,7 +78,7 @@ def doubles(**given: object) -> Iterator[None]:
             yield
     except (OverflowError, ZeroDivisionError):
         known = {name: value for name, value in given.items() if value is not None}
-        names, values = list(known), [_told(value) for value in known.values()]
+        names, values = list(known), [_printed(value) for value in known.values()]
         raise ValueError(
             f"{_listed(names)} must give numbers that a double can hold, got {_listed(values)}: are the units right?"
         ) from None
@@ -91,7 +91,7 @@ def held(*results: float | FloatArray, positive: bool = False) -> None:
             raise OverflowError
 
 
-def _told(value: object) -> str:
+def _printed(value: object) -> str:
     if np.ndim(value) > 0:  # type: ignore[arg-type]
         return f"{np.size(value)} values"  # type: ignore[arg-type]
     return f"{value:g}" if isinstance(value, (int, float)) else str(value)

@@ -1,4 +1,4 @@
-"""What an answer of springs may still be wrong about: too few of them, or a linear contact beyond its range."""
+"""Warnings of springs: too few of them, or a linear contact beyond its range."""
 
 import math
 import warnings
@@ -82,7 +82,7 @@ Diagnostic = tuple[type[SpringContactWarning], str]
 
 
 def diagnose_load(pressed: NDArray[np.integer], springs: int) -> tuple[Diagnostic, ...]:
-    """What to doubt about loads that press so many of all springs.
+    """Diagnostics of loads that press so many of all springs.
 
     A stretch of contact of length l holds l / dx springs, rounded up or down: of n springs in one stretch the stiffness
     is wrong by up to 1 / n, by 1 / (sqrt(6) n) in the root mean square. Where all springs are in contact nothing is
@@ -104,7 +104,7 @@ def diagnose_load(pressed: NDArray[np.integer], springs: int) -> tuple[Diagnosti
 
 
 def diagnose_wheel(springs: float) -> tuple[Diagnostic, ...]:
-    """What to doubt about a wheel whose smooth contact 2 a is so many springs long."""
+    """Diagnostics of a wheel whose smooth contact 2 a is so many springs long."""
     if springs >= FEWEST_SPRINGS * (1 - 1e-9):
         return ()
     return (
@@ -117,7 +117,7 @@ def diagnose_wheel(springs: float) -> tuple[Diagnostic, ...]:
 
 
 def diagnose_units(*, approach: float, radius: float) -> tuple[Diagnostic, ...]:
-    """What to doubt about a smooth sphere: a contact, a = sqrt(R d), of a radius above its own."""
+    """Diagnostics of a smooth sphere: a contact, a = sqrt(R d), of a radius above its own."""
     if approach <= radius:
         return ()
     part = math.sqrt(approach) / math.sqrt(radius)
@@ -127,7 +127,7 @@ def diagnose_units(*, approach: float, radius: float) -> tuple[Diagnostic, ...]:
 
 
 def diagnose_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[Diagnostic, ...]:
-    """What to doubt about a spectrum on springs: values at the wavenumbers q.
+    """Diagnostics of a spectrum on springs: values at the wavenumbers q.
 
     Springs a part 1 / n of a wave apart sum its force with an error of (pi / n) / sin(pi / n), 0.9 dB where n = 4.
     """
@@ -147,7 +147,7 @@ def diagnose_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[D
 def diagnose_linearity(
     height: FloatArray, change: FloatArray, *, approach: float, reach: int
 ) -> tuple[Diagnostic, ...]:
-    """What to doubt about a contact that keeps its length 2 a under roughness.
+    """Diagnostics of a contact that keeps its length 2 a under roughness.
 
     Roughness h at an end of the contact moves it by h R / (2 a): one-sided springs bear E* R h^2 / (4 a) more there, to
     second order, a h^2 / (4 d) over E*. Over the fluctuation of the linear force this is the part that it leaves out.
@@ -172,6 +172,6 @@ def diagnose_linearity(
 
 
 def warn(diagnostics: tuple[Diagnostic, ...]) -> None:
-    """Hand them to Python's warnings, as of the caller of the public function that found them."""
+    """Issue them as warnings of the caller of the public function that found them."""
     for category, sentence in diagnostics:
         warnings.warn(sentence, category, stacklevel=3)

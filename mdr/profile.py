@@ -148,7 +148,7 @@ def _check_draw(rng: object, amplitudes: str) -> None:
 def _amplitudes(
     c1d: Spectrum, length: float, points: int, rms: float | None
 ) -> tuple[FloatArray, np.ndarray, tuple[Diagnostic, ...]]:
-    """B(q) of the waves that the points can carry, which of them is its own mirror image, and what to doubt."""
+    """B(q) of the waves that the points can carry, which of them is its own mirror image, and diagnostics."""
     mode = np.arange(1, points // 2 + 1)
     with doubles(length=length, points=points):
         q = np.asarray(2 * np.pi / length * mode, dtype=np.float64)

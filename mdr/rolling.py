@@ -147,7 +147,7 @@ def _within_doubles(
 def _rolled(
     track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
 ) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
-    """`roll`, and what to doubt about it."""
+    """`roll`, and its diagnostics."""
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
     if contact not in ("one-sided", "full", "linear"):

@@ -1,4 +1,4 @@
-"""Many wheels on spring foundations, each over a track of its own, in step: the force at the place all have reached."""
+"""Many wheels on spring foundations, each over a track of its own, batched place by place."""
 
 import math
 
@@ -12,11 +12,11 @@ from mdr.spring_track import MOST_SPRINGS
 
 BLOCK = 512
 """Places at a time: few enough to stay in the cache, and to see little of the range of the heights."""
-EXACT = 2.0**53
+EXACT_INTEGERS = 2.0**53
 """Whole numbers below this are added without rounding."""
-ROOM = 5
+HEADROOM = 5
 """Sums may be so many times as large as those of a wheel pressed as deep as its heights reach, before they round."""
-SLACK = 0.02
+SORTING_SLACK = 0.02
 """How far approaches may move before springs are sorted anew, over the smooth approach."""
 MOST_STEPS = 200
 
@@ -79,13 +79,6 @@ class RollingEnsemble:
     """
 
     def __init__(self, height: ArrayLike, *, spacing: float, radius: float, modulus: float, force: float):
-        """Lay the tracks.
-
-        height: shape (points, wheels), positive towards the wheel [m]; spacing: dx of the springs [m]; radius: R [m];
-        modulus: E* [Pa]; force: under which the wheels roll, whose smooth approach the quantum goes by [N].
-        Raises ValueError for tracks that are not longer than the contact of the smooth wheel, and values out of range.
-        Warns (ResolutionWarning) of a smooth contact of few springs, and (UnitsWarning) as `roll` does.
-        """
         h = finite_array("height", height, ndim=2)
         self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
         self.modulus, force = positive("modulus", modulus), positive("force", force)
@@ -110,13 +103,13 @@ class RollingEnsemble:
         lowest, highest = h.min(axis=0), h.max(axis=0)
         self._middle = (lowest + highest) / 2
         depth = 1 + (highest - lowest) / self.smooth_approach
-        self.quantum = ROOM * springs / EXACT * self.smooth_approach * depth * np.sqrt(depth)
+        self.quantum = HEADROOM * springs / EXACT_INTEGERS * self.smooth_approach * depth * np.sqrt(depth)
         self._height = np.rint((h - self._middle) / self.quantum)
         self._stiffness = self.modulus * self.spacing * self.quantum
         self._span = float((highest - lowest).max())
         self._margin = 4 * float(self.quantum.max())
         # no force that is added without rounding is larger than that
-        held(self.quantum, self._stiffness, EXACT * self._stiffness, positive=True)
+        held(self.quantum, self._stiffness, EXACT_INTEGERS * self._stiffness, positive=True)
         held(self._height, self._margin * self.radius)
 
     def force(self, place: int, approach: ArrayLike) -> FloatArray:
@@ -200,7 +193,7 @@ class RollingEnsemble:
         reach = self._reach(2 * deep + 2 * self._span + self._margin)
         springs = range(-reach, reach + 1)
         level = self._height.take(np.arange(-reach, reach + 1) + place, axis=0, mode="wrap") - self._profile(springs)
-        if (np.abs(level) * (level > -d)).sum(axis=0).max() >= EXACT:
+        if (np.abs(level) * (level > -d)).sum(axis=0).max() >= EXACT_INTEGERS:
             raise ArithmeticError(f"force must be less for sums without rounding, got {force:.3g} N")
         for _ in range(MOST_STEPS):
             pressed = level > -d
@@ -218,18 +211,18 @@ class RollingEnsemble:
         return len(self._before) + len(self._behind)
 
     def _sort(self, place: int, d: FloatArray) -> None:
-        """Tell springs that must touch, that may, and that cannot, for approaches about these, of all wheels.
+        """Divide springs into those that must touch, may touch and cannot, for approaches near these, of all wheels.
 
         d: to the middle between the lowest and the highest point of each track.
         """
         if not np.isfinite(d).all():
             raise ValueError(f"approach must be finite, got {d - self._middle}")
-        slack = SLACK * self.smooth_approach
+        slack = SORTING_SLACK * self.smooth_approach
         low, high = float(d.min()) - slack, float(d.max()) + slack
         # reset first: after a rejection the ensemble may be asked for another approach
         self._low, self._high = math.inf, -math.inf
         pad = max(self._reach(high + self._span / 2 + self._margin), 0)
-        if (2 * pad + 1) * (max(high, 0.0) + self._span) >= EXACT * float(self.quantum.min()):
+        if (2 * pad + 1) * (max(high, 0.0) + self._span) >= EXACT_INTEGERS * float(self.quantum.min()):
             raise ArithmeticError(
                 f"approach must be less deep for sums of {2 * pad + 1:g} springs without rounding, got {high:.3g} m"
             )

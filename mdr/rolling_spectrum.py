@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from mdr.checks import FloatArray, Spectrum, density, doubles, finite_array, held, positive
 
 NODES = 24
-WIDEST = 1.4
+PANEL_RATIO = 1.4
 """Largest ratio of both ends of a panel of the quadrature, for power laws."""
 
 
@@ -96,7 +96,7 @@ def _panels(first: float, edges: list[float]) -> list[float]:
     ends = [first]
     for edge in edges[1:]:
         while ends[-1] < edge:
-            ends.append(min(edge, WIDEST * ends[-1]))
+            ends.append(min(edge, PANEL_RATIO * ends[-1]))
             held(ends[-1] - ends[-2], positive=True)
     return ends
 

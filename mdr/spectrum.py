@@ -14,9 +14,9 @@ from scipy import special
 from mdr.checks import FloatArray, Spectrum, count, density, doubles, finite, finite_array, held, positive
 
 # The wave at q_min = 2 pi / L carries most of the height; rounding must not push it out of the band.
-EDGE = 1e-9
+BAND_TOLERANCE = 1e-9
 # Below this fraction of q_min the line trace equals its limit at q = 0 to rounding.
-FLAT = 1e-8
+PLATEAU_FRACTION = 1e-8
 
 
 def geike(q: ArrayLike, c2d: ArrayLike | Spectrum) -> FloatArray:
@@ -220,8 +220,8 @@ class SelfAffine:
         (q/q_max)^2 < t < min(1, (q/q_min)^2): an incomplete beta function. Below q_min it is a plateau, not zero.
         """
         q, _ = self._in_band(q)
-        flat = q < FLAT * self.q_min
-        q = np.where(flat, FLAT * self.q_min, np.minimum(q, self.q_max))
+        flat = q < PLATEAU_FRACTION * self.q_min
+        q = np.where(flat, PLATEAU_FRACTION * self.q_min, np.minimum(q, self.q_max))
         low, high = (q / self.q_max) ** 2, np.minimum(1.0, (q / self.q_min) ** 2)
         b, c = self.hurst + 0.5, 0.5
         # near t = 1 the complement keeps the digits that the difference of two values near one would lose
@@ -240,7 +240,9 @@ class SelfAffine:
 
     def _in_band(self, q: ArrayLike) -> tuple[FloatArray, NDArray[np.bool_]]:
         wavenumber = np.abs(finite_array("q", q))
-        return wavenumber, (wavenumber >= self.q_min * (1 - EDGE)) & (wavenumber <= self.q_max * (1 + EDGE))
+        return wavenumber, (wavenumber >= self.q_min * (1 - BAND_TOLERANCE)) & (
+            wavenumber <= self.q_max * (1 + BAND_TOLERANCE)
+        )
 
 
 @cache

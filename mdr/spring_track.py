@@ -28,7 +28,7 @@ class SpringTrack:
         return self.height.size
 
     def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
-        """What to doubt about the contact of the smooth wheel."""
+        """Diagnostics of the contact of the smooth wheel."""
         if not approach > 0:
             return ()
         units = diagnose_units(approach=approach, radius=self.radius)

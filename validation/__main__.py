@@ -85,7 +85,7 @@ def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
         return Exit.UNFINISHED, f"error: {error}"
     if isinstance(error, (ValueError, OSError)):
         return Exit.BAD_INPUT, f"error: {error}"
-    return Exit.FAULT, f"error: a fault of this program, {type(error).__name__}, as told above"
+    return Exit.FAULT, f"error: a fault of this program, {type(error).__name__}, see the traceback above"
 
 
 def report(arguments: argparse.Namespace) -> Exit:

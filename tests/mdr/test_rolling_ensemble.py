@@ -15,7 +15,7 @@ from tests.oracles import springs_under_a_wheel
 
 HERTZ = 4 / 3
 """Of a wheel of radius 1 at an approach of 1 with E* = 1, whose contact has the radius 1."""
-ROOM = 5
+HEADROOM = 5
 ULP = 2.0**-53
 KINDS = ("rough", "spikes", "plateaus", "zero", "negative")
 
@@ -46,7 +46,7 @@ class Tracks:
     @property
     def quantum(self):
         """5 (1 + s)^(3/2) (2 a / dx + 512) 2^-53 of the smooth approach, of each wheel."""
-        return ROOM * (1 + np.ptp(self.height, axis=0)) ** 1.5 * (2 * self.springs + BLOCK) * ULP
+        return HEADROOM * (1 + np.ptp(self.height, axis=0)) ** 1.5 * (2 * self.springs + BLOCK) * ULP
 
     def wheels(self, which=slice(None)):
         return mdr.RollingEnsemble(

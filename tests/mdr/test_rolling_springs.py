@@ -206,7 +206,7 @@ def test_springs_that_stand_out_are_added_as_neighbours_are(monkeypatch, low):
     height[[300, 300 + low, 300 + 2 * low, 700]] += [73.1, 21.7, 89.3, 50.9]
     wheel = {"spacing": 1 / 20, "radius": 1.0, "modulus": 1.0}
     apart = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
-    monkeypatch.setattr("mdr.candidate_springs.WORTH", 0.0)
+    monkeypatch.setattr("mdr.candidate_springs.MAX_WORK_SHARE", 0.0)
     plain = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
     for one, other in zip(apart, plain, strict=True):
         assert np.array_equal(one.force, other.force)

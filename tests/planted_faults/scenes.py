@@ -53,7 +53,7 @@ FAULTS = {
         functools.partial(test_steadiness.test_the_force_on_the_way_against_a_plain_sum, 9.0),
     ),
     "a flight that nobody foretells": (
-        (steadiness, "MOST_FORCE", math.inf),
+        (steadiness, "MAX_FORCE", math.inf),
         functools.partial(test_steadiness.test_flight_is_foretold, 0.33, 30e-3, "by linear theory"),
     ),
     "the rougher of wheel and rail for both": (

@@ -1,4 +1,4 @@
-"""What was understood of a scene, and what may be wrong about it: said first, on terminal and page."""
+"""Description of a scene, and what may be wrong about it: the first lines on terminal and page."""
 
 import math
 
@@ -27,13 +27,13 @@ def describe(scene: AnyScene) -> Pairs:
 
 
 def description_lines(scene: AnyScene, *, moving: bool = True) -> list[str]:
-    """Lines for a terminal: why there is no steady answer, other doubts, what was understood.
+    """Lines for a terminal: why there is no steady answer, notes, description.
 
     moving: whether the motion of a wheel is asked for.
     """
     reason = scene.no_steady_answer() if moving and not isinstance(scene, IndentationScene) else ""
     lines = [f"no steady answer: {reason}"] if reason else []
-    lines += [f"note: {doubt}" for doubt in scene.diagnose()]
+    lines += [f"note: {note}" for note in scene.diagnose()]
     pairs = describe(scene)
     width = max(len(name) for name, _ in pairs)
     return [*lines, *(f"  {name:{width}s}  {value}" for name, value in pairs)]

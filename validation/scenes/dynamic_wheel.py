@@ -37,14 +37,14 @@ KEYS = {
     "distance": "simulation.distance",
 }
 """Where what must be positive stands in a scene file."""
-MOST_POINTS = 10**9
+MAX_POINTS = 10**9
 """Springs of a track of eight gigabytes."""
 
-FEW_SPRINGS = 4
+MIN_SPRINGS_PER_WAVE = 4
 """To a wave: with fewer its curvature is off."""
-FEW_WAVES = 10
+MIN_WAVES_PER_TRACK = 10
 """To a track: with fewer the longest waves are a handful of lines in a spectrum."""
-HIGH = 1e-4
+MAX_PLAUSIBLE_RMS = 1e-4
 """Heights in metres that no rolling surface has."""
 
 
@@ -274,7 +274,7 @@ def _check_lengths(scene: WheelScene) -> None:
         raise ValueError(f"wheel.load must leave a contact smaller than the wheel, {scene.radius:g} m, got {a:g} m")
     if distance <= 2 * a:
         raise ValueError(f"simulation.distance must be longer than the contact, {2 * a:g} m, got {distance:g} m")
-    most = MOST_POINTS * a / max(distance, circumference)
+    most = MAX_POINTS * a / max(distance, circumference)
     if scene.springs > most:
         raise ValueError(f"simulation.springs must be at most {most:.0f} on such a track, got {scene.springs}")
     if scene.rail is not None:
@@ -304,15 +304,16 @@ def _diagnose_roughness(scene: WheelScene) -> Iterator[str]:
         if rough is None:
             continue
         springs, waves = rough.shortest / scene.spacing, scene.distance / rough.longest
-        if springs < FEW_SPRINGS:
-            yield f"{key}.shortest holds {springs:.3g} springs, fewer than {FEW_SPRINGS}: its waves are not resolved."
-        if waves < FEW_WAVES:
+        if springs < MIN_SPRINGS_PER_WAVE:
+            few = f"{springs:.3g} springs, fewer than {MIN_SPRINGS_PER_WAVE}"
+            yield f"{key}.shortest holds {few}: its waves are not resolved."
+        if waves < MIN_WAVES_PER_TRACK:
             yield (
-                f"simulation.distance holds {waves:.3g} waves of {key}.longest, fewer than {FEW_WAVES}: "
+                f"simulation.distance holds {waves:.3g} waves of {key}.longest, fewer than {MIN_WAVES_PER_TRACK}: "
                 "the low end of a spectrum rests on few waves."
             )
-        if rough.rms > HIGH:
-            yield f"{key}.rms is {rough.rms:.3g} m, more than {HIGH:g} m: is its unit right?"
+        if rough.rms > MAX_PLAUSIBLE_RMS:
+            yield f"{key}.rms is {rough.rms:.3g} m, more than {MAX_PLAUSIBLE_RMS:g} m: is its unit right?"
     if scene.wheel is not None and scene.wheel.longest > circumference / 2:
         yield (
             f"wheel.roughness.longest is {scene.wheel.longest:.3g} m, more than half of the circumference of "

@@ -60,7 +60,7 @@ def read_heights(name: str, path: Path) -> FloatArray:
 
 
 def _of_array(file: IO[bytes], size: int) -> NDArray[np.generic]:
-    """Of an .npy, once its header is known to tell no more than the file holds."""
+    """Of an .npy, once its header is known to promise no more than the file holds."""
     if not size:
         raise ValueError("an empty file")
     if file.read(len(ARCHIVE)) == ARCHIVE:

@@ -3,12 +3,12 @@
 import reprlib
 import unicodedata
 
-LONG = 120
+MAX_CHARACTERS = 120
 """Characters of a value in a message, at the most."""
 
 _SHORT = reprlib.Repr()
 _SHORT.maxlevel, _SHORT.maxdict, _SHORT.maxlist, _SHORT.maxtuple = 3, 4, 4, 4
-_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = LONG
+_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = MAX_CHARACTERS
 
 
 def shortened(value: object) -> str:
@@ -20,7 +20,7 @@ def quoted(value: object) -> str:
     """The same, a text in double quotes, as in a scene file."""
     if not isinstance(value, str):
         return shortened(value)
-    text = value if len(value) <= LONG else f"{value[: LONG - 3]}..."
+    text = value if len(value) <= MAX_CHARACTERS else f"{value[: MAX_CHARACTERS - 3]}..."
     return f'"{printable(text.translate(ESCAPED))}"'
 
 

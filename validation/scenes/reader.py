@@ -1,4 +1,4 @@
-"""Scene files: TOML tables, each value by its own reader, everything else refused by name."""
+"""Scene files: TOML tables, each value by its own reader, anything else is an error that names it."""
 
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
@@ -16,7 +16,7 @@ Reader = Callable[[str, object], Any]
 
 SCENES = Path(__file__).parent
 MOST_BYTES, LONGEST_LINE = 100_000, 1000
-"""Of a scene file. Keys of thousands of parts, all on one line, would take minutes to be told apart."""
+"""Of a scene file. Keys of thousands of parts, all on one line, would take minutes to parse."""
 
 
 def bundled() -> tuple[str, ...]:
@@ -61,7 +61,7 @@ class SceneError(ValueError):
 
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
-    """What is refused of a scene is refused with the name of its file."""
+    """Put the name of the scene file in front of the sentence of a ValueError."""
     try:
         yield
     except ValueError as problem:

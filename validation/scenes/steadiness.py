@@ -16,11 +16,11 @@ from validation.theory.rolling import force_spectrum_1d
 
 FloatArray = NDArray[np.float64]
 
-MOST_FORCE = 0.25
+MAX_FORCE = 0.25
 """Root mean square of the force by linear theory, over the load, from where on wheels leave the track."""
-MOST_HEIGHT = 1 / 3
+MAX_HEIGHT = 1 / 3
 """h / d from where on they do, or their level grows along the track."""
-SHORT, FEEDING = 2.0, 0.1
+SHORT_WAVES, FEEDING_HEIGHT = 2.0, 0.1
 """q a of the longest wave, and h / d, from where on short waves feed the free vibration."""
 NODES, RATIO = 16, 1.4
 """Of Gauss and Legendre on a panel; of the ends of a panel, from the resonance, at the most."""
@@ -44,7 +44,7 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]
     - 30 to 3 mm, h/d = 0.1, 0.2, 0.3, sigma / F_N = 0.14, 0.27, 0.41: flight 0, 0, 0.6 %.
     - 4 to 1 mm, shorter than the contact, so that the force hardly changes, h/d = 0.2, 0.3, 0.4, 0.5, 1: growth 1.2,
       1.6, 2.3, 2.6, 2, flight 0, 0, 0, 0.01, 7 %.
-    Below the limits such short waves still feed the free vibration, which is told by `diagnose_short_waves`. In three
+    Below the limits such short waves still feed the free vibration, which `diagnose_short_waves` reports. In three
     dimensions waves oblique to the track excite the resonance from below q_min v_0, too.
     """
     slow, fast = min(g.q_min for g in grounds) * speed, max(g.q_max for g in grounds) * speed
@@ -55,16 +55,16 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]
             f"{slow:.4g} to {fast:.4g} rad/s: the level grows with the distance"
         )
     height = math.hypot(*(ground.rms for ground in grounds))
-    if height > MOST_HEIGHT * wheel.approach:
+    if height > MAX_HEIGHT * wheel.approach:
         return (
             f"the roughness is {height / wheel.approach:.3g} of the approach of {wheel.approach:.3g} m, more than a "
             "third: the wheel leaves the track, and the level depends on the distance"
         )
     force = force_on_the_way(wheel, speed, grounds)
-    if force > MOST_FORCE * wheel.load:
+    if force > MAX_FORCE * wheel.load:
         return (
             f"by linear theory the force changes by {force / wheel.load:.3g} of the load, root mean square, more than "
-            f"{MOST_FORCE:g}: the wheel leaves the track, and the level depends on the distance"
+            f"{MAX_FORCE:g}: the wheel leaves the track, and the level depends on the distance"
         )
     return ""
 
@@ -76,7 +76,7 @@ def diagnose_short_waves(wheel: Wheel, grounds: Sequence[RoughSurface]) -> tuple
     1.7, 2.3; of 1 to 0.25 mm by 1.6, 2.5, 2.8; of 10 to 0.5 mm by 1.04, 1.07, 1.09.
     """
     height, longest = math.hypot(*(g.rms for g in grounds)), min(g.q_min for g in grounds) * wheel.contact_radius
-    if longest < SHORT or height < FEEDING * wheel.approach:
+    if longest < SHORT_WAVES or height < FEEDING_HEIGHT * wheel.approach:
         return ()
     ratio = height / wheel.approach
     return (

@@ -31,14 +31,14 @@ EXAMPLES: dict[Dimension, str] = {
     "pressure": "210 GPa",
     "speed": "20 m/s",
 }
-SAID: dict[Dimension, tuple[str, ...]] = {
+PRINTED_UNITS: dict[Dimension, tuple[str, ...]] = {
     "length": ("nm", "µm", "mm", "m"),
     "mass": ("g", "kg", "t"),
     "force": ("mN", "N", "kN", "MN"),
     "pressure": ("Pa", "kPa", "MPa", "GPa"),
     "speed": ("mm/s", "m/s"),
 }
-"""Units in which a quantity is said, the smallest first."""
+"""Units in which a quantity is printed, the smallest first."""
 # decimal, so that "0.5 um" is the float nearest to 5e-7; nothing trapped, since what is not finite is refused anyway
 DECIMAL = Context(prec=60, traps=[InvalidOperation])
 
@@ -62,8 +62,8 @@ def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = 
 
 def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
     """A quantity in SI units with so many digits, in the largest unit that leaves one or more before the point."""
-    units = [unit for unit in SAID[dimension] if abs(value) * (1 + 1e-9) >= UNITS[dimension][unit]]
-    unit = units[-1] if units else SAID[dimension][0]
+    units = [unit for unit in PRINTED_UNITS[dimension] if abs(value) * (1 + 1e-9) >= UNITS[dimension][unit]]
+    unit = units[-1] if units else PRINTED_UNITS[dimension][0]
     return f"{float(value) / UNITS[dimension][unit]:.{digits}g} {unit}"
 
 
