@@ -1,6 +1,7 @@
 """Who may lean on whom, read from the imports; and what numerics must not do."""
 
 import ast
+import functools
 import re
 from pathlib import Path
 
@@ -14,9 +15,14 @@ def sources(package):
     return sorted((ROOT / package).rglob("*.py"))
 
 
+@functools.cache
+def nodes(source):
+    return list(ast.walk(ast.parse(source.read_text())))
+
+
 def imported(source):
     names = set()
-    for node in ast.walk(ast.parse(source.read_text())):
+    for node in nodes(source):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -57,7 +63,7 @@ def room_of(name):
 def modules_imported(source):
     """Names of the project's modules that a file imports."""
     names = set()
-    for node in ast.walk(ast.parse(source.read_text())):
+    for node in nodes(source):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -125,7 +131,7 @@ def test_architecture_has_a_line_for_every_room():
 def class_names():
     for package in PACKAGES:
         for source in sources(package):
-            for node in ast.walk(ast.parse(source.read_text())):
+            for node in nodes(source):
                 if isinstance(node, ast.ClassDef):
                     yield node.name.lstrip("_"), source.relative_to(ROOT)
 
@@ -152,7 +158,7 @@ def test_numerics_neither_print_nor_write():
     for source in sources("mdr") + sources("bem3d"):
         calls = {
             node.func.id
-            for node in ast.walk(ast.parse(source.read_text()))
+            for node in nodes(source)
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
         }
         assert not calls & {"print", "open"}, source

@@ -179,6 +179,7 @@ def test_the_bootstrap_has_the_standard_error_of_a_mean(size):
     assert np.mean([over_exact() for _ in range(40)]) == pytest.approx(1, abs=4 * 0.022 / math.sqrt(40))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "short"), [(3, 0.0), (6, 0.02)])
 def test_the_bootstrap_covers_in_small_samples(size, short):
     """Of pairs of grids there are few."""
@@ -190,6 +191,7 @@ def test_the_bootstrap_covers_in_small_samples(size, short):
     assert holds(covered(drawn, 0.0, trials=300), trials=300, short=short)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "sigma"), [(12, 0.3), (40, 0.3)])
 def test_the_bootstrap_covers_log_normal_populations(size, sigma):
     """Skewed: a few are lacking, more of them of the deviation."""
@@ -202,6 +204,7 @@ def test_the_bootstrap_covers_log_normal_populations(size, sigma):
         assert holds(share, trials=200, short=short)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("statistic", "size"), [(log_mean, 6), (log_relative_deviation, 30)])
 def test_an_interval_shrinks_with_the_root_of_the_sample_and_its_quantile(statistic, size):
     """To four times the sample: half of the standard error, and Student's quantile of either."""
@@ -238,6 +241,7 @@ def on_grids(rng, surfaces, slope=0.1, scatter=0.02):
     return true * np.exp(own), true * np.exp(own / 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("refined", [3, 6])
 def test_sample_and_grid_together_hold_cells_of_no_size(refined):
     """Few of twelve surfaces on the finer grid: added as if they went the same way, the two hold more than 95 %."""
@@ -254,6 +258,7 @@ def test_sample_and_grid_together_hold_cells_of_no_size(refined):
     assert covered(drawn, 0.0, trials=200) >= 0.95
 
 
+@pytest.mark.slow
 def test_what_a_grid_leaves_open_shrinks_with_the_cells_and_with_the_surfaces():
     rng = np.random.default_rng(5)
 
@@ -356,6 +361,7 @@ MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
 LEVEL = Quantity(name="level", log=logarithm("k"), needs=("k",), decibel=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("size", "short"), [(4, 0.0), (12, 0.0)])
 @pytest.mark.parametrize("paired", [True, False])
 @pytest.mark.parametrize("quantity", [MEAN, LEVEL])
@@ -430,6 +436,7 @@ def rolled(rng, *, springs=1.2, finer=0.98, scatter=0.03, case=ROLLING):
     )
 
 
+@pytest.mark.slow
 def test_levels_of_rolling_are_powers_in_decibels():
     """10 lg of a ratio of powers: 1.2 of springs, 0.98 from one grid to the next, which are 0.98^2 to no cells."""
     rng = np.random.default_rng(0)
@@ -446,6 +453,7 @@ def test_levels_of_rolling_are_powers_in_decibels():
     assert departure.grid == pytest.approx(number.grid)
 
 
+@pytest.mark.slow
 def test_intervals_of_rolling_are_those_of_their_own_pairs():
     rng = np.random.default_rng(1)
     mine = LevelsAtHeight(rolled(rng), 0.1)
@@ -602,6 +610,7 @@ def test_the_level_over_linear_theory_covers_its_truth():
     assert holds(covered(drawn, 10 * math.log10(1.3), trials=300), trials=300, short=0.01)
 
 
+@pytest.mark.slow
 def test_a_feature_covers_its_truth():
     """The floor B / omega^2 of groups that differ by a factor, jackknifed."""
     rng, scene = np.random.default_rng(4), wheel_distance.TABLE
@@ -718,6 +727,7 @@ def test_the_growth_over_laps_covers_its_truth(confidence):
     assert abs(share - confidence) <= binomial(TRIALS, confidence)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("share", "size"), [(0.95, 60), (0.95, 200), (0.5, 20)])
 def test_the_interval_of_a_share_is_that_of_clopper_and_pearson(share, size):
     """Summed over all counts: it holds the truth in 95 of 100 at least, and misses it by no more than 2.5 a side."""

@@ -90,6 +90,7 @@ DEVIATIONS = {"normal": 1.0, "uniform": 12**-0.5}
 MEANS = {"normal": 0.0, "uniform": 0.5}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("population", list(POPULATIONS))
 @pytest.mark.parametrize("size", [12, 60])
 @pytest.mark.parametrize("statistic", [log_mean, log_relative_deviation])
@@ -122,6 +123,7 @@ def test_levels_of_a_realisation_are_resampled_together():
     assert both.estimate(weighted_mean(np.array([0.5, 0.5]), log_mean)).error == pytest.approx(alone, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_error_of_a_paired_change():
     """The bootstrap of pairs against the spread of what many samples of pairs measure."""
     rng = np.random.default_rng(0)

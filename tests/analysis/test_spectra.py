@@ -191,6 +191,7 @@ def smoothed_step(edge, exponent, lines):
     return kernel @ law / 20 / 1.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [0.0, -2.4, -4.4])
 @pytest.mark.parametrize("edge", [60.0, 60.3, 75.5, 90.8])
 def test_jump_of_a_power_law_with_its_edge_between_lines(edge, exponent):
@@ -204,6 +205,7 @@ def test_jump_of_a_power_law_with_its_edge_between_lines(edge, exponent):
     assert regions.jump(omega, density, edge / 3, edge * 3) == pytest.approx(edge, abs=2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_jump_of_noise(seed):
     """200 records of waves beyond an edge, with Hann's window: half a line, and a third of one for noise: means of 200

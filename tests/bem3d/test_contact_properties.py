@@ -26,6 +26,7 @@ def moved(contact, step):
     )
 
 
+@pytest.mark.slow
 @given(problem=pressed())
 def test_complementarity(problem):
     """p >= 0, no penetration, no gap under pressure: within the tolerance, by an operator that the solver never saw."""
@@ -40,6 +41,7 @@ def test_complementarity(problem):
     assert np.sum(contact.pressure * np.abs(w)) <= allowed * contact.pressure.sum()
 
 
+@pytest.mark.slow
 @given(problem=pressed(periodic=False, by=("approach",)))
 def test_pressure_is_that_of_the_dense_least_squares_solution(problem):
     contact = problem.solve(tolerance=TIGHT)
@@ -47,6 +49,7 @@ def test_pressure_is_that_of_the_dense_least_squares_solution(problem):
     np.testing.assert_allclose(contact.pressure, dense, atol=1e-9 * dense.max(initial=1e-300))
 
 
+@pytest.mark.slow
 @given(problem=pressed(periodic=False, by=("force",), most=7))
 def test_approach_is_that_of_the_dense_solution_under_the_same_force(problem):
     contact = problem.solve(tolerance=TIGHT)
@@ -55,6 +58,7 @@ def test_approach_is_that_of_the_dense_solution_under_the_same_force(problem):
     assert contact.approach == pytest.approx(dense, abs=1e-8 * (dense - problem.gap.min()))
 
 
+@pytest.mark.slow
 @given(problem=pressed(periodic=False), scale=scales, modulus=scales)
 def test_scaling_with_lengths_and_modulus(problem, scale, modulus):
     """All lengths times s, E* times m: approach ~ s, pressure ~ m, force ~ m s^2, stiffness ~ m s."""
@@ -72,6 +76,7 @@ def test_scaling_with_lengths_and_modulus(problem, scale, modulus):
         assert k[1] == pytest.approx(k[0] * modulus * scale, rel=1e-11)
 
 
+@pytest.mark.slow
 @given(problem=pressed(), exponent=st.integers(-30, 30), other=st.integers(-30, 30))
 def test_scaling_by_powers_of_two_is_exact(problem, exponent, other):
     """No absolute number hides anywhere: the same bits come out."""
@@ -85,6 +90,7 @@ def test_scaling_by_powers_of_two_is_exact(problem, exponent, other):
     np.testing.assert_array_equal(contact.pressure, modulus * problem.solve().pressure)
 
 
+@pytest.mark.slow
 @given(problem=pressed(by=("approach",)), step=st.floats(1e-3, 1))
 def test_force_grows_with_approach(problem, step):
     contact = problem.solve(tolerance=TIGHT)
@@ -95,6 +101,7 @@ def test_force_grows_with_approach(problem, step):
     assert further.area >= contact.area or further.force > contact.force
 
 
+@pytest.mark.slow
 @given(problem=pressed())
 def test_mirror_and_transpose(problem):
     one = problem.solve(tolerance=TIGHT)
@@ -106,6 +113,7 @@ def test_mirror_and_transpose(problem):
     np.testing.assert_allclose(other.pressure.T[::-1], one.pressure, atol=1e-8 * one.pressure.max())
 
 
+@pytest.mark.slow
 @given(problem=pressed(periodic=False))
 def test_stiffness_is_the_finite_difference(problem):
     """F(d) is linear while no cell enters or leaves: then the difference quotient is the stiffness, to the residual."""
@@ -116,6 +124,7 @@ def test_stiffness_is_the_finite_difference(problem):
     assert (high.force - low.force) / (2 * step) == pytest.approx(contact.stiffness(), rel=1e-5)
 
 
+@pytest.mark.slow
 @given(problem=pressed(periodic=False, most=6, by=("approach",)))
 def test_stiffness_is_that_of_the_dense_contact(problem):
     contact = problem.solve(tolerance=TIGHT)
@@ -125,6 +134,7 @@ def test_stiffness_is_that_of_the_dense_contact(problem):
     assert contact.stiffness(tolerance=1e-12) == pytest.approx(expected, rel=1e-10)
 
 
+@pytest.mark.slow
 @given(problem=pressed(periodic=False, most=6, by=("approach",)))
 def test_energy_is_the_integral_of_the_force(problem):
     """1/2 sum(p u) dx dy = int F dd: F is piecewise linear, so the trapezium error is of second order in the steps.
@@ -141,6 +151,7 @@ def test_energy_is_the_integral_of_the_force(problem):
     assert -1e-9 * energy <= work - energy <= bound + 1e-9 * energy
 
 
+@pytest.mark.slow
 @given(problem=pressed())
 def test_a_start_does_not_change_the_answer(problem):
     cold = problem.solve(tolerance=TIGHT)
@@ -151,6 +162,7 @@ def test_a_start_does_not_change_the_answer(problem):
     assert problem.solve(tolerance=1e-9, start=cold).iterations <= 1
 
 
+@pytest.mark.slow
 @given(problem=pressed(by=("force",)))
 def test_force_and_approach_are_two_ways_to_one_contact(problem):
     by_force = problem.solve(tolerance=TIGHT)

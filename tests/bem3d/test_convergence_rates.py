@@ -22,6 +22,7 @@ def sphere_force_errors(cells_per_radius):
     ]
 
 
+@pytest.mark.slow
 def test_sphere_force_at_second_order():
     """Variational: at most (dx/a)^2 / 4; grids of n = 128, 256, 512 cells with a = n/4."""
     n = np.array([32, 64, 128])
@@ -77,6 +78,7 @@ def test_square_punch_at_first_order():
     assert 2 * stiffness[-1] - stiffness[-2] == pytest.approx(closed_forms.SQUARE_PUNCH, abs=5e-4)
 
 
+@pytest.mark.slow
 def test_reference_of_the_square_punch_against_graded_cells():
     """Cells that grow finer as the cosine towards the edges: second order, so one extrapolation gives four digits."""
     coarse, fine = flat_square_by_graded_cells(11), flat_square_by_graded_cells(22)

@@ -40,6 +40,7 @@ def checked(contact):
     return contact
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fraction", [0.99, 0.999, 1.0])
 @pytest.mark.parametrize("periodic", [True, False])
 def test_full_and_nearly_full_contact(fraction, periodic):
@@ -61,6 +62,7 @@ def test_full_and_nearly_full_contact(fraction, periodic):
         assert near.force == pytest.approx(contact.force, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("periodic", "cells"), list(itertools.product([True, False], [1, 2])))
 def test_one_and_two_cells(periodic, cells):
     """Solved by hand: p = s / K_00 in one cell, s / (K_00 + K_01) in each of two neighbours."""
@@ -219,6 +221,7 @@ def test_flat_but_for_noise(height, periodic):
         assert contact.converged == (contact.residual <= contact.tolerance)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [(5, 1), (8, 3), (1, 9)])
 @pytest.mark.parametrize("spacing", [(1.0, 1e-3), (1.0, 1000.0)])
 @pytest.mark.parametrize("periodic", [True, False])
@@ -269,6 +272,7 @@ def nasty(draw):
     return body, gap, 10 ** draw(st.floats(-8, 8))
 
 
+@pytest.mark.slow
 @given(problem=nasty())
 def test_nasty_gaps_under_a_force(problem):
     body, gap, force = problem
@@ -282,6 +286,7 @@ def test_nasty_gaps_under_a_force(problem):
         assert contact.residual <= 1e-3 or contact.status != "converged"
 
 
+@pytest.mark.slow
 @given(problem=nasty(), part=st.floats(0.001, 2))
 def test_nasty_gaps_at_an_approach(problem, part):
     body, gap, _ = problem

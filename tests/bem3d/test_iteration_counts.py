@@ -37,6 +37,7 @@ def smoothed_noise(shape, *, rms, seed=3):
     return rms * (h - h.mean()) / h.std()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("prescribed", BOTH)
 def test_sphere_costs_the_same_on_any_grid(prescribed):
     """At most 20 applications to 1e-8 from a cold start, growing by no more than 3 from 128 to 512 cells a side."""
@@ -52,6 +53,7 @@ def test_sphere_costs_the_same_on_any_grid(prescribed):
     assert counts[-1] - counts[0] <= 3
 
 
+@pytest.mark.slow
 def test_textbook_iteration_grows_with_the_grid():
     """The negative control of the test above."""
     counts = [
@@ -67,6 +69,7 @@ def test_textbook_iteration_costs_what_it_does():
     assert 60 <= by_force.operator_applications <= 80
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("periodic", [True, False])
 @pytest.mark.parametrize("n", [256, 512])
 def test_rough_contact_costs_forty_at_most(n, periodic):
@@ -78,6 +81,7 @@ def test_rough_contact_costs_forty_at_most(n, periodic):
     assert len(by_force.coarse_applications) == round(np.log2(n / 16))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("periodic", [True, False])
 def test_load_path(periodic):
     """24 loads over three decades, up to a tenth of the area: 13 applications a load on average, but up to 20 at the

@@ -51,6 +51,7 @@ def test_a_finer_stiffness_than_the_path_has_brought_is_solved_for():
     assert exact == pytest.approx(contact.frozen.stiffness, rel=1e-6)
 
 
+@pytest.mark.slow
 @given(problem=pressed(most=12, by=("force",)))
 def test_error_of_the_stiffness_is_the_residual_squared(problem):
     """k = 2 sum(p) - sum(p K p) takes the energy of p, which is lowest for the answer: always from below, and to

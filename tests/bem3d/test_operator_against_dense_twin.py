@@ -20,6 +20,7 @@ def random_pressure(half_space, seed):
     return np.random.default_rng(seed).standard_normal(half_space.shape)
 
 
+@pytest.mark.slow
 @given(half_space=half_spaces(most=8), seed=st.integers(0, 1000))
 def test_displacement(half_space, seed):
     pressure = random_pressure(half_space, seed)
@@ -135,6 +136,7 @@ def test_a_half_space_survives_pickling():
     np.testing.assert_array_equal(copy.displacement(pressure), expected)
 
 
+@pytest.mark.slow
 @given(pressure=arrays(np.float64, (7, 5), elements=st.floats(-1, 1)))
 def test_planning_changes_rounding_alone(pressure):
     settings = {"shape": (7, 5), "spacing": 1.0, "modulus": 1.0}

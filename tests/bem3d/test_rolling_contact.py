@@ -63,6 +63,7 @@ STRIPS = {
 CELLS = {"flat": 6, "smooth": 8, "rough": 7, "very rough": 6, "as rough as deep": 6}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", STRIPS)
 @pytest.mark.parametrize("by", ["approach", "force"])
 def test_each_position_is_that_of_a_cold_solve(name, by):
@@ -180,6 +181,7 @@ def pairs(wave, height, cells, *, positions):
     return (up - down) / 2, (up + down) / 2 - flat
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("waves", [1, 2])
 def test_ridges_across_the_track_tend_to_the_filter(waves):
     """(14.11) is exact in 3D for ridges: q a = pi / 2, and q a = pi, a zero of it. By cells, at first order at least.
@@ -198,6 +200,7 @@ def test_ridges_across_the_track_tend_to_the_filter(waves):
     assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] >= 0.8
 
 
+@pytest.mark.slow
 def test_the_odd_part_is_linear_theory_and_the_even_part_of_second_order():
     """F(h) - F(0) by orders, on a grid that is the same for all heights.
 
@@ -341,6 +344,7 @@ def test_cells_under_the_smooth_sphere(cells, approach):
     assert 1 <= right - left <= under.sum() + 4
 
 
+@pytest.mark.slow
 @given(
     pressure=arrays(np.float64, (6, 5), elements=st.floats(0, 1, width=16)),
     seed=st.integers(0, 1000),
@@ -381,6 +385,7 @@ def bumpy(*, row, column=0.0, cells=6, tall=4.0):
     return height
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("by", ["approach", "force"])
 @pytest.mark.parametrize("column", [0.0, 1.5, -2.0])
 def test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it(by, column):

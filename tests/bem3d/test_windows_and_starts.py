@@ -81,6 +81,7 @@ def test_a_window_is_a_part_of_the_grid(data):
     assert part == pytest.approx(body.displacement(pressure)[box], abs=1e-12 * max(1.0, np.abs(pressure).sum()))
 
 
+@pytest.mark.slow
 @given(data=st.data())
 def test_candidates_are_a_part_of_the_field(data):
     """Vectors over some cells, through the operator and back: those of the field that is zero elsewhere."""
@@ -184,6 +185,7 @@ def test_coarse_grids_give_a_start_and_no_more(shape, periodic, monkeypatch):
     assert one.pressure == pytest.approx(other.pressure, abs=1e-7 * other.pressure.max())
 
 
+@pytest.mark.slow
 @given(problem=pressed(most=40))
 def test_textbook_and_fast_solver_find_the_same(problem):
     fast = problem.solve(tolerance=1e-9)
@@ -220,6 +222,7 @@ def test_what_a_half_space_has_solved_before_does_not_matter():
         np.testing.assert_array_equal(pressure, first)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("periodic", [True, False])
 def test_measured_plans_leave_the_estimates_of_others_alone(periodic):
     """FFTW remembers what it has measured in a process, and would use it for the next estimate."""

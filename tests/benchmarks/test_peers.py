@@ -69,6 +69,7 @@ def other(name, prepare, package="numpy"):
     return PeerSolver(name, package, "for a test", prepare, (1.0, 0.1))
 
 
+@pytest.mark.slow
 def test_a_solver_that_fails_is_a_row(monkeypatch):
     solvers = (
         SOLVERS[0],
@@ -126,6 +127,7 @@ def result():
     return comparison.run(small())
 
 
+@pytest.mark.slow
 def test_evidence(result):
     evidence = comparison_evidence.evidence(result)
     heats, scaling = evidence.table("heats"), evidence.table("scaling")
@@ -144,6 +146,7 @@ def test_evidence(result):
         assert (mine["pressure difference to ours, L2"] <= 1e-4).all()
 
 
+@pytest.mark.slow
 def test_contact_models_are_listed_with_the_difference_of_their_stiffness(result):
     """Of the sphere the difference of the grid alone; rough faces scatter about the closed form."""
     heats = comparison_evidence.evidence(result).table("heats").where(solver="closed form")
@@ -155,6 +158,7 @@ def test_contact_models_are_listed_with_the_difference_of_their_stiffness(result
     assert (heats["median [s]"] > 0).all()
 
 
+@pytest.mark.slow
 def test_steps_of_the_wheel_are_counted_on_the_same_force(result):
     """The plain sum over all springs is the same force, and slower where only some are in doubt."""
     rates = comparison_evidence.evidence(result).table("wheel")
@@ -163,6 +167,7 @@ def test_steps_of_the_wheel_are_counted_on_the_same_force(result):
     assert (rates["wheel-steps a second"] > 0).all()
 
 
+@pytest.mark.slow
 def test_positions_of_a_rolling_wheel_are_beside_their_floor(result):
     assert result.rolling["h/d"].tolist() == [0.01, 0.3]
     assert (result.rolling["positions a second"] > 0).all()
@@ -170,6 +175,7 @@ def test_positions_of_a_rolling_wheel_are_beside_their_floor(result):
     assert (result.rolling["time over applications on 3a x 3a"] > 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [solver.name for solver in SOLVERS if solver.package != OURS])
 def test_peers_find_the_same_pressure(name, result):
     """Relative L2 under 1e-4 at a residual of 1e-8, force and area too; periodic and free, sphere and rough."""
@@ -184,6 +190,7 @@ def test_peers_find_the_same_pressure(name, result):
         assert outcome["difference"][i, 2] == 0.0
 
 
+@pytest.mark.slow
 def test_a_difference_of_answers_is_a_missed_criterion(result):
     outcomes = [{**outcome} for outcome in result.outcomes]
     outcomes[0]["difference"] = outcomes[0]["difference"].copy()
@@ -192,6 +199,7 @@ def test_a_difference_of_answers_is_a_missed_criterion(result):
     assert sum(not number.met for number in numbers) == 2
 
 
+@pytest.mark.slow
 def test_command_line(result, tmp_path, monkeypatch, capsys):
     """The comparison has a page, a table on the terminal, and times that are kept apart from results."""
     entry = dataclasses.replace(TIMED["race"], quick=result.case, run=lambda case, engine: result)
@@ -207,6 +215,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     assert "Solver comparison" in (tmp_path / "index.html").read_text()
 
 
+@pytest.mark.slow
 def test_exponents_are_those_of_the_measurements(result):
     """Time n^2.5, memory n^2 planted on grids of 512 and more."""
     scalings = [

@@ -423,6 +423,7 @@ def charts(found):
 ROUGH = {CLOSED, MDR, BEM, LOOSE}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "lines"),
     [
@@ -446,6 +447,7 @@ def line(charts, scene, quantity, method):
     return charts.where(scene=scene, quantity=quantity, method=method, status=FINISHED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "quantity", "method", "order", "within"),
     [
@@ -461,6 +463,7 @@ def test_errors_fall_with_the_knob(scene, quantity, method, order, within, chart
     assert -slope == pytest.approx(order, abs=within)
 
 
+@pytest.mark.slow
 def test_extrapolated_grids_are_closer_than_the_finer_of_them(charts):
     fine, both = (line(charts, "square punch", "stiffness", method) for method in (BEM, EXTRAPOLATED))
     assert (both["error"] < fine["error"][1:] / 3).all()
@@ -469,12 +472,14 @@ def test_extrapolated_grids_are_closer_than_the_finer_of_them(charts):
     np.testing.assert_allclose(both["work"], fine["work"][1:] + fine["work"][:-1])
 
 
+@pytest.mark.slow
 def test_looser_residuals_cost_less_and_are_farther_off(charts):
     loose, tight = (line(charts, "sphere", "force", method) for method in (LOOSE, BEM))
     assert loose["error"][0] > tight["error"][1]
     assert (loose["work"] < tight["work"][1]).all()
 
 
+@pytest.mark.slow
 def test_nobody_is_ranked_below_the_reference(charts):
     """Of the finest grid the reference leaves open as much as it lies from it; the last step."""
     for scene, quantity in (("fractal punch", "mean stiffness"), ("rolling force", "rms")):
@@ -486,6 +491,7 @@ def test_nobody_is_ranked_below_the_reference(charts):
         assert (np.diff(rank[np.argsort(ahead["median [s]"], kind="stable")]) <= 0).all()
 
 
+@pytest.mark.slow
 def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
     refused = charts["status"][[s.startswith("out of range") for s in charts["status"]]]
     reasons = " ".join(refused.tolist())
@@ -497,6 +503,7 @@ def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
     assert len(found.page_tables[1]["reason"]) == len(set(zip(*found.page_tables[1].columns.values(), strict=True)))
 
 
+@pytest.mark.slow
 def test_criteria_hold_where_theory_predicts(found):
     criteria = [number for number in found.numbers if number.role == "criterion"]
     assert len(criteria) == 6
@@ -504,6 +511,7 @@ def test_criteria_hold_where_theory_predicts(found):
     assert found.unconverged == ()
 
 
+@pytest.mark.slow
 def test_conclusions_and_summary_name_the_cheapest(found):
     assert len(found.conclusions) == 11
     assert all(" is the cheapest" in sentence for sentence in found.conclusions)
@@ -511,6 +519,7 @@ def test_conclusions_and_summary_name_the_cheapest(found):
     assert len(found.page_tables[0]["scene"]) == 11
 
 
+@pytest.mark.slow
 def test_an_answer_that_is_lost_is_not_converged(result):
     outcomes = [{**outcome} for outcome in result.outcomes]
     configurations = precision.configurations_of(SMALL.problems()[0])
@@ -521,6 +530,7 @@ def test_an_answer_that_is_lost_is_not_converged(result):
     assert lost == ("sphere: BEM, finer cells, 16 cells to a radius: failed: ConvergenceError: lost",)
 
 
+@pytest.mark.slow
 def test_the_same_seed_draws_the_same_errors(result, found):
     with pytest.MonkeyPatch.context() as monkeypatch:
         use_a_clock_of_its_own(monkeypatch)
@@ -578,6 +588,7 @@ def test_the_approach_under_a_wave_is_the_sum_of_its_compliances():
     assert westergaard_approach(mean_pressure=full, **scene) == pytest.approx(2e-6)
 
 
+@pytest.mark.slow
 def test_boundary_elements_find_the_approach_under_a_wave(charts):
     """On grids the error falls at least at first order."""
     mine = line(charts, "Westergaard's wave", "approach", BEM)
@@ -625,6 +636,7 @@ def test_mean_rolling_levels_are_those_of_many_linear_forces():
 # --- the command ---
 
 
+@pytest.mark.slow
 def test_command_line(result, tmp_path, monkeypatch, capsys):
     """A page, sentences on the terminal, and times that are kept apart from results."""
     monkeypatch.setitem(

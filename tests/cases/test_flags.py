@@ -386,6 +386,7 @@ def reported(monkeypatch, tmp_path, *, numbers=(), unconverged=(), raises=None):
     return status, (tmp_path / "report" / "index.html").read_text(), (tmp_path / "report" / "results.json").read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("numbers", "unconverged", "status"),
     [
@@ -412,6 +413,7 @@ def test_what_a_report_ends_with(numbers, unconverged, status, monkeypatch, tmp_
     assert f"criteria met {criteria - len(missed)} of {criteria}" in printed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "error",
     [
@@ -511,6 +513,7 @@ def test_what_becomes_of_rungs(claims, errors, fates):
 # --- whose surfaces are whose ---
 
 
+@pytest.mark.slow
 def test_the_reference_of_the_calibration_test_has_surfaces_of_its_own():
     """The tested models draw with the seed of the trial, the reference with another."""
     seeds = []

@@ -118,6 +118,7 @@ def numbers(evidence, name):
     return numbers_with(evidence.numbers, name, "mdr over bem3d")
 
 
+@pytest.mark.slow
 def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
     """First order: 5 % stiffer on cells half as wide and 10 % softer on cells twice as wide is 10 % at cells of no
     size, either way: only what the two logarithms differ by is left. No change of the deviation."""
@@ -132,6 +133,7 @@ def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
         assert n.grid == pytest.approx(20 * 2 * np.log10(1.05), abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("apart", "surfaces", "verdict"),
     [
@@ -153,6 +155,7 @@ def test_verdicts_on_known_deviations(apart, surfaces, verdict):
         assert n.value == pytest.approx(20 * np.log10(apart), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_so_many_realisations_would_decide():
     """Where 10 leave 15 % undecided, the number that is named decides, and a third of it does not."""
     few = numbers(synthetic(apart=1.15, surfaces=10), "relative deviation")[0]
@@ -171,6 +174,7 @@ def test_exponents_of_a_power_law():
     np.testing.assert_allclose(evidence.table("curves")["mdr exponent"], 0.5, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_means_over_hurst_exponents():
     """Seven equal ensembles: the same difference, 1/sqrt(7) of the interval of the sample."""
     case = replace(CASE, hursts=(0.4, 0.7, 1.0), surfaces=40, refined=40)
@@ -183,6 +187,7 @@ def test_means_over_hurst_exponents():
         assert rows["± sample"][mean][0] == pytest.approx(np.sqrt((rows["± sample"][single] ** 2).sum()) / 3, rel=0.05)
 
 
+@pytest.mark.slow
 def test_surfaces_without_a_heavy_load_on_other_grids():
     """Up to the light force all of them, beyond it the first few; what was not pressed is missing, and no failure."""
     case = replace(CASE, decades=(-2, 0), light=0.1)
@@ -199,6 +204,7 @@ def test_surfaces_without_a_heavy_load_on_other_grids():
     )
 
 
+@pytest.mark.slow
 def test_a_factor_lost_in_the_force_is_a_missed_criterion(monkeypatch):
     """Boundary elements pressed with half, or a hundredth, of the force: stiffness and load curve no longer fit."""
     case = replace(CASE, decades=(-1, 1), cells=16)

@@ -60,6 +60,7 @@ def found(result, name):
     return next(sweep for sweep in result.sweeps if sweep.limit.name == name)
 
 
+@pytest.mark.slow
 def test_all_criteria_are_met(result):
     evidence = limits_evidence.evidence(result)
     assert [n.sentence for n in evidence.numbers if not n.met] == []
@@ -70,6 +71,7 @@ def test_names_are_unique():
     assert len(set(NAMES)) == len(NAMES)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_each_limit_fails_on_its_side(result, name):
     """More past the threshold than before it, and past the tolerance there."""
@@ -80,6 +82,7 @@ def test_each_limit_fails_on_its_side(result, name):
     assert np.median(failed) > max(np.median(good), sweep.limit.tolerance)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DERIVED)
 def test_thresholds_are_where_theory_says(result, name):
     sweep = found(result, name)
@@ -89,6 +92,7 @@ def test_thresholds_are_where_theory_says(result, name):
     assert number in limits_evidence.evidence(result).numbers
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DERIVED)
 def test_a_threshold_elsewhere_is_noticed(result, name):
     sweep = found(result, name)
@@ -97,6 +101,7 @@ def test_a_threshold_elsewhere_is_noticed(result, name):
         assert threshold_number(elsewhere).verdict is Verdict.DIFFER
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WARNED)
 def test_a_user_past_the_threshold_is_warned(result, name):
     sweep = found(result, name)
@@ -106,6 +111,7 @@ def test_a_user_past_the_threshold_is_warned(result, name):
     assert number in limits_evidence.evidence(result).numbers
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", WARNED)
 def test_silence_and_crying_wolf_are_noticed(result, name):
     sweep = found(result, name)
@@ -114,6 +120,7 @@ def test_silence_and_crying_wolf_are_noticed(result, name):
     assert silent.verdict == "not warned"
 
 
+@pytest.mark.slow
 def test_recorded_messages_are_those_of_the_code(result):
     """The same calls once more."""
     body, gap = spheres.half_space(8, 1 / 1.2), spheres.sphere(8, 1 / 1.2, 0.0625)
@@ -137,6 +144,7 @@ def test_recorded_messages_are_those_of_the_code(result):
     assert found(result, "linear").messages[-1].startswith("LinearityWarning: roughness of h_rms / d = 1 ")
 
 
+@pytest.mark.slow
 def test_figures_are_drawn_from_tables(result):
     evidence = limits_evidence.evidence(result)
     assert len(figures.draw(evidence).axes) == 12
@@ -246,12 +254,14 @@ def test_theory_of_small_changes_of_energy():
     assert 1 - (1 - x**6 / 72) ** (2 * np.pi / x) == pytest.approx(time_stepping.KUTTA.tolerance, rel=x**6 / 72)
 
 
+@pytest.mark.slow
 def test_a_residual_that_forgives_is_noticed(result):
     forgiving = [(grid, {**found, "residual": 1e-3 * found["residual"]}) for grid, found in result.judged]
     numbers = limits_evidence.evidence(replace(result, judged=forgiving)).numbers
     assert {n.verdict for n in numbers_with(numbers, "true error over residual, largest")} == {Verdict.DIFFER}
 
 
+@pytest.mark.slow
 def test_iterations_that_grow_are_noticed(result):
     growing = [(g, {**found, "iterations": found["iterations"] * g.cells}) for g, found in result.iterated]
     numbers = limits_evidence.evidence(replace(result, iterated=growing)).numbers
@@ -259,6 +269,7 @@ def test_iterations_that_grow_are_noticed(result):
     assert len(found) == 6 and Verdict.AGREE not in {n.verdict for n in found}
 
 
+@pytest.mark.slow
 def test_input_without_an_answer_is_refused(result):
     answers = {str(row["call"]): str(row["answer"]) for row in result.unanswered}
     assert answers["bem3d.solve, zero force"] == "force 0, stiffness 0"

@@ -79,6 +79,7 @@ def test_what_is_rolled_over_is_the_middle_of_the_surface():
     assert (part.shape[1] / 2 / 8) ** 2 / 2 >= 1 + surface.max()
 
 
+@pytest.mark.slow
 def test_a_low_strip_is_rolled_as_linear_theory_has_it():
     """Position by position, to the grid: a few per cent of the fluctuation with 12 cells to a radius."""
     outcome = roll_strip(strip(height=1e-3, cells=12, tolerance=1e-8))
@@ -128,12 +129,14 @@ def of_linear_theory(result):
     return numbers_with(evidence(result).numbers, LEVEL, f"{LINEAR_3D} over bem3d")
 
 
+@pytest.mark.slow
 def test_boundary_elements_agree_with_linear_theory(rolled):
     """Below the band and in its long waves, at h/d = 0.01, with error bars of coarse grids."""
     for number in of_linear_theory(rolled)[:2]:
         assert abs(number.difference) <= 0.3 + number.uncertainty
 
 
+@pytest.mark.slow
 def test_two_decibels_more_are_two_decibels(rolled):
     before, after = of_linear_theory(rolled), of_linear_theory(louder(rolled, 10 ** (2 / 20)))
     for one, other in zip(before, after, strict=True):
@@ -143,6 +146,7 @@ def test_two_decibels_more_are_two_decibels(rolled):
     assert not after[0].met
 
 
+@pytest.mark.slow
 def test_a_strip_that_was_lost_counts_in_nothing(rolled):
     height = SMALL.heights[0]
     bem = {name: values.copy() for name, values in rolled.bem[height].items()}
@@ -152,6 +156,7 @@ def test_a_strip_that_was_lost_counts_in_nothing(rolled):
     assert np.isfinite([number.value for number in numbers]).all()
 
 
+@pytest.mark.slow
 def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
     outcome = rolled.bem[SMALL.heights[0]]
     copied = {
@@ -166,6 +171,7 @@ def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
     assert coherence(strange) < 0.01
 
 
+@pytest.mark.slow
 def test_ridges_agree_and_a_lost_factor_does_not(monkeypatch):
     case = ridges.Ridges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5))
     result = ridges.run(case)

@@ -104,6 +104,7 @@ def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
     assert np.std(height[half:] - height[:-half]) > LITTLE.wheel.rms
 
 
+@pytest.mark.slow
 def test_rail_and_wheel_add_as_spectra():
     """Heights add to the last bit; where they are independent the cross terms of 40 pairs are below four standard
     errors of a mean of products of independent waves."""
@@ -289,6 +290,7 @@ def jump_of_waves(scene, ride):
     return float(squares @ np.abs(factor) ** 2), float(squares.sum()), turn
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("quarters", "theory"), [(1, 1.0), (2, 2.0), (3, 1.0), (4, 2.0)])
 def test_the_mean_square_jump_is_that_of_linear_theory(quarters, theory):
     """Of 400 wheels from rest on the linear contact, within three standard errors of the sum over waves. The theorem
@@ -343,6 +345,7 @@ def test_a_strip_is_that_of_a_rough_rail_alone(scene):
         strip(scene)
 
 
+@pytest.mark.slow
 def test_a_low_strip_is_the_linear_contact():
     """At h / d = 1e-3, step by step: what is left is of the grid, first order in the cells: a circle whose radius is
     known to half a cell answers the force of a wave with as much error, 1 / (2 cells)."""
@@ -370,6 +373,7 @@ def losing(*realisations):
     return roll
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("default")
 def test_a_strip_that_does_not_converge_is_lost_and_the_case_goes_on(monkeypatch):
     monkeypatch.setattr(wheel_3d, "simulate_strip", losing(3))
@@ -385,6 +389,7 @@ def test_a_strip_that_does_not_converge_is_lost_and_the_case_goes_on(monkeypatch
     assert all(math.isfinite(number.value) and number.met for number in found.numbers)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("default")
 def test_too_few_strips_are_no_evidence(monkeypatch):
     monkeypatch.setattr(wheel_3d, "simulate_strip", losing(1))
@@ -435,6 +440,7 @@ def changed(result, change):
     return replace(result, batches={n: [{**o, **change(o)} for o in some] for n, some in result.batches.items()})
 
 
+@pytest.mark.slow
 def test_wheel_evidence_is_whole(long_wheel):
     found = wheel_evidence.evidence(long_wheel)
     whole(found)
@@ -446,6 +452,7 @@ def test_wheel_evidence_is_whole(long_wheel):
         assert abs(number.difference) <= number.tolerance + 2 * number.uncertainty, number.sentence
 
 
+@pytest.mark.slow
 def test_a_fifth_more_acceleration_is_another_level(long_wheel):
     def louder(o):
         return {name: 1.44 * o[name] for name in ("plain", "hann", "levels", "square")} | {
@@ -463,6 +470,7 @@ def test_a_fifth_more_acceleration_is_another_level(long_wheel):
     assert all(number.met for number in after.numbers)
 
 
+@pytest.mark.slow
 def test_a_shifted_axis_is_another_peak_jump_and_period(long_wheel):
     before = wheel_evidence.evidence(long_wheel)
     after = wheel_evidence.evidence(changed(long_wheel, lambda o: {"omega": 1.03 * o["omega"]}))
@@ -473,6 +481,7 @@ def test_a_shifted_axis_is_another_peak_jump_and_period(long_wheel):
         assert other.verdict is Verdict.DIFFER, other.sentence
 
 
+@pytest.mark.slow
 def test_a_floor_without_its_leak_is_not_predicted(long_wheel):
     after = wheel_evidence.evidence(changed(long_wheel, lambda o: {"plain": o["hann"]}))
     floor = feature(after, FLOOR + PREDICTED)
@@ -481,6 +490,7 @@ def test_a_floor_without_its_leak_is_not_predicted(long_wheel):
     assert not all(number.met for number in after.numbers)
 
 
+@pytest.mark.slow
 def test_a_lost_force_is_a_missed_criterion(long_wheel):
     after = wheel_evidence.evidence(changed(long_wheel, lambda o: {"balance": o["balance"] + 1e-9}))
     (missed,) = (number for number in after.numbers if not number.met)
@@ -502,6 +512,7 @@ def test_what_does_not_stand_out_is_said_so():
     assert not any("Its slope" in sentence for sentence in found.conclusions)
 
 
+@pytest.mark.slow
 def test_one_parameter_at_a_time():
     case = replace(LONG, scene=SMALL, realisations=10, batch=10, varied=6, groups=2, parameters=True)
     names = list(case.variations())
@@ -554,6 +565,7 @@ def hann(evidence):
     return number_with(evidence.numbers, distance_numbers.LEVEL, model)
 
 
+@pytest.mark.slow
 def test_distance_evidence_is_whole(distances):
     found = wheel_distance_evidence.evidence(distances)
     whole(found)
@@ -581,12 +593,14 @@ def test_distances_take_whole_natural_periods_and_double():
         assert natural_periods(SMALL.body, one, SMALL.speed) >= 2**i * (1 - ROUNDING)
 
 
+@pytest.mark.slow
 def test_a_rectangular_window_in_place_of_hann_drops_nothing(distances):
     ends = {name: {**o, "hann": o["plain"]} for name, o in distances.ends.items()}
     found = wheel_distance_evidence.evidence(replace(distances, ends=ends))
     assert hann(found).value == pytest.approx(0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_floors_without_their_leak_are_not_predicted(distances):
     """Half of the floor, as if its jumps were lower by the root of two, at every distance."""
     halved = [{**o, "jump": math.sqrt(2) * o["jump"]} for o in distances.distances]
@@ -600,6 +614,7 @@ def test_floors_without_their_leak_are_not_predicted(distances):
         assert other.verdict is Verdict.DIFFER
 
 
+@pytest.mark.slow
 def test_a_linear_contact_with_a_floor_misses_its_criterion(distances):
     leaking = {**distances.ends[wheel_distance.LINEAR_STEADY]}
     leaking["plain"] = leaking["plain"] + 1e-12 * leaking["plain"].max()
@@ -608,6 +623,7 @@ def test_a_linear_contact_with_a_floor_misses_its_criterion(distances):
     assert len([number for number in found.numbers if not number.met]) == 2
 
 
+@pytest.mark.slow
 def test_wheels_that_do_not_repeat_themselves_are_no_evidence(monkeypatch):
     monkeypatch.setattr(wheel_ensemble, "STEADY_TOLERANCE", -1.0)
     with pytest.raises(NotConvergedError, match="most wheels of an ensemble do not repeat their motion") as caught:
@@ -623,6 +639,7 @@ def in_3d():
     return wheel_3d.run(QUICK_3D)
 
 
+@pytest.mark.slow
 def test_evidence_in_three_dimensions_is_whole(in_3d):
     found = wheel_3d_evidence.evidence(in_3d)
     whole(found)
@@ -636,6 +653,7 @@ def test_evidence_in_three_dimensions_is_whole(in_3d):
     assert np.isfinite(table["bem3d [dB]"]).all()
 
 
+@pytest.mark.slow
 def test_a_fifth_more_acceleration_in_three_dimensions(in_3d):
     strips = {name: [{**o, "bem": 1.2 * o["bem"]} for o in some] for name, some in in_3d.strips.items()}
     before, after = (wheel_3d_evidence.evidence(replace(in_3d, strips=s)) for s in (in_3d.strips, strips))
@@ -646,6 +664,7 @@ def test_a_fifth_more_acceleration_in_three_dimensions(in_3d):
         assert other.uncertainty == pytest.approx(one.uncertainty, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_grids_that_differ_leave_the_level_open(in_3d):
     """A coarse grid 1 dB louder, with a quarter more cells on the fine one: three times as much is left open."""
     louder = [{**o, "bem": 10 ** (1 / 20) * o["bem"]} for o in in_3d.strips["coarser"]]
@@ -658,6 +677,7 @@ def test_grids_that_differ_leave_the_level_open(in_3d):
 # --- interrupted ensembles --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_an_interrupted_ensemble_goes_on_where_it_was(tmp_path):
     """Four files; one is lost: it alone is written anew, and all is as before to the bit."""
     case = replace(LONG, scene=SMALL, realisations=12, groups=3, batch=4)

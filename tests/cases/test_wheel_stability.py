@@ -54,12 +54,14 @@ def verdicts(result, quantity, model=None, **where):
     return [number.verdict for number in found]
 
 
+@pytest.mark.slow
 def test_all_criteria_are_met(result):
     evidence = wheel_stability_evidence.evidence(result)
     assert [n.sentence for n in evidence.numbers if not n.met] == []
     assert evidence.unconverged == ()
 
 
+@pytest.mark.slow
 def test_figures_are_drawn_from_tables(result):
     evidence = wheel_stability_evidence.evidence(result)
     assert len(figures.draw(evidence).axes) == 4
@@ -102,6 +104,7 @@ def test_verlet_keeps_its_energy_to_the_fourth_order():
     assert np.log2(swings[0] / swings[1]) == pytest.approx(4, abs=0.3)
 
 
+@pytest.mark.slow
 def test_swapped_integrators_are_noticed(result):
     linear = dict(result.linear)
     names = VELOCITY_VERLET.name, SYMPLECTIC_EULER.name
@@ -111,6 +114,7 @@ def test_swapped_integrators_are_noticed(result):
     assert Verdict.DIFFER in verdicts(replace(result, linear=linear), GROWTH)
 
 
+@pytest.mark.slow
 def test_a_wrong_limit_is_noticed(result, monkeypatch):
     """Every scheme growing from half its limit on."""
     exact = free.amplification
@@ -118,12 +122,14 @@ def test_a_wrong_limit_is_noticed(result, monkeypatch):
     assert set(verdicts(result, GROWTH)) == {Verdict.DIFFER}
 
 
+@pytest.mark.slow
 def test_a_wrong_period_is_noticed(result, monkeypatch):
     exact = wheel_theory.hertz_period
     monkeypatch.setattr(wheel_theory, "hertz_period", lambda highest: 1.001 * exact(highest))
     assert set(verdicts(result, "period over 2 pi / omega, extrapolated to dt = 0")) == {Verdict.DIFFER}
 
 
+@pytest.mark.slow
 def test_a_drift_is_noticed(result):
     found = result.long[VELOCITY_VERLET.name]
     drifting = found["kept"] + 1e-9 * np.linspace(0, 1, free.TENTHS)[:, np.newaxis]
@@ -131,6 +137,7 @@ def test_a_drift_is_noticed(result):
     assert verdicts(replace(result, long=long), "drift of the conserved energy") == [Verdict.DIFFER]
 
 
+@pytest.mark.slow
 def test_explicit_euler_in_place_of_verlet_is_noticed(result):
     growth = "growth of the energy of the free vibration, last tenth over first, log"
     laps = {**result.laps, VELOCITY_VERLET.name: result.laps[EXPLICIT_EULER.name]}
@@ -139,6 +146,7 @@ def test_explicit_euler_in_place_of_verlet_is_noticed(result):
     assert verdicts(replace(result, laps=laps), growth, EXPLICIT_EULER.name) == [Verdict.DIFFER]
 
 
+@pytest.mark.slow
 def test_springs_that_pull_and_lost_momentum_are_noticed(result):
     (problem, found), *others = result.lift
     pulling = replace(result, lift=[(problem, {**found, "lowest": found["lowest"] - 2}), *others])
@@ -148,6 +156,7 @@ def test_springs_that_pull_and_lost_momentum_are_noticed(result):
     assert verdicts(heavy, momentum) == [Verdict.DIFFER]
 
 
+@pytest.mark.slow
 def test_springs_taken_for_a_continuum_are_noticed(result, monkeypatch):
     exact = rough.linear_response
     monkeypatch.setattr(rough, "linear_response", lambda track, stride: exact(track, 1))
@@ -184,6 +193,7 @@ def test_a_refusal_says_by_how_much(scheme):
     assert ("grows at any step" in answer) == (scheme is EXPLICIT_EULER)
 
 
+@pytest.mark.slow
 def test_what_was_not_refused_is_noticed(result):
     done = case.refusal("a step of nothing", lambda: None)
     assert done["answer"] == "none: the call succeeded"
@@ -191,6 +201,7 @@ def test_what_was_not_refused_is_noticed(result):
     assert numbers[-1].verdict is Verdict.DIFFER
 
 
+@pytest.mark.slow
 def test_very_rough_tracks_leave_room_for_their_sums(result):
     found = [outcome for problem, outcome in result.lift if problem.track.rms > 2 * free.WHEEL.approach]
     assert found
@@ -199,6 +210,7 @@ def test_very_rough_tracks_leave_room_for_their_sums(result):
         assert outcome["failed"] == 0
 
 
+@pytest.mark.slow
 def test_findings_and_criteria_are_told_apart(result):
     roles = {number.role for number in wheel_stability_evidence.evidence(result).numbers}
     assert roles == {Role.CRITERION, Role.FINDING}

@@ -75,6 +75,7 @@ def report(folder, *words):
     return command.main(["report", "--only", "hertz", "--out", str(folder), "--workers", "2", *words])
 
 
+@pytest.mark.slow
 def test_a_worker_that_is_killed_is_exit_4(tmp_path, monkeypatch, capsys):
     """In a sentence; and what was finished is kept."""
     monkeypatch.setitem(CASES, "hertz", run_of(die_at_once, tmp_path))
@@ -85,6 +86,7 @@ def test_a_worker_that_is_killed_is_exit_4(tmp_path, monkeypatch, capsys):
     assert not (tmp_path / "results.json").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_process_of_its_own_that_dies_is_a_lost_worker(workers, tmp_path):
     with pytest.raises(WorkerLostError, match="a worker was killed"):
@@ -108,6 +110,7 @@ sys.exit(command.main(words))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("asked", "status", "said", "solve", "workers"),
     [
@@ -135,6 +138,7 @@ def test_who_is_asked_to_end_takes_all_workers_along(asked, status, said, solve,
     assert not list((tmp_path / "out").glob(".mdr-validation*"))
 
 
+@pytest.mark.slow
 def test_a_process_of_its_own_that_nobody_waits_for_is_ended(tmp_path):
     with pytest.raises(ZeroDivisionError), isolated_process() as lane:
         answer = lane.submit(stay, Job(1, str(tmp_path)))
@@ -178,6 +182,7 @@ def test_the_table_of_statuses_is_complete(capsys):
         assert re.search(rf"^\| {int(status)} \| \w", rows, re.MULTILINE), status
 
 
+@pytest.mark.slow
 def test_nobody_reads_what_is_printed():
     """A pipe that is closed early is no bad input."""
     words = [sys.executable, "-m", "validation", "cases"]
@@ -189,6 +194,7 @@ def test_nobody_reads_what_is_printed():
     assert told == "error: Broken pipe\n"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
 def test_what_is_printed_goes_to_a_full_disk():
     words = [sys.executable, "-m", "validation", "cases"]

@@ -259,6 +259,7 @@ def explode(problem):
     raise FloatingPointError("too steep")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_solve_that_raises_is_named(problems, workers):
     with pytest.raises(FloatingPointError, match="too steep") as caught:
@@ -290,6 +291,7 @@ SMALL = fractal_punch.FractalPunch(
 SURFACES = [SMALL.surface(0.7, i, 32) for i in range(4)] + [SMALL.surface(0.7, i, 16) for i in range(4)]
 
 
+@pytest.mark.slow
 def test_any_number_of_workers_and_any_order_give_the_same_bits(tmp_path):
     alone = Engine().map(press_surface, SURFACES)
     for workers in (2, 3):
@@ -343,6 +345,7 @@ def wait_until(condition, *alive, over=None):
         time.sleep(0.02)
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on_where_it_stopped(tmp_path):
     """SIGKILL in the middle, no time for any farewell: a rerun ends with the bytes of a run that was left alone, and
     computes nothing again that had been stored, and at most what the two workers were at or had before them."""
@@ -416,6 +419,7 @@ def cluster(monkeypatch):
         process.wait()
 
 
+@pytest.mark.slow
 def test_workers_of_a_scheduler_give_the_same_bits_and_one_may_die(cluster, tmp_path):
     """One of three workers is killed in the middle: all results come, each as a single process would have it."""
     address, worker, _ = cluster
@@ -451,6 +455,7 @@ def test_an_address_where_nobody_answers(problems, monkeypatch):
         Engine(executor="dask://127.0.0.1:9").map(toy, problems)
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_is_lost(cluster, tmp_path):
     """A sentence, not a hang; what was finished is kept."""
     address, worker, scheduler = cluster
@@ -473,6 +478,7 @@ def deadly(problem):
     os._exit(1)
 
 
+@pytest.mark.slow
 def test_a_solve_that_kills_every_worker_is_given_up(cluster, tmp_path):
     """The scheduler gives it to four, one after the other."""
     address, worker, _ = cluster
@@ -482,6 +488,7 @@ def test_a_solve_that_kills_every_worker_is_given_up(cluster, tmp_path):
         Engine(executor=address).map(deadly, [Deadly(0)])
 
 
+@pytest.mark.slow
 def test_a_scheduler_without_workers(problems, cluster, monkeypatch):
     address, _, scheduler = cluster
     host, port = address.removeprefix("dask://").split(":")
@@ -580,6 +587,7 @@ def plain_toy(problem):
     return {"value": np.zeros(problem)}
 
 
+@pytest.mark.slow
 def test_the_source_is_read_when_the_code_is():
     """Whoever edits it while it runs does not make old results new."""
     code = "from validation.engine import engine; print(engine._version_of_numerics.cache_info().currsize)"

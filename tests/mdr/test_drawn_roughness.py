@@ -35,6 +35,7 @@ def surface_moment(height, n, spacing):
     return np.sum(np.hypot(qx[:, None], qy) ** n * np.abs(np.fft.fft2(height, norm="forward")) ** 2)
 
 
+@pytest.mark.slow
 @given(hurst=hursts, points=lengths, seed=seeds, length=scales, rms=scales)
 def test_profile_moments_are_the_sums_over_its_waves(hurst, points, seed, length, rms):
     """sum |q|^n 2 pi C_1D(q) / L over every wave the points carry, the Nyquist wave of an even number among them."""
@@ -107,6 +108,7 @@ def test_lines_cut_from_surfaces_are_no_draws_of_geikes_spectrum():
     assert along / surface_moment(surface, 2, (1.0, 1.0)) == pytest.approx(0.5, rel=1e-10)
 
 
+@pytest.mark.slow
 @given(seed=seeds, hurst=hursts, points=st.integers(8, 20))
 def test_a_finer_grid_draws_the_same_roughness(seed, hurst, points):
     """Between the points of the coarse grid lie those of one three times as fine: every third is the same point."""
@@ -125,6 +127,7 @@ def test_a_finer_grid_draws_the_same_roughness(seed, hurst, points):
         np.testing.assert_allclose(surfaces[1][1::3, 1::3], surfaces[0], atol=1e-12 * np.abs(surfaces[0]).max())
 
 
+@pytest.mark.slow
 def test_gaussian_amplitudes_have_the_spectrum_in_the_mean_alone():
     """Mean square: the sum over the waves, with a relative standard error of sqrt(sum of squares / draws)."""
     spectrum = band(0.7, 16)
@@ -160,6 +163,7 @@ def test_heights_are_normal_when_many_waves_share_them():
     assert np.mean(heights**4) == pytest.approx(3, abs=5 * np.sqrt(96 / waves))
 
 
+@pytest.mark.slow
 def test_profiles_look_the_same_up_and_down():
     """Phases cover the whole circle: mean cube of the height zero, and each mode's phase uniform."""
     spectrum = band(0.7, 8)
@@ -171,6 +175,7 @@ def test_profiles_look_the_same_up_and_down():
     assert abs(cubes.mean()) < 5 * cubes.std() / np.sqrt(1000)
 
 
+@pytest.mark.slow
 def test_surfaces_look_the_same_up_and_down():
     """So do theirs, those of waves that are their own mirror image too, which are up or down."""
     c2d = band(0.7, 3, 6.0).c2d

@@ -114,6 +114,7 @@ def first_touch(height, place, springs):
     return float(np.max(height[(place + j) % height.size] - (j / springs) ** 2))
 
 
+@pytest.mark.slow
 @given(data=st.data(), track=tracks())
 def test_force_is_the_sum_over_all_springs(data, track):
     """Whatever was asked before, however deep, lifted or refused: right, or an ArithmeticError."""
@@ -175,6 +176,7 @@ def groups(order, cuts):
     return [list(order[first:last]) for first, last in itertools.pairwise(edges)]
 
 
+@pytest.mark.slow
 @given(data=st.data(), track=tracks(fewest=10.0, roughest=0.15, wheels=5), way=ways())
 def test_a_wheel_feels_the_same_force_to_the_last_bit_whoever_rolls_beside_it(data, track, way):
     asked = [data.draw(calls(track)) for _ in range(4)]
@@ -213,6 +215,7 @@ def test_heights_from_a_plane_far_away_cost_an_error_or_no_bits(offset):
     assert np.array_equal(np.concatenate([track.wheels([i]).approach(0, HERTZ) for i in range(5)]), expected)
 
 
+@pytest.mark.slow
 @given(track=tracks(), place=places, share=st.floats(0.05, 3))
 @example(track=Tracks(np.zeros((300, 1)), 10.0), place=0, share=1.0)
 @example(track=Tracks(np.zeros((300, 1)), 1.0), place=0, share=1.0)
@@ -226,6 +229,7 @@ def test_a_prescribed_force_is_borne(track, place, share):
         assert abs(found - force) <= error + 16 * ULP * force
 
 
+@pytest.mark.slow
 @given(track=tracks(), share=st.floats(0.05, 1))
 @example(track=Tracks(np.zeros((60, 2)), 20.0), share=1.0)
 def test_a_prescribed_force_is_that_of_the_wheel_alone(track, share):

@@ -163,6 +163,7 @@ def test_forces_of_any_size_end(force):
     assert_is_borne(mdr.roll(height, **track), height, **track, positions=[0, 360, 366, 900])
 
 
+@pytest.mark.slow
 @given(track=on_springs(longest=40), share=st.floats(-9, 0), spikes=st.integers(0, 3), ties=st.booleans())
 def test_sorting_agrees_with_exact_arithmetic(track, share, spikes, ties):
     """On any track, with spikes up to a million times the approach, and heights on a ladder, with many ties."""
@@ -261,6 +262,7 @@ def test_units_do_not_matter(kind, track, force, length):
     assert np.abs(found - expected).max() <= track.rounding
 
 
+@pytest.mark.slow
 @given(track=on_springs())
 def test_variance_of_the_force_is_that_of_its_spectrum(track):
     """<F^2> - <F>^2 = int C_F dq over both signs, for odd numbers of points, which have no last wave of their own."""

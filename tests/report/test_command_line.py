@@ -163,12 +163,14 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch):
     assert contents(one, "results.json", "data/*.csv") == contents(two, "results.json", "data/*.csv")
 
 
+@pytest.mark.slow
 def test_another_seed_draws_other_surfaces(small, tmp_path):
     for seed in ("5", "6"):
         report("--only", "geike", "--out", str(tmp_path / seed), "--workers", "1", "--seed", seed)
     assert contents(tmp_path / "5", "data/*") != contents(tmp_path / "6", "data/*")
 
 
+@pytest.mark.slow
 def test_results_hold_every_number_with_its_verdict(small, tmp_path):
     report("--only", "hertz", "--out", str(tmp_path), "--workers", "1")
     results = json.loads((tmp_path / "results.json").read_text())
@@ -198,6 +200,7 @@ def test_a_page_holds_several_cases(small, tmp_path):
     whole_page(tmp_path, ["hertz", "geike"])
 
 
+@pytest.mark.slow
 def test_provenance_names_no_machine(small, tmp_path):
     report("--only", "geike", "--out", str(tmp_path), "--workers", "1")
     text = (tmp_path / "provenance.json").read_text() + (tmp_path / "results.json").read_text()
@@ -206,6 +209,7 @@ def test_provenance_names_no_machine(small, tmp_path):
     assert os.uname().nodename not in text
 
 
+@pytest.mark.slow
 def test_a_failed_criterion_is_exit_1(small, tmp_path, monkeypatch, capsys):
     symbol = bem3d.kernel.free_space_symbol
     monkeypatch.setattr(bem3d.kernel, "free_space_symbol", lambda *args: 1.1 * symbol(*args))
@@ -214,6 +218,7 @@ def test_a_failed_criterion_is_exit_1(small, tmp_path, monkeypatch, capsys):
     assert "differ" in (tmp_path / "index.html").read_text()
 
 
+@pytest.mark.slow
 def test_not_converged_is_exit_3(small, tmp_path, monkeypatch, capsys):
     """One case fails, the others are still reported."""
     use(monkeypatch, "hertz", hertz.Hertz(cells_per_radius=(4, 6), load_steps=1, tolerance=1e-30))

@@ -64,6 +64,7 @@ def test_the_spectrum_has_the_height():
     assert (found.c2d(np.array([0.0, 0.9 * edges[0], 1.1 * edges[-1]])) == 0).all()
 
 
+@pytest.mark.slow
 def test_a_tilt_is_taken_off():
     x = np.arange(N)[:, np.newaxis] * DX
     y = np.arange(N) * DX
@@ -268,6 +269,7 @@ def test_shipped_scenes_are_what_they_say():
     assert load_scene("table_14_1") == RollingScene.of_wheel(load_wheel_scene("table_14_1"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["npy", "csv", "txt", "tsv"])
 def test_heights_are_read_from_a_file_beside_the_scene(tmp_path, suffix):
     height = drawn()

@@ -43,6 +43,7 @@ def test_shipped_wheels_are_steady():
     assert replace(TABLE, rail=None).no_steady_answer() == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("ratio", "grows"), [(0.5, True), (0.8, True), (1.2, False), (2.5, False)])
 def test_the_level_grows_where_the_resonance_is_among_the_waves(ratio, grows):
     wheels = scene(0.003, ratio=ratio, distance=4.0)
@@ -65,6 +66,7 @@ def test_flight_is_foretold(height, longest, said):
     assert (air > 1e-3) == bool(said)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("longest", "grows"), [(2e-3, True), (10e-3, False)])
 def test_short_waves_that_feed_the_free_vibration_are_told(longest, grows):
     wheels = scene(0.25, longest=longest, springs=20)
@@ -122,6 +124,7 @@ def reported(tmp_path, *changes):
     return code, page[page.index("<body>") :], json.loads((out / "results.json").read_text())["scene"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("old", "new"), [('"0.5 um"', '"8 um"'), ('"20 m/s"', '"1 m/s"')])
 def test_a_scene_without_a_steady_answer_is_never_green(tmp_path, capsys, small, old, new):
     code, page, said = reported(tmp_path, (old, new))
@@ -135,6 +138,7 @@ def test_a_scene_without_a_steady_answer_is_never_green(tmp_path, capsys, small,
     assert "criteria met" not in page
 
 
+@pytest.mark.slow
 def test_doubts_stand_first(tmp_path, capsys, small):
     _, page, said = reported(tmp_path, ('"0.65 m"', '"0.05 m"'))
     assert said["no steady answer"] == ""

@@ -51,6 +51,7 @@ def statuses(comparison):
 # Grids
 
 
+@pytest.mark.slow
 def test_the_error_of_a_grid_covers_the_limit_of_a_series():
     rng = np.random.default_rng(11)
     inside = []
@@ -99,6 +100,7 @@ def summit_stiffness(scene, realisation, cells=64):
     return 2 * (0.75 * scene.load * radius) ** (1 / 3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", [1e-6, 1e-5, 1e-4])
 @pytest.mark.parametrize("last", [4, 8])
 def test_light_loads_have_no_answer_unless_it_is_that_of_the_summits(load, last):
@@ -113,6 +115,7 @@ def test_light_loads_have_no_answer_unless_it_is_that_of_the_summits(load, last)
     assert statuses(found)["closed form"] == "out of range"
 
 
+@pytest.mark.slow
 def test_few_springs_and_few_cells_are_no_answer():
     scene = punch(load=1e-3, last=32)
     assert "springs or fewer" in models_of(scene, "stiffness", 0.5, 0)[1].solve().failed
@@ -235,6 +238,7 @@ def test_a_band_without_a_wave_that_fits_is_a_row_with_its_reason():
     assert all(candidate.reason for candidate in found.selection.candidates)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("problem", [ValueError("no wave"), ZeroDivisionError("division by zero"), MemoryError()])
 def test_a_solve_that_raises_is_a_row_and_the_others_go_on(problem, monkeypatch):
     def raising(self):
@@ -503,6 +507,7 @@ def test_springs_leave_what_their_tracks_scatter(monkeypatch):
     assert found.model == springs.estimate().error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("quantity", ["force-rms", "force-spectrum", "acceleration", "acceleration-rms"])
 def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(quantity):
     moving = {"mass": 3.0, "speed": 40.0} if quantity.startswith("acceleration") else {}

@@ -131,6 +131,7 @@ def test_tolerances_out_of_range_are_refused(tolerance):
         select_model([Fake()], tolerance)
 
 
+@pytest.mark.slow
 def test_what_was_done_is_counted_and_not_what_was_expected():
     model = indentation_models.IndentationOnGrid(punch(), 0.6, seed=3, cells=32)
     selection = select_model([model], 0.6)
@@ -162,6 +163,7 @@ def test_a_distance_is_over_all_numbers():
     assert distance(np.array([1.1]), np.array([1.0])) == pytest.approx(distance(np.array([1.0]), np.array([1.1])))
 
 
+@pytest.mark.slow
 def test_the_error_of_a_mean_covers_it_in_95_of_100():
     rng = np.random.default_rng(5)
     draws = rng.standard_normal((4000, 6))
@@ -310,6 +312,7 @@ def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
     assert quantity.bands.edges[0] >= 2 * math.sqrt(k / 2.0) / 3.0 * (1 - 1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("quantity", ["force-spectrum", "acceleration-rms"])
 def test_boundary_elements_tend_to_linear_theory(quantity):
     moving = {"mass": 1.0, "speed": 4.0} if quantity.startswith("acceleration") else {}
@@ -346,6 +349,7 @@ def test_random_scenes_are_the_same_for_the_same_numbers(kind, number):
     assert random_scene(kind, number, 7) != random_scene(kind, number, 8)
 
 
+@pytest.mark.slow
 @given(power=st.floats(-6, 6), length=st.floats(-6, 6))
 def test_no_claim_depends_on_units(power, length):
     scene, other = wheel(height=0.1), wheel(height=0.1)
@@ -399,6 +403,7 @@ def account():
     return ladder.run(ladder.CalibrationTest(punches=3, spheres=1, rolling=1, tolerances=(0.1, 0.3)))
 
 
+@pytest.mark.slow
 def test_estimated_errors_hold_on_surfaces_that_no_model_has_seen(account):
     found = calibration.evidence(account)
     scenes, claims = found.table("scenes"), found.table("claims")
@@ -412,6 +417,7 @@ def test_estimated_errors_hold_on_surfaces_that_no_model_has_seen(account):
     assert len(found.numbers) == 2 * 2
 
 
+@pytest.mark.slow
 def test_an_estimate_that_is_too_small_is_found_out(account):
     outcomes = [{**outcome, "met": np.ones(2), "estimated": outcome["true"] / 2} for outcome in account.outcomes]
     found = calibration.evidence(ladder.CalibrationResult(account.case, outcomes, ()))
@@ -562,6 +568,7 @@ def test_linear_theory_says_nothing_of_single_summits_and_pits():
             assert all(claim.error == math.inf and "not Gaussian" in claim.reason for claim in claims)
 
 
+@pytest.mark.slow
 def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
     height = 0.05 * wheel().approach * track()
     quantity = RollingQuantity(wheel(ground=MeasuredHeights(height=height, spacing=(1 / 4, 1 / 4))), "force-spectrum")
@@ -572,6 +579,7 @@ def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
     assert linear.estimate().error < distance(found.value, rolled_over) <= found.error
 
 
+@pytest.mark.slow
 def test_a_measured_track_is_rolled_itself():
     rng = np.random.default_rng(3)
     rough = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=3.0, rms=1.0)

@@ -25,6 +25,7 @@ def draws(roughness, method, count):
     return [roughness.surface(16, i) if method == "bem3d" else roughness.profile(64, i) for i in range(count)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("hurst", CASE.hursts)
 def test_heights_are_normalised_as_they_say(method, hurst):
@@ -118,6 +119,7 @@ def synthetic(exponent, *, area=1.0, refined=1.0):
     return area_gap_rolloff_evidence.evidence(MdrLimitsResult(LIMITS, bem, finer, mdr, ()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [1.0, 0.8])
 def test_the_exponent_of_the_interface_is_found_behind_the_punch(exponent):
     """For the roll-off that is wide enough, in both decades, by both methods; interpolation costs some 1e-3."""
@@ -129,6 +131,7 @@ def test_the_exponent_of_the_interface_is_found_behind_the_punch(exponent):
         assert n.verdict is (Verdict.AGREE if exponent == 1 else Verdict.DIFFER)
 
 
+@pytest.mark.slow
 def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
     finer, plain = (numbers_with(synthetic(1.0, refined=factor).numbers, AREA) for factor in (1.05, 1.0))
     assert len(finer) == 2 * 2

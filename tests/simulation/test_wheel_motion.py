@@ -179,6 +179,7 @@ def test_a_wheel_has_the_same_bits_in_every_ensemble(name):
         assert np.array_equal(some.path, together.path[:, which])
 
 
+@pytest.mark.slow
 @given(length=st.floats(-5, 2), modulus=st.floats(-3, 11), mass=st.floats(-3, 4), seed=st.integers(0, 100))
 @settings(max_examples=20)
 def test_units_do_not_matter(length, modulus, mass, seed):

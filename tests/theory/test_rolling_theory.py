@@ -84,6 +84,7 @@ def test_force_spectrum_of_a_power_law_is_a_sum_over_the_lattice(hurst):
         assert found == pytest.approx(lattice_sum(q, spectrum.c2d, step, 21), abs=2 * step * largest)
 
 
+@pytest.mark.slow
 @given(power=st.integers(-30, 30), unit=scales)
 def test_force_spectrum_in_other_units(power, unit):
     """C_F ~ E*^2 l^5 and C_2D ~ l^4; lengths by powers of two, so that the edges of the band stay where they are."""
@@ -101,6 +102,7 @@ def test_force_spectrum_in_other_units(power, unit):
     assert found / (unit**2 * factor**5) == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("a", [0.05, 1.0, 3.0])
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_geikes_rule_keeps_the_variance_of_the_force(hurst, a):
@@ -124,6 +126,7 @@ def test_geikes_rule_keeps_the_variance_of_the_force(hurst, a):
     assert total == pytest.approx(whole, rel=1e-5)
 
 
+@pytest.mark.slow
 @given(spectrum=bumps(), a=st.floats(-2, 2))
 def test_geikes_rule_keeps_the_variance_of_any_spectrum(spectrum, a):
     wheel = {"contact_radius": 10**a / math.exp(spectrum.centre[0]), "modulus": 1.0}
@@ -155,6 +158,7 @@ def test_levels_of_both_methods_differ_by_a_constant_ratio(hurst, ratio):
     assert surface.mean() == pytest.approx(level_ratio(hurst), rel=200**-1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_the_oscillation_is_the_limit_at_an_order(hurst):
     """The next end-point term of int (q + t)^-n t^(-1/2) cos is of order (q a)^(-3/2)."""
@@ -245,6 +249,7 @@ def test_large_wheels_are_fed_less_than_geike(hurst):
     assert near == pytest.approx(fed, rel=1e-7)
 
 
+@pytest.mark.slow
 @given(share=st.floats(0, 1), a=st.floats(-2, 2), hurst=st.floats(0.05, 1.2))
 def test_the_feed_by_adaptive_quadrature(share, a, hurst):
     spectrum, edges = power_law(hurst)
@@ -287,6 +292,7 @@ def band_levels(values, q, bands):
     return np.array([values[band].sum() for band in inside])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", [1.0, 2 ** (1 / 6)])
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst, first):
