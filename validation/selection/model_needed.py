@@ -19,13 +19,13 @@ BEM = "boundary elements"
 
 
 def rung_of(scene: Scene, quantity: str) -> str:
-    """The first model that expects to be enough, grids of boundary elements not told apart."""
+    """The first model whose estimated error is small enough; all grids of boundary elements are one model."""
     model = needed(models_of(scene, quantity, TOLERANCE, 0), TOLERANCE)
     return "none" if model is None else BEM if model.name.startswith(BEM) else model.name
 
 
 def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> str:
-    """Models along a knob, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
+    """Models along a parameter, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
     found = [(value, rung_of(scene, quantity)) for value, scene in scenes]
     pieces = []
     for model, group in groupby(found, key=lambda pair: pair[1]):

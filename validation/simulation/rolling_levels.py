@@ -1,4 +1,4 @@
-"""A wheel rolled over rough ground with one model, in levels: what the rungs of a rolling wheel compute."""
+"""A wheel rolled over rough ground with one model, in levels: the values of the models of a rolling wheel."""
 
 import math
 import warnings
@@ -122,8 +122,8 @@ def on_boundary_elements(quantity: RollingQuantity, cells: int, realisation: int
 def on_springs(quantity: RollingQuantity, tracks: int, seed: int) -> FloatArray:
     """ln of levels of one-sided springs over what linear theory expects, (tracks, bands).
 
-    Of the rms of the force, on tracks of Geike's spectrum and over the linear filter on them; else on tracks that are
-    fed for rolling, over the half-space.
+    Of the rms of the force, on tracks of Geike's spectrum and over the linear filter on them; else on tracks of
+    the rolling spectrum, over the half-space.
     """
     scene = quantity.scene
     height, spacing = _tracks(quantity, tracks, seed)

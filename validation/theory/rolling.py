@@ -1,7 +1,7 @@
 """Linear elasticity of a wheel that rolls over roughness: references, which import neither method.
 
 The contact is a circle that keeps its radius a. A wave of roughness h exp(i k.x) under it then changes the normal force
-by what reciprocity with the flat punch says: dF = (E* / pi) int h dA / sqrt(a^2 - r^2).
+by reciprocity with the flat punch: dF = (E* / pi) int h dA / sqrt(a^2 - r^2).
 Spectra are two-sided: <F^2> = int_{-inf}^{inf} C_F dq. Wavenumbers in rad/m, C_2D in m^4, C_F in N^2 m.
 """
 

@@ -16,10 +16,11 @@ NAN = math.nan
 
 @dataclass(frozen=True, kw_only=True)
 class Point:
-    """One attempt at one quantity.
+    """One configuration and one quantity.
 
-    unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; line, knob,
-    value: the method and its setting; referee: whether it is the reference itself; status: "finished", or why not;
+    unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; method,
+    parameter, value: of the configuration; is_reference: whether it is the reference itself; status: "finished", or why
+    not;
     error, half_width: with the interval of the sample; finer: the largest upper end of an error that more of the same
     leaves, see `monotone_envelope`; over: the answer over the reference; seconds: quartiles and
     median, low, middle, high; runs: behind them; setup: seconds; work: the cost that no machine changes.
@@ -55,12 +56,12 @@ class Point:
 
     @property
     def setting(self) -> str:
-        """The knob, in words."""
+        """The parameter with its value, in words."""
         return self.parameter.replace("#", f"{self.value:g}")
 
 
 def monotone_envelope(points: Sequence[Point]) -> list[Point]:
-    """Each point with the largest upper end of an error that its method leaves at more work: luck is not accuracy."""
+    """Each point with the largest upper bound of the error that its method has at more work, where that is larger."""
     return [replace(point, finer=max((p.rank for p in points if _finer(p, point)), default=0.0)) for point in points]
 
 
@@ -101,7 +102,7 @@ def in_unit_of_error(tolerance: float, unit: str) -> float:
 
 
 def cheapest(points: Sequence[Point], tolerance: float, cost: Cost = seconds) -> Point | None:
-    """Who reaches a relative tolerance at the least cost; None where nobody does, or the reference cannot tell."""
+    """The cheapest point within a relative tolerance; None where there is none, or the reference is too uncertain."""
     within = [point for point in front(points, cost) if point.rank <= in_unit_of_error(tolerance, point.unit)]
     return within[0] if within else None
 
@@ -113,9 +114,9 @@ def reason_if_none(points: Sequence[Point], tolerance: float) -> str:
 
 
 def break_even(points: Sequence[Point]) -> str:
-    """Down to which error which method is the cheapest, in one sentence; the referee itself left out.
+    """Down to which error which method is the cheapest, in one sentence, without the reference itself.
 
-    A step along the front that gains less than a tenth is not told.
+    A step along the front that gains less than a tenth is left out.
     """
     first = points[0]
     others = [point for point in points if not point.is_reference]

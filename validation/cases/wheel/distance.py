@@ -12,7 +12,7 @@ from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, sim
 TABLE = load_wheel_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
 MIN_JUMP, MIN_PERIODS = 4.0, 5.0
-"""q_min v0 over the eigenfrequency, and periods of the oscillation behind it: with less, regions cannot be told apart.
+"""q_min v0 over the eigenfrequency, and periods of the oscillation behind it: with less, regions cannot be separated.
 """
 OPEN, PERIODIC, STEADY = "springs, open", "springs, periodic", "springs, steady-state"
 LINEAR_OPEN, LINEAR_STEADY = "linear, open", "linear, steady-state"
