@@ -20,8 +20,8 @@ State = tuple[FloatArray, FloatArray, FloatArray]
 class Integrator:
     """A scheme of motion.
 
-    march(f, y, v, dt): endless iterator of steps, dt of one cell; cells: of a step; order: of its error; limit: omega dt
-    of a step up to which a linear vibration stays bounded; evaluations: of f, a step.
+    march(f, y, v, dt): iterator of steps without end, dt of a cell; cells: of a step; order: of its error; limit: omega
+    dt of a step up to which a linear vibration stays bounded; evaluations: of f, a step.
     """
 
     name: str
