@@ -157,9 +157,7 @@ def test_matplotlib_is_imported_only_where_figures_are_drawn():
 def test_numerics_neither_print_nor_write():
     for source in sources("mdr") + sources("bem3d"):
         calls = {
-            node.func.id
-            for node in nodes(source)
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+            node.func.id for node in nodes(source) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
         }
         assert not calls & {"print", "open"}, source
         assert not rooms(source) & {"os", "pathlib", "logging"}, source

@@ -17,7 +17,8 @@ from validation.benchmarks.work_precision.problem import TimedProblem, measure
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
-from validation.selection.compare import compare, kinds_below_boundary_elements, models_of, summary
+from validation.selection.compare import compare, kinds_below_boundary_elements, models_of
+from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution
 from validation.simulation.model import models_serving
