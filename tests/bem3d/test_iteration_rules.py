@@ -149,16 +149,29 @@ def solve_on(frame, tolerance, most):
     )
 
 
-def iterations_of_rolling(monkeypatch, states, tolerance, most):
+def iterated_on_a_frame(monkeypatch, states, tolerance, most):
+    """The pressure, and what has been recorded on the way."""
     monkeypatch.setattr(rolling_solve, "projected_cg", states)
     track = bem3d.Track(height=np.zeros((40, 40)), spacing=1 / 8, radius=1.0, modulus=1.0)
     frame, field = rolling_solve.Frame(track, ((0, 4), (18, 22))), np.ones((4, 4))
     on_frame = solve_on(frame, tolerance, most)
-    on_frame._iterated(field > 0, field, field)
-    attempt = on_frame.attempt
+    return on_frame._iterated(field > 0, field, field), on_frame.attempt
+
+
+def iterations_of_rolling(monkeypatch, states, tolerance, most):
+    _, attempt = iterated_on_a_frame(monkeypatch, states, tolerance, most)
     assert attempt.operator_applications == len(attempt.history) - 1
     assert attempt.status is None
     return len(attempt.history) - 1
+
+
+def test_an_iteration_without_a_way_down_ends_with_its_last_pressure(monkeypatch):
+    def three(*given):
+        return (projected_cg.State(np.full(16, float(i)), np.ones(16), 1.0, 0.5) for i in range(3))
+
+    pressure, attempt = iterated_on_a_frame(monkeypatch, three, 1e-9, 99)
+    assert (pressure == 2.0).all()
+    assert attempt.operator_applications == len(attempt.history) == 3
 
 
 @pytest.mark.parametrize(("count", "patience"), [(iterations_of_press, 100), (iterations_of_rolling, 30)])
