@@ -323,7 +323,7 @@ def test_lines_of_rolling():
 def test_panels_of_the_map_have_their_model():
     table = rolled_levels()
     axes = rolling_figure.draw_map(made(levels=table)).axes[:4]
-    models = ("linear 1D", "springs", "linear 3D", "springs, rolling-equivalent")
+    models = ("linear 1D", "springs", "linear 3D", "rolling-equivalent springs")
     assert tuple(axis.get_title() for axis in axes) == models
     for axis, model in zip(axes, models, strict=True):
         np.testing.assert_allclose(axis.collections[0].get_array().ravel(), table[f"{model} over bem3d [dB]"])

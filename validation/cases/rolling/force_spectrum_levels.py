@@ -18,7 +18,7 @@ FloatArray = NDArray[np.float64]
 Region = tuple[float, float]
 """q a of both ends."""
 
-LINEAR_1D, SPRINGS, LINEAR_3D, ROLLING_SPRINGS = "linear 1D", "springs", "linear 3D", "springs, rolling-equivalent"
+LINEAR_1D, SPRINGS, LINEAR_3D, ROLLING_SPRINGS = "linear 1D", "springs", "linear 3D", "rolling-equivalent springs"
 MODELS = (LINEAR_1D, SPRINGS, LINEAR_3D, ROLLING_SPRINGS)
 RULES: dict[str, InputSpectrum] = {SPRINGS: "geike", ROLLING_SPRINGS: "rolling"}
 EXACT = 10**6

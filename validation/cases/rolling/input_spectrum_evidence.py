@@ -91,7 +91,8 @@ def _counts(case: RollingInput, bands: Table, rolled: Table) -> list[str]:
 
     return [
         "Springs within 3 dB of 3D in one-third octaves (Ford and Thompson 2006), both in linear theory: "
-        f"{count(bands)}. The published 3 dB hold for the trace of a line along the track, not for Geike's rule.",
+        f"{count(bands)}. The published 3 dB are about springs on the trace of a line along the track, not about "
+        "Geike's rule.",
         *(
             f"One-sided springs within 3 dB of boundary elements at h/d = {height:g}: "
             f"{count(rolled.where(**{'h/d': height}))}."

@@ -36,8 +36,9 @@ NAMES: dict[InputSpectrum, str] = {
 }
 FORD_THOMPSON = 3.0
 """dB in one-third octaves: how near springs come to a 3D analysis. Ford and Thompson, J. Sound Vib. 293 (2006)."""
-IN_BAND, WORST, STIFFNESS = "mean level in the band", "worst one-third octave but that of q a = π", "mean stiffness"
-LINEAR, ONE_SIDED, PUNCHES = "springs over half-space, linear", "springs over bem3d", "punches, springs over bem3d"
+IN_BAND, WORST = "mean level in the band", "worst one-third octave but that of q a = π"
+STIFFNESS = "mean stiffness of punches"
+LINEAR, ONE_SIDED = "linear springs over linear 3D", "springs over bem3d"
 
 
 def linear_bands(case: RollingInput) -> Table:
@@ -169,7 +170,7 @@ def punch_number(result: RollingInputResult, rule: InputSpectrum) -> Number:
     apart = stiffness_ratio(result, rule, nearest(result.case.forces, 0.1))
     return Number(
         quantity=STIFFNESS,
-        model=PUNCHES,
+        model=ONE_SIDED,
         where={"Fbar": 0.1, "input": NAMES[rule]},
         value=math.expm1(apart.value),
         reference=0.0,
