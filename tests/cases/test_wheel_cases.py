@@ -603,7 +603,7 @@ def test_a_rectangular_window_in_place_of_hann_drops_nothing(distances):
 @pytest.mark.slow
 def test_floors_without_their_leak_are_not_predicted(distances):
     """Half of the floor, as if its jumps were lower by the root of two, at every distance."""
-    halved = [{**o, "jump": math.sqrt(2) * o["jump"]} for o in distances.distances]
+    halved = {i: {**o, "jump": math.sqrt(2) * o["jump"]} for i, o in distances.distances.items()}
     before, after = (
         wheel_distance_evidence.evidence(replace(distances, distances=d)) for d in (distances.distances, halved)
     )

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -108,7 +109,7 @@ class DistanceResult:
     """One outcome for each distance, each contact and track, each height, each phase and each release."""
 
     case: WheelDistance
-    distances: list[Outcome]
+    distances: Mapping[int, Outcome]
     ends: Mapping[str, Outcome]
     sweep: Mapping[tuple[str, float], Outcome]
     ended: Mapping[tuple[str, float], Outcome]
@@ -132,30 +133,24 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> DistanceResult:
     ensemble do not converge.
     """
     _check_regions(case.scene)
-    ends, sweep, ended, vibrations = case.ends(), case.sweep(), case.ended(), case.vibrations()
-    # the longest first, so that no worker is left alone with it
-    groups = [case.distances()[::-1], *([*some.values()] for some in (ends, sweep, ended, vibrations))]
-    outcomes = engine.map_groups(simulate_ensemble, dict(enumerate(groups)))
-    failed = [
-        (ensemble, int(outcome["failed"]))
-        for i, group in enumerate(groups)
-        for ensemble, outcome in zip(group, outcomes[i], strict=True)
-        if outcome["failed"]
-    ]
+    groups: dict[str, dict[Any, WheelEnsemble]] = {
+        # the longest first, so that no worker is left alone with it
+        "distances": dict(reversed(list(enumerate(case.distances())))),
+        "ends": case.ends(),
+        "sweep": case.sweep(),
+        "ended": case.ended(),
+        "vibrations": case.vibrations(),
+    }
+    solved = engine.map_groups(simulate_ensemble, {name: list(group.values()) for name, group in groups.items()})
+    outcomes = {name: dict(zip(group, solved[name], strict=True)) for name, group in groups.items()}
+    pairs = [(one, int(outcomes[name][key]["failed"])) for name in groups for key, one in groups[name].items()]
+    failed = [(ensemble, count) for ensemble, count in pairs if count]
     unconverged = tuple(
         f"{count} of {one.count} wheels do not repeat their motion, h₀ = {one.scene.rms:.3g} m" for one, count in failed
     )
     if any(count > one.count / 2 for one, count in failed):
         raise NotConvergedError("most wheels of an ensemble do not repeat their motion", unconverged)
-    return DistanceResult(
-        case,
-        outcomes[0][::-1],
-        dict(zip(ends, outcomes[1], strict=True)),
-        dict(zip(sweep, outcomes[2], strict=True)),
-        dict(zip(ended, outcomes[3], strict=True)),
-        dict(zip(vibrations, outcomes[4], strict=True)),
-        unconverged,
-    )
+    return DistanceResult(case, unconverged=unconverged, **outcomes)
 
 
 def _check_regions(scene: WheelScene) -> None:

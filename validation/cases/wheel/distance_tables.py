@@ -17,8 +17,8 @@ from validation.theory import wheel as wheel_theory
 def breaks_of(result: DistanceResult) -> Table:
     """The break, the floor behind it and the jump that makes the floor, by distance."""
     rows: list[dict[str, object]] = []
-    for ensemble, outcome in zip(result.case.distances(), result.distances, strict=True):
-        spectrum = Spectrum.of(ensemble.scene, [outcome])
+    for i, ensemble in enumerate(result.case.distances()):
+        spectrum = Spectrum.of(ensemble.scene, [result.distances[i]])
         values, theory = features.measured(spectrum), features.expected(spectrum)
         rows.append(
             {
@@ -59,7 +59,8 @@ def law_of(law: Number, breaks: Table) -> Table:
 def spectra_of(result: DistanceResult) -> Table:
     """Fig. 14.5 in sixths of an octave, without window."""
     rows: list[dict[str, object]] = []
-    for ensemble, outcome in zip(result.case.distances(), result.distances, strict=True):
+    for i, ensemble in enumerate(result.case.distances()):
+        outcome = result.distances[i]
         distance = ensemble.steps * ensemble.scene.spacing
         low, high = 1.5 * float(outcome["omega"][0]), 1.6 * ensemble.scene.cutoff
         spectrum = spectrum_rows(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
