@@ -59,14 +59,17 @@ def frozen(**changes):
     return bem3d.solve_fixed_area(**{"half_space": half_space(), "contact": np.ones((4, 5), dtype=bool), **changes})
 
 
+WHEEL = {"spacing": 1.0, "radius": 4.0, "modulus": 1.0}
+ON_TRACK = {"height": np.zeros(8), **WHEEL, "approach": 1.0}
+ON_STRIP = {**ON_TRACK, "height": np.zeros((8, 7))}
+
+
 def springs(**changes):
-    settings = {"height": np.zeros(8), "spacing": 1.0, "radius": 4.0, "modulus": 1.0, "approach": 1.0}
-    return mdr.roll(**{**settings, **changes})
+    return mdr.roll(**{**ON_TRACK, **changes})
 
 
 def springs_force(**changes):
-    settings = {"height": np.zeros(8), "spacing": 1.0, "radius": 4.0, "modulus": 1.0, "approach": 1.0}
-    return mdr.rolling_force(**{**settings, **changes})
+    return mdr.rolling_force(**{**ON_TRACK, **changes})
 
 
 def feed(**changes):
@@ -75,17 +78,15 @@ def feed(**changes):
 
 
 def track(**changes):
-    return bem3d.Track(**{"height": np.zeros((8, 7)), "spacing": 1.0, "radius": 4.0, "modulus": 1.0, **changes})
+    return bem3d.Track(**{"height": np.zeros((8, 7)), **WHEEL, **changes})
 
 
 def strip(**changes):
-    settings = {"height": np.zeros((8, 7)), "spacing": 1.0, "radius": 4.0, "modulus": 1.0, "approach": 1.0}
-    return bem3d.roll(**{**settings, **changes})
+    return bem3d.roll(**{**ON_STRIP, **changes})
 
 
 def strip_force(**changes):
-    settings = {"height": np.zeros((8, 7)), "spacing": 1.0, "radius": 4.0, "modulus": 1.0, "approach": 1.0}
-    return bem3d.rolling_force(**{**settings, **changes})
+    return bem3d.rolling_force(**{**ON_STRIP, **changes})
 
 
 def wheel(**changes):
@@ -219,14 +220,14 @@ def test_what_is_no_number(function, names, value):
 
 @pytest.mark.parametrize("by_force", [np.nan, np.inf, -1.0])
 def test_force_out_of_range(by_force):
-    with pytest.raises(ValueError, match="force"):
-        solve(approach=None, force=by_force)
-    with pytest.raises(ValueError, match="force"):
-        sphere(approach=None, force=by_force)
-    with pytest.raises(ValueError, match="force"):
-        curve().at_force(by_force)
-    with pytest.raises(ValueError, match="force"):
-        curve().at_force(np.array([1.0, by_force]))
+    for wrong in (
+        lambda: solve(approach=None, force=by_force),
+        lambda: sphere(approach=None, force=by_force),
+        lambda: curve().at_force(by_force),
+        lambda: curve().at_force(np.array([1.0, by_force])),
+    ):
+        with pytest.raises(ValueError, match="force"):
+            wrong()
 
 
 @pytest.mark.parametrize("function", [solve, sphere, springs, strip])
@@ -267,41 +268,38 @@ def test_spectra_that_a_grid_cannot_carry(draw):
         return {name: wide.c1d if draw is profile else wide.c2d}
 
     draw(**fine(nyquist))
-    with pytest.raises(ValueError, match=f"{name} must vanish beyond the Nyquist wavenumber"):
-        draw(**fine(1.001 * nyquist))
-    with pytest.raises(ValueError, match=f"{name} must vanish"):
-        draw(**{name: lambda q: q**-3.0})
-    with pytest.raises(ValueError, match=f"{name} has no power"):
-        draw(**{name: lambda q: 0 * q})
-    with pytest.raises(ValueError, match=f"{name} .*negative"):
-        draw(**{name: lambda q: -(q**-3.0)})
-    with pytest.raises(ValueError, match=name):
-        draw(**{name: lambda q: np.nan * q})
-    with pytest.raises(ValueError, match="one value a wavenumber"):
-        draw(**{name: lambda q: np.ones(3)})
+    for wrong, words in (
+        (fine(1.001 * nyquist), f"{name} must vanish beyond the Nyquist wavenumber"),
+        ({name: lambda q: q**-3.0}, f"{name} must vanish"),
+        ({name: lambda q: 0 * q}, f"{name} has no power"),
+        ({name: lambda q: -(q**-3.0)}, f"{name} .*negative"),
+        ({name: lambda q: np.nan * q}, name),
+        ({name: lambda q: np.ones(3)}, "one value a wavenumber"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            draw(**wrong)
     with pytest.raises(TypeError, match="callable"):
         draw(**{name: np.ones(3)})
     with pytest.raises(TypeError, match="rng"):
         draw(rng=0)
 
 
-def test_spectra_at_bad_wavenumbers():
-    with pytest.raises(ValueError, match="q must be finite"):
-        spectrum().c2d(np.nan)
-    with pytest.raises(ValueError, match="q must be finite"):
-        spectrum().line([1.0, np.inf])
-    with pytest.raises(ValueError, match="negative"):
-        mdr.geike(1.0, -1.0)
-    with pytest.raises(ValueError, match="zero"):
-        mdr.inverse_geike([0.0, 1.0], [1.0, 1.0])
-    with pytest.raises(ValueError, match="matching shapes"):
-        mdr.geike([1.0, 2.0], [1.0, 2.0, 3.0])
-    with pytest.raises(ValueError, match="q_max"):
-        mdr.line_trace(1.0, lambda q: q, q_max=-1.0)
-    with pytest.raises(ValueError, match="radius"):
-        mdr.sphere_profile(1.0, radius=0.0)
-    with pytest.raises(ValueError, match="x must be finite"):
-        mdr.sphere_profile(np.nan, radius=1.0)
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (lambda: spectrum().c2d(np.nan), "q must be finite"),
+        (lambda: spectrum().line([1.0, np.inf]), "q must be finite"),
+        (lambda: mdr.geike(1.0, -1.0), "negative"),
+        (lambda: mdr.inverse_geike([0.0, 1.0], [1.0, 1.0]), "zero"),
+        (lambda: mdr.geike([1.0, 2.0], [1.0, 2.0, 3.0]), "matching shapes"),
+        (lambda: mdr.line_trace(1.0, lambda q: q, q_max=-1.0), "q_max"),
+        (lambda: mdr.sphere_profile(1.0, radius=0.0), "radius"),
+        (lambda: mdr.sphere_profile(np.nan, radius=1.0), "x must be finite"),
+    ],
+)
+def test_spectra_at_bad_wavenumbers(wrong, words):
+    with pytest.raises(ValueError, match=words):
+        wrong()
 
 
 def test_half_space_of_another_kind():
