@@ -8,17 +8,18 @@ import numpy as np
 
 import bem3d
 import mdr
+from tests import test_face
 from tests.planted_faults.wrong import scaled, with_math
 from tests.selection import test_claims, test_selection
 from tests.selection import test_model_hierarchy as test_ladder
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.engine import engine as ensemble
 from validation.scenes import measured
+from validation.selection import compare, summary
 from validation.selection import hierarchy as hierarchy
 from validation.selection import indentation_models as indentation_models
 from validation.selection import indentation_on_grids as indentation_on_grids
 from validation.selection import rolling_models as rolling_models
-from validation.selection import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
@@ -210,5 +211,13 @@ FAULTS = {
     "radians in a second told as hertz": (
         (summary, "math", with_math(pi=0.5)),
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
+    ),
+    "a level of the face without its logarithm": (
+        (compare.Comparison, "is_level", property(lambda result: False)),
+        test_face.test_levels_come_in_decibels,
+    ),
+    "a tolerance of the face that is always met": (
+        (hierarchy.Selection, "met", property(lambda selection: True)),
+        test_face.test_a_missed_tolerance_leaves_the_best_value,
     ),
 }

@@ -63,7 +63,7 @@ def test_the_ends_of_what_poissons_ratio_may_be_belong_to_it(poisson_ratio):
 
 def test_a_contact_modulus_stands_for_itself():
     assert Material(contact_modulus=2e9).modulus == 2e9
-    assert Material(contact_modulus=2e9).because == "as it was given"
+    assert Material(contact_modulus=2e9).origin == "as it was given"
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ Pairs = tuple[tuple[str, str], ...]
 def describe(scene: AnyScene) -> Pairs:
     """What a scene is, in pairs of a name and a value with its unit: E* and its origin, body, contact, roughness."""
     material = scene.material or Material(contact_modulus=scene.modulus)
-    modulus = ("contact modulus E*", f"{in_unit(scene.modulus, 'pressure', digits=6)}: {material.because}")
+    modulus = ("contact modulus E*", f"{in_unit(scene.modulus, 'pressure', digits=6)}: {material.origin}")
     if isinstance(scene, WheelScene):
         return modulus, *_of_wheel(scene), *_of_motion(scene), *_of_roughness_of_wheel(scene)
     if isinstance(scene, RollingScene):

@@ -19,7 +19,7 @@ from validation.scenes.reader import (
     WHOLE,
     Reader,
     bundled,
-    naming,
+    file_named_in_errors,
     nonblank_text,
     path_of,
     table,
@@ -238,7 +238,7 @@ def load_wheel_scene(scene: str | Path) -> WheelScene:
     """
     path = path_of(scene)
     tables = tables_of(path)
-    with naming(path):
+    with file_named_in_errors(path):
         return wheel_of(tables)
 
 

@@ -15,7 +15,7 @@ from validation.scenes.reader import (
     SPEED,
     Reader,
     bundled,
-    naming,
+    file_named_in_errors,
     nonblank_text,
     path_of,
     table,
@@ -57,7 +57,7 @@ def load_scene(scene: str | Path) -> Scene:
     """
     path = path_of(scene)
     tables = tables_of(path)
-    with naming(path):
+    with file_named_in_errors(path):
         return _scene_of(tables, path.parent)
 
 

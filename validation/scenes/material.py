@@ -90,7 +90,7 @@ class Material:
         return body.against_rigid if self.counterface == "rigid" else body.against_rigid / 2
 
     @property
-    def because(self) -> str:
+    def origin(self) -> str:
         """How E* came about, in words."""
         if self.contact_modulus is not None:
             return "as it was given"

@@ -60,7 +60,7 @@ class SceneError(ValueError):
 
 
 @contextmanager
-def naming(path: Path) -> Iterator[None]:
+def file_named_in_errors(path: Path) -> Iterator[None]:
     """Put the name of the scene file in front of the sentence of a ValueError."""
     try:
         yield

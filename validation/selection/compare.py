@@ -151,10 +151,10 @@ def kinds_below_boundary_elements() -> tuple[str, ...]:
 
 def compare(
     scene: Scene,
-    *,
     quantity: str | None = None,
     tolerance: float = 0.1,
     seed: int = 0,
+    *,
     callback: Callable[[ContactModel], None] = lambda _: None,
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.

@@ -103,7 +103,7 @@ def shown_scene(scene: WheelScene) -> Table:
         ("M", f"{scene.mass:g} kg", BOOK),
         ("E", _given(material.youngs_modulus, 1e9, " GPa"), BOOK),
         ("ν", _given(material.poisson_ratio, 1, ""), BOOK),
-        ("E*", f"{scene.modulus / 1e9:.5g} GPa: {material.because}", FOLLOWS),
+        ("E*", f"{scene.modulus / 1e9:.5g} GPa: {material.origin}", FOLLOWS),
         ("F_N", f"{scene.load:g} N", OURS),
         ("v₀", f"{scene.speed:g} m/s", OURS),
         ("h₀", f"{1e6 * scene.rms:.3g} µm", BOOK),
