@@ -487,7 +487,7 @@ def test_a_rung_that_fails_is_no_answer_however_small_its_error():
 
 
 def test_half_widths_add_and_a_failure_has_no_error_bar():
-    parts = {"value": np.ones(1), "cost": Cost(work=1.0, unit="solves", seconds=1.0), "because": "found"}
+    parts = {"value": np.ones(1), "cost": Cost(work=1.0, unit="solves", seconds=1.0), "reason": "found"}
     assert Answer(model=0.1, grid=0.02, sample=0.003, **parts).error == pytest.approx(0.123)
     assert Answer(model=0.1, grid=0.02, sample=0.003, failed="cut short", **parts).error == np.inf
 
