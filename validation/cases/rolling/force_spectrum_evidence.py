@@ -8,37 +8,18 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Verdict, number_with, numbers_with
 from validation.analysis.statistics import POWER_DECIBEL
+from validation.cases.rolling import force_spectrum_levels as levels
+from validation.cases.rolling import force_spectrum_numbers as measured
 from validation.cases.rolling import force_spectrum_tables as tables
 from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
-from validation.cases.rolling.force_spectrum_levels import (
-    LINEAR_3D,
-    MODELS,
-    ROLLING_SPRINGS,
-    SPRINGS,
-    LevelsAtHeight,
-    Region,
-    coherence,
-    correlation,
-)
-from validation.cases.rolling.force_spectrum_numbers import (
-    BOTH,
-    LEVEL,
-    MEAN,
-    NONLINEAR,
-    ONE_DECIBEL,
-    VARIANCE,
-    numbers_of,
-    place,
-    regions,
-)
 from validation.selection import model_needed
 
 
 def evidence(result: RollingResult) -> Evidence:
     """Levels in one-third octaves and in regions of them; coherence, variance, mean; the map of validity."""
     case = result.case
-    found = [LevelsAtHeight(result, height) for height in case.heights]
-    numbers, within, summary = numbers_of(case, found), tables.bands_within(case, found), tables.summary(found)
+    found = [levels.LevelsAtHeight(result, height) for height in case.heights]
+    numbers, within, summary = measured.numbers_of(case, found), tables.bands_within(case, found), tables.summary(found)
     return Evidence(
         title="Rolling over isotropic roughness: where one dimension is some decibels off",
         method=_method(case),
@@ -67,28 +48,28 @@ def _method(case: ForceSpectrum) -> str:
     )
 
 
-def _conclusions(case: ForceSpectrum, found: list[LevelsAtHeight], numbers: list[Number]) -> list[str]:
-    def level(model: str, region: Region, height: float) -> str:
-        return _signed(number_with(numbers, LEVEL, f"{model} over bem3d", **place(height, region)))
+def _conclusions(case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: list[Number]) -> list[str]:
+    def level(model: str, region: levels.Region, height: float) -> str:
+        return _signed(number_with(numbers, measured.LEVEL, f"{model} over bem3d", **measured.place(height, region)))
 
-    def both_springs(region: Region, height: float) -> str:
-        return f"{level(SPRINGS, region, height)} and {level(ROLLING_SPRINGS, region, height)}"
+    def both_springs(region: levels.Region, height: float) -> str:
+        return f"{level(levels.SPRINGS, region, height)} and {level(levels.ROLLING_SPRINGS, region, height)}"
 
-    def nonlinear(region: Region, height: float) -> str:
-        n = number_with(numbers, NONLINEAR, BOTH, **place(height, region))
+    def nonlinear(region: levels.Region, height: float) -> str:
+        n = number_with(numbers, measured.NONLINEAR, measured.BOTH, **measured.place(height, region))
         return f"{n.value:+.1f} and {n.reference:+.1f} dB ({n.verdict})"
 
-    def sentence(what: str, region: Region, said: Callable[[Region, float], str]) -> str:
+    def sentence(what: str, region: levels.Region, said: Callable[[levels.Region, float], str]) -> str:
         parts = [f"{height:g}: {said(region, height)}" for height in case.heights]
         return f"{what}, {_named(region)}, by h/d: {'; '.join(parts)}."
 
-    below, *inside = regions(case)
+    below, *inside = measured.regions(case)
     springs = "Springs over boundary elements, with Geike's spectrum and with the rolling-equivalent spectrum"
     change = "Level of the nonlinear over the linear force, of springs and of boundary elements"
     return [
-        *(_holds(model, case.heights, numbers, [below, *inside]) for model in MODELS),
+        *(_holds(model, case.heights, numbers, [below, *inside]) for model in levels.MODELS),
         *(
-            sentence("Linear theory in 3D over boundary elements", region, partial(level, LINEAR_3D))
+            sentence("Linear theory in 3D over boundary elements", region, partial(level, levels.LINEAR_3D))
             for region in (below, *inside)
         ),
         *(sentence(springs, region, both_springs) for region in inside),
@@ -100,7 +81,7 @@ def _conclusions(case: ForceSpectrum, found: list[LevelsAtHeight], numbers: list
     ]
 
 
-def _named(region: Region) -> str:
+def _named(region: levels.Region) -> str:
     return f"q a = {region[0]:g} to {region[1]:g}"
 
 
@@ -108,28 +89,28 @@ def _signed(number: Number) -> str:
     return f"{number.value:+.1f} ± {number.uncertainty:.1f} dB ({number.verdict})"
 
 
-def _holds(model: str, heights: Sequence[float], numbers: Sequence[Number], where: Sequence[Region]) -> str:
+def _holds(model: str, heights: Sequence[float], numbers: Sequence[Number], where: Sequence[levels.Region]) -> str:
     """Up to which height a model is within 1 dB of boundary elements, in the mean over each region."""
     parts = []
     for region in where:
         last = "at no height"
         for height in heights:
-            mine = numbers_with(numbers, LEVEL, f"{model} over bem3d", **place(height, region))
+            mine = numbers_with(numbers, measured.LEVEL, f"{model} over bem3d", **measured.place(height, region))
             if [number.verdict for number in mine] != [Verdict.AGREE]:
                 break
             last = f"up to h/d = {height:g}"
         parts.append(f"{_named(region)}: {last}")
     return (
-        f'Within {ONE_DECIBEL:g} dB of boundary elements in the mean over bands, the model "{model}": '
+        f'Within {measured.ONE_DECIBEL:g} dB of boundary elements in the mean over bands, the model "{model}": '
         f"{'; '.join(parts)}."
     )
 
 
-def _coherent(found: list[LevelsAtHeight]) -> str:
+def _coherent(found: list[levels.LevelsAtHeight]) -> str:
     """To which height the force is that of linear theory position by position, not only in its level."""
     parts = [
-        f"{mine.height:g}: {np.count_nonzero(coherence(mine.bem) >= 0.9)} of {len(mine.single_bands)} bands, "
-        f"correlation {correlation(mine.bem)[0]:.3f}"
+        f"{mine.height:g}: {np.count_nonzero(levels.coherence(mine.bem) >= 0.9)} of {len(mine.single_bands)} bands, "
+        f"correlation {levels.correlation(mine.bem)[0]:.3f}"
         for mine in found
     ]
     return (
@@ -142,13 +123,13 @@ def _coherent(found: list[LevelsAtHeight]) -> str:
 def _variances(numbers: Sequence[Number]) -> str:
     parts = [
         f"{n.where['h/d']:g}: {n.model} {n.value:.3f} ± {n.uncertainty:.3f} ({n.verdict})"
-        for n in numbers_with(numbers, VARIANCE)
+        for n in numbers_with(numbers, measured.VARIANCE)
     ]
     return f"Variance of the force over that of linear theory, by h/d: {'; '.join(parts)}."
 
 
 def _means(numbers: Sequence[Number]) -> str:
-    mine = numbers_with(numbers, MEAN)
+    mine = numbers_with(numbers, measured.MEAN)
     parts = [f"{n.where['h/d']:g}: {n.value:.3f} and {n.reference:.3f} ({n.verdict})" for n in mine]
     agree = [n for n in mine if n.verdict is Verdict.AGREE]
     return (
@@ -157,7 +138,7 @@ def _means(numbers: Sequence[Number]) -> str:
     )
 
 
-def _scatter(found: list[LevelsAtHeight]) -> str:
+def _scatter(found: list[levels.LevelsAtHeight]) -> str:
     """What the sample leaves open in single bands."""
     parts = []
     for mine in found:

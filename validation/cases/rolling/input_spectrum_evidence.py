@@ -6,40 +6,26 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Place, Table, Verdict, number_with
+from validation.cases.rolling import input_spectrum_numbers as measured
 from validation.cases.rolling.input_spectrum import RollingInput, RollingInputResult, run
-from validation.cases.rolling.input_spectrum_numbers import (
-    FORD_THOMPSON,
-    IN_BAND,
-    LINEAR,
-    NAMES,
-    ONE_SIDED,
-    STIFFNESS,
-    InputLevels,
-    bands_within,
-    linear_bands,
-    linear_numbers,
-    punch_number,
-    punches,
-    rolled_bands,
-)
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
 
 def evidence(result: RollingInputResult) -> Evidence:
     """Linear errors band by band; springs beside boundary elements; the punches of Fig. 14.1."""
-    case, bands = result.case, linear_bands(result.case)
-    levels = [InputLevels(result, *key, rule) for key in result.bem for rule in INPUT_SPECTRA]
+    case, bands = result.case, measured.linear_bands(result.case)
+    levels = [measured.InputLevels(result, *key, rule) for key in result.bem for rule in INPUT_SPECTRA]
     numbers = [
-        *(number for name in case.spectra for number in linear_numbers(bands, name)),
+        *(number for name in case.spectra for number in measured.linear_numbers(bands, name)),
         *(one.number for one in levels),
-        *(punch_number(result, rule) for rule in INPUT_SPECTRA),
+        *(measured.punch_number(result, rule) for rule in INPUT_SPECTRA),
     ]
-    rolled, within = rolled_bands(result, levels), bands_within(case, bands)
+    rolled, within = measured.rolled_bands(result, levels), measured.bands_within(case, bands)
     return Evidence(
         title="The input spectrum of springs for rolling",
         method=_method(case),
         numbers=tuple(numbers),
-        tables=(bands, rolled, punches(result), within),
+        tables=(bands, rolled, measured.punches(result), within),
         conclusions=(*_levels(case, numbers), *_counts(case, bands, rolled), _punches(result, numbers)),
         captions=_captions(case),
         unconverged=result.unconverged,
@@ -64,20 +50,20 @@ def _levels(case: RollingInput, numbers: list[Number]) -> list[str]:
     """Mean levels in the band of each spectrum."""
 
     def chain(model: str, names: Iterable[str], where: dict[str, Place]) -> str:
-        found = {name: number_with(numbers, IN_BAND, model, spectrum=name, **where).value for name in names}
+        found = {name: number_with(numbers, measured.IN_BAND, model, spectrum=name, **where).value for name in names}
         return "; ".join(f"{name}: {value:+.1f} dB" for name, value in found.items())
 
     return [
         *(
             f"In linear theory, mean level in the band, springs over 3D, {name}: "
-            f"{chain(LINEAR, case.spectra, {'input': name})}."
-            for name in NAMES.values()
+            f"{chain(measured.LINEAR, case.spectra, {'input': name})}."
+            for name in measured.NAMES.values()
         ),
         *(
             f"One-sided springs over boundary elements at h/d = {height:g}, {name}: "
-            f"{chain(ONE_SIDED, case.rolled, {'h/d': height, 'input': name})}."
+            f"{chain(measured.ONE_SIDED, case.rolled, {'h/d': height, 'input': name})}."
             for height in case.heights
-            for name in NAMES.values()
+            for name in measured.NAMES.values()
         ),
     ]
 
@@ -86,7 +72,7 @@ def _counts(case: RollingInput, bands: Table, rolled: Table) -> list[str]:
     """In how many bands springs are within 3 dB."""
 
     def count(table: Table) -> str:
-        near = {name: np.abs(table[f"{name} [dB]"]) <= FORD_THOMPSON for name in NAMES.values()}
+        near = {name: np.abs(table[f"{name} [dB]"]) <= measured.FORD_THOMPSON for name in measured.NAMES.values()}
         return "; ".join(f"{name}: {inside.sum()} of {inside.size} bands" for name, inside in near.items())
 
     return [
@@ -103,9 +89,10 @@ def _counts(case: RollingInput, bands: Table, rolled: Table) -> list[str]:
 
 def _punches(result: RollingInputResult, numbers: list[Number]) -> str:
     """Whether one input spectrum serves rolling and Fig. 14.1."""
-    found = {rule: number_with(numbers, STIFFNESS, input=NAMES[rule]) for rule in INPUT_SPECTRA}
+    names = measured.NAMES
+    found = {rule: number_with(numbers, measured.STIFFNESS, input=names[rule]) for rule in INPUT_SPECTRA}
     parts = "; ".join(
-        f"{NAMES[rule]}, {float(result.profiles[rule]['height']):.2f} of the height: {100 * number.value:+.0f} ± "
+        f"{names[rule]}, {float(result.profiles[rule]['height']):.2f} of the height: {100 * number.value:+.0f} ± "
         f"{100 * number.uncertainty:.0f} % ({number.verdict})"
         for rule, number in found.items()
     )
