@@ -196,7 +196,7 @@ class WheelScene(WheelOnTrack):
         return no_steady_answer(self.body, self.speed, list(self._rough().values()))
 
     def _rough(self) -> dict[str, Roughness]:
-        """What is rough, by its key."""
+        """Each roughness, by its key in a scene file."""
         both = {"rail.roughness": self.rail, "wheel.roughness": self.wheel}
         rough = {key: each for key, each in both.items() if each is not None}
         if not rough:
@@ -268,7 +268,7 @@ SCENE: dict[str, Reader] = {
 
 
 def _check_lengths(scene: WheelScene) -> None:
-    """Contact, track and waves beside each other."""
+    """Check the lengths of contact, track and waves against each other."""
     a, distance, circumference = scene.contact_radius, scene.distance, 2 * math.pi * scene.radius
     if a >= scene.radius:
         raise ValueError(f"wheel.load must leave a contact smaller than the wheel, {scene.radius:g} m, got {a:g} m")
@@ -284,7 +284,7 @@ def _check_lengths(scene: WheelScene) -> None:
 
 
 def _check_waves(key: str, rough: Roughness, scene: WheelScene, *, period: float) -> None:
-    """Waves on the springs of a track of that period."""
+    """Check that the springs of a track of that period carry the waves."""
     longest, shortest = rough.longest, rough.shortest
     if scene.distance <= longest:
         track = f"longer than {key}.longest, {longest:g} m"

@@ -70,12 +70,12 @@ class IndentationScene:
 
     @property
     def approach(self) -> float:
-        """Of Hertz, where the body is a sphere [m]."""
+        """By Hertz, of a smooth sphere [m]."""
         return closed_forms.hertz_approach(radius=self.size, modulus=self.modulus, force=self.load)
 
     @property
     def contact_radius(self) -> float:
-        """Of Hertz, where the body is a sphere [m]."""
+        """By Hertz, of a smooth sphere [m]."""
         return closed_forms.hertz_contact_radius(radius=self.size, approach=self.approach)
 
     @property

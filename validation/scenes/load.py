@@ -1,4 +1,4 @@
-"""Whichever scene a file holds: a sphere, a punch, a wheel that rolls, a wheel that rolls with a mass."""
+"""The scene of a file: a sphere, a punch, a wheel that rolls at a constant approach, or one with a mass."""
 
 from functools import partial
 from pathlib import Path
@@ -77,7 +77,7 @@ def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
 
 
 def bundled_for_compare() -> tuple[str, ...]:
-    """Names of the shipped scenes that the ladder can be asked of: those of a smooth wheel, and of other bodies."""
+    """Names of the shipped scenes that `compare` takes: all but those of a rough wheel."""
     return tuple(name for name in bundled() if "roughness" not in tables_of(path_of(name)).get("wheel", {}))
 
 

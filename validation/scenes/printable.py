@@ -1,4 +1,4 @@
-"""What came, as a person may see it: on one line, of bounded length, without control characters."""
+"""Values as messages print them: on one line, of bounded length, without control characters."""
 
 import reprlib
 import unicodedata

@@ -69,7 +69,7 @@ def file_named_in_errors(path: Path) -> Iterator[None]:
 
 
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
-    """Each value of a table by its own reader; no key unknown, none missing but what is optional."""
+    """Read each value of a table by its own reader. ValueError for an unknown key, or a missing one that is needed."""
     if not isinstance(given, dict):
         raise ValueError(f"{name} must be a table, got {shortened(given)}")
     full = {key: f"{name}.{key}" if name else key for key in (*given, *readers)}
@@ -84,7 +84,7 @@ def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, g
 
 
 def without_unit(read: Reader, name: str, given: object) -> Any:
-    """A value without unit. In a file a wrong type is a wrong value, too."""
+    """Read a value without unit. A wrong type is a ValueError here: in a file it is a wrong value."""
     if isinstance(given, (dict, list)):
         raise ValueError(f"{name} must be a number, got {shortened(given)}")
     try:
@@ -96,7 +96,7 @@ def without_unit(read: Reader, name: str, given: object) -> Any:
 
 
 def nonblank_text(name: str, given: object) -> str:
-    """A text on one line that is not blank and can be printed."""
+    """Check a text: one line, not blank, printable."""
     if not isinstance(given, str) or not given.strip():
         raise ValueError(f"{name} must be a text that is not blank, got {shortened(given)}")
     if not is_printable(given):

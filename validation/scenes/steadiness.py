@@ -1,7 +1,7 @@
-"""Whether the motion of a wheel over rough ground has a level at all, or one that depends on how far it has rolled.
+"""Whether the level of the motion of a wheel over rough ground depends on the distance rolled.
 
 Nothing damps the wheel. Where roughness excites its resonance, or throws it off the track, the level grows with the
-distance, and a number for it would be one of the distance.
+distance, and there is no steady answer.
 """
 
 import math
@@ -17,11 +17,11 @@ from validation.theory.rolling import force_spectrum_1d
 FloatArray = NDArray[np.float64]
 
 MAX_FORCE = 0.25
-"""Root mean square of the force by linear theory, over the load, from where on wheels leave the track."""
+"""Root mean square of the force by linear theory, over the load: above it wheels leave the track."""
 MAX_HEIGHT = 1 / 3
-"""h / d from where on they do, or their level grows along the track."""
+"""h / d: above it wheels leave the track, or their level grows along it."""
 SHORT_WAVES, FEEDING_HEIGHT = 2.0, 0.1
-"""q a of the longest wave, and h / d, from where on short waves feed the free vibration."""
+"""q a of the longest wave, and h / d, from where on short waves drive the free vibration."""
 NODES, RATIO = 16, 1.4
 """Of Gauss and Legendre on a panel; of the ends of a panel, from the resonance, at the most."""
 
@@ -29,13 +29,13 @@ NODES, RATIO = 16, 1.4
 def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]) -> str:
     """Why the level of the motion depends on the distance, in a sentence; empty where it does not.
 
-    Of three conditions the first that holds:
+    The first of these conditions that holds:
     q_min v_0 <= omega_eigen <= q_max v_0; h / d > 1/3; sigma > F_N / 4 of `force_on_the_way`.
 
     speed: v_0 [m/s]; grounds: what is rough, rail and wheel.
 
-    Measured on 12 wheels on springs, Table 14.1 but for what is said, over 2 m: growth is that of the root mean square
-    acceleration from the first quarter of the way to the last, flight the share of time in the air in the last.
+    Measured on 12 wheels on springs, Table 14.1 except for these values, over 2 m: growth is that of the
+    rms acceleration from the first quarter of the way to the last, flight the share of time in the air in the last.
     - q_min v_0 / omega_eigen = 0.5, 0.8, 0.95, h/d = 0.003, 4 m: growth 2.8, 2.4, 2.6, and flight at h/d = 0.03;
       q_min v_0 / omega_eigen = 1.05, 1.2, 1.5, 3, h/d = 0.003 and 0.03: growth below 1.06, no flight.
     - 10 to 0.5 mm, h/d = 0.3, 0.45, 0.6, 1, sigma / F_N = 0.22, 0.33, 0.44, 0.73: growth 1.1, 1.3, 1.5, 1.6, flight 0,
@@ -44,7 +44,7 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]
     - 30 to 3 mm, h/d = 0.1, 0.2, 0.3, sigma / F_N = 0.14, 0.27, 0.41: flight 0, 0, 0.6 %.
     - 4 to 1 mm, shorter than the contact, so that the force hardly changes, h/d = 0.2, 0.3, 0.4, 0.5, 1: growth 1.2,
       1.6, 2.3, 2.6, 2, flight 0, 0, 0, 0.01, 7 %.
-    Below the limits such short waves still feed the free vibration, which `diagnose_short_waves` reports. In three
+    Below the limits such short waves still drive the free vibration, which `diagnose_short_waves` reports. In three
     dimensions waves oblique to the track excite the resonance from below q_min v_0, too.
     """
     slow, fast = min(g.q_min for g in grounds) * speed, max(g.q_max for g in grounds) * speed
@@ -70,7 +70,7 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]
 
 
 def diagnose_short_waves(wheel: Wheel, grounds: Sequence[RoughSurface]) -> tuple[str, ...]:
-    """Whether waves shorter than the contact, too high for linear theory, feed the free vibration from beat to beat.
+    """A note where waves are shorter than the contact and too high for linear theory: they drive the free vibration.
 
     Measured as in `no_steady_answer`: the acceleration grows, for waves of 2 to 0.5 mm, h/d = 0.1, 0.2, 0.3, by 1.2,
     1.7, 2.3; of 1 to 0.25 mm by 1.6, 2.5, 2.8; of 10 to 0.5 mm by 1.04, 1.07, 1.09.
