@@ -80,7 +80,6 @@ class Number:
 
     @property
     def difference(self) -> float:
-        """value - reference."""
         return self.value - self.reference
 
     @property
@@ -204,7 +203,6 @@ class Evidence:
             raise ValueError(f"numbers of {self.title!r} must have a key of their own, got twice: {sorted(twice)}")
 
     def table(self, name: str) -> Table:
-        """The table of that name."""
         return next(table for table in self.tables if table.name == name)
 
 

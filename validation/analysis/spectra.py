@@ -54,7 +54,6 @@ class Bands:
         return np.asarray(values @ inside.astype(np.float64))
 
     def counts(self, q: NDArray[np.floating]) -> FloatArray:
-        """How many of the wavenumbers lie in each."""
         return self.sums(q, np.ones(q.size)).real
 
 

@@ -40,7 +40,6 @@ class Progress:
         return self
 
     def step(self, failed: bool) -> None:
-        """Count one more solve."""
         self.done += 1
         self.failed += failed
         self._bar.set_postfix_str(self._counts, refresh=False)
@@ -56,7 +55,6 @@ class Progress:
 
     @property
     def line(self) -> str:
-        """The line of a log."""
         seconds = time.monotonic() - self._began
         rate = (self.done - self.stored) / seconds if seconds > 0 else 0.0
         counts = f"{self.name}: {self.done} of {self.total} done, {self._counts}"

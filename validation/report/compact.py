@@ -34,7 +34,6 @@ def _printed(number: re.Match[str]) -> str:
 
 
 def _place(glyph: re.Match[str]) -> str:
-    """A translation is a place."""
     start, *place = glyph.groups()
     at = [f"{float(number):.1f}".removesuffix(".0") for number in place]
     return start + " ".join(f'{axis}="{number}"' for axis, number in zip("xy", at, strict=True) if number != "0") + "/>"

@@ -36,7 +36,6 @@ def locked(folder: Path) -> Iterator[None]:
 
 
 def _taken(path: Path) -> int:
-    """The file, open and locked."""
     while True:
         handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o644)
         try:
@@ -100,7 +99,6 @@ def _signature(content: bytes) -> dict[str, object] | None:
 
 
 def _holder(content: bytes) -> str:
-    """In words."""
     signed = _signature(content)
     if signed is None:
         return "another run"

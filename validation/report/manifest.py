@@ -18,7 +18,6 @@ Listed = Mapping[str, tuple[str, ...]]
 
 
 def as_manifest(listed: Listed) -> bytes:
-    """The file that holds a list."""
     files = {name: list(digests) for name, digests in listed.items()}
     return (json.dumps({"kind": KIND, "format": FORMAT, "files": files}, indent=1, sort_keys=True) + "\n").encode()
 
@@ -39,7 +38,6 @@ def listed_in(folder: Path) -> Listed:
 
 
 def digest_of(contents: bytes) -> str:
-    """As it stands in a list."""
     return hashlib.sha256(contents).hexdigest()
 
 

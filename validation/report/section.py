@@ -20,7 +20,6 @@ class Section:
 
     @property
     def answers(self) -> str:
-        """The figure or claim that it answers."""
         return self.entry.answers
 
     @property
@@ -30,21 +29,17 @@ class Section:
 
     @property
     def unconverged(self) -> tuple[str, ...]:
-        """Solves that did not converge."""
         return self.evidence.unconverged if self.evidence else self.failure
 
     @property
     def missed(self) -> tuple[Number, ...]:
-        """Criteria that are not met."""
         return tuple(number for number in self.numbers if not number.met)
 
     @property
     def criteria(self) -> int:
-        """Their count."""
         return sum(number.role is Role.CRITERION for number in self.numbers)
 
     def findings(self, verdict: Verdict) -> int:
-        """Count of findings with this verdict."""
         return sum(number.role is Role.FINDING and number.verdict is verdict for number in self.numbers)
 
 

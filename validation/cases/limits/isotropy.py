@@ -69,7 +69,6 @@ class Anisotropy:
 
 
 def decibel(ratio: float) -> float:
-    """Of a ratio of powers."""
     return 10 * math.log10(ratio)
 
 

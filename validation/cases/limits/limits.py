@@ -100,7 +100,6 @@ class Limits:
         return PunchRoughness(hurst=isotropy.HURST, waves=(1, last), seed=self.seed)
 
     def iterated_grids(self) -> list[Grid]:
-        """Each scene on each grid, by either solver."""
         return [
             Grid(scene=scene, solver=solver, cells=n, tolerances=(1e-8,), seed=self.seed)
             for scene in SCENES
@@ -131,7 +130,6 @@ class LimitsResult:
 
 
 def sweep_through(problem: Any) -> Outcome:
-    """The solve of a problem, by its kind."""
     return SOLVES[type(problem)](problem)
 
 

@@ -120,7 +120,6 @@ def half_space(cells: int, spacing: float, *, periodic: bool = False) -> bem3d.H
 
 
 def press_spheres(problem: Spheres) -> Outcome:
-    """All limits of a sphere."""
     sweeps = sweep_cells, sweep_period, sweep_grid_side, sweep_strip_width, sweep_spike
     return {name: values for sweep in sweeps for name, values in sweep(problem).items()}
 

@@ -82,7 +82,6 @@ class Sweep:
 
     @property
     def warned(self) -> NDArray[np.bool_]:
-        """Where the software warned or refused."""
         return np.array([bool(message) for message in self.messages])
 
     @property

@@ -13,7 +13,6 @@ LONGEST = 190
 
 
 def limits_table(result: LimitsResult) -> Table:
-    """One row a limit."""
     return table_of(
         "limits",
         [
@@ -30,7 +29,6 @@ def limits_table(result: LimitsResult) -> Table:
 
 
 def sweeps_table(result: LimitsResult) -> Table:
-    """One row a value of each parameter."""
     return table_of(
         "sweeps",
         [
@@ -42,7 +40,6 @@ def sweeps_table(result: LimitsResult) -> Table:
 
 
 def iterations_table(result: LimitsResult) -> Table:
-    """One row a scene, solver and grid."""
     return table_of(
         "iterations",
         [
@@ -59,7 +56,6 @@ def iterations_table(result: LimitsResult) -> Table:
 
 
 def residuals_table(result: LimitsResult) -> Table:
-    """One row a scene, solver and tolerance."""
     return table_of(
         "residual",
         [

@@ -14,7 +14,6 @@ RELEASE = "released at [d_N]"
 
 
 def hertz_table(result: WheelStabilityResult) -> Table:
-    """One row a scheme, step and release."""
     rows: list[Row] = []
     for problem, found in result.hertz:
         for i, highest in enumerate(problem.highest):

@@ -16,7 +16,6 @@ LINEAR = "linear contact"
 
 
 def linear_table(result: WheelStabilityResult) -> Table:
-    """One row a scheme and step."""
     rows: list[Row] = []
     for name, found in result.linear.items():
         x = np.array(result.case.steps)
@@ -41,7 +40,6 @@ def linear_table(result: WheelStabilityResult) -> Table:
 
 
 def linear_numbers(table: Table) -> list[Number]:
-    """Five of each scheme."""
     return [number for name in SCHEMES for number in _numbers_of_scheme(name, table.where(scheme=name))]
 
 

@@ -29,17 +29,13 @@ def spacing_table(result: WheelStabilityResult) -> Table:
                     "q_max dx": 2 * math.pi * stride / FINE,
                     "dx [shortest wave]": stride / FINE,
                     "error of force over its fluctuation": float(np.sqrt(np.mean(error[:, i] ** 2))),
-                    LEVEL: _decibel(level[:, i].mean()) if carried else 0.0,
-                    "by linear theory [dB]": _decibel(linear[:, i].mean()),
-                    OPEN: _decibel(1 + spread[:, i].mean() / math.sqrt(len(found))),
+                    LEVEL: 10 * math.log10(level[:, i].mean()) if carried else 0.0,
+                    "by linear theory [dB]": 10 * math.log10(linear[:, i].mean()),
+                    OPEN: 10 * math.log10(1 + spread[:, i].mean() / math.sqrt(len(found))),
                     "carried": float(carried),
                 }
             )
     return table_of("spacing", rows)
-
-
-def _decibel(ratio: float) -> float:
-    return 10 * math.log10(ratio)
 
 
 def spacing_numbers(table: Table) -> list[Number]:

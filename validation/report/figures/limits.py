@@ -23,14 +23,12 @@ FLOOR = 1e-3
 
 
 def draw(evidence: Evidence) -> Figure:
-    """Springs and time stepping."""
     figure, axes = panels(3, 4, width=13.0, height=9.6, within=MANY)
     _draw_all(evidence, "limits", axes)
     return figure
 
 
 def draw_bem(evidence: Evidence) -> Figure:
-    """Boundary elements."""
     figure, axes = panels(2, 4, width=13.0, height=6.6, within=FEWER)
     _draw_all(evidence, "limits-bem", axes)
     return figure
@@ -145,7 +143,6 @@ def _residual(axis: Axes, found: Table, measure: str) -> None:
 
 
 def _styles(found: Table) -> list[tuple[str, str, Style]]:
-    """Solver, scene, and how they look."""
     solvers, scenes = (list(dict.fromkeys(found[name].tolist())) for name in ("solver", "scene"))
     return [
         (solver, scene, {**graded(i, len(scenes)), **(OPEN if j else {})})

@@ -102,7 +102,6 @@ def _marked(axis: Axes, ticks: tuple[float, ...]) -> None:
 
 
 def draw_rough(evidence: Evidence) -> Figure:
-    """Long runs, laps, springs too far apart, lift-off."""
     figure, axes = panels(3, 2, height=9.2, within=PLACE)
     _long(axes[0], evidence.table("long runs"))
     _spacing(axes[1], axes[2], evidence.table("spacing"))
