@@ -21,13 +21,16 @@ from validation.selection.hierarchy import (
 )
 from validation.simulation.calibrated_range import SCATTER
 from validation.simulation.indentation import cells_wanted, ground_of, height_of, highest_of, holds_waves, side_of
+from validation.simulation.method import Resolution, Values
 from validation.simulation.model import Cost, ErrorEstimate
+from validation.simulation.pressed import PressedGrid
 from validation.simulation.resolution import too_few
 
 FloatArray = NDArray[np.float64]
 
 CELL, PRESS = 2.0e-8, 3.5e-3
 """Seconds that a cell takes in an application, and what else a contact, about."""
+RESIDUAL = 1e-4
 APPLICATIONS = 24
 """Of the operator, to a contact and its stiffness."""
 SPHERE_SCATTER = 0.3
@@ -88,7 +91,7 @@ class IndentationOnGrid:
     def solve(self) -> Answer:
         """The mean stiffness, surface by surface until the sample leaves half of the tolerance."""
         found: list[StiffnessOnGrid] = []
-        while not self._enough(found):
+        while not self._has_enough(found):
             found.append(self._pressed(len(found), self.cells))
         coarse = [[self._pressed(i, cells) for cells in self._grids] for i in range(min(len(found), FEWEST))]
         cost, contacts = self._cost(len(found), len(coarse)), [*found, *chain.from_iterable(coarse)]
@@ -155,7 +158,7 @@ class IndentationOnGrid:
         pressed = self._on(highest)
         return math.inf if pressed.failed else abs(math.log(pressed.stiffness / found.stiffness))
 
-    def _enough(self, found: "list[StiffnessOnGrid]") -> bool:
+    def _has_enough(self, found: "list[StiffnessOnGrid]") -> bool:
         if self.measured or len(found) < FEWEST:
             return self.measured and len(found) == 1
         drawn = np.array([one.stiffness for one in found])
@@ -166,24 +169,51 @@ class IndentationOnGrid:
         return self._on(height_of(self.scene, cells, realisation, self.seed))
 
     def _on(self, height: FloatArray) -> "StiffnessOnGrid":
-        scene, side, cells = self.scene, side_of(self.scene), len(height)
-        half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=side / cells, modulus=scene.modulus)
-        gap = -height
-        if scene.shape == "sphere":
-            x = ((np.arange(cells) + 0.5) / cells - 0.5) * side
-            gap = gap + (x[:, np.newaxis] ** 2 + x**2) / (2 * scene.size)
+        resolution = Resolution(size=len(height), residual=RESIDUAL)
+        solve = PressedGrid(warm_up=False).prepare(RoughBody(self.scene, height), resolution)(0)
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always", bem3d.ContactWarning)
             try:
-                contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-4)
-                stiffness = float(contact.stiffness())
+                values = solve().values
             except bem3d.ConvergenceError:
                 return StiffnessOnGrid(math.nan, 0, "did not converge")
         # too few cells are counted, and a punch ends where its grid does
-        at_edge = scene.shape == "sphere" and any(issubclass(one.category, bem3d.EdgeWarning) for one in said)
-        return StiffnessOnGrid(
-            stiffness, int(np.count_nonzero(contact.pressure)), "reached the edge of the grid" * at_edge
-        )
+        at_edge = self.scene.shape == "sphere" and any(issubclass(one.category, bem3d.EdgeWarning) for one in said)
+        failed = "reached the edge of the grid" * at_edge
+        return StiffnessOnGrid(float(values["stiffness"]), int(values["cells"]), failed)
+
+
+@dataclass(frozen=True, eq=False)
+class RoughBody:
+    """The body of a scene with given heights of its face."""
+
+    scene: IndentationScene
+    height: FloatArray
+
+    def load(self, cells: int) -> dict[str, float]:
+        """Its force."""
+        return {"force": self.scene.load}
+
+    def half_space(self, cells: int) -> bem3d.HalfSpace:
+        """As wide as what it may touch."""
+        spacing = side_of(self.scene) / cells
+        return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=self.scene.modulus)
+
+    def gap(self, cells: int, realisation: int) -> FloatArray:
+        """Of the rough face, below a sphere with r^2 / 2R."""
+        if self.scene.shape == "punch":
+            return -self.height
+        x = ((np.arange(cells) + 0.5) / cells - 0.5) * side_of(self.scene)
+        return -self.height + (x[:, np.newaxis] ** 2 + x**2) / (2 * self.scene.size)
+
+    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
+        """The stiffness."""
+        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0)
+
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
+        """The stiffness, and the cells in contact."""
+        assert fixed is not None
+        return {"stiffness": np.array(fixed.stiffness), "cells": np.array(np.count_nonzero(contact.pressure))}
 
 
 class StiffnessOnGrid(NamedTuple):

@@ -20,8 +20,8 @@ FIXED_AREA_RESIDUAL = 1e-4
 """Residual of a fixed contact area, whose stiffness is good to some tens of times its square."""
 
 
-class PressedScene(Protocol):
-    """A body that is pressed onto a half-space, E* = 1 unless its half-space says otherwise."""
+class GridScene(Protocol):
+    """A body that is pressed onto a half-space on a grid."""
 
     def load(self, cells: int) -> dict[str, float]:
         """The force or the approach that is prescribed, by its name."""
@@ -37,6 +37,10 @@ class PressedScene(Protocol):
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
         """Values by boundary elements."""
+
+
+class PressedScene(GridScene, Protocol):
+    """The same with an image on springs, E* = 1."""
 
     def profile(self, springs: float, realisation: int) -> tuple[FloatArray, float]:
         """Heights and length of the foundation. Raises ValueError where there is no image in one dimension."""
@@ -70,13 +74,17 @@ class PressedSprings:
 
 @dataclass(frozen=True)
 class PressedGrid:
-    """Boundary elements, from a cold start: our solver, or the iteration of Polonsky and Keer."""
+    """Boundary elements, from a cold start: our solver, or the iteration of Polonsky and Keer.
+
+    warm_up: whether the set-up has a first solve, which makes plans, coarser grids and windows.
+    """
 
     name: str = "BEM"
     polonsky_keer: bool = False
+    warm_up: bool = True
 
-    def prepare(self, scene: PressedScene, resolution: Resolution) -> Prepared:
-        """Plans, coarser grids and windows, by a first solve."""
+    def prepare(self, scene: GridScene, resolution: Resolution) -> Prepared:
+        """The half-space, and its plans."""
         cells = round(resolution.size)
         half_space = scene.half_space(cells)
         published = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
@@ -91,7 +99,8 @@ class PressedGrid:
 
             return Solve(run, lambda found: Result(scene.read(*found), cell_applications(*found)))
 
-        draw(0).run()
+        if self.warm_up:
+            draw(0).run()
         return draw
 
 
