@@ -344,7 +344,7 @@ def test_an_approach_for_each_point_is_that_of_one_sided_springs():
         springs(approach=np.full(8, 5.0))
 
 
-def test_feeds_of_waves_that_have_no_wavenumber():
+def test_input_spectra_at_a_wavenumber_of_zero():
     assert feed(q=0.0) > 0
     with pytest.raises(ValueError, match="q must not be zero where contact_radius is infinite"):
         feed(q=0.0, contact_radius=np.inf)
@@ -430,14 +430,14 @@ def wheels_at(**changes):
         ),
     ],
 )
-def test_what_is_refused_is_said_with_its_numbers(wrong, sentence):
+def test_a_refusal_has_its_numbers(wrong, sentence):
     with pytest.raises(ValueError) as caught:
         wrong()
     assert str(caught.value) == sentence
 
 
 @pytest.mark.parametrize(("most", "said"), [(1, "1 iteration"), (2, "2 iterations")])
-def test_a_failure_is_said_with_its_numbers(most, said):
+def test_a_failure_has_its_numbers(most, said):
     """Of a solve and of a wheel."""
     gap = np.random.default_rng(0).normal(size=(4, 5))
     with pytest.raises(bem3d.ConvergenceError) as caught:
@@ -480,7 +480,7 @@ FAILING = {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True}
         (mdr.line_trace, lambda: mdr.line_trace(1.0, lambda q: q**-2, q_max=2.0), {"nodes": 400}),
     ],
 )  # fmt: skip
-def test_what_is_not_asked_for(function, called, defaults):
+def test_defaults(function, called, defaults):
     """Callers lean on it: what is asked of each function by who does not say."""
     called()
     known = {name: one.default for name, one in inspect.signature(function).parameters.items()}

@@ -47,7 +47,7 @@ COPIES = [lambda result: result, copy.copy, copy.deepcopy, lambda result: pickle
 
 
 @pytest.mark.parametrize("through", COPIES, ids=["itself", "copied", "deeply copied", "unpickled"])
-def test_nobody_writes_to_a_result(through):
+def test_results_are_read_only(through):
     for result in results():
         found = arrays(through(result))
         assert len(found) == len(arrays(result)) > 0

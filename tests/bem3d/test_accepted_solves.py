@@ -68,7 +68,7 @@ def test_a_solve_that_is_cut_short_says_so(solver, limit):
     ("residual", "status"),
     [(0.0, "converged"), (1e-4, "converged"), (1.001e-4, None), (9.9e-4, None), (np.nan, "breakdown")],
 )
-def test_the_tolerance_is_the_one_that_was_asked_for(residual, status):
+def test_the_tolerance_is_that_of_the_caller(residual, status):
     attempt = IterationState(np.zeros((1, 1)), 1.0)
     attempt.record_residual(residual, 1e-4, 5)
     assert attempt.status == status
@@ -76,7 +76,7 @@ def test_the_tolerance_is_the_one_that_was_asked_for(residual, status):
 
 
 @pytest.mark.parametrize(("entries", "status"), [(5, None), (6, "iteration limit")])
-def test_the_limit_is_the_one_that_was_asked_for(entries, status):
+def test_the_iteration_limit_is_that_of_the_caller(entries, status):
     """A history has an entry for the start, too."""
     attempt = IterationState(np.zeros((1, 1)), 1.0)
     for _ in range(entries):
@@ -105,7 +105,7 @@ def test_a_path_that_is_cut_short_says_so_at_every_load(limit):
             contact.stiffness()
 
 
-def test_a_frozen_contact_is_within_its_tolerance():
+def test_a_fixed_area_is_within_its_tolerance():
     body, gap = rough(False)
     cells = gap < 0
     for tolerance in ASKED:
@@ -116,7 +116,7 @@ def test_a_frozen_contact_is_within_its_tolerance():
 
 
 @pytest.mark.parametrize("limit", [1, 3, 6])
-def test_a_frozen_contact_that_is_cut_short_says_so(limit):
+def test_a_fixed_area_that_is_cut_short_is_not_converged(limit):
     body, gap = rough(False)
     cut = {"max_iterations": limit, "raise_on_failure": False}
     left = bem3d.solve_fixed_area(body, gap < 0, tolerance=1e-12, **cut).residual

@@ -296,7 +296,7 @@ def test_textbook_iteration_may_cycle_under_a_force():
     assert bem3d.solve(half_space, gap, force=1.0, tolerance=TIGHT).converged
 
 
-def test_results_belong_to_nobody_else():
+def test_results_are_copies():
     """Neither the caller's gap nor a start that is already a solution is shared with the result."""
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
     gap = np.random.default_rng(0).random((8, 8))

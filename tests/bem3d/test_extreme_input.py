@@ -182,7 +182,7 @@ def test_periodic_contact_close_to_saturation(part):
 
 @pytest.mark.parametrize("part", [0.97, 0.999, 1 - 1e-9])
 @pytest.mark.parametrize("n", [40, 65, 81])
-def test_a_mean_gap_of_coarser_grids_is_nobodys_business(n, part):
+def test_the_mean_gap_of_coarser_grids_changes_nothing(n, part):
     """Odd axes count a cell twice when they are halved: the approach is valid all the same, wherever a wave begins."""
     x = np.cos(2 * np.pi * (np.arange(n) + 0.5) / n)
     gap = -np.add.outer(x, x) + 0.01 * rough((n, n))
@@ -325,7 +325,7 @@ def test_a_solve_that_ends_at_twice_its_tolerance_is_none(solve, load):
         solve(UNDER, ROUGH, **load, **{**short, "raise_on_failure": True})
 
 
-def test_a_frozen_contact_that_ends_at_twice_its_tolerance_is_none():
+def test_a_fixed_area_at_twice_its_tolerance_is_not_converged():
     whole = bem3d.solve_fixed_area(UNDER, ROUGH < 0, tolerance=1e-9)
     short = cut_short(whole.history[:-1])
     ended = bem3d.solve_fixed_area(UNDER, ROUGH < 0, **short)

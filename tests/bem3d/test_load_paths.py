@@ -72,7 +72,7 @@ def test_error_of_the_stiffness_is_the_residual_squared(problem):
         assert -1e-12 * condition <= short <= condition * frozen.residual**2 + 1e-12 * condition
 
 
-def test_a_start_for_the_frozen_contact():
+def test_an_initial_guess_for_the_fixed_area():
     contact = bem3d.solve(BODY, GAP, force=1.0).pressure > 0
     cold = bem3d.solve_fixed_area(BODY, contact, tolerance=1e-6)
     warm = bem3d.solve_fixed_area(BODY, contact, start=cold.pressure + GAP, tolerance=1e-6)

@@ -121,7 +121,7 @@ def test_pressures_solve_the_contact_on_all_of_the_strip(name):
         assert bem3d.residual(pressure, w, 1.0 - float(gap.min())) <= TOLERANCE * (1 + 1e-6)
 
 
-def test_a_track_belongs_to_nobody_else():
+def test_a_track_is_a_copy():
     height = np.zeros((8, 7))
     track = bem3d.Track(height=height, spacing=1.0, radius=4.0, modulus=1.0)
     height += 1.0

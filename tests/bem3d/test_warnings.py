@@ -47,7 +47,7 @@ def test_a_handful_of_cells(force, cells):
 
 
 @pytest.mark.parametrize("side", [2, 3, 4, 5])
-def test_error_of_few_cells_is_as_said(side):
+def test_error_of_few_cells_is_that_of_the_warning(side):
     """A square punch of side^2 cells against 1.1523 E* L: too soft by about 0.3 / side."""
     body = bem3d.HalfSpace(shape=(side, side), spacing=1 / side, modulus=1.0)
     k = np.linalg.solve(dense_operator(body), np.ones(side**2)).sum() / side**2
@@ -63,7 +63,7 @@ def test_contact_at_the_edge():
     assert said(bem3d.solve, periodic, bowl(1), approach=0.3)[1] == []
 
 
-def test_enough_cells_away_from_the_edge_are_no_cause_for_doubt():
+def test_no_warning_of_enough_cells_away_from_the_edge():
     contact, nothing = said(bem3d.solve, BODY, bowl(12), approach=0.2)
     assert contact.area > 32
     assert nothing == []
@@ -117,7 +117,7 @@ def test_a_spike_across_the_edge_of_a_period_is_not_alone():
 FILE = {"shape": (24, 24), "spacing": 1e-3 / 24}
 
 
-def test_a_modulus_in_gigapascals_is_asked_about():
+def test_warning_of_a_modulus_in_gigapascals():
     """2 GPa typed as 2: a grid of a millimetre, pressed by metres."""
     x = (np.arange(24) - 11.5) * 1e-3 / 24
     gap = np.add.outer(x**2, x**2) / 2e-2
@@ -145,7 +145,7 @@ def test_a_modulus_in_gigapascals_is_asked_about():
     ("modulus", "pressure", "approach", "parts"),
     [(2.0, 0.2, 1.0, 0), (2.0, 0.201, 1.0, 1), (1.0, 9.0, 1.0, 0), (1.0, 9.0, 1.01, 1), (2.0, 0.201, 1.01, 2)],
 )
-def test_units_are_asked_about_beyond_their_borders_alone(modulus, pressure, approach, parts):
+def test_warnings_of_units_are_beyond_their_thresholds_alone(modulus, pressure, approach, parts):
     """A modulus of one is the unit of pressure."""
     found = diagnostics.diagnose_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
     assert len(found) == (parts > 0)
@@ -166,7 +166,7 @@ GRID = "; refine the grid (32 cells or more are not warned of)"
         (32, None),
     ],
 )
-def test_few_cells_are_said_with_their_number(cells, sentence):
+def test_warning_of_few_cells_has_their_number(cells, sentence):
     pressure = np.zeros((10, 10))
     inner = np.zeros(64)
     inner[:cells] = 1.0
@@ -175,7 +175,7 @@ def test_few_cells_are_said_with_their_number(cells, sentence):
     assert [said for _, said in found] == ([] if sentence is None else [sentence + GRID])
 
 
-def test_cells_at_the_edge_are_said_with_their_number():
+def test_warning_of_cells_at_the_edge_has_their_number():
     pressure = np.ones((10, 6))
     pressure[3:5, 2] = 0.0
     assert diagnostics.diagnose_pressure(pressure, periodic=False)[0][1] == (
@@ -186,7 +186,7 @@ def test_cells_at_the_edge_are_said_with_their_number():
 
 
 @pytest.mark.parametrize(("cells", "warned"), [(31.9, True), (32.0, False)])
-def test_a_small_sphere_is_said_with_its_cells(cells, warned):
+def test_warning_of_a_small_sphere_has_its_cells(cells, warned):
     said = "the contact of the smooth sphere has only 32 cells: refine the grid (32 cells or more are not warned of)"
     assert [sentence for _, sentence in diagnostics.diagnose_sphere(cells)] == [said] * warned
 

@@ -178,7 +178,7 @@ def groups(order, cuts):
 
 @pytest.mark.slow
 @given(data=st.data(), track=tracks(fewest=10.0, roughest=0.15, wheels=5), way=ways())
-def test_a_wheel_feels_the_same_force_to_the_last_bit_whoever_rolls_beside_it(data, track, way):
+def test_forces_are_independent_of_the_batch_to_the_last_bit(data, track, way):
     asked = [data.draw(calls(track)) for _ in range(4)]
     asked = [(place, approach) for place, approach in asked if track.fits(approach)]
     together = track.wheels()

@@ -349,7 +349,7 @@ def test_the_lightest_roughness_loses_no_spring(seed):
 
 
 @given(track=on_springs())
-def test_springs_beyond_doubt_are_not_examined(track):
+def test_springs_whose_contact_is_certain_are_not_examined(track):
     """Springs that all heights of the track let touch, and springs that none does."""
     found = track.roll()
     far = math.sqrt(track.radius * max(track.approach + track.height.max(), 0.0)) / track.spacing + 1

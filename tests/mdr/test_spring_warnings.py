@@ -50,12 +50,12 @@ def test_many_loads_are_warned_of_once():
     assert sentence.startswith("only 4 springs in contact at 2 of 4 loads, at the lightest: k may be 25% off")
 
 
-def test_a_punch_all_of_whose_springs_carry_is_not_doubted():
+def test_no_warning_of_a_punch_all_of_whose_springs_carry():
     assert said(mdr.load_curve(np.zeros(5), length=1.0, modulus=1.0).at_approach, 1.0)[1] == []
 
 
 @pytest.mark.parametrize("springs", [5, 9, 15])
-def test_error_of_few_springs_is_as_said(springs):
+def test_error_of_few_springs_is_that_of_the_warning(springs):
     """Springs anywhere under a parabola: never off by more than a spring, and 1 / sqrt(6) of one in the mean square."""
     dx, places = 2 / springs, np.linspace(0, 1, 400, endpoint=False)
     x = dx * (np.arange(-2 * springs, 2 * springs)[:, np.newaxis] + places)
@@ -98,7 +98,7 @@ def test_no_contact_is_no_contact_of_few_springs():
 @pytest.mark.parametrize(
     ("modulus", "approach", "asked"), [(2e9, 0.9, 0), (1.0, 1.0, 0), (1.0, 1.21, 1), (2e9, 1.21, 1)]
 )
-def test_units_of_a_sphere_are_asked_about(modulus, approach, asked):
+def test_warnings_of_the_units_of_a_sphere(modulus, approach, asked):
     """Where the radius of contact is above its own, by whatever function."""
     contact, found = said(mdr.press_sphere, radius=1.0, modulus=modulus, approach=approach)
     wheel = {"spacing": 1 / 40, "radius": 1.0, "modulus": modulus}
@@ -111,7 +111,7 @@ def test_units_of_a_sphere_are_asked_about(modulus, approach, asked):
         assert told == [(mdr.SpringUnitsWarning, sentence, __file__)] * asked
 
 
-def test_a_modulus_in_gigapascals_is_asked_about():
+def test_warning_of_a_modulus_in_gigapascals():
     """2 GPa typed as 2."""
     assert said(mdr.press_sphere, radius=1e-2, modulus=2e9, force=50.0)[1] == []
     ((category, sentence, _),) = said(mdr.press_sphere, radius=1e-2, modulus=2.0, force=50.0)[1]
@@ -127,7 +127,7 @@ def rough(height, q_max=3.0):
 
 @pytest.mark.parametrize("contact", ["linear", "full"])
 @pytest.mark.parametrize("force", [None, 4 / 3])
-def test_the_ends_of_a_linear_contact_move_as_is_said(contact, force):
+def test_the_ends_of_a_linear_contact_move_as_warned(contact, force):
     """The number in the sentence is the difference to one-sided springs, but for its third order."""
     height = rough(0.4)
     wheel = {"spacing": 1 / 32, "radius": 1.0, "modulus": 1.0}
@@ -142,13 +142,13 @@ def test_the_ends_of_a_linear_contact_move_as_is_said(contact, force):
 
 
 @pytest.mark.parametrize(("height", "warned"), [(0.01, False), (0.05, False), (0.5, True)])
-def test_low_roughness_is_not_doubted(height, warned):
+def test_no_warning_of_low_roughness(height, warned):
     _, found = said(mdr.roll, rough(height), spacing=1 / 32, **WHEEL, contact="linear")
     assert [category for category, _, _ in found] == [mdr.LinearityWarning] * warned
     assert said(mdr.roll, rough(height), spacing=1 / 32, **WHEEL)[1] == []
 
 
-def test_a_smooth_track_is_not_doubted():
+def test_no_warning_of_a_smooth_track():
     assert said(mdr.roll, np.zeros(800), spacing=1 / 32, **WHEEL, contact="full")[1] == []
 
 
@@ -163,13 +163,13 @@ def test_a_smooth_track_is_not_doubted():
         ([0, 900], None),
     ],
 )  # fmt: skip
-def test_few_springs_are_said_with_their_number(pressed, sentence):
+def test_warning_of_few_springs_has_their_number(pressed, sentence):
     found = diagnostics.diagnose_load(np.array(pressed), 1000)
     more = "; take more springs (16 or more in contact are not warned of)"
     assert [said for _, said in found] == ([] if sentence is None else [sentence + more])
 
 
-def test_what_a_linear_contact_leaves_out_is_said_with_its_part():
+def test_warning_of_a_linear_contact_has_the_part_it_leaves_out():
     """(h^2 behind + h^2 ahead) / 4 d, its deviation over that of the force."""
     rng = np.random.default_rng(2)
     height, change = 0.3 * rng.normal(size=50), 0.2 * rng.normal(size=50)

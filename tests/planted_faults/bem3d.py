@@ -184,11 +184,11 @@ FAULTS = {
     ),
     "a modulus in gigapascals that nobody asks about": (
         (contact, "diagnose_units", lambda **_: ()),
-        test_doubts.test_a_modulus_in_gigapascals_is_asked_about,
+        test_doubts.test_warning_of_a_modulus_in_gigapascals,
     ),
     "accepted at ten times its tolerance": (
         (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
-        functools.partial(test_accepted_solves.test_the_tolerance_is_the_one_that_was_asked_for, 9.9e-4, None),
+        functools.partial(test_accepted_solves.test_the_tolerance_is_that_of_the_caller, 9.9e-4, None),
     ),
     "accepted at ten times its tolerance, seen by a solve": (
         (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),

@@ -206,7 +206,7 @@ FAULTS = {
     ),
     "sums that round": (
         (wheels_in_step, "np", in_numpy({"rint": not_rounded})),
-        test_wheels_on_springs.test_a_wheel_feels_the_same_force_to_the_last_bit_whoever_rolls_beside_it,
+        test_wheels_on_springs.test_forces_are_independent_of_the_batch_to_the_last_bit,
     ),
     "springs that say nothing of short waves": (
         (profile_module, "diagnose_waves", lambda *_: ()),
@@ -218,7 +218,7 @@ FAULTS = {
     ),
     "ends of a linear contact that move twice as far": (
         (wheel_on_springs, "diagnose_linearity", ends_that_move_twice_as_far),
-        functools.partial(test_doubts_of_springs.test_the_ends_of_a_linear_contact_move_as_is_said, "linear", None),
+        functools.partial(test_doubts_of_springs.test_the_ends_of_a_linear_contact_move_as_warned, "linear", None),
     ),
     "a spike that nobody rolls over": (
         (Near, "beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)),
@@ -230,6 +230,6 @@ FAULTS = {
     ),
     "a contact wider than its sphere that nobody asks about": (
         (sphere, "diagnose_units", lambda **_: ()),
-        functools.partial(test_doubts_of_springs.test_units_of_a_sphere_are_asked_about, 1.0, 1.21, 1),
+        functools.partial(test_doubts_of_springs.test_warnings_of_the_units_of_a_sphere, 1.0, 1.21, 1),
     ),
 }

@@ -54,7 +54,7 @@ FAULTS = {
     ),
     "a flight that nobody foretells": (
         (steadiness, "MAX_FORCE", math.inf),
-        functools.partial(test_steadiness.test_flight_is_foretold, 0.33, 30e-3, "by linear theory"),
+        functools.partial(test_steadiness.test_flight_is_predicted, 0.33, 30e-3, "by linear theory"),
     ),
     "the rougher of wheel and rail for both": (
         (steadiness, "math", with_math(hypot=lambda *heights: max(heights))),

@@ -411,7 +411,7 @@ def test_limits_print_the_numbers_they_are_given():
     assert "c = load 7, stiffness 7, pressure 7" in text and "alone load 2, stiffness 2, pressure 2." in text
 
 
-def test_the_plateau_is_told_in_shares_of_its_power():
+def test_the_plateau_is_printed_in_shares_of_its_power():
     """10 lg: -10 dB is a tenth."""
     names = (f"{kind} [dB]" for kind in ("springs, open", "linear, open", "springs, steady-state"))
     plateau = Table(

@@ -97,7 +97,7 @@ def test_what_is_no_regular_file_is_refused_without_reading_it(tmp_path, capsys)
         assert refused(capsys, *command, "/dev/zero") == "error: scene /dev/zero must be a regular file, got a device"
 
 
-def test_sizes_are_bounded_and_said(tmp_path, monkeypatch):
+def test_sizes_are_bounded(tmp_path, monkeypatch):
     path = tmp_path / "file"
     path.write_bytes(b"12345")
     assert contents_of("it", path, most=5) == b"12345"

@@ -221,7 +221,7 @@ def test_slopes_are_those_of_heights():
         (np.float32(0.5), "mass", "500 g"),
     ],
 )
-def test_quantities_are_said_in_a_unit_that_fits(value, dimension, shown):
+def test_quantities_are_printed_in_a_unit_that_fits(value, dimension, shown):
     assert in_unit(value, dimension) == shown
 
 
@@ -266,7 +266,7 @@ def test_a_description_has_a_line_for_each_of_its_words(name):
     assert description_lines(scene) == [f"  {key:18s}  {value}" for key, value in describe(scene)]
 
 
-def test_two_equal_bodies_are_told(tmp_path, capsys):
+def test_two_equal_bodies_are_printed(tmp_path, capsys):
     assert main(["compare", str(written(tmp_path, SPHERE, 'counterface = "same"\n'))]) == 0
     assert "  contact modulus E*  118.125 GPa: two equal bodies, E = 210 GPa, nu = 0.33333" in capsys.readouterr().out
 

@@ -75,7 +75,7 @@ def test_a_tilt_is_taken_off():
 
 
 @pytest.mark.parametrize("times", [0.5, 2.0])
-def test_a_tilt_larger_than_the_roughness_is_told(times):
+def test_note_of_a_tilt_larger_than_the_roughness(times):
     ramp = np.arange(N)[:, np.newaxis] - (N - 1) / 2 + np.zeros(N)
     level = heights(drawn()).height
     found = heights(level + 3e-6 + times * level.std() / ramp.std() * ramp)
@@ -88,7 +88,7 @@ def test_isotropic_gaussian_heights_leave_no_doubt():
     assert heights(drawn()).notes() == ()
 
 
-def test_ridges_are_told():
+def test_note_of_ridges():
     x = np.arange(N) * DX
     ridges = 1e-7 * np.cos(2 * np.pi * 16 * x / (N * DX))[:, np.newaxis] + 0.1 * drawn()
     (doubt,) = (d for d in heights(ridges).notes() if "anisotropic" in d)
@@ -99,7 +99,7 @@ def test_ridges_are_told():
     assert "times those along the other" in stretched.notes()[0]
 
 
-def test_heights_that_are_not_gaussian_are_told():
+def test_note_of_heights_that_are_not_gaussian():
     worn = np.minimum(drawn(), 0.3e-7)
     (doubt,) = heights(worn).notes()
     assert re.match(r"heights are not Gaussian, skewness -\d", doubt)
@@ -198,7 +198,7 @@ def test_sizes_that_are_no_lengths_are_refused(side):
         measured(surface(drawn(), (1.0, side)))
 
 
-def test_sizes_in_the_other_order_are_told():
+def test_note_of_sizes_in_the_other_order():
     half, (long, short) = drawn()[:, : N // 2], (N * DX, N // 2 * DX)
     assert not any("order of the axes" in note for note in measured(surface(half, (long, short))).notes())
     (note,) = (n for n in measured(surface(half, (short, long))).notes() if "order of the axes" in n)
@@ -429,7 +429,7 @@ def test_what_cannot_be_reached_is_no_success(capsys, tmp_path):
     assert "not reached: the tolerance of 0.001 %" in capsys.readouterr().out
 
 
-def test_the_seed_of_a_comparison_is_the_one_that_was_asked_for(capsys, monkeypatch):
+def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
     seeds, compared = [], command.compared
 
     def seen(scene, **settings):

@@ -58,7 +58,7 @@ def test_the_level_grows_where_the_resonance_is_among_the_waves(ratio, grows):
     ("height", "longest", "said"),
     [(1.0, 10e-3, "the roughness is"), (0.33, 30e-3, "by linear theory"), (0.15, 10e-3, "")],
 )
-def test_flight_is_foretold(height, longest, said):
+def test_flight_is_predicted(height, longest, said):
     wheels = scene(height, longest=longest)
     assert wheels.no_steady_answer().startswith(said)
     assert bool(wheels.no_steady_answer()) == bool(said)
@@ -68,7 +68,7 @@ def test_flight_is_foretold(height, longest, said):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("longest", "grows"), [(2e-3, True), (10e-3, False)])
-def test_short_waves_that_feed_the_free_vibration_are_told(longest, grows):
+def test_note_of_short_waves_that_excite_the_free_vibration(longest, grows):
     wheels = scene(0.25, longest=longest, springs=20)
     assert wheels.no_steady_answer() == ""
     told = [doubt for doubt in wheels.diagnose() if "feeds the free vibration" in doubt]
@@ -96,7 +96,7 @@ def test_the_force_on_the_way_is_infinite_at_the_resonance():
     assert force_on_the_way(TABLE.body, 1.0, [TABLE.rail]) == math.inf
 
 
-def test_the_same_scene_is_as_steady_for_the_ladder():
+def test_the_same_scene_is_as_steady_for_model_selection():
     for wheels in (scene(0.5), scene(0.1, ratio=0.8), scene(0.1)):
         assert RollingScene.of_wheel(wheels).no_steady_answer() == wheels.no_steady_answer()
     still = RollingScene(name="it", radius=0.5, load=1.0, modulus=1e9, ground=TABLE.rail)
