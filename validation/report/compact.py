@@ -10,7 +10,7 @@ COMMAND = re.compile(r"\s*([MLQCZz])\s*")
 DECIMALS = re.compile(r"(\d*)\.\d{3,}")
 INDENTATION = re.compile(r"\n\s*")
 LINK, SPACE = "xlink:href=", ' xmlns:xlink="http://www.w3.org/1999/xlink"'
-"""What SVG 2 says in one word."""
+"""SVG 2 needs neither the prefix nor its declaration."""
 NAME = re.compile(r' id="([^"]+)"')
 NAMED = re.compile(r'( id="|#)([\w-]+)')
 PLACED = re.compile(r'(<use [^>]*)transform="translate\((\S+) (\S+)\)"/>')
@@ -42,17 +42,18 @@ def _place(glyph: re.Match[str]) -> str:
 def _renamed(svg: str) -> str:
     """Short names for what is drawn again and again: marks, glyphs, frames that clip."""
     short = {name: f"n{number}" for number, name in enumerate(dict.fromkeys(NAME.findall(svg)))}
-    return NAMED.sub(lambda said: said[1] + short.get(said[2], said[2]), svg)
+    return NAMED.sub(lambda found: found[1] + short.get(found[2], found[2]), svg)
 
 
 def _classed(svg: str) -> str:
-    """Each look said once, as a class, instead of at every mark."""
+    """Each combination of properties once, as a class, instead of at every mark."""
     classes: dict[str, str] = {}
 
     def named(look: re.Match[str]) -> str:
-        said = [value if name == "style" else f"{name}: {value}" for name, value in PROPERTY.findall(look.group())]
-        rules = "; ".join(said).replace("; ", ";").replace(": ", ":")
-        return f' class="{classes.setdefault(rules, f"c{len(classes)}")}"'
+        found = PROPERTY.findall(look.group())
+        text = "; ".join(value if name == "style" else f"{name}: {value}" for name, value in found)
+        text = text.replace("; ", ";").replace(": ", ":")
+        return f' class="{classes.setdefault(text, f"c{len(classes)}")}"'
 
     svg = LOOK.sub(named, svg)
     rules = "".join(f".{name}{{{rules}}}\n" for rules, name in classes.items())
@@ -60,7 +61,7 @@ def _classed(svg: str) -> str:
 
 
 def _ungrouped(svg: str) -> str:
-    """Without the groups that say nothing; each tag has a line of its own."""
+    """Without the groups that have no attributes; each tag has a line of its own."""
     lines, bare = [], []
     for line in svg.splitlines(keepends=True):
         tag = line.strip()

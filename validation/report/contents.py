@@ -1,4 +1,4 @@
-"""What a report holds: every module of `cases` and `benchmarks` that has a `CASE`, chapter by chapter."""
+"""The cases of a report: every module of `cases` and `benchmarks` that has a `CASE`, chapter by chapter."""
 
 from collections.abc import Iterator
 from importlib import import_module

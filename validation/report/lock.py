@@ -19,7 +19,7 @@ KIND = "mdr-validation lock"
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Nobody else writes a report into the folder meanwhile.
+    """No other run writes a report into the folder meanwhile.
 
     The system gives its lock back when a process ends, however it ends, so a file without a lock is that of a run that
     was killed; unless the run was on another host, whose locks may not be seen from here.
@@ -48,7 +48,7 @@ def _taken(path: Path) -> int:
 
 
 def _held(handle: int, path: Path) -> bool:
-    """Lock it and sign it; False where the file has been removed by its last holder meanwhile."""
+    """Lock the file and sign it; False where its last holder has removed it meanwhile."""
     foreign = ValueError(f"{path} is not the lock of a run: move it away, or name another folder")
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         raise foreign
@@ -88,7 +88,7 @@ def _content(handle: int) -> bytes:
 
 
 def _signature(content: bytes) -> dict[str, object] | None:
-    """Who wrote a lock; None where it is none."""
+    """Host, process and time of the run that wrote a lock; None where the content is no lock."""
     try:
         signature = json.loads(content)
     except (ValueError, RecursionError):

@@ -1,4 +1,4 @@
-"""The list by which a folder is known as that of a report: what has been written in it, and nothing else."""
+"""The list of the files that a report has written; a folder with such a list is known as a report."""
 
 import hashlib
 import json
@@ -11,7 +11,7 @@ from validation.engine.files import read_plain
 MANIFEST = "manifest.json"
 KIND, FORMAT = "mdr-validation report", 1
 NAME = re.compile(r"(?:(?:figures|data)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv)")
-"""Names that a report may have; a list that holds others was not written here."""
+"""Names that files of a report may have; a list with other names is none of a report."""
 
 Listed = Mapping[str, tuple[str, ...]]
 """Files below the folder, each with the SHA-256 of what it holds, or of what it may hold while it is replaced."""
@@ -31,7 +31,7 @@ def listed_in(folder: Path) -> Listed:
         listed = {name: tuple(digests) for name, digests in manifest["files"].items()}
         if not all(NAME.fullmatch(name) and name != MANIFEST for name in listed):
             raise ValueError("names that no report has")
-    # a file of others may hold anything
+    # a foreign file may hold anything
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise ValueError(f"{folder / MANIFEST} is not the list of a report: name another folder") from None
     return listed
@@ -42,6 +42,6 @@ def digest_of(contents: bytes) -> str:
 
 
 def both(before: Listed, after: Listed) -> Listed:
-    """What may be in the folder while one report takes the place of another."""
+    """Files that may be in the folder while one report replaces another."""
     names: Iterable[str] = {**before, **after}
     return {name: tuple(dict.fromkeys((*before.get(name, ()), *after.get(name, ())))) for name in names}

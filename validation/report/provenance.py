@@ -1,4 +1,4 @@
-"""What produced a report: versions, commit, seeds, time. Never whose machine."""
+"""The provenance of a report: versions, commit, seeds, time; no name of a machine or user."""
 
 import importlib.metadata
 import os

@@ -1,4 +1,4 @@
-"""How figures look: read without colour, and drawn to the same bytes every time."""
+"""The style of figures: readable without colour, and the same bytes every time."""
 
 import io
 from collections.abc import Callable

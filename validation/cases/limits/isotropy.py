@@ -5,15 +5,13 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
-from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
+from validation.cases.limits.sweep import FloatArray, Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome, random_generator
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance, response
 
-FloatArray = NDArray[np.float64]
 HURST = 0.7
 GEIKE_TRACK = 1
 """The spawn key of a track of Geike's spectrum."""

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
 from validation.cases.limits.isotropy import HURST, decibel
-from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
+from validation.cases.limits.sweep import FloatArray, Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome, random_generator
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.rolling_strip import Strip, roll_strip
@@ -17,7 +16,6 @@ from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, coars
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance
 
-FloatArray = NDArray[np.float64]
 UNIT_TRACK = 2
 """The spawn key of a track of unit height."""
 

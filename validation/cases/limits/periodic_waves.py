@@ -5,16 +5,13 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 from validation.cases.limits.spheres import RESIDUAL, half_space
-from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
+from validation.cases.limits.sweep import FloatArray, Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome, random_generator
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
-
-FloatArray = NDArray[np.float64]
 
 WAVES = Limit(
     name="waves",

@@ -5,13 +5,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
-from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
+from validation.cases.limits.sweep import FloatArray, Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome
-
-FloatArray = NDArray[np.float64]
 
 HERTZ = 4 / 3
 LATTICE = 3.900265
