@@ -94,6 +94,7 @@ def test_candidates_are_a_part_of_the_field(data):
     np.testing.assert_array_equal(cells.displacement(vector), body.displacement(pressure)[marked])
 
 
+@pytest.mark.slow
 @given(data=st.data(), total=st.floats(1e-6, 1e6))
 def test_nearest_pressure_of_a_total(data, total):
     """Least squares on p >= 0, sum(p) = total, by its conditions: one multiplier on the cells that carry, and no cell

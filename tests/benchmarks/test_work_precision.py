@@ -297,6 +297,7 @@ def use_a_clock_of_its_own(monkeypatch):
     monkeypatch.setattr(timing, "timed", lambda function: (function(), 0.01))
 
 
+@pytest.mark.slow
 def test_whoever_fails_is_a_row_with_its_reason_and_its_place_on_the_chart():
     """In real processes: who dies takes no other's process along."""
     timed = timed_problem(
@@ -609,6 +610,7 @@ def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():
     np.testing.assert_allclose(motion.acceleration, expected, atol=1e-8 * np.abs(expected).max())
 
 
+@pytest.mark.slow
 def test_mean_levels_are_those_of_many_linear_wheels():
     known = [linear_strip(STRIP, i, 6, 1e-5) for i in range(60)]
     levels = np.array([one.level for one in known])

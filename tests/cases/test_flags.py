@@ -104,6 +104,7 @@ def test_a_position_that_does_not_converge_has_no_force(monkeypatch):
     assert np.isnan(levels["level"]).all()
 
 
+@pytest.mark.slow
 def test_both_ways_over_ridges_are_counted(monkeypatch):
     case = ridges.Ridges(length=8, shortest=4.0, cells=(4,))
     rolled = ridges.RidgesTrack(case=case, method="bem3d", cells=4)

@@ -84,6 +84,7 @@ def test_damaged_and_foreign_files_are_computed_anew(problems, tmp_path):
     assert files[0].read_bytes() == whole
 
 
+@pytest.mark.slow
 def test_every_damaged_bit_is_seen(problems, tmp_path):
     """One bit of each byte of a stored file turned over: never taken, never an error."""
     store = tmp_path / "store"

@@ -30,6 +30,7 @@ def test_moments_of_power_laws_are_kept(spectrum, n):
     assert share_kept(spectrum.c1d, spectrum.c2d, n, spectrum.q_min, spectrum.q_max) == pytest.approx(1, rel=QUADRATURE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [0, 1, 2, 3, 4])
 @given(spectrum=bumps())
 def test_moments_of_arbitrary_spectra_are_kept(spectrum, n):

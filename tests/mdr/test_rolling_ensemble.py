@@ -190,6 +190,7 @@ def test_forces_are_independent_of_the_batch_to_the_last_bit(data, track, way):
             assert np.array_equal(alone.force(place, approach[group]), force[group])
 
 
+@pytest.mark.slow
 @given(track=tracks(fewest=10.0, roughest=1.0, wheels=5), way=ways(), place=places, share=st.floats(0.3, 2))
 @example(
     track=Tracks(np.arange(5.0) * np.random.default_rng(0).normal(size=(60, 5)), 20.0),
@@ -245,6 +246,7 @@ def test_a_prescribed_force_is_that_of_the_wheel_alone(track, share):
             assert abs(found - other[place]) <= error
 
 
+@pytest.mark.slow
 @given(track=tracks(fewest=4.0, roughest=0.1), length=st.floats(-6, 6), unit=st.floats(-4, 12), place=places)
 def test_units_do_not_matter(track, length, unit, place):
     """F ~ E* l^2, d ~ l. The quantum is one of the approach, so that no more than its rounding is seen."""
@@ -377,6 +379,7 @@ def test_sums_beyond_2_53_are_refused_or_not_seen(overlap):
     assert (several.force(4500, [d] * 3) == expected).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("springs", [3.3, 7.7, 20.5])
 def test_newtons_method_ends_where_a_spring_just_touches(springs):
     """Forces within a few roundings of one at which the next spring comes into contact."""

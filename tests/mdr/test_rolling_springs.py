@@ -240,6 +240,7 @@ def test_under_a_force_the_linear_wheel_follows_the_filtered_track(track):
     assert np.abs(found - (track.approach - change / stiffness)).max() <= 1e-12 * (np.abs(found).max() + track.approach)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @given(track=on_springs(), share=st.floats(0, 1))
 def test_a_shift_of_the_track_shifts_the_force(kind, track, share):

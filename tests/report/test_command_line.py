@@ -195,6 +195,7 @@ def whole_page(folder, names):
     assert "profile: quick" in page
 
 
+@pytest.mark.slow
 def test_a_page_holds_several_cases(small, tmp_path):
     report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1")
     whole_page(tmp_path, ["hertz", "geike"])
@@ -242,6 +243,7 @@ def limited(monkeypatch, is_lost):
     monkeypatch.setattr(bem3d, "indent", stubborn)
 
 
+@pytest.mark.slow
 def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch):
     """One surface of forty fails at its largest force: named, counted, and the report still stands."""
     seen = []
@@ -261,6 +263,7 @@ def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch)
     assert "surface 0, H = 0.4" in (tmp_path / "index.html").read_text()
 
 
+@pytest.mark.slow
 def test_a_lost_ensemble_has_no_result_and_is_exit_3(small, tmp_path, monkeypatch, capsys):
     limited(monkeypatch, lambda half_space, gap, force: force > 0.9e-3)
     assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
@@ -309,6 +312,7 @@ def test_a_folder_with_something_else_in_it_is_refused(tmp_path, capsys):
     assert [f.name for f in tmp_path.iterdir()] == ["thesis.tex"]
 
 
+@pytest.mark.slow
 def test_old_figures_do_not_stay(small, tmp_path):
     report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1")
     (tmp_path / "realisations" / ".mdr-validation-killed__.part").write_bytes(b"half of")
@@ -324,6 +328,7 @@ def test_cases_are_listed(capsys):
     assert all(name in printed and entry.answers in printed for name, entry in CASES.items())
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     """Control-C in the middle: exit 130; finished solves are there, and the next run takes them."""
     words = [sys.executable, "-m", "validation", "report", "--only", "fractal_punch", "--workers", "1"]

@@ -109,6 +109,7 @@ def same(svg: str, plain: str) -> None:
         np.testing.assert_allclose(places_after, places, rtol=0, atol=0.0501)
 
 
+@pytest.mark.slow
 def test_the_same_strokes_at_the_same_places_in_the_same_look(plain: str) -> None:
     same(compact(plain), plain)
 

@@ -320,6 +320,7 @@ def test_lines_of_rolling():
         )
 
 
+@pytest.mark.slow
 def test_panels_of_the_map_have_their_model():
     table = rolled_levels()
     axes = rolling_figure.draw_map(made(levels=table)).axes[:4]
@@ -509,6 +510,7 @@ def test_lines_of_iterations():
             )
 
 
+@pytest.mark.slow
 def test_marks_of_methods_are_those_of_the_legend():
     """Each line of a chart looks as its name does, and no two names look alike."""
     methods = list(precision.STYLES)
