@@ -1,5 +1,7 @@
 """The solution of a contact problem, with the problem, and its residual."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, field
 from enum import StrEnum

@@ -1,5 +1,7 @@
 """The elastic half-space on a regular grid: pressure in, displacement out."""
 
+from __future__ import annotations
+
 import threading
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -135,7 +137,7 @@ class HalfSpace:
         symbol = kernel.inverse_symbol(self.shape, self.steps, self.modulus)
         return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
 
-    def like(self, *, shape: tuple[int, int], spacing: float | tuple[float, float] | None = None) -> "HalfSpace":
+    def like(self, *, shape: tuple[int, int], spacing: float | tuple[float, float] | None = None) -> HalfSpace:
         """Half-space of the same material on another grid. The last few are kept, with their plans."""
         wanted = replace(self, shape=shape, spacing=self.spacing if spacing is None else spacing)
         if wanted == self:
@@ -148,7 +150,7 @@ class HalfSpace:
         return kept
 
     @cached_property
-    def _relatives(self) -> dict["HalfSpace", "HalfSpace"]:
+    def _relatives(self) -> dict[HalfSpace, HalfSpace]:
         return {}
 
     def __reduce__(self) -> tuple[Any, ...]:

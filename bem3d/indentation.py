@@ -1,5 +1,7 @@
 """A load path: contacts one after the other, each from those before."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import cast

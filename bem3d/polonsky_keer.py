@@ -3,6 +3,8 @@
 Source: Polonsky and Keer, Wear 231 (1999) 206.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

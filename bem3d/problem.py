@@ -1,5 +1,7 @@
 """The statement of a contact problem: half-space, gap, and what is prescribed."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from bem3d.checks import FloatArray, field, finite, not_negative
@@ -81,7 +83,7 @@ class Problem(ReadOnly):
         """Sum of the pressures over the cells, F / (dx dy) [Pa]; None where approach is given."""
         return None if self.force is None else self.force / self.half_space.cell_area
 
-    def under(self, value: float) -> "Problem":
+    def under(self, value: float) -> Problem:
         """The same problem at another approach or force, whichever is prescribed; the gap is shared."""
         other = object.__new__(Problem)
         other.__dict__.update(self.__dict__)

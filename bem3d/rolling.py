@@ -1,5 +1,7 @@
 """A rigid sphere rolled over a rough strip, quasi-statically."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import cast
 

@@ -1,5 +1,7 @@
 """The wheel over a strip, solved position by position: each begun from those before."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

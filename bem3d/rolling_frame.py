@@ -1,5 +1,7 @@
 """A sphere above a rough strip, and the frame that moves along with it."""
 
+from __future__ import annotations
+
 import math
 import sys
 from dataclasses import dataclass
@@ -141,7 +143,7 @@ class Frame:
         self._sphere = track.sphere(self._ahead[:, np.newaxis], self._across)
         self._limit = -np.inf
 
-    def within(self, other: "Frame") -> bool:
+    def within(self, other: Frame) -> bool:
         """Whether all of it is part of another frame."""
         return joined(self.spans, other.spans) == other.spans
 
@@ -153,7 +155,7 @@ class Frame:
             slice(columns[0] - self.columns[0], columns[1] - self.columns[0]),
         )
 
-    def take(self, field: FloatArray, frame: "Frame") -> FloatArray:
+    def take(self, field: FloatArray, frame: Frame) -> FloatArray:
         """A field of another frame under the same wheel, zero where that one does not reach."""
         here = np.zeros(self.shape)
         common = common_part(self.spans, frame.spans)

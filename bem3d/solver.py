@@ -6,6 +6,8 @@ of Polonsky and Keer, the baseline, is `solve_polonsky_keer`. A modulus of exact
 its pressures are not checked for their units.
 """
 
+from __future__ import annotations
+
 from typing import cast
 
 import numpy as np

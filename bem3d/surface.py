@@ -6,6 +6,8 @@ square is sum_q (2 pi)^2 C_2D / (Lx Ly) over these waves, which tends to int C_2
 the band begins at 2 pi / L.
 """
 
+from __future__ import annotations
+
 from typing import Literal
 
 import numpy as np

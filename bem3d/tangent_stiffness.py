@@ -1,5 +1,7 @@
 """Incremental stiffness: a known set of cells pressed as a flat punch, a linear problem, by conjugate gradients."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The foundation of independent springs: each has stiffness E* dx and knows nothing of its neighbours."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from typing import Generic, TypeVar, overload

@@ -5,6 +5,8 @@ uniform in [0, 2 pi) and phi(-q) = -phi(q); Popov and Hess, (14.8), and (14.9) w
 square is sum_q 2 pi C_1D(q) / L over these waves. That exceeds int C_1D dq where the band begins at 2 pi / L.
 """
 
+from __future__ import annotations
+
 from typing import Literal
 
 import numpy as np

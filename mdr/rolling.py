@@ -5,6 +5,8 @@ Where rounding keeps Newton's method from an end, the springs are sorted. Spring
 sums, and springs that cannot touch are left out.
 """
 
+from __future__ import annotations
+
 import math
 from typing import Literal
 

@@ -1,5 +1,7 @@
 """Many wheels on spring foundations, each over a track of its own, batched place by place."""
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -11,6 +11,8 @@ Between these limits it is a compromise. Where s a >> 1 and q a << 1 it is 3 dB 
 right there, and 3 dB too low where waves of s a = 1 appear so.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 

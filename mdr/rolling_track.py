@@ -1,5 +1,7 @@
 """What rolling along a track of springs gives."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from mdr.checks import FloatArray

@@ -3,6 +3,8 @@
 Power spectral densities are two-sided: <h^2> = int_{-inf}^{inf} C_1D dq = 2 pi int_0^inf q C_2D dq.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from functools import cache

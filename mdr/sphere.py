@@ -1,5 +1,7 @@
 """A smooth sphere on the continuous foundation."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 
