@@ -73,7 +73,7 @@ def series(axis):
             assert label not in found, label
             found[label] = (np.asarray(line.get_ydata(), dtype=float), None)
     for container in axis.containers:
-        if isinstance(container, ErrorbarContainer) and not container.get_label().startswith("_"):
+        if isinstance(container, ErrorbarContainer) and not (container.get_label() or "_").startswith("_"):
             ends = np.array([[segment[0][1], segment[1][1]] for segment in container.lines[2][-1].get_segments()])
             assert container.get_label() not in found
             found[container.get_label()] = (np.asarray(container.lines[0].get_ydata(), dtype=float), ends)
