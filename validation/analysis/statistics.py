@@ -25,6 +25,11 @@ ROUNDING = 1e-12
 LOG10_TOLERANCE = 1e-9
 
 
+def student(degrees: float, confidence: float = 0.95) -> float:
+    """Student's quantile: the half-width of an interval over the standard error, with so many degrees of freedom."""
+    return float(stats.t.ppf((1 + confidence) / 2, degrees))
+
+
 @dataclass(frozen=True)
 class Estimate:
     """A value, its standard error and the number of realisations behind it."""
@@ -41,7 +46,7 @@ class Estimate:
     @property
     def half_width(self) -> float:
         """Half of the 95 % interval: Student's quantile times the standard error."""
-        return float(stats.t.ppf(0.975, self.samples - 1)) * self.error
+        return student(self.samples - 1) * self.error
 
     def minus(self, other: "Estimate") -> "Estimate":
         """The difference to an independent estimate; degrees of freedom by Welch and Satterthwaite."""

@@ -7,8 +7,8 @@ from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
+from validation.analysis.statistics import student
 from validation.simulation.model import Cost, ErrorEstimate
 
 FloatArray = NDArray[np.float64]
@@ -166,7 +166,7 @@ def mean_error(ratios: FloatArray) -> float:
     ratios: logarithms, shape (realisations, numbers), two realisations at least.
     """
     of_means = ratios.std(axis=0, ddof=1) / math.sqrt(len(ratios))
-    return float(_student(len(ratios)) * np.sqrt(np.mean(of_means**2)))
+    return float(student(len(ratios) - 1) * np.sqrt(np.mean(of_means**2)))
 
 
 def grid_error(earlier: FloatArray, last: FloatArray) -> float:
@@ -226,7 +226,3 @@ def _with_least_estimate(selection: Selection, callback: Callable[[ContactModel]
 
 def _error(candidate: Candidate) -> float:
     return candidate.answer.error if candidate.answer else math.inf
-
-
-def _student(size: int) -> float:
-    return float(stats.t.ppf(0.975, size - 1))

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
-from validation.analysis.statistics import jackknife_error
+from validation.analysis.statistics import jackknife_error, student
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
 from validation.benchmarks.work_precision.pareto import Point
 from validation.benchmarks.work_precision.problem import (
@@ -104,7 +103,7 @@ def _half_width(without: list[float]) -> float:
         return 0.0
     if not np.isfinite(without).all():
         return math.inf
-    return float(stats.t.ppf(0.975, len(without) - 1) * jackknife_error(without))
+    return float(student(len(without) - 1) * jackknife_error(without))
 
 
 def reference_of(problem: ChartProblem, found: Found) -> tuple[MethodValues, Callable[[Quantity], float]]:

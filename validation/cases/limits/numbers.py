@@ -6,6 +6,7 @@ import numpy as np
 from scipy import stats
 
 from validation.analysis.evidence import Number, Role, Table
+from validation.analysis.statistics import student
 from validation.cases.limits.limits import LimitsResult
 from validation.cases.limits.sweep import Sweep
 
@@ -84,7 +85,7 @@ def exponent_number(iterations: Table, scene: str, solver: str) -> Number:
         tolerance=0.15,
         reason="a tenth more work from one grid to the next",
         # equal counts lie on their line, and their error comes as 0 / 0
-        sample=float(stats.t.ppf(0.975, degrees) * np.nan_to_num(line.stderr)),
+        sample=float(student(degrees) * np.nan_to_num(line.stderr)),
         role=Role.FINDING,
     )
 

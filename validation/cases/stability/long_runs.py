@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from validation.analysis.evidence import Number, Table, table_of
+from validation.analysis.statistics import student
 from validation.cases.stability.hertz_vibration import HERTZ, RELEASE
 from validation.cases.stability.stability import Row, WheelStabilityResult
 from validation.simulation.free_vibration import LIFT_OFF, TENTHS, WHEEL, LongRun
@@ -71,7 +72,7 @@ def _drift_number(result: WheelStabilityResult, highest: float, change: FloatArr
 def fit_drift(y: FloatArray) -> tuple[float, float]:
     """Change over the whole run by a straight line through the tenths, and the half-width of its 95 % interval."""
     line = stats.linregress((np.arange(y.size) + 0.5) / y.size, y)
-    return float(line.slope), float(stats.t.ppf(0.975, y.size - 2) * line.stderr)
+    return float(line.slope), float(student(y.size - 2) * line.stderr)
 
 
 def _euler_number(result: WheelStabilityResult, table: Table) -> Number:
@@ -108,8 +109,7 @@ def laps_table(result: WheelStabilityResult) -> Table:
 def mean_of_logs(ratios: FloatArray, confidence: float = 0.95) -> tuple[float, float]:
     """Mean of the logarithms over the wheels, and the half-width of its interval."""
     logs = np.log(ratios)
-    quantile = stats.t.ppf((1 + confidence) / 2, logs.size - 1)
-    return float(logs.mean()), float(quantile * logs.std(ddof=1) / math.sqrt(logs.size))
+    return float(logs.mean()), float(student(logs.size - 1, confidence) * logs.std(ddof=1) / math.sqrt(logs.size))
 
 
 def lap_numbers(result: WheelStabilityResult) -> list[Number]:
