@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from validation.report import contents
+from validation.report.figures import drawing
+
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("mdr", "bem3d", "validation")
 
@@ -152,6 +155,20 @@ def test_no_number_is_found_by_its_label():
 def test_matplotlib_is_imported_only_where_figures_are_drawn():
     places = {s.relative_to(ROOT).parts[:2] for p in PACKAGES for s in sources(p) if "matplotlib" in rooms(s)}
     assert places == {("validation", "report")}
+
+
+def test_every_case_has_its_figure_file():
+    for name in {**contents.CASES, **contents.TIMED}:
+        assert callable(drawing(name)), name
+
+
+def test_every_part_of_a_figure_has_a_caption():
+    """A function `draw_PART` of the file of a case draws the figure "CASE-PART", which a caption names."""
+    said = "".join(source.read_text() for room in ("cases", "benchmarks") for source in sources(f"validation/{room}"))
+    for source in sources("validation/report/figures"):
+        for function in re.findall(r"^def (draw\w*)", source.read_text(), flags=re.MULTILINE):
+            name = source.stem + function.removeprefix("draw").replace("_", "-", 1)
+            assert source.stem == "__init__" or f'"{name}":' in said or f'captions["{name}"]' in said, name
 
 
 def test_numerics_neither_print_nor_write():

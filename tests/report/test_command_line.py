@@ -32,6 +32,8 @@ from validation.cases.wheel import spectrum as wheel
 from validation.engine.engine import SERIAL, Engine
 from validation.report import build
 from validation.report.contents import CASES
+from validation.report.figures import drawing
+from validation.report.figures import hertz as hertz_figure
 from validation.simulation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[2]
@@ -110,13 +112,6 @@ SMALL = {
 }
 
 
-TABLES = {"hertz": 4, "square_punch": 3, "westergaard": 2, "geike": 2, "fractal_punch": 4}
-TABLES |= {"normalisation": 2, "mdr_limits": 1, "ridges": 2, "rolling": 4, "rolling_input": 4}
-TABLES |= {"wheel": 6, "wheel_distance": 7, "wheel_3d": 2, "wheel_stability": 6, "limits": 4, "ladder": 2}
-FIGURES = dict.fromkeys(TABLES, 1) | {"fractal_punch": 5, "rolling": 4, "rolling_input": 3}
-FIGURES |= {"wheel": 2, "wheel_distance": 2, "wheel_stability": 2, "limits": 3}
-
-
 @pytest.fixture
 def small(monkeypatch):
     """The same cases, small enough for a test."""
@@ -137,6 +132,25 @@ def contents(folder, *patterns):
     return {str(f.relative_to(folder)): f.read_bytes() for p in patterns for f in sorted(folder.glob(p))}
 
 
+def recorded(monkeypatch, name):
+    """A list to which each run of a case adds its evidence."""
+    found, evidence_of = [], CASES[name].evidence
+
+    def evidence(result):
+        found.append(evidence_of(result))
+        return found[-1]
+
+    monkeypatch.setitem(CASES, name, replace(CASES[name], evidence=evidence))
+    return found
+
+
+def files_of(name, evidence):
+    """A CSV for each table and both formats of the figure for each caption; a case has one of each at least."""
+    assert evidence.tables and name in evidence.captions
+    data = {f"data/{name}-{table.name}.csv" for table in evidence.tables}
+    return {"results.json", *data, *(f"figures/{f}.{end}" for f in evidence.captions for end in ("svg", "pdf"))}
+
+
 NUMBERS = ("results.json", "data/*.csv", "figures/*.svg", "figures/*.pdf")
 
 
@@ -145,6 +159,7 @@ NUMBERS = ("results.json", "data/*.csv", "figures/*.svg", "figures/*.pdf")
 def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch):
     """By any number of workers, and from stored results. No contact warns: a case avoids it, or is about it."""
     one, two = tmp_path / "one", tmp_path / "two"
+    evidences = recorded(monkeypatch, name)
     with warnings.catch_warnings():
         warnings.simplefilter("error", bem3d.ContactWarning)
         warnings.simplefilter("error", mdr.SpringContactWarning)
@@ -152,7 +167,7 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch):
         assert report("--only", name, "--out", str(one), "--workers", "1") in (0, 1)
     report("--only", name, "--out", str(two), "--workers", "2")
     by_one = contents(one, *NUMBERS)
-    assert len(by_one) == 1 + TABLES[name] + 2 * FIGURES[name]
+    assert set(by_one) == files_of(name, evidences[0])
     assert contents(two, *NUMBERS) == by_one
     whole_page(one, [name])
     # the same tables draw the same figures
@@ -182,6 +197,8 @@ def test_results_hold_every_number_with_its_verdict(small, tmp_path):
         assert number["reason"] and number["source"]
         assert np.isfinite([number["value"], number["reference"], number["tolerance"], number["difference"]]).all()
     assert results["cases"]["hertz"]["settings"]["radius"] == 0.5
+    # nothing is drawn at random
+    assert "Seeds:" not in (tmp_path / "index.html").read_text()
 
 
 def whole_page(folder, names):
@@ -310,6 +327,23 @@ def test_a_folder_with_something_else_in_it_is_refused(tmp_path, capsys):
     assert report("--only", "hertz", "--out", str(tmp_path / "thesis.tex")) == command.Exit.BAD_INPUT
     assert report("--only", "hertz", "--out", str(tmp_path / "thesis.tex" / "below")) == command.Exit.BAD_INPUT
     assert [f.name for f in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+@pytest.mark.parametrize("figure", ["hertz", "hertz-part"])
+def test_a_figure_that_nothing_draws_is_named(figure, monkeypatch):
+    monkeypatch.delattr(hertz_figure, "draw")
+    with pytest.raises(ValueError, match=rf"figure '{figure}' .* validation/report/figures/hertz\.py"):
+        drawing(figure)
+
+
+def test_a_case_without_its_figure_file_ends_before_the_first_solve(tmp_path, monkeypatch, capsys):
+    def solved(case, engine):
+        raise AssertionError("a solve")
+
+    monkeypatch.setitem(CASES, "moon", replace(CASES["hertz"], name="moon", run=solved))
+    assert report("--only", "moon", "--out", str(tmp_path / "out")) == command.Exit.BAD_INPUT
+    assert "validation/report/figures/moon.py" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.slow

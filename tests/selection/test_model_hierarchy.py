@@ -13,6 +13,7 @@ from scipy import integrate, stats
 
 import bem3d
 import mdr
+from tests.selection.by_kind import estimates_by_kind, grids_of, model_of_kind
 from validation.cases.selection import model_selection as ladder
 from validation.cases.selection import model_selection_evidence as calibration
 from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
@@ -138,7 +139,7 @@ def test_what_was_done_is_counted_and_not_what_was_expected():
     fine, coarse = 9, 8
     assert selection.candidates[0].answer.cost.work == 24 * 32**2 * (fine + coarse / 4 + coarse / 16)
     assert selection.spent == selection.candidates[0].answer.cost.seconds
-    rough = models_of(wheel(height=0.2), "force-spectrum", 0.1, seed=1)[-2]
+    rough = grids_of(wheel(height=0.2), "force-spectrum", 0.1, seed=1)[-2]
     found = rough.solve()
     strips = int(found.reason.rsplit(" ", 1)[1])
     assert found.cost == rough._cost(strips, 1)
@@ -199,7 +200,8 @@ def test_a_heavily_loaded_punch_is_a_flat_one_on_its_rough_face():
     ):
         assert needed(models_of(punch(load=load), "stiffness", 0.1, 0), 0.1).name == model
     # the lower the load, the less the face is an interface; and one face is not the mean of all
-    errors = [models_of(punch(load=load), "stiffness", 0.1, 0)[0].estimate().error for load in (0.01, 0.1, 1.0, 100.0)]
+    closed = [model_of_kind("closed form", punch(load=load), "stiffness", 0.1) for load in (0.01, 0.1, 1.0, 100.0)]
+    errors = [model.estimate().error for model in closed]
     assert errors == sorted(errors, reverse=True)
     assert errors[0] == math.inf
     assert errors[-1] == pytest.approx(0.03 * 10**1.5 / 100)
@@ -207,8 +209,8 @@ def test_a_heavily_loaded_punch_is_a_flat_one_on_its_rough_face():
 
 @pytest.mark.parametrize("load", [0.3, 1.0, 3.0])
 def test_the_law_of_interfaces_holds_as_it_claims(load):
-    closed, *_, coarse, _ = models_of(punch(load=load), "stiffness", 0.2, seed=8)
-    found = coarse.solve()
+    closed = model_of_kind("closed form", punch(load=load), "stiffness", 0.2, seed=8)
+    found = grids_of(punch(load=load), "stiffness", 0.2, seed=8)[-2].solve()
     assert distance(closed.solve().value, found.value) <= closed.estimate().error + found.error
 
 
@@ -316,8 +318,9 @@ def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
 @pytest.mark.parametrize("quantity", ["force-spectrum", "acceleration-rms"])
 def test_boundary_elements_tend_to_linear_theory(quantity):
     moving = {"mass": 1.0, "speed": 4.0} if quantity.startswith("acceleration") else {}
-    models = models_of(wheel(height=1e-3, **moving), quantity, 0.1, seed=1)
-    found, linear = models[-2].solve(), models[1].solve()
+    scene = wheel(height=1e-3, **moving)
+    found = grids_of(scene, quantity, 0.1, seed=1)[-2].solve()
+    linear = model_of_kind("linear filter, 3D", scene, quantity, 0.1, seed=1).solve()
     assert found.error < 0.2
     assert distance(found.value, linear.value) <= found.error + 0.01
 
@@ -454,24 +457,24 @@ def test_measured_heights_are_pressed_themselves():
     height = bem3d.rough_surface(rough.c2d, shape=(64, 64), spacing=1 / 64, rng=rng, rms=1e-3)
     ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64))
     scene = punch(ground=ground, load=0.1)
-    found = models_of(scene, "stiffness", 0.05, 0)[-1].solve()
+    found = grids_of(scene, "stiffness", 0.05)[-1].solve()
     half_space = bem3d.HalfSpace(shape=(64, 64), spacing=1 / 64, modulus=1.0)
     with pytest.warns(bem3d.EdgeWarning):
         contact = bem3d.solve(half_space, -ground.height, force=scene.load, tolerance=1e-4)
     assert found.value[0] == pytest.approx(contact.stiffness(), rel=1e-6)
     assert found.sample == 0
     # springs know the spectrum and not the surface
-    assert models_of(scene, "stiffness", 0.05, 0)[1].estimate().error > 0.5
+    assert model_of_kind("springs", scene, "stiffness", 0.05).estimate().error > 0.5
 
 
 def test_a_face_that_a_spectrum_does_not_tell_is_left_to_boundary_elements():
     height = np.zeros((64, 64))
     height[20:26, 20:26] = 1e-3
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)), load=1.0)
-    closed, springs, *solvers = (model.estimate() for model in models_of(scene, "stiffness", 0.3, 0))
-    assert closed.error == springs.error == math.inf
-    assert "not Gaussian" in closed.reason
-    assert all(claim.error < 0.3 for claim in solvers)
+    estimates = estimates_by_kind(scene, "stiffness", 0.3)
+    assert estimates["closed form"].error == estimates["springs"].error == math.inf
+    assert "not Gaussian" in estimates["closed form"].reason
+    assert all(model.estimate().error < 0.3 for model in grids_of(scene, "stiffness", 0.3))
 
 
 def test_a_face_is_pressed_on_its_own_points_alone():
@@ -495,12 +498,12 @@ def test_faces_of_more_points_than_any_grid_answer_for_the_summits_that_a_mean_h
     rough = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * 32, rms=1e-3)
     height = bem3d.rough_surface(rough.c2d, shape=(128, 128), spacing=1 / 128, rng=rng, rms=1e-3)
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 128, 1 / 128)), load=0.1)
-    (fine,) = (model.solve() for model in models_of(scene, "stiffness", 0.2, 0)[2:])
+    (fine,) = (model.solve() for model in grids_of(scene, "stiffness", 0.2))
     monkeypatch.setattr(pressed_heights, "MANY_POINTS", 32)
-    (coarse,) = (model.solve() for model in models_of(scene, "stiffness", 0.2, 0)[2:])
+    (coarse,) = (model.solve() for model in grids_of(scene, "stiffness", 0.2))
     assert distance(coarse.value, fine.value) <= coarse.error
     monkeypatch.setattr(indentation_on_grids.IndentationOnGrid, "_hidden", lambda *_: 0.0)
-    (blind,) = (model.solve() for model in models_of(scene, "stiffness", 0.2, 0)[2:])
+    (blind,) = (model.solve() for model in grids_of(scene, "stiffness", 0.2))
     assert blind.error < coarse.error
 
 
@@ -534,7 +537,7 @@ def test_a_summit_beyond_four_times_the_roughness_is_under_the_sphere():
     gap = np.add.outer(x**2, x**2) / (2 * radius) - scene.ground.height
     half_space = bem3d.HalfSpace(shape=(128, 128), spacing=spacing, modulus=1.0)
     whole = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-4)
-    (found,) = (model.solve() for model in models_of(scene, "stiffness", 0.1, 0)[2:])
+    (found,) = (model.solve() for model in grids_of(scene, "stiffness", 0.1))
     assert found.value[0] == pytest.approx(whole.stiffness(), rel=1e-3)
 
 
@@ -585,8 +588,8 @@ def test_a_measured_track_is_rolled_itself():
     rough = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=3.0, rms=1.0)
     height = bem3d.rough_surface(rough.c2d, shape=(192, 96), spacing=1 / 8, rng=rng, rms=2e-3)
     scene = wheel(ground=MeasuredHeights(height=height, spacing=(1 / 8, 1 / 8)))
-    models = models_of(scene, "force-rms", 0.1, 0)
-    linear, found = models[1].solve(), models[-1].solve()
+    linear = model_of_kind("linear filter, 3D", scene, "force-rms", 0.1).solve()
+    found = grids_of(scene, "force-rms", 0.1)[-1].solve()
     assert distance(found.value, linear.value) <= found.error + 0.01
     with pytest.raises(ValueError, match=r"rail.heights must be .* long"):
         wheel(ground=MeasuredHeights(height=height[:, :20], spacing=(1 / 8, 1 / 8)))

@@ -42,7 +42,7 @@ class Toy(Model):
         return ErrorEstimate(error=0.01, reason="by decree")
 
     def cost(self, scene):
-        return Cost(work=3, unit="toys", seconds=1e-5)
+        return Cost(work=3, unit="toys", seconds=1e-9)
 
     def prepare(self, scene, resolution):
         k = scene.stiffness * np.array([0.4, 0.5, 0.6])
@@ -93,14 +93,17 @@ def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
     problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1)
     outcome = time_problem(ProblemRun(problem, 1e-6, 1.0, problems.methods()))
-    assert outcome["method"].tolist() == ["bem3d", "bem3d, Polonsky-Keer", "closed form", "toy"]
+    methods = outcome["method"].tolist()
+    assert {"bem3d", "bem3d, Polonsky-Keer", "closed form", "toy"} <= set(methods)
     assert set(outcome["status"].tolist()) == {timing.FINISHED}
-    assert np.isfinite(outcome["difference"][-1, 3]) and np.isnan(outcome["difference"][-1, :3]).all()
+    # of the pressures a model has none, so its stiffness alone is compared
+    *pressures, stiffness = outcome["difference"][methods.index("toy")]
+    assert np.isfinite(stiffness) and np.isnan(pressures).all()
     assert "toy" in problems.methods()
 
 
 def test_the_closed_form_of_a_rough_punch_is_one_of_them():
-    (model,) = models_serving(PUNCH, "stiffness")
+    (model,) = (one for one in models_serving(PUNCH, "stiffness") if one.name == "closed form")
     result = model.prepare(PUNCH, Resolution())(0)()
     ground = PUNCH.ground
     expected = rough_punch_stiffness(side=1.0, modulus=1.0, force=PUNCH.load, height=ground.rms)
@@ -108,6 +111,7 @@ def test_the_closed_form_of_a_rough_punch_is_one_of_them():
     # two springs in series: the flat punch, and the interface
     assert 1 / expected == pytest.approx(1 / 1.1523 + 0.48 * ground.rms / PUNCH.load)
     smooth = IndentationScene(name="smooth", shape="punch", size=1.0, load=1.0, modulus=1.0)
-    assert [one.setting for one in models_serving(smooth, "stiffness")] == ["smooth body"]
+    settings = [one.setting for one in models_serving(smooth, "stiffness")]
+    assert "smooth body" in settings and model.setting not in settings
     wheel = RollingScene(name="wheel", radius=1.0, load=1.0, modulus=1.0, ground=ground)
-    assert models_serving(wheel, "force-rms") == ()
+    assert model not in models_serving(wheel, "force-rms")

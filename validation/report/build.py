@@ -37,9 +37,11 @@ def build(
     dynamic wheel, None for its own; executor: see `Engine`;
     progress: a bar on a terminal, lines in a log; callback: called with each case as it is finished.
     Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
-    Raises ValueError for a folder that holds something else or that another run is at, or an executor that is none;
-    see `Engine` for what is raised where a run cannot be finished.
+    Raises ValueError for a folder that holds something else or that another run is at, an executor that is none, or a
+    case without its figure file; see `Engine` for what is raised where a run cannot be finished.
     """
+    for name in names:
+        drawing(name)  # a case without its figure file ends the run before the first solve
     engine = Engine(workers=workers, store=out / REALISATIONS, progress=progress, executor=executor)
     with Folder(out) as folder:
         sections, seconds = [], {}
