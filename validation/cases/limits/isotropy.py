@@ -23,7 +23,7 @@ LEVEL = Limit(
     parameter="wavenumber q a",
     error="level over that of 3D [dB]",
     reference="linear theory of the half-space, octaves",
-    condition="q a = 1: shorter waves than the contact are Γ(H+3/2) / (√π Γ(H+2)) lower on the half-space",
+    condition="q a = 1: waves shorter than the contact are lower by Γ(H+3/2) / (√π Γ(H+2)) on the half-space",
     failing_side="above",
     tolerance=3.0,
     factor=2.5,
@@ -35,7 +35,9 @@ ANISOTROPY = Limit(
     parameter="aspect ratio of the waves, less one",
     error="rms force, over that of 3D, less one",
     reference="linear theory of the half-space, quadrature",
-    condition="√ratio = 1 + tolerance: a cut along long waves, taken for isotropic, where q a >> 1",
+    condition=(
+        "√ratio = 1 + tolerance, for q a >> 1: a line along the long waves is taken for one of an isotropic surface"
+    ),
     failing_side="above",
     tolerance=0.2,
     factor=2.0,

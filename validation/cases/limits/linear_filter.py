@@ -26,7 +26,7 @@ LINEAR = Limit(
     parameter="height h_rms / d",
     error="force, over its fluctuation",
     reference="one-sided springs on the same track",
-    condition="h / d = 2 c tolerance, c = rms dF / (E* a h): the ends of contact move, to second order",
+    condition="h / d = 2 c tolerance, c = rms dF / (E* a h): second-order effect of the moving ends of the contact",
     failing_side="above",
     tolerance=0.1,
     factor=2.0,
@@ -40,7 +40,9 @@ FILTER_3D = Limit(
     parameter="height h_rms / d",
     error="force, over its fluctuation",
     reference="boundary elements on the same strip",
-    condition="√(π/8) h' a / d = tolerance: where Persson has contact lost, weighted as the flat punch presses",
+    condition=(
+        "√(π/8) h' a / d = tolerance: the part out of contact by Persson, weighted with the pressure of a flat punch"
+    ),
     failing_side="above",
     tolerance=0.2,
     factor=3.0,
