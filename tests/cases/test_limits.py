@@ -258,7 +258,9 @@ def test_theory_of_small_changes_of_energy():
 def test_a_residual_that_forgives_is_noticed(result):
     forgiving = [(grid, {**found, "residual": 1e-3 * found["residual"]}) for grid, found in result.judged]
     numbers = limits_evidence.evidence(replace(result, judged=forgiving)).numbers
-    assert {n.verdict for n in numbers_with(numbers, "true error over residual, largest")} == {Verdict.DIFFER}
+    assert {n.verdict for n in numbers_with(numbers, "largest ratio of the true error to the residual")} == {
+        Verdict.DIFFER
+    }
 
 
 @pytest.mark.slow

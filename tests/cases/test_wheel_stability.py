@@ -40,7 +40,7 @@ SMALL = case.WheelStability(
 )
 
 
-GROWTH = "growth of a step, log, largest error on both sides of the limit"
+GROWTH = "largest error of ln(growth in one step), on both sides of the limit"
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +109,7 @@ def test_swapped_integrators_are_noticed(result):
     linear = dict(result.linear)
     names = VELOCITY_VERLET.name, SYMPLECTIC_EULER.name
     linear[names[0]], linear[names[1]] = linear[names[1]], linear[names[0]]
-    assert Verdict.DIFFER in verdicts(replace(result, linear=linear), "change of the energy in a turn, over theory")
+    assert Verdict.DIFFER in verdicts(replace(result, linear=linear), "change of the energy in one period, over theory")
     linear[names[0]] = result.linear[RUNGE_KUTTA.name]
     assert Verdict.DIFFER in verdicts(replace(result, linear=linear), GROWTH)
 
@@ -150,9 +150,9 @@ def test_explicit_euler_in_place_of_verlet_is_noticed(result):
 def test_springs_that_pull_and_lost_momentum_are_noticed(result):
     (problem, found), *others = result.lift
     pulling = replace(result, lift=[(problem, {**found, "lowest": found["lowest"] - 2}), *others])
-    assert verdicts(pulling, "lowest force over F_N, or zero where that is higher") == [Verdict.DIFFER]
+    assert verdicts(pulling, "lowest force over F_N, if negative") == [Verdict.DIFFER]
     heavy = replace(result, lift=[(problem, {**found, "mean": found["mean"] + 1e-9}), *others])
-    momentum = "F T - F_N T = M (v_0 - v_end), largest difference over F_N T, all loads and heights"
+    momentum = "imbalance of impulse and momentum over F_N T, largest of all loads and heights"
     assert verdicts(heavy, momentum) == [Verdict.DIFFER]
 
 

@@ -548,7 +548,7 @@ def test_fig_14_5_prints_the_numbers_it_is_given():
         "at all 2 distances, to 5.0 %",
         "1.050 ± 0.020",
         "Hann's window lowers it by 31.3 dB, steady-state motion by 42.6 dB",
-        "has 10 % of its power; springs in the steady state, which leak nothing, have 1 %",
+        "has 10 % of its power; springs in the steady state, which have no leakage, have 1 %",
         "1.52 ± 0.03 times",
         "0.4 d below equilibrium: 0.9700 beside 0.9710",
     ]

@@ -202,7 +202,7 @@ def _of_draws(kind: str, outcomes: list[Outcome], waves: dict[int, float], integ
             model=kind,
             value=waves[n] / integral[n],
             reference=1.0,
-            source="integral",
+            source="integral of the spectrum",
             tolerance=0.01,
             reason="1 % (0.04 dB), finer than any level here; the sum has whole waves at the edges of the band",
             role=Role.FINDING,
@@ -237,7 +237,7 @@ def _of_lines(result: GeikeResult, spectra: Table) -> tuple[Number, ...]:
             quantity="measured spectrum over Geike's, mid band",
             value=_mid_band(result.case, spectra, "geike [m^3]"),
             source="(10.12)",
-            reason="as above; Geike's rule does not describe a line",
+            reason="0.001, as for the line trace; Geike's rule does not describe a line",
             role=Role.FINDING,
         ),
         of_lines(

@@ -167,17 +167,17 @@ def _numbers(case: SquarePunch, square: np.ndarray, circle: np.ndarray, levels: 
                 model="mdr",
                 where={"length": f"L_1D = {length}"},
                 value=levels[f"mdr {length}"],
-                reason="as for boundary elements",
+                reason="five units of the last digit of the reference, 1.1523",
                 role=Role.FINDING,
             )
             for length in ("L", "1.1523 L")
         ),
         beside_square(
-            quantity="often quoted 1.012 * 2 / sqrt(pi), beside the extrapolated k / (E* L)",
+            quantity="often quoted factor 1.012 * 2 / sqrt(pi), against the extrapolated k / (E* L)",
             value=1.012 * 2 / np.sqrt(np.pi),
             reference=limit,
             source="bem3d",
-            reason="as for the extrapolation itself",
+            reason="as for the extrapolated k / (E* L) of the square",
             role=Role.FINDING,
         ),
     )

@@ -159,7 +159,7 @@ def _at_load(case: Westergaard, load: float, outcome: Outcome) -> tuple[Number, 
             value=float(outcome["error"]),
             reference=0.0,
             tolerance=float(at_edge * np.sqrt(2 / np.sum(outcome["exact_pressure"] ** 2))),
-            reason="both edge cells wrong by the pressure one cell inside the edge",
+            reason="an error in both edge cells as large as the pressure one cell inside the edge",
         ),
         here(
             quantity="half-width of the contact over Westergaard",
@@ -181,7 +181,7 @@ def _at_half_load(case: Westergaard, errors: NDArray[np.float64]) -> tuple[Numbe
             reference=0.0,
             source="Westergaard",
             tolerance=7e-4 * 512 / case.cells[-1],
-            reason="target of this suite: 7e-4 on 512 cells, first order on other grids",
+            reason="7e-4 on 512 cells, scaled to other grids at first order",
         ),
         here(
             quantity="order of the pressure error in the cell size",

@@ -35,7 +35,7 @@ def evidence(result: LimitsResult) -> Evidence:
     exponents = [exponent_number(iterations, *pair) for pair in pairs]
     estimates = [residual_number(residuals, measure) for measure in MEASURES]
     return Evidence(
-        title="Where each method fails, and whether it says so",
+        title="Where each method fails, and whether the software warns",
         method=_method(result),
         numbers=(*thresholds, *warned, momentum, *exponents, *estimates),
         tables=(limits_table(result), sweeps_table(result), iterations, residuals),
@@ -59,7 +59,7 @@ def _method(result: LimitsResult) -> str:
         "measures the error against a better method and records the warnings, or the refusal, of each call. A "
         "condition predicts the threshold of the failure. The threshold counts as predicted if the error exceeds its "
         "tolerance everywhere past it and nowhere before it, but for the factor stated. A user counts as warned if "
-        "every call past the threshold warns or refuses and no call before it does. "
+        "every call past the threshold warns or raises an error, and no call before it does. "
         f"Rough punches have {case.cells}² cells, {case.surfaces} surfaces and {case.profiles} profiles. The case "
         "wheel_stability shows time stepping and the spacing of springs at length, rolling shows rolling in three "
         "dimensions, mdr_limits shows contact area and gap."
@@ -77,8 +77,9 @@ def _on_thresholds(result: LimitsResult, criteria: Sequence[Number]) -> str:
     return if_confirmed(
         f"{len(seen) - len(missed)} of {len(seen)} limits lie where their condition says, within the factor stated for "
         f"each. Theory alone predicts {sum(s.limit.derived for s in seen)} of them, an estimate the others. Not "
-        f"predicted: {_named(missed)}. At {len(refused)} more the software gives no answer, so only the place of the "
-        f"refusal is judged: {_named(refused)}.",
+        f"predicted: {_named(missed)}. At {len(refused)} more the software gives no answer, so only the threshold "
+        "of the "
+        f"error message is judged: {_named(refused)}.",
         criteria,
     )
 
@@ -105,9 +106,10 @@ def _on_other_results(result: LimitsResult, momentum: Number) -> str:
         f"pressure is within {error.max():.2g} of Westergaard in L2 after {work.min():.0f} to {work.max():.0f} "
         "iterations. "
         f"The level along the track is already {level:.2g} dB off for waves much longer than the contact, so the "
-        "tolerance decides where it fails. "
+        "threshold depends on the tolerance. "
         f"With the rolling-equivalent spectrum in place of Geike's, springs are at most {rolling.max():.2g} dB from "
-        f"the half-space in any octave. Wheels that lift off come back: momentum balances to {momentum.value:.1g}.",
+        "the half-space in any octave. Wheels that lift off land again; impulse and momentum balance to "
+        f"{momentum.value:.1g}.",
         [momentum],
     )
 
@@ -130,8 +132,8 @@ def _on_residuals(residuals: Table, estimates: Sequence[Number]) -> str:
 def _captions() -> dict[str, str]:
     panel = (
         "Dashed: the predicted threshold, with the factor within which it is predicted. Shaded: where the method must "
-        "fail. Dotted: the tolerance. Open marks: the software warned or refused; filled marks: it gave no message; "
-        "crosses at the upper edge: no answer; marks at the lower edge: that error or less."
+        "fail. Dotted: the tolerance. Open marks: the software warned or raised an error; filled marks: no message; "
+        "crosses at the upper edge: no result; marks at the lower edge: an error of that size or less."
     )
     return {
         "limits": f"Limits of springs and of time stepping: error against the parameter. {panel}",
@@ -149,7 +151,7 @@ CASE = Case(
     name="limits",
     chapter=Chapter.LIMITS,
     place=2,
-    claim="Each limit of each method is predicted, and the software warns users who cross it.",
+    claim="Each limit of each method is predicted, and the software warns past it.",
     answers="Where each method fails: a sweep through every limit, its predicted threshold, the software's warnings",
     quick=Limits(),
     full=Limits(
@@ -166,5 +168,5 @@ CASE = Case(
     ),
     run=run,
     evidence=evidence,
-    needs="none: all of them at their limits",
+    needs="not applicable: the case tests every model at its limit",
 )

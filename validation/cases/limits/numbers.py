@@ -13,8 +13,8 @@ from validation.cases.limits.sweep import Sweep
 ROUNDING = 1e-8
 """Errors below it are those of the reference solution."""
 EXPECTED_EXPONENTS = {
-    "solve": (0.0, "iterations that do not grow"),
-    "solve_polonsky_keer": (0.5, "the root of a condition number ~ n"),
+    "solve": (0.0, "a number of iterations that does not grow with n"),
+    "solve_polonsky_keer": (0.5, "square root of the condition number, which grows as n"),
 }
 
 
@@ -34,7 +34,7 @@ def threshold_number(sweep: Sweep) -> Number:
         reference=0.0,
         source=limit.condition,
         tolerance=math.log2(limit.factor),
-        reason=f"a factor {limit.factor:g}",
+        reason=f"within a factor {limit.factor:g}, in octaves",
         grid=crossing[1],
         role=Role.CRITERION if limit.derived else Role.FINDING,
     )
@@ -48,9 +48,9 @@ def warnings_number(sweep: Sweep) -> Number:
         where={"limit": sweep.limit.title},
         value=sweep.share_of_correct_warnings,
         reference=1.0,
-        source="the software warns where it fails, and only there",
+        source="warnings or errors past the threshold, none before it",
         tolerance=0.0,
-        reason="each value of the sweep further from the threshold than its factor",
+        reason="exact: every value of the sweep counts that is farther from the threshold than the stated factor",
         role=Role.CRITERION if sweep.limit.warned else Role.FINDING,
     )
 
@@ -58,14 +58,14 @@ def warnings_number(sweep: Sweep) -> Number:
 def momentum_number(result: LimitsResult) -> Number:
     """The balance of momentum of wheels that lift off."""
     return Number(
-        quantity="F T - F_N T = M (v_0 - v_end), largest difference over F_N T",
+        quantity="imbalance of impulse and momentum over F_N T, largest",
         model="springs",
         where={"motion": "wheels that lift off"},
         value=float(np.max(result.found["imbalance"])),
         reference=0.0,
-        source="momentum, on the ground and in the air",
+        source="momentum: F T - F_N T = M (v_0 - v_end), in contact and in the air",
         tolerance=1e-10,
-        reason="rounding, a last place of the highest force each step",
+        reason="rounding: one unit in the last place of the highest force in each step",
     )
 
 
@@ -76,14 +76,14 @@ def exponent_number(iterations: Table, scene: str, solver: str) -> Number:
     degrees = rows["cells"].size - 2
     reference, source = EXPECTED_EXPONENTS[solver]
     return Number(
-        quantity="exponent of iterations over cells on a side",
+        quantity="exponent p of the iterations, which grow as n^p with n cells on a side",
         model=solver,
         where={"scene": scene},
         value=float(line.slope),
         reference=reference,
         source=source,
         tolerance=0.15,
-        reason="a tenth more work from one grid to the next",
+        reason="0.15: 11 % more iterations for twice the cells on a side",
         # equal counts lie on their line, and their error comes as 0 / 0
         sample=float(student(degrees) * np.nan_to_num(line.stderr)),
         role=Role.FINDING,
@@ -93,14 +93,14 @@ def exponent_number(iterations: Table, scene: str, solver: str) -> Number:
 def residual_number(residuals: Table, measure: str) -> Number:
     """The largest error over its residual."""
     return Number(
-        quantity="true error over residual, largest",
+        quantity="largest ratio of the true error to the residual",
         model="both solvers",
         where={"measure": measure},
         value=float(errors_over_residuals(residuals, measure).max()),
         reference=0.0,
-        source="an honest estimate: the error is no more than the residual",
+        source="a residual that bounds the error",
         tolerance=10.0,
-        reason="a digit",
+        reason="a factor 10: one digit",
         role=Role.FINDING,
     )
 

@@ -74,7 +74,7 @@ def residuals_table(result: LimitsResult) -> Table:
 
 def summary_table(result: LimitsResult) -> Table:
     """Of each limit its condition, the errors on both sides, the message and the verdicts."""
-    return table_of("where each method fails, and what it says", [_summary_row(sweep) for sweep in result.sweeps])
+    return table_of("where each method fails, and its messages", [_summary_row(sweep) for sweep in result.sweeps])
 
 
 def _summary_row(sweep: Sweep) -> Row:
@@ -82,7 +82,7 @@ def _summary_row(sweep: Sweep) -> Row:
     side = "<" if limit.failing_side == "below" else ">"
     message = sweep.first_message
     shortened = message if len(message) <= LONGEST else message[: LONGEST - 1].rsplit(" ", 1)[0] + " …"
-    seen = "refused there, no error to see" if sweep.refused else "yes" if sweep.predicted else "no"
+    seen = "error message there, no result to compare" if sweep.refused else "yes" if sweep.predicted else "no"
     return {
         "limit": f"{limit.method}: {limit.title}",
         "fails where": f"{limit.parameter} {side} {sweep.predicted_threshold:.3g}: {limit.condition}",

@@ -47,7 +47,7 @@ class DecadeQuantity:
 
 
 FIGURE = "3 %: the standard error of a deviation from the 500 profiles of the book, whose figure cannot show less"
-LEVEL = "5 %: 0.4 dB, less than a third-octave level resolves"
+LEVEL = "5 %: 0.4 dB, finer than one-third octave levels are measured"
 DIGITS = "the published exponents have two digits"
 QUANTITIES = {
     "relative deviation": DecadeQuantity(MDR, deviation_over, THREE_PER_CENT, "dB", FIGURE),

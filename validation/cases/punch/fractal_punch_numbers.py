@@ -56,7 +56,7 @@ def _bounded(result: FractalPunchResult) -> Number:
         model=BEM,
         value=largest / closed_forms.SQUARE_PUNCH,
         reference=1.0 - deficit / 2,
-        source="flat punch",
+        source="flat punch: all cells in contact",
         tolerance=deficit / 2,
         reason="never stiffer than all cells in contact; at the largest force at most two cells a side "
         f"({deficit:.2g}) softer",
@@ -80,9 +80,11 @@ def _no_factor_lost(numbers: Sequence[Number]) -> Number:
     """The two methods share no code: an error in one of them shows where they differ most."""
     return replace(
         _farthest(numbers),
-        quantity="mean stiffness where it may differ most, no factor lost",
+        quantity="mean stiffness where the models may differ most, within 3 dB",
         tolerance=3.0,
-        reason="k ~ F^(1/(1+H)): a factor 2 lost in the force, or half of the length, is 3 dB or more for H <= 1",
+        reason=(
+            "3 dB: since k ~ F^(1/(1+H)), a wrong factor 2 in the force or the length changes k by 3 dB or more, H <= 1"
+        ),
         role=Role.CRITERION,
     )
 
@@ -96,7 +98,7 @@ def claimed(comparisons: Sequence[DecadeComparison]) -> list[Number]:
         _farthest(deviations),
         quantity=f"relative deviation where it may differ most, within {CLAIMED:g} dB",
         tolerance=CLAIMED,
-        reason="claimed of 1D beside 3D models of rolling noise: Ford and Thompson (2006)",
+        reason="accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)",
     )
     return [farthest]
 

@@ -22,7 +22,7 @@ LEVEL, NONLINEAR = "mean level", "level of the nonlinear over the linear force"
 VARIANCE, MEAN = "variance of the force over that of linear theory", "mean force over that of Hertz"
 BOTH = "springs beside bem3d"
 ONE_DECIBEL = 1.0
-REASON = "1 dB: what a level in a one-third octave repeats to when it is measured"
+REASON = "1 dB: repeatability of measured one-third octave levels"
 LINEAR_UP_TO = 0.01
 """h/d up to which boundary elements must agree with linear theory, or something is wrong with them."""
 
@@ -103,7 +103,7 @@ def moments(mine: LevelsAtHeight) -> list[Number]:
             reference=1.0,
             source="Geike's rule keeps the variance of the force at one position",
             tolerance=0.1,
-            reason="10 %: half a decibel",
+            reason="10 %: 0.4 dB of a variance",
             sample=ratio.half_width,
             role=Role.FINDING,
         )
@@ -121,7 +121,7 @@ def moments(mine: LevelsAtHeight) -> list[Number]:
         source="bem3d",
         tolerance=0.02,
         unit="-",
-        reason="2 %: the force of a wheel is not known better",
+        reason="2 %: uncertainty of the load of a wheel",
     )
     return [*variances, mean]
 
@@ -131,9 +131,9 @@ def _excess(case: ForceSpectrum, numbers: list[Number]) -> Number:
     found = number_with(numbers, LEVEL, f"{LINEAR_1D} over bem3d", **place(case.heights[0], regions(case)[-1]))
     return replace(
         found,
-        quantity="mean level beside its limit for q a >> 1",
+        quantity="mean level over its limit for q a >> 1",
         reference=-POWER_DECIBEL * math.log(level_ratio(case.hurst)),
         source="sqrt(π) Γ(H + 2) / Γ(H + 3/2), an unbounded power law in linear theory",
         tolerance=0.5,
-        reason="0.5 dB: the band ends, and q a is not infinite",
+        reason="0.5 dB: the band is bounded and q a is finite",
     )

@@ -135,7 +135,7 @@ class InputLevels:
             quantity=IN_BAND,
             model=ONE_SIDED,
             where={"spectrum": self.spectrum, "h/d": self.height, "input": NAMES[self.rule]},
-            source="bem3d, relatively to linear theory on the same surfaces",
+            source="bem3d, relative to linear theory on the same surfaces",
             tolerance=ONE_DECIBEL,
             reason=REASON,
         )
@@ -176,7 +176,7 @@ def punch_number(result: RollingInputResult, rule: InputSpectrum) -> Number:
         reference=0.0,
         source=f"bem3d on {result.case.punch_cells}² cells",
         tolerance=0.1,
-        reason="10 %: what the grids of Fig. 14.1 leave open here",
+        reason="10 %: grid error of Fig. 14.1 at this force",
         sample=math.exp(apart.value) * apart.half_width,
         role=Role.FINDING,
     )

@@ -130,9 +130,9 @@ def _order(result: RidgesResult) -> Number:
         where={"q a": (float(result.case.wavenumbers[0]), FAR)},
         value=math.log(ratio) / math.log(finest / coarsest),
         reference=1.0,
-        source="the edge of the contact falls somewhere in a cell",
+        source="first order: the edge of the contact lies anywhere within a cell",
         tolerance=0.7,
-        reason="where in the cell changes irregularly from grid to grid",
+        reason="the place of the edge within its cell changes irregularly from grid to grid",
         role=Role.FINDING,
     )
 
@@ -150,7 +150,7 @@ def _under_force(result: RidgesResult) -> Number:
         reference=0.0,
         source="the definition of the stiffness: dF at a prescribed approach is -k dd at a prescribed force",
         tolerance=1e-3,
-        reason="heights 1e-5 of the approach: second order and the residual are far below",
+        reason="second-order terms, at heights of 1e-5 of the approach, and the residual are far smaller",
     )
 
 

@@ -13,7 +13,10 @@ from validation.cases.selection.model_selection import CHEAP, MODELS, Calibratio
 from validation.cases.selection.random_scenes import KINDS, RANGES
 from validation.engine.engine import Outcome
 
-COVERAGE, SAVING = "share of scenes missing to 95 % coverage", "decades missing to a median saving of a factor 50"
+COVERAGE, SAVING = (
+    "shortfall of the coverage below 95 %",
+    "shortfall of the median saving below a factor 50, in decades",
+)
 COVERED, SAVED = 0.95, 50.0
 NONE = "none"
 Row = dict[str, object]
@@ -25,14 +28,15 @@ def evidence(result: CalibrationResult) -> Evidence:
     known = [(tolerance, _known(scenes.where(tolerance=tolerance))) for tolerance in case.tolerances]
     known = [(tolerance, table) for tolerance, table in known if table["kind"].size]
     return Evidence(
-        title="No more model than a scene needs: calibration test of model selection",
+        title="Calibration test of model selection",
         method=(
             f"{len(result.outcomes)} scenes drawn at random ({case.punches} rough punches, {case.spheres} rough "
             f"spheres, {case.rolling} rolling and {case.wheels} dynamic wheels): {RANGES}. For each scene the cheapest "
             "model is selected whose error is within the tolerance. The reference is boundary elements on the finest "
             "grid with surfaces of its own; its error is not subtracted. The test is blind to what both share: the "
             "finest grid, its shortest wave, the quadratures of linear theory. Costs are counts of operations times "
-            "the time of one, so that they are the same on every machine; all models that were solved count."
+            "the time of one, so that they are the same on every machine. The cost of a selection includes all "
+            "models that were solved."
         ),
         numbers=tuple(number for tolerance, table in known for number in _numbers(tolerance, table)),
         tables=(scenes, estimates),
@@ -41,7 +45,7 @@ def evidence(result: CalibrationResult) -> Evidence:
             "ladder": (
                 "(a) True error, beside fine boundary elements, against the error that the selected model estimates; "
                 "below the line the estimate holds. (b) Cost of fine boundary elements over that of the selection. (c) "
-                "Estimates of every model below boundary elements on every scene, needed or not. Filled: the first "
+                "Estimates of every model below boundary elements on every scene, selected or not. Filled: the first "
                 "tolerance; open: others."
             )
         },
@@ -74,9 +78,9 @@ def _numbers(tolerance: float, table: Table) -> list[Number]:
             where={"tolerance": tolerance},
             value=missing,
             reference=0.0,
-            source="the meaning of a 95 % interval",
+            source="coverage of a 95 % interval",
             tolerance=0.02,
-            reason="two scenes in a hundred",
+            reason="0.02: two scenes in a hundred",
             sample=max(COVERED - least, 0.0) - missing,
             role=Role.FINDING,
         ),
@@ -87,7 +91,7 @@ def _numbers(tolerance: float, table: Table) -> list[Number]:
             reference=0.0,
             source=f"a saving of a factor {SAVED:g}",
             tolerance=0.05,
-            reason="a tenth of a factor",
+            reason="0.05 decades: 12 % of the factor",
             role=Role.FINDING,
         ),
     ]
@@ -179,7 +183,7 @@ def _by_kind(case: CalibrationTest, scenes: Table) -> Table:
                     "selected models": _selected(mine),
                 }
             )
-    return table_of("Estimated errors, and what selection saves", rows)
+    return table_of("Estimated errors, and the time that selection saves", rows)
 
 
 def _by_model(estimates: Table) -> Table:
@@ -197,10 +201,12 @@ def _by_model(estimates: Table) -> Table:
                 "scenes": int(inside.size),
                 "true error within the estimate": f"{inside.mean():.0%} ({least:.0%} to {most:.0%})",
                 "estimated over true error, median": f"{np.median(mine['estimated error'] / mine['true error']):.2g}",
-                "exceeded at most by": "never" if inside.all() else f"{ratio[~inside].max():.2g} times",
+                "true over estimated error, largest above 1": "never"
+                if inside.all()
+                else f"{ratio[~inside].max():.2g} times",
             }
         )
-    return table_of("Estimated error of each model, needed or not", rows)
+    return table_of("Estimated error of each model, selected or not", rows)
 
 
 CASE = Case(
@@ -208,7 +214,7 @@ CASE = Case(
     chapter=Chapter.SELECTION,
     place=1,
     claim="The cheapest model that a scene needs can be chosen beforehand, with an error estimate that holds.",
-    answers="Calibration test of model selection on random scenes: estimated beside true error, and what was saved",
+    answers="Calibration test of model selection on random scenes: estimated and true error, and the time saved",
     quick=CalibrationTest(),
     full=CalibrationTest(punches=110, spheres=24, rolling=8, wheels=4, tolerances=(0.1, 0.3)),
     run=run,

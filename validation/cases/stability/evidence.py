@@ -48,19 +48,22 @@ def _method(result: WheelStabilityResult) -> str:
         f"{case.steps[0]:g} to {case.steps[-1]:g}, on a linear and on a Hertz contact, released at "
         f"{', '.join(f'{u:g}' for u in case.highest)} d_N. Above {LIFT_OFF:.3g} d_N the Hertz contact opens. Long "
         f"runs take {case.long_steps} steps of a / 100 on it, and {case.laps} laps of {case.wheels} wheels over "
-        "rough periodic tracks. Springs of many spacings share one track. Wheels lift off where tracks are rough or "
-        "loads low; a changed load keeps the mass."
+        "rough periodic tracks. Springs of many spacings roll on one track. Wheels lift off where tracks are rough or "
+        "loads low; the mass is the same at every load."
     )
 
 
 def _refusals_number(result: WheelStabilityResult) -> Number:
     return Number(
-        quantity="share of refused calls with a step past the limit, or waves that the points cannot carry",
+        quantity=(
+            "share of invalid calls that raise an error: a step past the limit, or a track with too few "
+            "points for its waves"
+        ),
         value=float(np.mean([float(str(row["refused"])) for row in result.refusals])),
         reference=1.0,
-        source="no motion is better than one that grows without bound, no track better than another one",
+        source="an error for every call whose motion would grow without bound or whose track would be another one",
         tolerance=0.0,
-        reason="each call",
+        reason="exact: every call counts",
     )
 
 
@@ -75,9 +78,10 @@ def _on_schemes(numbers: Sequence[Number], table: Table) -> str:
     return if_confirmed(
         "The error of each scheme follows the eigenvalue of its step, on both sides of its limit: symplectic Euler and "
         "velocity Verlet keep the energy of a linear vibration up to omega dt = 2, Runge-Kutta loses "
-        f"(omega dt)^6 / 72 of it a step and holds up to {RUNGE_KUTTA.limit:.3g}, explicit Euler gains at any step. "
-        "On a Hertz contact Verlet finds the period from the energy, lift-off included; with "
-        f"omega dt = {last:g} it errs by at most {worst:.2g}.",
+        f"(omega dt)^6 / 72 of it in each step and is stable up to {RUNGE_KUTTA.limit:.3g}, explicit Euler gains "
+        "energy at any step. "
+        "On a Hertz contact Verlet has the period of the energy integral, lift-off included; with "
+        f"omega dt = {last:g} its error is at most {worst:.2g}.",
         _criteria(numbers),
     )
 
@@ -86,7 +90,7 @@ def _on_long_runs(result: WheelStabilityResult, numbers: Sequence[Number], laps:
     drift, growth, euler = numbers[0], laps[0], laps[-1]
     return if_confirmed(
         f"Over {result.case.long_steps} steps at the amplitude and the step of Table 14.1 the energy drifts by "
-        f"{drift.value:.1g} ± {drift.sample:.1g} of itself, no more than rounding explains; over {result.case.laps} "
+        f"{drift.value:.1g} ± {drift.sample:.1g} of itself, which rounding explains; over {result.case.laps} "
         f"laps on springs the mean square acceleration changes by a factor {math.exp(growth.value):.4g}, within its "
         f"scatter. Explicit Euler gains as predicted: the energy of the free vibration on springs "
         f"grows by a factor {math.exp(euler.value):.3g}.",
@@ -103,7 +107,8 @@ def _on_spacing(table: Table, numbers: Sequence[Number]) -> str:
         f"With springs a quarter of the shortest wave apart the last one-third octave is off by {levels} dB and the "
         f"force by {errors} of its fluctuation, for h / d = {heights}. "
         + if_confirmed(
-            "Where roughness is low the error of that level is the sum over springs for an integral.", numbers[:1]
+            "For low roughness the error of that level is that of a sum over springs in place of an integral.",
+            numbers[:1],
         )
     )
 
@@ -116,8 +121,9 @@ def _on_lift_off(table: Table, numbers: Sequence[Number]) -> str:
         "no wheel was seen to lift off" if seen is None else f"a wheel was first seen to lift off at h / d = {seen:.2g}"
     )
     return if_confirmed(
-        f"Wheels that lift off come back, and their mean force is the load but for the momentum they end with: linear "
-        f"theory would pull from h / d = {pulls_from(rows):.2g} on, {lifted}; at "
+        "Wheels that lift off land again, and their mean force is the load, except for their change of momentum. "
+        "Linear "
+        f"theory has tension from h / d = {pulls_from(rows):.2g} on; {lifted}. At "
         f"h / d = {rows['height [d_N]'][last]:g} "
         f"it is in the air for {rows['time airborne'][last]:.2g} of the time and its force reaches "
         f"{rows['highest force [F_N]'][last]:.3g} loads.",
@@ -130,18 +136,19 @@ def _captions(result: WheelStabilityResult) -> dict[str, str]:
     return {
         "wheel_stability": (
             "Free vibration. (a) Error of the period of a linear vibration, each scheme up to its limit; lines: "
-            "theory. (b) Energy: filled, its drift in a turn, none but rounding by the symplectic schemes (at the "
-            "lower edge); open, how far it swings within the first turn; lines: theory. (c) Growth of a step about "
+            "theory. (b) Energy: filled, its drift in one period, for the symplectic schemes rounding alone (at the "
+            "lower edge); open, its oscillation within the first period; lines: theory. (c) Growth in one step near "
             "the limits, dotted. (d) Error of the period on a Hertz contact, full lines: velocity Verlet, dashed: "
-            f"Runge-Kutta; numbers: the approach of release over d_N, contact being lost above {LIFT_OFF:.3g}."
+            f"Runge-Kutta; numbers: the approach of release over d_N; contact is lost above {LIFT_OFF:.3g}."
         ),
         "wheel_stability-rough": (
             f"(a) Change of the energy over {result.case.long_steps} steps, released at {low:.4g} d_N and above; line: "
-            "linear theory of explicit Euler. (b) Springs coarser and coarser: error of the level in the last "
+            "linear theory of explicit Euler. (b) Spacing of the springs: error of the level in the last "
             "one-third octave; lines: the sum over springs in linear theory; dotted: a quarter of the shortest wave "
-            "and the last spacing that carries it. (c) Error of the force on the same tracks, without its mean. (d) "
-            "Time airborne and (e) highest force, with roughness changed at one load and load changed at "
-            "one roughness; lines: (14.11). (f) Laps over rough tracks: energy of the free vibration and mean "
+            "and the largest spacing that represents it. (c) Error of the force on the same tracks, without its "
+            "mean. (d) "
+            "Time airborne and (e) highest force, for several heights at one load and several loads at "
+            "one height; lines: (14.11). (f) Laps over rough tracks: energy of the free vibration and mean "
             f"square acceleration, in tenths, bars: 95 % of {result.case.wheels} wheels; line: linear theory of "
             "explicit Euler."
         ),
@@ -152,7 +159,7 @@ CASE = Case(
     name="wheel_stability",
     chapter=Chapter.LIMITS,
     place=1,
-    claim="Time steps fail where theory says, and the software refuses them before.",
+    claim="Time stepping becomes unstable where theory says, and the software rejects steps past that limit.",
     answers="Where time stepping and springs fail: steps up to and past the limit, long runs, spacing, lift-off",
     quick=WheelStability(),
     full=WheelStability(

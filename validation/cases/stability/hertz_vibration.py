@@ -76,7 +76,7 @@ def _period_number(table: Table, highest: float) -> Number:
         reference=float(rows["period of Hertz [2 pi/omega]"][0]),
         source="integral of the energy between the turning points",
         tolerance=float(part * correction),
-        reason=f"terms after dt^2, less than {part:g} of the correction; more where the contact opens, at a kink of k",
+        reason=f"terms after dt^2, less than {part:g} of the correction; that part is larger where the contact opens",
     )
 
 
@@ -88,9 +88,9 @@ def _energy_number(table: Table, highest: float) -> Number:
         where={"contact": HERTZ, RELEASE: highest},
         value=float(rows["energy, second half"][0] / rows["energy, first half"][0]),
         reference=1.0,
-        source="a symplectic scheme keeps a neighbour of the energy",
+        source="no drift: a symplectic scheme conserves a quantity close to the energy",
         tolerance=0.05,
-        reason="steps do not meet the extremes exactly; a drift of a twentieth of the band would show",
+        reason="extremes lie between steps; a drift by a twentieth of the oscillation of the energy would show",
     )
 
 
@@ -101,8 +101,8 @@ def _order_number(name: str, highest: float, order: float, step: float) -> Numbe
         where={"contact": HERTZ, RELEASE: highest},
         value=order,
         reference=PERIOD_ORDERS[name],
-        source="its order",
+        source="order of the scheme",
         tolerance=2 * step,
-        reason=f"twice the largest of three steps, omega dt = {step:g}: by that the next term is smaller, since "
-        "Runge-Kutta loses (omega dt)^5 of its energy in a turn",
+        reason=f"twice the largest of three steps, omega dt = {step:g}: the next term is smaller by that factor, since "
+        "Runge-Kutta loses a part of order (omega dt)^5 of its energy in one period",
     )

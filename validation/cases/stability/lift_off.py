@@ -40,21 +40,21 @@ def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
     highest = float(table["highest force [F_N]"].max())
     return [
         Number(
-            quantity="lowest force over F_N, or zero where that is higher",
+            quantity="lowest force over F_N, if negative",
             model="springs",
             value=float(np.minimum(table["lowest force [F_N]"], 0.0).min()),
-            source="springs pull nowhere",
+            source="springs carry no tension",
             tolerance=4 * float(np.finfo(float).eps),
             reason="rounding of g - F / M",
             reference=0.0,
         ),
         Number(
-            quantity="F T - F_N T = M (v_0 - v_end), largest difference over F_N T, all loads and heights",
+            quantity="imbalance of impulse and momentum over F_N T, largest of all loads and heights",
             model="springs",
             value=float(table["balance of momentum"].max()),
-            source="momentum; steps of Verlet sum accelerations with half of the first and of the last",
+            source="momentum: F T - F_N T = M (v_0 - v_end); Verlet counts the first and the last acceleration half",
             tolerance=float(np.finfo(float).eps) * highest * steps,
-            reason="rounding, a last place of the highest force each step",
+            reason="rounding: one unit in the last place of the highest force in each step",
             reference=0.0,
         ),
         *[number for sweep in ("height", "load") for number in _threshold_numbers(table.where(sweep=sweep), sweep)],
@@ -75,9 +75,9 @@ def _threshold_numbers(rows: Table, sweep: str) -> list[Number]:
             where={"sweep": f"sweep of the {sweep}"},
             value=seen,
             reference=pull,
-            source="(14.11): from where the deepest pull exceeds F_N, on the same tracks",
+            source="(14.11): the largest tension exceeds F_N, on the same tracks",
             tolerance=0.2 * pull,
-            reason="a fifth",
+            reason="20 % of h / d",
             grid=seen - float(below.max()) if below.size else 0.0,
             role=Role.FINDING,
         )

@@ -50,8 +50,10 @@ def _numbers_of_scheme(name: str, table: Table) -> list[Number]:
     below = x < (SCHEMES[name].limit or x[-1])
     angle = np.abs(table["angle of a step [rad]"] / table["angle by theory [rad]"] - 1)[below].max()
     return [
-        _eigenvalue_number(name, "growth of a step, log, largest error on both sides of the limit", float(growth)),
-        _eigenvalue_number(name, "angle of a step below the limit, largest relative error", float(angle)),
+        _eigenvalue_number(name, "largest error of ln(growth in one step), on both sides of the limit", float(growth)),
+        _eigenvalue_number(
+            name, "largest relative error of the phase angle of one step, below the limit", float(angle)
+        ),
         _order_number(name, table, "error of the period", PERIOD_ORDERS[name]),
         _order_number(name, table, "change in a turn", ENERGY_ORDERS[name]),
         _energy_number(name, table),
@@ -65,9 +67,9 @@ def _eigenvalue_number(name: str, quantity: str, error: float) -> Number:
         where={"contact": LINEAR},
         value=error,
         reference=0.0,
-        source="eigenvalue of a step for y'' = -omega^2 y",
+        source="eigenvalue of one step of y'' = -omega^2 y",
         tolerance=ROUNDING,
-        reason="both are exact but for rounding",
+        reason="both are exact; rounding remains",
     )
 
 
@@ -80,21 +82,24 @@ def _order_number(name: str, table: Table, column: str, order: float) -> Number:
         where={"contact": LINEAR},
         value=math.log(error[1] / error[0]) / math.log(x[1] / x[0]),
         reference=order,
-        source="the first term of the eigenvalue of a step in omega dt",
+        source="leading term in omega dt of the eigenvalue of one step",
         tolerance=10 * x[1] + 2 * ROUNDING,
-        reason="higher terms, and a turn that does not end with a step: of the order of omega dt",
+        reason="higher terms, and a period that is no whole number of steps: both of the order of omega dt",
     )
 
 
 def _energy_number(name: str, table: Table) -> Number:
     """The change within a turn against its theory at the smallest step."""
     return Number(
-        quantity="change of the energy in a turn, over theory",
+        quantity="change of the energy in one period, over theory",
         model=name,
         where={"contact": LINEAR, "omega dt": float(table["omega dt"][0])},
         value=float(table["change in a turn"][0] / table["change by theory"][0]),
         reference=1.0,
         source="the conserved quantity of the scheme, or |lambda|^2",
         tolerance=max(10 * table["omega dt"][0] ** 2, 1e-4 if name == RUNGE_KUTTA.name else 0.0),
-        reason="the extremes may lie between steps, (omega dt)^2; of Runge-Kutta rounding in so small a change",
+        reason=(
+            "the extremes may lie between steps, (omega dt)^2; for Runge-Kutta the change is so small that "
+            "rounding shows"
+        ),
     )

@@ -64,7 +64,7 @@ def _drift_number(result: WheelStabilityResult, highest: float, change: FloatArr
         reference=0.0,
         source="H + (omega dt)^2 (v^2 V'' / 12 - V'^2 / 24)",
         tolerance=4 * walk + turn**4,
-        reason="four standard deviations of a walk of rounding errors, and (omega dt)^4, which is left out",
+        reason="four standard deviations of a random walk of rounding errors, and the terms of order (omega dt)^4",
         sample=uncertainty,
     )
 
@@ -81,14 +81,14 @@ def _euler_number(result: WheelStabilityResult, table: Table) -> Number:
     found, theory = (np.log1p(rows[column]) for column in ("change of energy", "linear theory"))
     amplitude = (highest - 1) * math.exp(theory[-1] / 2)
     return Number(
-        quantity="growth of the energy, log, over (1 + (omega dt)^2)^n",
+        quantity="ln(growth of the energy) over n ln(1 + (omega dt)^2)",
         model=EXPLICIT_EULER.name,
         where={"contact": HERTZ, RELEASE: highest},
         value=float((found[-1] - found[0]) / (theory[-1] - theory[0])),
         reference=1.0,
         source="|lambda|^2 = 1 + (omega dt)^2",
         tolerance=amplitude**2,
-        reason="the square of the largest amplitude over d_N, to which a Hertz contact is not linear",
+        reason="square of the largest amplitude over d_N: to that order a Hertz contact is not linear",
     )
 
 
@@ -117,7 +117,7 @@ def lap_numbers(result: WheelStabilityResult) -> list[Number]:
     verlet, euler = (result.laps[scheme.name] for scheme in (VELOCITY_VERLET, EXPLICIT_EULER))
     laps = result.case.laps
     theory = _euler_gain((1 - 1 / TENTHS) * laps)
-    none = "a periodic track that gives the wheel no energy in the mean"
+    none = "no growth: a periodic track gives the wheel no energy in the mean"
     return [
         _growth_number(VELOCITY_VERLET.name, SQUARE, laps, verlet["square"], 0.0, none),
         _growth_number(VELOCITY_VERLET.name, FREE, laps, verlet["free"], 0.0, none),
@@ -136,7 +136,7 @@ def _growth_number(scheme: str, energy: str, laps: int, tenths: FloatArray, theo
     problem = Laps(scheme="", track=RoughTrack(rms=HEIGHT, seed=0), wheels=1, laps=laps)
     turns = laps / TENTHS * problem.track.points * problem.omega_dt / (2 * math.pi)
     return Number(
-        quantity=f"growth of the {energy}, last tenth over first, log",
+        quantity=f"ln(growth of the {energy}), last tenth over first",
         model=scheme,
         where={"contact": "springs", "laps": laps},
         value=mean,

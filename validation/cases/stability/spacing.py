@@ -54,15 +54,15 @@ def _least_likely_number(rows: Table, height: float) -> Number:
     difference = rows[LEVEL] - rows["by linear theory [dB]"]
     worst = int(np.argmax(np.abs(difference) / rows[OPEN]))
     return Number(
-        quantity="level of the last one-third octave less the sum over springs, least likely spacing",
+        quantity="level of the last one-third octave over the sum over springs, at the least likely spacing",
         model="springs",
         where={"h/d": height, "dx over the shortest wave": float(rows["dx [shortest wave]"][worst])},
         value=float(difference[worst]),
         reference=0.0,
         source="dx sin(q (m + 1/2) dx) / sin(q dx / 2) in place of 2 sin(q a) / q",
         tolerance=5 * float(rows[OPEN][worst]),
-        reason="five standard deviations of what the ends of contact, which the height moves, do to the waves of a "
-        "track: each spring there by phi(gap / h_rms)",
+        reason="five standard deviations of the part of the waves that the moving ends of the contact make on a "
+        "track; each spring there has the weight phi(gap / h_rms)",
         unit="dB",
     )
 
@@ -76,7 +76,7 @@ def _quarter_number(rows: Table, height: float) -> Number:
         reference=0.0,
         source="the condition dx < lambda / 4",
         tolerance=1.0,
-        reason="a decibel, z / sin(z) with z = pi / 4 being 0.91 dB at the last wave alone",
+        reason="1 dB: z / sin(z) with z = pi / 4 is 0.91 dB at the shortest wave alone",
         unit="dB",
         sample=2 * float(rows[OPEN][0]),
         role=Role.FINDING,

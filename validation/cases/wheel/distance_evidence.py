@@ -103,8 +103,8 @@ def _cause(numbers: list[Number]) -> str:
     )
     return if_confirmed(
         "Region 4 is leakage of the rectangular window, which the linear contact has too: Hann's window lowers it by "
-        f"{-hann.value:.1f} dB, steady-state motion by {-steady.value:.1f} dB, to the level that nonlinear springs "
-        "really have there.",
+        f"{-hann.value:.1f} dB, steady-state motion by {-steady.value:.1f} dB. What remains is the nonlinearity of "
+        "the springs.",
         [linear],
     )
 
@@ -121,10 +121,11 @@ def _plateau(result: DistanceResult, numbers: list[Number]) -> str:
     return (
         f"Region 2, the plateau, of springs on open tracks at h₀ and {periods:.2f} natural periods: the linear "
         f"contact, which has only leakage there, has {leakage:.0f} % of its power; springs in the steady state, which "
-        f"leak nothing, have {nonlinear:.0f} %. Leakage grows as h₀², falls as 1/T, and depends on the phase in which "
+        f"have no leakage, have {nonlinear:.0f} %. Leakage grows as h₀², falls as 1/T, and depends on the phase "
+        "in which "
         f"the record ends, between {min(leaks):.0f} and {max(leaks):.0f} dB. The nonlinear part grows as "
-        f"h₀^{order.value:.2f} ({order.verdict} with h₀⁴ within {order.tolerance:g}), whatever the record. Springs of "
-        "Geike's spectrum have nothing else there."
+        f"h₀^{order.value:.2f} ({order.verdict} with h₀⁴ within {order.tolerance:g}), for every record. Springs of "
+        "Geike's spectrum have no other power in region 2."
     )
 
 
@@ -151,7 +152,7 @@ CASE = Case(
     chapter=Chapter.WHEEL,
     place=2,
     claim="The break that moves with the distance is leakage (Fig. 14.5).",
-    answers="Fig. 14.5: the break that moves with the distance, its cause, and what is real in the plateau",
+    answers="Fig. 14.5: the break that moves with the distance, its cause, and the share of leakage in the plateau",
     quick=WheelDistance(),
     full=WheelDistance(
         scene=TABLE,

@@ -52,9 +52,9 @@ def outside_the_roughness(result: Result) -> list[Number]:
             where={"region": region},
             value=math.exp(level(steady, bands[region]).value - third),
             reference=0.0,
-            source="no waves outside of q_min to q_max",
+            source="zero: the track has waves from q_min to q_max alone",
             tolerance=1e-18,
-            reason="rounding of the acceleration, 1e-16 of its size, squared, and spread over all frequencies",
+            reason="square of the rounding of the acceleration, 1e-16 of its size, spread over all frequencies",
         )
         for region in (PLATEAU, FOURTH)
     ]
@@ -74,7 +74,7 @@ def break_law(case: WheelDistance, breaks: Table) -> Number:
         reference=wheel_theory.break_exponent(hurst(case)),
         source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
         tolerance=0.1,
-        reason="0.1: tells the law from none, 0, and from the one of a slope as in region 1, 1/2 and more",
+        reason="0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
         sample=estimate.half_width,
     )
 
@@ -131,7 +131,7 @@ def causes(result: Result) -> list[Number]:
             quantity=LEVEL,
             model=f"{kind}, over {OPEN}",
             where={"region": FOURTH},
-            source="no change, if region 4 were real",
+            source="no change: what a region 4 without leakage would show",
             tolerance=1.0,
             reason="1 dB: the scatter of a few wheels",
         )
@@ -148,9 +148,9 @@ def shares(result: Result) -> list[Number]:
             quantity=LEVEL,
             model=f"{kind}, over {OPEN}",
             where={"region": PLATEAU, "cause": cause},
-            source="the whole plateau",
+            source="all of the plateau",
             tolerance=1.0,
-            reason="1 dB: a fifth of its power",
+            reason="1 dB: a fifth of the power of the plateau",
         )
         for kind, cause in ((LINEAR_OPEN, "leakage alone"), (STEADY, "nonlinearity alone"))
     ]
@@ -166,9 +166,9 @@ def order_in_height(result: Result) -> Number:
         where={"region": PLATEAU, "h / h₀": (QUARTER, WHOLE)},
         value=growth.value / step,
         reference=4.0,
-        source="products of two waves, each linear in h₀",
+        source="second order: products of two waves, each linear in h₀",
         tolerance=0.3,
-        reason="0.3: tells 2 from 3 and 3 from 4",
+        reason="0.3: separates the exponents 2, 3 and 4",
         sample=growth.half_width / step,
     )
 
@@ -183,7 +183,7 @@ def mean_square(result: Result) -> Number:
         reference=1.5,
         source="1 + 1/2: the free vibration begins with the amplitude dF / M that cancels the forced acceleration",
         tolerance=0.15,
-        reason="10 %: waves far above the resonance, a few wheels",
+        reason="10 %: 1.5 holds for waves far above the resonance; few wheels",
         sample=squares.half_width,
     )
 
@@ -199,7 +199,7 @@ def peak_frequencies(result: Result) -> list[Number]:
             reference=1 / wheel_theory.hertz_period(1 + release) if release else 1.0,
             source="period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)",
             tolerance=0.005,
-            reason="0.5 %: roughness makes a part of the amplitude, and bears a part of the load",
+            reason="0.5 %: roughness adds to the amplitude and carries part of the load",
             sample=estimate.half_width,
         )
         for release, estimate in peaks(result).items()

@@ -40,7 +40,7 @@ def _method(case: Wheel3D) -> str:
         f"{1e3 * across * spacing:.0f} mm, periodic, {case.periods + 0.5:g} natural periods long. The linear contact "
         "of fixed radius rolls on the same surfaces; boundary elements begin in its steady state. "
         f"{case.wheels} wheels on springs move in their steady state, on tracks of Geike's spectrum of these surfaces, "
-        "or of the rolling spectrum, with which springs have the force level of the half-space. Hann's window for all. "
+        "or of the rolling spectrum, with which springs have the force level of the half-space. All use Hann's window. "
         "Levels of boundary elements are over the linear contact on the same surfaces, times linear theory; grid: from "
         f"{case.coarse} cells to a radius to first order; solver: from a residual {case.tolerance / TIGHTER:g}."
     )
@@ -67,7 +67,7 @@ def conclusions(ranges: list[str], numbers: list[Number], applications: float) -
         sentences.append(
             if_confirmed(
                 "In three dimensions region 2 is real: an isotropic surface has waves that cross the track obliquely, "
-                "and along the track these are longer than those of q_min. Linear theory has region 2, "
+                "and along the track these are longer than those of q_min. The level of linear theory in region 2 is "
                 f"{with_reference(theory[0])}. Springs of Geike's spectrum have only leakage and nonlinearity there: "
                 f"without leakage they are {abs(below):.0f} dB too {'low' if below < 0 else 'high'}.",
                 theory,
@@ -78,7 +78,7 @@ def conclusions(ranges: list[str], numbers: list[Number], applications: float) -
         f"A time step takes {applications:.1f} applications of the operator; on springs, one addition for each spring "
         "that may touch. The solver comparison has the cost of a step and of a simulated metre.",
         "Nothing damps the wheel, and in three dimensions roughness excites its resonance: on an open track the "
-        "vibration would grow with the distance, without a level to compare. So all begin in the steady state, and "
+        "vibration would grow with the distance and have no stationary level. So all begin in the steady state, and "
         "bands begin at twice the eigenfrequency.",
     ]
 
@@ -101,7 +101,7 @@ CASE = Case(
     chapter=Chapter.WHEEL,
     place=3,
     claim="Boundary elements in the time loop confirm Fig. 14.4.",
-    answers="Boundary elements inside the time loop: the wheel in three dimensions, beside everything cheaper",
+    answers="Boundary elements inside the time loop: the wheel in three dimensions, against every cheaper model",
     quick=Wheel3D(),
     full=Wheel3D(
         scene=TABLE,

@@ -29,9 +29,9 @@ def mean_of_steady_state(levels: WheelLevels) -> Number:
         where={"strips": "worst strip"},
         value=max(abs(float(one.mean())) / float(one.std()) for one in series),
         reference=0.0,
-        source="a motion that repeats itself gains no velocity",
+        source="zero: a periodic motion has no mean acceleration",
         tolerance=1e-9,
-        reason="rounding of as many sums as steps",
+        reason="rounding of a sum over all steps",
     )
 
 
@@ -49,7 +49,7 @@ def levels_over_bem(levels: WheelLevels) -> Iterator[Number]:
                 where={"range": name},
                 source="boundary elements in the time loop",
                 tolerance=ONE_DECIBEL,
-                reason="1 dB: a third of what one-third octaves of rolling noise are held to",
+                reason="1 dB: a third of the 3 dB accepted for one-third octaves of rolling noise",
                 grid=grid,
             )
 

@@ -49,11 +49,12 @@ def _method(scene: WheelScene, spectrum: Spectrum) -> str:
         f"springs to a contact radius a = {1e3 * scene.contact_radius:.4g} mm, h₀/d = "
         f"{scene.rms / scene.approach:.3g}, {len(spectrum.omega) * 2} steps from static equilibrium; the end of a "
         f"track is {WAVES_APART} longest waves from its beginning. {ours if tables.is_of_the_book(scene) else ''}"
-        "Nothing damps the wheel: its initial free vibration stays and makes the level of region 1; the contact makes "
-        "the frequency of that region. A is two-sided over the frequency f, <a²> = int A df; without window as in the "
-        "book, and with Hann's where leakage would hide a feature. The peak is found between lines of Hann's spectrum; "
-        "the jump where that reaches half of the level behind it; slope and break from means over periods of the "
-        "oscillation; the floor beyond q_max v₀. Errors: jackknife over groups of wheels."
+        "Nothing damps the wheel. Its initial free vibration stays and sets the level of region 1; the contact sets "
+        "the frequency of that region. A is two-sided over the frequency f, <a²> = int A df. It has no window, as in "
+        "the book, or Hann's where leakage would hide a feature. The peak is interpolated between lines of Hann's "
+        "spectrum. The jump is where that spectrum reaches half of the level above it. Slope and break come from "
+        "means over periods of the oscillation; the floor is measured beyond q_max v₀. Errors: jackknife over groups "
+        "of wheels."
     )
 
 
@@ -85,7 +86,7 @@ def conclusions(features: dict[str, dict[str, Number]], base: str, level: Number
         ("Its oscillation is sin²(q a)", mine.get(PERIOD), True),
         ("Its level is that of linear theory", level, True),
         (
-            "Region 4 is a floor of ω⁻² which the jump at the end of the records makes, not the contact",
+            "Region 4 is a floor of ω⁻² which the jump at the end of the records makes, and not the contact",
             mine.get(FLOOR + PREDICTED),
             False,
         ),
@@ -123,9 +124,10 @@ def _listed(names: list[str]) -> str:
 def _captions(case: WheelSpectrum) -> dict[str, str]:
     captions = {
         "wheel-contact": (
-            f"The wheel as the simulation has it. (a) As in Fig. 14.2, after {4 * case.snapshot_steps} steps: the "
-            "profile x²/R of the wheel over springs at the height of the track; dark springs carry, with their "
-            "compression below; light ones do not. (b) The same wheel in three dimensions, boundary elements in the "
+            f"The wheel in the simulation. (a) As in Fig. 14.2, after {4 * case.snapshot_steps} steps: the "
+            "profile x²/R of the wheel over springs at the height of the track. Dark springs are in contact, "
+            "with their "
+            "compression below; light ones are not. (b) The same wheel in three dimensions, boundary elements in the "
             f"time loop after {case.snapshot_steps} steps of a / {case.cells}: pressure over Hertz's largest in the "
             "window that moves along, over an isotropic surface of the same spectrum (waves of four cells and more); "
             "circle: Hertz."
@@ -151,7 +153,9 @@ CASE = Case(
     chapter=Chapter.WHEEL,
     place=1,
     claim="The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4).",
-    answers="Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and what moves them",
+    answers=(
+        "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
+    ),
     quick=WheelSpectrum(),
     full=WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
     run=run,

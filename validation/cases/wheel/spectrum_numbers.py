@@ -53,11 +53,16 @@ def _tolerance(key: str, reference: float, line: float) -> tuple[float, str]:
     if key == JUMP:
         return LINES * line, f"{LINES} lines of the record, half of the main lobe of Hann's window"
     if key == SLOPE:
-        return 0.05, "1 %: what an eye could tell on double-logarithmic paper"
+        return 0.05, "1 %: a difference of slope that is hardly visible on a double-logarithmic plot"
     if key == PEAK:
-        return 0.005 * reference, "0.5 %: a small part of the distance of two lines, between which it is found"
+        return (
+            0.005 * reference,
+            "0.5 %: a small part of the spacing of the spectral lines, between which the peak is interpolated",
+        )
     if key == PERIOD:
-        return 0.01 * reference, "1 %: roughness at the edge of the contact changes its length to second order"
+        return 0.01 * reference, "1 %: roughness at the edge of the contact changes the contact length to second order"
+    if key == BREAK + PREDICTED:
+        return 0.1, "10 %: a floor 0.4 dB off alone moves the break by 3 to 6 %"
     return 0.1, "10 %: 0.4 dB of a level"
 
 
@@ -101,9 +106,9 @@ def level_over_linear(spectrum: Spectrum) -> Iterator[Number]:
         quantity=LEVEL,
         model="springs over linear theory",
         where={"theory": "(14.12) through the resonator"},
-        source="a contact that keeps its radius",
+        source="linear theory: a contact of fixed radius",
         tolerance=0.5,
-        reason="0.5 dB: a sixth of what one-third octaves of rolling noise are held to",
+        reason="0.5 dB: a sixth of the 3 dB accepted for one-third octaves of rolling noise",
     )
 
 
@@ -112,22 +117,22 @@ def exact_numbers(batches: list[Outcome]) -> list[Number]:
     wheels = sum(batch["jump"].size for batch in batches)
     return [
         Number(
-            quantity="int A df over the mean square of the acceleration, less one",
+            quantity="integral of A over f, over the mean square acceleration, less one",
             where={"batches": f"worst of {len(batches)} batches"},
             value=max(abs(_parseval(batch)) for batch in batches),
             reference=0.0,
             source="Parseval",
             tolerance=1e-11,
-            reason="rounding of transforms",
+            reason="rounding of the Fourier transforms",
         ),
         Number(
-            quantity="mean of F - F_N less M times the change of velocity over T, over its rms",
+            quantity="mean of F - F_N less M times the velocity change over T, over the rms of F - F_N",
             where={"wheels": f"worst of {wheels} wheels"},
             value=max(float(np.abs(batch["balance"]).max()) for batch in batches),
             reference=0.0,
             source="Newton: mean force and load balance",
             tolerance=1e-11,
-            reason="rounding of as many sums as steps",
+            reason="rounding of a sum over all steps",
         ),
     ]
 

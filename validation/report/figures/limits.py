@@ -46,7 +46,7 @@ def _explain(figure: Figure) -> None:
     mark: Style = {"linestyle": "none", "marker": "o", "markersize": 5, "color": "#333333"}
     handles = [
         Line2D([], [], **mark, label="no message"),
-        Line2D([], [], **{**mark, "markerfacecolor": "white"}, label="the software warned or refused"),
+        Line2D([], [], **{**mark, "markerfacecolor": "white"}, label="warning or error message"),
         Line2D([], [], **{**mark, "marker": "x"}, label="no answer"),
         Line2D([], [], **THRESHOLD, label="predicted threshold"),
         Patch(color="#000000", alpha=0.08, linewidth=0, label="factor of the prediction"),
