@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from itertools import groupby
-from typing import Any
+from typing import Any, Protocol
 
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
@@ -35,7 +35,18 @@ def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> st
     return "; ".join(pieces)
 
 
-def sphere(case: Any) -> str:
+class SphereSettings(Protocol):
+    """What `sphere` reads from the settings of a case: radius [m], force [N] and modulus E* [Pa]."""
+
+    @property
+    def radius(self) -> float: ...
+    @property
+    def force(self) -> float: ...
+    @property
+    def modulus(self) -> float: ...
+
+
+def sphere(case: SphereSettings) -> str:
     """A smooth one."""
     scene = IndentationScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
     return rung_of(scene, "stiffness")
