@@ -151,3 +151,22 @@ def test_the_edges_of_a_band_belong_to_it_within_a_billionth():
     first, last = 3.0 * (1 - 1e-9), 50.0 * (1 + 1e-9)
     assert (band.c2d([first, last]) > 0).all()
     assert (band.c2d([np.nextafter(first, 0), np.nextafter(last, 99)]) == 0).all()
+
+
+def test_what_is_too_large_for_a_double_is_named_with_its_numbers():
+    for mapping, q, name in ((mdr.geike, 1e300, "c2d"), (mdr.inverse_geike, 1e-300, "c1d")):
+        with pytest.raises(ValueError, match=rf"^q and {name} must give .* got {q:g}".replace("+", r"\+")):
+            mapping(np.array([q]), np.array([1e300]))
+
+
+def test_what_was_not_given_is_not_named():
+    """The rms height of a profile may be left to its spectrum."""
+    rng, length = np.random.default_rng(1), 1e-12
+
+    def flat(q):
+        return np.where(q < 1e13, 1e308, 0.0)
+
+    with pytest.raises(ValueError, match="must give numbers that a double can hold") as refused:
+        mdr.rough_profile(flat, length=length, points=64, rng=rng)
+    assert "length" in str(refused.value)
+    assert "rms" not in str(refused.value)
