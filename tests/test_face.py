@@ -59,7 +59,7 @@ def test_a_number_comes_in_si_units_with_its_relative_error():
         "closed form",
         "accepted",
         0.0,
-        "the body is smooth, the formula exact",
+        "exact for a smooth body",
     )
     assert first.cost > 0
 

@@ -188,7 +188,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     for name, what in CLOCKED.items():
         _describe_timed(commands.add_parser(name, help=what), name)
-    listing = commands.add_parser("cases", help="list the cases, and the figure or question of each")
+    listing = commands.add_parser("cases", help="list the cases and what each shows")
     listing.set_defaults(command=cases)
     return parser
 
@@ -209,8 +209,14 @@ def _describe_report(making: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="folder of the report (default: reports/PROFILE, with the names of the cases if --only)",
     )
-    making.add_argument("--workers", type=_at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
-    making.add_argument("--seed", type=_at_least(0), metavar="S", help="of the random numbers of every case")
+    making.add_argument(
+        "--workers",
+        type=_at_least(1),
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="number of processes (default: one per core)",
+    )
+    making.add_argument("--seed", type=_at_least(0), metavar="S", help="seed of the random numbers of every case")
     making.add_argument(
         "--executor",
         default=LOCAL,
@@ -240,9 +246,11 @@ def _describe_compare(comparing: argparse.ArgumentParser) -> None:
         "--want",
         choices=QUANTITIES,
         metavar="QUANTITY",
-        help=f"one of {', '.join(QUANTITIES)} (default: the first that the scene has); --want until 0.3",
+        help=(
+            f"one of {', '.join(QUANTITIES)} (default: the first that the scene has); --want is an old name, until 0.3"
+        ),
     )
-    comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the roughness that is drawn (default: 0)")
+    comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
     comparing.set_defaults(command=compare)
 
 
@@ -251,12 +259,14 @@ def _describe_timed(timing: argparse.ArgumentParser, name: str) -> None:
     timing.add_argument(
         "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"
     )
-    timing.add_argument("--seed", type=_at_least(0), metavar="S", help="of the rough surfaces")
+    timing.add_argument("--seed", type=_at_least(0), metavar="S", help="seed of the rough surfaces")
     timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None)
 
 
 def _add_profile(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--profile", choices=("quick", "full"), default="quick", help="small or real (default: quick)")
+    command.add_argument(
+        "--profile", choices=("quick", "full"), default="quick", help="size of the problems (default: quick)"
+    )
 
 
 def _at_least(least: int) -> Callable[[str], int]:

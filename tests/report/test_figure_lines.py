@@ -477,12 +477,12 @@ def test_lines_of_rounds_and_of_lift_off():
     drawn(
         airborne,
         **{f"{sweep} changed": mine["time airborne"] for sweep, mine in of.items()},
-        **{f"linear force pulls, {sweep}": mine["time airborne, linear"] for sweep, mine in of.items()},
+        **{f"linear force below zero, {sweep}": mine["time airborne, linear"] for sweep, mine in of.items()},
     )
     drawn(
         highest,
         **{f"{sweep} changed": mine["highest force [F_N]"] for sweep, mine in of.items()},
-        **{f"1 + deepest linear pull, {sweep}": 1 + mine["deepest linear pull [F_N]"] for sweep, mine in of.items()},
+        **{f"1 + largest linear tension, {sweep}": 1 + mine["deepest linear pull [F_N]"] for sweep, mine in of.items()},
     )
 
 

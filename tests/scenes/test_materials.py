@@ -63,7 +63,7 @@ def test_the_ends_of_what_poissons_ratio_may_be_belong_to_it(poisson_ratio):
 
 def test_a_contact_modulus_stands_for_itself():
     assert Material(contact_modulus=2e9).modulus == 2e9
-    assert Material(contact_modulus=2e9).origin == "as it was given"
+    assert Material(contact_modulus=2e9).origin == "given directly"
 
 
 @pytest.mark.parametrize(
@@ -246,7 +246,7 @@ def test_punches_are_understood_by_their_load():
     assert pairs["waves"].endswith("longest waves on a side: 1")
     smooth = IndentationScene(name="flat", shape="punch", size=1.0, load=1.0, modulus=2e9)
     assert dict(describe(smooth)) == {
-        "contact modulus E*": "2 GPa: as it was given",
+        "contact modulus E*": "2 GPa: given directly",
         "punch": "side L = 1 m, load 1 N",
         "roughness": "none",
     }

@@ -132,7 +132,9 @@ def test_a_sphere_that_reaches_the_edge_of_its_grid_is_no_answer(monkeypatch):
         monkeypatch.setattr(module, "side_of", lambda scene: 1.5)
     ball = rolling(height=0.1, first=4.5, last=9, shape="sphere")
     assert (
-        indentation_on_grids.IndentationOnGrid(ball, 0.5, 0, 32).solve().failed.endswith("reached the edge of the grid")
+        indentation_on_grids.IndentationOnGrid(ball, 0.5, 0, 32)
+        .solve()
+        .failed.endswith("the contact reached the edge of the grid")
     )
 
 
@@ -181,14 +183,17 @@ def test_beyond_what_was_measured_springs_and_filters_claim_nothing(name, inside
     "scene", [punch(load=0.19), punch(load=1.0, first=6, last=24), rolling(height=1.1, shape="sphere")]
 )
 def test_beyond_what_was_measured_closed_forms_claim_nothing(scene):
-    assert "its error was measured from" in model_of_kind("closed form", scene, "stiffness", 0.1).estimate().reason
+    assert (
+        "the error of the model is known from"
+        in model_of_kind("closed form", scene, "stiffness", 0.1).estimate().reason
+    )
 
 
 def test_what_is_outside_is_said_with_its_numbers():
     ranges = {"h/d": (0, 1), "F": (2, math.inf)}
     assert outside({"h/d": 1.0 + 1e-12, "F": 2.0}, ranges) == ""
-    assert outside({"h/d": 1.5, "F": 2.0}, ranges) == "h/d = 1.5, its error was measured from 0 to 1 alone"
-    assert outside({"h/d": 0.5, "F": 1.0}, ranges) == "F = 1, its error was measured from 2 on alone"
+    assert outside({"h/d": 1.5, "F": 2.0}, ranges) == "h/d = 1.5; the error of the model is known from 0 to 1 only"
+    assert outside({"h/d": 0.5, "F": 1.0}, ranges) == "F = 1; the error of the model is known from 2 on only"
     assert outside({"F": math.nan}, ranges)
     assert outside({}, ranges) == ""
 
@@ -236,7 +241,7 @@ def test_a_band_without_a_wave_that_fits_is_a_row_with_its_reason():
     models = [model for model in models_of(scene, "stiffness", 0.5, 0) if model.kind in OURS]
     found = Comparison(scene, "stiffness", select_model(models, 0.5))
     assert not found.selection.met
-    assert "no model has an answer" in summary(found).splitlines()
+    assert "no model has a result" in summary(found).splitlines()
     assert all(candidate.reason for candidate in found.selection.candidates)
 
 

@@ -394,7 +394,7 @@ def test_what_is_out_of_reach_is_told():
     found = compare(scene, tolerance=1e-6)
     assert not found.selection.met
     assert re.fullmatch(
-        r"not reached: the tolerance of 0\.0001 %; the best there is leaves [\d.]+ %", summary(found).splitlines()[-1]
+        r"not reached: the tolerance of 0\.0001 %; the smallest error is [\d.]+ %", summary(found).splitlines()[-1]
     )
 
 
@@ -633,7 +633,7 @@ def test_a_number_is_told_with_the_parts_of_its_error():
     ]
     lines = summary(Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2))).splitlines()
     assert "stiffness = (2.00 ± 0.25)e7 N/m (12 %: model 10 %, grid 2 %, sample 0.3 %), by fake" in lines
-    assert lines[-1].startswith("solves: about 5 s by their count")
+    assert lines[-1].startswith("cost of the solves: about 5 s")
     assert lines[-1].endswith("the models that were not solved would have cost 10 s")
 
 

@@ -11,7 +11,7 @@ def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
     met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
     found = ", ".join(f"{section.findings(v)} {v}" for v in Verdict if section.findings(v))
     if unsteady:
-        met, found = "no steady answer, what is found is that of this distance", ""
+        met, found = "no steady answer, the results hold for this distance alone", ""
     details = [f"missed: {number.sentence}" for number in section.missed]
     details += [f"not converged: {solve}" for solve in section.unconverged]
     if section.name in TIMED and section.evidence:

@@ -310,14 +310,14 @@ def _diagnose_roughness(scene: WheelScene) -> Iterator[str]:
         if waves < MIN_WAVES_PER_TRACK:
             yield (
                 f"simulation.distance holds {waves:.3g} waves of {key}.longest, fewer than {MIN_WAVES_PER_TRACK}: "
-                "the low end of a spectrum rests on few waves."
+                "the low end of the spectrum has few waves."
             )
         if rough.rms > MAX_PLAUSIBLE_RMS:
             yield f"{key}.rms is {rough.rms:.3g} m, more than {MAX_PLAUSIBLE_RMS:g} m: is its unit right?"
     if scene.wheel is not None and scene.wheel.longest > circumference / 2:
         yield (
             f"wheel.roughness.longest is {scene.wheel.longest:.3g} m, more than half of the circumference of "
-            f"{circumference:.3g} m: a wheel carries whole waves only."
+            f"{circumference:.3g} m: a whole number of waves must fit the circumference."
         )
 
 

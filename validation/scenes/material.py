@@ -93,7 +93,7 @@ class Material:
     def origin(self) -> str:
         """How E* came about, in words."""
         if self.contact_modulus is not None:
-            return "as it was given"
+            return "given directly"
         if isinstance(self.counterface, Elastic):
             return f"a body of {self._body} on one of {self.counterface}"
         other = "the other body is rigid" if self.counterface == "rigid" else "two equal bodies"

@@ -160,15 +160,15 @@ class MeasuredHeights:
             )
         if self.tilt > TILTED:
             found.append(
-                f"heights are tilted: the plane that was taken off them is {self.tilt:.2g} times as rough as what is "
-                "left, and a body that may not turn would feel it."
+                f"heights are tilted: the mean plane, which was removed, is {self.tilt:.2g} times as rough as what is "
+                "left; it would matter for a body that cannot rotate."
             )
         (nx, ny), (dx, dy) = self.height.shape, self.spacing
         if nx != ny and abs(dx * nx / (dy * ny) * nx / ny - 1) < 1e-6:
             found.append(
                 f"{nx} x {ny} heights are {dx * nx:.3g} m x {dy * ny:.3g} m large, so that their points are "
                 f"{max(dx / dy, dy / dx):.3g} times as far apart along one side as along the other; with both sides "
-                "exchanged they would be as far: are the sides in the order of the axes?"
+                "exchanged they would be equally far apart: are the sides in the order of the axes?"
             )
         return (*found, *self.beyond_a_spectrum())
 
@@ -191,7 +191,7 @@ class MeasuredHeights:
             return ""
         return (
             f"heights are not Gaussian, skewness {skewness:.2g} and excess kurtosis {kurtosis:.2g}: a spectrum "
-            "does not tell all of them, boundary elements on the heights themselves do."
+            "does not describe them fully; boundary elements use the heights themselves."
         )
 
     @property

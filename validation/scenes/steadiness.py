@@ -81,7 +81,7 @@ def diagnose_short_waves(wheel: Wheel, grounds: Sequence[RoughSurface]) -> tuple
     ratio = height / wheel.approach
     return (
         f"the longest wave is short beside the contact, q a = {longest:.3g}, and the roughness {ratio:.3g} of the "
-        "approach: it feeds the free vibration, whose level at the resonance grows with the distance.",
+        "approach: this excites the free vibration, whose level at the resonance grows with the distance.",
     )
 
 

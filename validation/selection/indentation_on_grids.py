@@ -83,10 +83,12 @@ class IndentationOnGrid:
         """The sample's part: only a solve tells what the grid leaves."""
         if not holds_waves(self.scene, self._grids[-1]):
             return ErrorEstimate.out_of_range(
-                f"a grid of {self._grids[-1]}² cells, beside which it is judged, holds no wave"
+                f"a grid of {self._grids[-1]}² cells, the reference of its grid error, resolves no wave"
             )
         sample = 0.0 if self.measured else max(self.tolerance / 2, STUDENT * self._scatter / math.sqrt(MOST))
-        return ErrorEstimate(error=sample, reason="the grid is judged by coarser ones, once all are solved")
+        return ErrorEstimate(
+            error=sample, reason="sample only: the grid error is estimated from coarser grids after the solve"
+        )
 
     def solve(self) -> Answer:
         """The mean stiffness, surface by surface until the sample leaves half of the tolerance."""
@@ -107,7 +109,7 @@ class IndentationOnGrid:
             sample=0.0 if self.measured else mean_error(fine[:, np.newaxis] / fine.mean()),
             reason=f"{reason}, surfaces: {fine.size}",
             failed=too_few(float(np.median([contact.cells for contact in found])), "cells")
-            or ("" if math.isfinite(grid) else f"{reason}, no less than by the step before: no error bar"),
+            or ("" if math.isfinite(grid) else f"{reason}, no less than the step before did: no error estimate"),
         )
 
     def _left_by_the_grid(
@@ -179,7 +181,7 @@ class IndentationOnGrid:
                 return StiffnessOnGrid(math.nan, 0, "did not converge")
         # too few cells are counted, and a punch ends where its grid does
         at_edge = self.scene.shape == "sphere" and any(issubclass(one.category, bem3d.EdgeWarning) for one in said)
-        failed = "reached the edge of the grid" * at_edge
+        failed = "the contact reached the edge of the grid" * at_edge
         return StiffnessOnGrid(float(values["stiffness"]), int(values["cells"]), failed)
 
 

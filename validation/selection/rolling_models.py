@@ -197,7 +197,7 @@ class RollingOnSprings:
         expected = self.estimate()
         change = on_springs(self.quantity, TRACKS, self.seed)
         if not np.isfinite(change).all():
-            failed = "a wheel was thrown farther than sums are exact for"
+            failed = "a wheel lifted off farther than the sums are exact for"
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=failed)
         value = self.quantity.expected(one_dimensional=self.quantity.name == "force-rms") * np.exp(change.mean(axis=0))
         return Answer(
@@ -239,9 +239,7 @@ class RollingOnGrid:
         if said := self.quantity.unsteady or self._too_large():
             return ErrorEstimate.out_of_range(said)
         sample = 0.0 if self.quantity.scene.ground.is_single else self._scatter / math.sqrt(MOST_STRIPS)
-        return ErrorEstimate(
-            error=sample, reason=f"{MOST_STRIPS} strips leave that of the sample, the grid not counted"
-        )
+        return ErrorEstimate(error=sample, reason=f"sampling error of {MOST_STRIPS} strips, without the grid error")
 
     @property
     def _scatter(self) -> float:
@@ -256,7 +254,7 @@ class RollingOnGrid:
         other = self._rolled(0, self.beside)
         cost = self._cost(len(change), 1)
         if not (np.isfinite(change).all() and np.isfinite(other).all()):
-            return Answer(value=np.array([np.nan]), cost=cost, failed="some contact along a strip did not converge")
+            return Answer(value=np.array([np.nan]), cost=cost, failed="a contact along a strip did not converge")
         mean, apart = np.mean(change, axis=0), distance(np.exp(change[0]), np.exp(other))
         return Answer(
             value=np.exp(mean)
@@ -264,7 +262,7 @@ class RollingOnGrid:
             cost=cost,
             grid=apart * (OF_COARSE if self.beside > self.cells else OF_FINE),
             sample=0.0 if self.quantity.scene.ground.is_single else mean_error(np.array(change)),
-            reason=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change it by "
+            reason=f"{self._waves:.2g} cells to the shortest wave; a = {self.beside} cells change the result by "
             f"{apart:.1%}; strips: {len(change)}",
         )
 
@@ -341,7 +339,7 @@ def _claimed(rule: Rule, quantity: RollingQuantity) -> tuple[float, str]:
     )
     error = float(np.dot(rule, (lost, ratio, 1.0)))
     height = "h/d, by the resonance" if quantity.amplification > 1 else "h/d"
-    return error, counted({"contact that linear theory loses": lost, height: ratio})
+    return error, counted({"loss of contact by linear theory": lost, height: ratio})
 
 
 CHEAP = (LinearFilter.kind, LinearSpace.kind, RollingOnSprings.kind)

@@ -35,16 +35,18 @@ def summary(comparison: Comparison) -> str:
     lines += [_row(candidate) for candidate in selection.candidates]
     best = selection.best
     if best is None or best.answer is None:
-        return "\n".join([*lines, "", "no model has an answer"])
+        return "\n".join([*lines, "", "no model has a result"])
     lines += ["", *_result(comparison, best)]
-    spent = f"solves: about {format_seconds(selection.spent)} by their count, the start of the program not included"
+    spent = (
+        f"cost of the solves: about {format_seconds(selection.spent)}, from counted operations, without program start"
+    )
     saved = sum(one.cost for one in selection.candidates if one.status in ("not needed", "skipped"))
     lines.append(
         f"{spent}; the models that were not solved would have cost {format_seconds(saved)}" if saved else spent
     )
     if not selection.met:
         left = f"{100 * best.answer.error:.3g} %"
-        lines.append(f"not reached: the tolerance of {_percent(selection.tolerance)}; the best there is leaves {left}")
+        lines.append(f"not reached: the tolerance of {_percent(selection.tolerance)}; the smallest error is {left}")
     return "\n".join(lines)
 
 

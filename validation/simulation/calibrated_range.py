@@ -23,7 +23,7 @@ def outside(conditions: Conditions, ranges: Ranges) -> str:
         value = conditions.get(name, low)
         if not low * (1 - SLACK) <= value <= high * (1 + SLACK):
             span = f"from {low:g} on" if math.isinf(high) else f"from {low:g} to {high:g}"
-            return f"{name} = {value:.3g}, its error was measured {span} alone"
+            return f"{name} = {value:.3g}; the error of the model is known {span} only"
     return ""
 
 

@@ -19,9 +19,9 @@ from validation.engine.engine import Outcome
 
 # the residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells
 AGREEMENT = (
-    ("pressure field, relative L2", 1e-4, "1e4 times the residual, for the condition of the contact on fine grids"),
-    ("force, relative", 1e-6, "100 times the residual: exact where it is prescribed, by stiffness elsewhere"),
-    ("contact area, relative", 1e-3, "single cells of vanishing pressure may stand on either side"),
+    ("pressure field, relative L2", 1e-4, "1e4 times the residual: the conditioning of the contact on fine grids"),
+    ("force, relative", 1e-6, "100 times the residual: zero where the force is prescribed, by the stiffness elsewhere"),
+    ("contact area, relative", 1e-3, "single cells of vanishing pressure may be in or out of contact"),
 )
 OTHERS = [i for i, solver in enumerate(SOLVERS) if solver.package != OURS]
 AGAINST = (("the fastest peer", OTHERS), ("the iteration of Polonsky and Keer", [1]))
@@ -35,11 +35,14 @@ def evidence(result: SolverComparisonResult) -> Evidence:
         title="Solver comparison: time to the same residual, one thread each",
         method=(
             f"All solvers solve the same discrete problems, cold, to a residual of {result.case.residual:g} as this "
-            "project defines it, from a fresh operator application on the returned pressure; with the loosest of their "
-            "own tolerances that reaches it. By force, or by the approach that belongs to this force, as its interface "
-            "asks. A process each, in turns, one thread; the median of 5 to 15 runs, or of one that takes long. Set-up "
-            "(operators, plans; ours with a whole first solve) is timed apart. Our applications are those on the "
-            "finest grid or a window of it; the coarser grids are in our time. tamaas does not count its own. Fourier "
+            "project defines it, from a fresh operator application on the returned pressure. Each has the "
+            "loosest of its "
+            "own tolerances that reaches this residual, and the force, or the approach of this force, as its interface "
+            "requires. Each has a process with one thread, in turns; the time is the median of 5 to 15 runs, or "
+            "one long run. Set-up "
+            "(operators, plans; ours with a whole first solve) is timed separately. Our applications are those on the "
+            "finest grid or a window of it; our time includes the coarser grids. tamaas does not count "
+            "applications. Fourier "
             "transforms are those of each package as it is installed. Contact models that have no pressure are listed "
             "with the difference of their stiffness. "
             + "; ".join(f"{s.name}: {s.mode} ({s.version or 'not installed'})" for s in SOLVERS)
@@ -54,7 +57,7 @@ def evidence(result: SolverComparisonResult) -> Evidence:
         ),
         page_tables=(
             _times(result.runs, result.outcomes, "Seconds"),
-            _times(result.load_path_runs, result.load_path_outcomes, "The same for some of the loads of Fig. 14.1"),
+            _times(result.load_path_runs, result.load_path_outcomes, "Times at some of the loads of Fig. 14.1"),
             result.rolling,
         ),
         conclusions=tuple(_conclusions(result)),

@@ -78,7 +78,7 @@ def _method(result: PrecisionResult) -> str:
     return (
         "Each method is a curve along a parameter: cells, springs, residual. Error: beside closed forms where there "
         "are any; elsewhere beside the two finest grids of boundary elements on the same surfaces, extrapolated to "
-        "cells of no size. The last step of this extrapolation is the uncertainty of the reference, and errors below "
+        "cells of zero size. The last step of this extrapolation is the uncertainty of the reference, and errors below "
         "it are treated as equal to it. Methods are ranked by the upper 95 % bound; if a finer setting has a larger "
         "bound, that one is used. Errors of the two finest grids are steps of their own extrapolation. Spectra: root "
         "mean square, over one-third octaves, of level differences. "
@@ -96,7 +96,7 @@ def _method(result: PrecisionResult) -> str:
 
 def _captions() -> dict[str, str]:
     marks = (
-        "Grey: the uncertainty of the reference, or, of closed forms, what is better than all others; marks at its "
+        "Grey: the uncertainty of the reference, or, for closed forms, below the smallest error; marks at its "
         "edge, pointing down, lie within it. Thick line: the Pareto front, by upper ends of errors. Bars: 95 % of the "
         "sample, quartiles of times. Crosses along the top: failed or out of range, for the reason in the table."
     )
@@ -206,7 +206,14 @@ def _orders(charts: Charts) -> list[Number]:
     found = []
     for scene, quantity, line, order, tolerance, reason in (
         ("sphere", "force", BEM, 2.0, 0.5, "second order; the staircase edge scatters the error from grid to grid"),
-        ("sphere", "force", MDR, 2.0, 0.1, "second order: the contact ends at the same part of a spring on each"),
+        (
+            "sphere",
+            "force",
+            MDR,
+            2.0,
+            0.1,
+            "second order: the contact ends at the same part of a spring on each grid",
+        ),
         ("square punch", "stiffness", BEM, 1.0, 0.15, "the pressure is singular at the edge: first order"),
     ):
         points = charts.of(scene, quantity, line)
@@ -248,7 +255,7 @@ def _equal(charts: Charts) -> list[Number]:
                     reference=1.0,
                     source="the same discrete problem has one solution",
                     tolerance=1e-6,
-                    reason="a hundred times the residual of both",
+                    reason="a hundred times the residual of both solvers",
                 )
             )
     return found
@@ -275,7 +282,7 @@ def _models(charts: Charts) -> list[Number]:
                     reference=0.0,
                     source="boundary elements, extrapolated",
                     tolerance=ONE_DECIBEL if decibel else 100 * TEN_PERCENT,
-                    reason="a model is said to agree within 10 %, or 1 dB",
+                    reason="10 %, or 1 dB: tolerance of agreement",
                     unit=last.unit,
                     grid=last.band if decibel else 100 * last.band,
                     sample=last.half_width if decibel else 100 * last.half_width,

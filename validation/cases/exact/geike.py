@@ -282,7 +282,7 @@ CASE = Case(
     chapter=Chapter.EXACT,
     place=4,
     claim="Geike's rule keeps height and slope; its 1D spectrum is not that of a line on the surface.",
-    answers="Geike's rule (10.12): which moments it keeps, and why it is not the spectrum of a line",
+    answers="Geike's rule (10.12): which moments it preserves, and why it is not the spectrum of a line",
     quick=Geike(),
     full=Geike(cells=1024, surfaces=12),
     run=run,

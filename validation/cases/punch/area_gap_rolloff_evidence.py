@@ -57,8 +57,9 @@ def _method(case: MdrLimits) -> str:
     return (
         f"Punches with H = {case.hurst:g} as in Fig. 14.1, and others without waves longer than L over "
         f"{', '.join(map(str, case.roll_offs[1:]))}, all to {case.cells // 4} waves on a side. {case.surfaces} "
-        f"surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs, equal forces. Compared "
-        "are the true contact area over L² and the share of springs in contact; the mean gap between the faces over "
+        f"surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs, equal forces. The "
+        "case compares "
+        "the true contact area over L² and the share of springs in contact; the mean gap between the faces over "
         "h; the stiffness and its relative deviation; and, with a roll-off, the exponent of the stiffness of the rough "
         "interface alone. That is the uniform layer under a flat punch that makes it as stiff as the rough one. "
         f"Boundary elements are extrapolated to first order from {case.cells}² and {2 * case.cells}² cells on "
@@ -129,7 +130,7 @@ CASE = Case(
     chapter=Chapter.PRESSED,
     place=3,
     claim="MDR gives neither the true contact area nor the gap, nor the stiffness of roughness with a roll-off.",
-    answers="Where MDR must fail: true contact area, mean gap, stiffness with a roll-off",
+    answers="Where MDR fails by its assumptions: true contact area, mean gap, stiffness with a roll-off",
     quick=MdrLimits(),
     full=MdrLimits(
         roll_offs=(1, 8, 16), cells=256, surfaces=30, refined=8, profiles=500, decades=(-3, 1), per_decade=3

@@ -31,8 +31,8 @@ def method(case: FractalPunch) -> str:
         f"pressed on {coarser}² and {finer}² cells too. The difference is to boundary elements extrapolated to first "
         "order from the finer two. ± grid is the distance of that to the extrapolation from the coarser two, with the "
         "interval of the change, and the change from half as many springs. The rest is the error of the model. An "
-        "undecided verdict names the sample that would decide it if value and grid error stayed. Where it says "
-        '"grid error too large", no sample would: more refined surfaces or finer cells lower that error.'
+        "undecided verdict names the sample size that would decide it at the same value and grid error. With "
+        '"grid error too large" no sample size would: more refined surfaces or finer cells lower that error.'
     )
 
 
@@ -47,7 +47,7 @@ def captions(case: FractalPunch) -> dict[str, str]:
             "profiles of springs, L_1D = L; lines end where all springs of all profiles are in contact. Intervals: in "
             "the next figure."
         ),
-        "fractal_punch-overlay": f"The same, both methods in one panel. {circles} {lines}",
+        "fractal_punch-overlay": f"The relative standard deviation, both methods in one panel. {circles} {lines}",
         "fractal_punch-difference": (
             f"Relative deviation of MDR over that of boundary elements. Circles: at each force on {case.cells}² cells, "
             f"{interval}; {few}; ratios below the axis, and ratios to a deviation of zero, are not drawn. Thick: "
@@ -127,7 +127,7 @@ def summary(name: str, comparisons: Sequence[DecadeComparison]) -> str:
     counts = ", ".join(f"{verdicts.count(v)} {v}" for v in Verdict if v in verdicts)
     return (
         f"{name[0].upper()}{name[1:]}, MDR beside boundary elements within "
-        f"{_text(quantity.tolerance, quantity.unit).lstrip('+')}. Mean over H: {means}. Of the single comparisons "
+        f"{_text(quantity.tolerance, quantity.unit).lstrip('+')}. Mean over H: {means}. For single H: "
         f"{counts}; they range from {_text(min(values), quantity.unit)} to {_text(max(values), quantity.unit)}."
     )
 
@@ -142,7 +142,7 @@ def saturation(rows: Sequence[Row]) -> tuple[str, ...]:
         for h, row in sorted(first.items())
     )
     return (
-        "Where all springs of all profiles are in contact, MDR has no fluctuation left. Boundary elements still have "
+        "Where all springs of all profiles are in contact, MDR has no fluctuation. Boundary elements still have "
         f"the relative deviation in brackets: {found}.",
     )
 

@@ -93,8 +93,8 @@ def evidence(result: NormalisationResult) -> Evidence:
             "Gaussian amplitudes with h as the rms of the ensemble. "
             f"{case.surfaces} surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs; "
             "Fbar = F / (E* h L) with the h of the ensemble. The two Gaussian ways are compared on the same draws. "
-            "Each method is compared with itself on one grid. The two methods stand beside each other without a "
-            "verdict: their grid error is that of Fig. 14.1."
+            "Each method is compared with itself on one grid. MDR over boundary elements is given without a "
+            "verdict, since the grid error is known for Fig. 14.1 alone."
         ),
         numbers=tuple(_numbers(found)),
         tables=(_curves(found), _heights(result)),
@@ -195,8 +195,8 @@ def _why_fixed(case: Normalisation) -> tuple[str, str]:
         "With q_min = 2π/L the few longest waves carry the height, fewer in 1D than in 2D. The mean square height of "
         f"Gaussian draws has a relative deviation, on surfaces and on profiles, of {spread}.",
         "Fig. 14.1 is drawn with fixed amplitudes, as in (14.8), because Fbar is the force over the height. With "
-        "another height in every draw, one Fbar is another load for each. That scatter, larger in 1D, would be "
-        "counted as one of the contact.",
+        "another height in every draw, one Fbar would be another load for each. This scatter, larger in 1D, would be "
+        "counted as scatter of the contact.",
     )
 
 

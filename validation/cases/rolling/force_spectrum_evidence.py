@@ -21,7 +21,7 @@ def evidence(result: RollingResult) -> Evidence:
     found = [levels.LevelsAtHeight(result, height) for height in case.heights]
     numbers, within, summary = measured.numbers_of(case, found), tables.bands_within(case, found), tables.summary(found)
     return Evidence(
-        title="Rolling over isotropic roughness: where one dimension is some decibels off",
+        title="Rolling over isotropic roughness: levels of 1D models against boundary elements",
         method=_method(case),
         numbers=tuple(numbers),
         tables=(tables.levels(found), summary, tables.spectrum(result), tables.forces(result)),
@@ -38,7 +38,7 @@ def _method(case: ForceSpectrum) -> str:
         f"{case.last:g}, h_rms / d = {', '.join(f'{h:g}' for h in case.heights)}. Boundary elements: {case.strips} "
         f"surfaces {case.length:g} a long ({case.rough_strips} from h/d = {ROUGH:g} on), {case.cells} cells to a "
         f"contact radius; {case.refined} of them again with {2 * case.cells}. Levels are extrapolated to first order; "
-        "± grid is half of the extrapolation, plus the interval of what it rests on. Springs: "
+        "± grid is half of the extrapolation, plus its sampling interval. Springs: "
         f"{case.tracks} tracks as long, with Geike's spectrum, and with the rolling-equivalent spectrum, which has the "
         "level of linear theory in 3D along the track (case rolling_input). Linear theory: (14.12) in 1D, and the same "
         "filter on the surface in 3D, both by quadrature. Levels of the force in one-third octaves of q a are powers, "
@@ -173,7 +173,7 @@ def _captions(case: ForceSpectrum) -> dict[str, str]:
         "rolling-map": (
             "Validity: level of each model over that of boundary elements, in dB, over h/d and q a. Solid lines: ± 1 "
             "dB; dashed: ± 3 dB; hatched: more than 3 dB too low. Left of the vertical line, below the band, springs "
-            "with Geike's spectrum have next to no level."
+            "with Geike's spectrum have almost no power."
         ),
     }
 
@@ -182,7 +182,7 @@ CASE = Case(
     name="rolling",
     chapter=Chapter.ROLLING,
     place=2,
-    claim="One dimension has the force spectrum of a rolling wheel (Fig. 14.3).",
+    claim="A one-dimensional model has the force spectrum of a rolling wheel (Fig. 14.3).",
     answers="Fig. 14.3: rolling force over isotropic roughness, where each model holds",
     quick=ForceSpectrum(),
     full=ForceSpectrum(

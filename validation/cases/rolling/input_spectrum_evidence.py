@@ -39,7 +39,7 @@ def _method(case: RollingInput) -> str:
         "rolling-equivalent spectrum C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k². A wave s that "
         "crosses the track at an angle changes the force as a wave s does, and appears along the track as q. First, "
         "linear theory: (14.12) beside the spectrum in 3D, both by quadrature, in one-third octaves of q a, for power "
-        "laws and for spectra for which the rolling-equivalent spectrum was not derived. Second, one-sided springs "
+        "laws and for spectra of other shapes. Second, one-sided springs "
         f"beside boundary elements ({case.strips} surfaces, {case.cells} cells to a radius, {case.tracks} tracks) at "
         f"h_rms / d = {' and '.join(f'{h:g}' for h in case.heights)}, on one grid; the case rolling has the error of "
         "the grid. Third, the punches of Fig. 14.1 with each input spectrum."
@@ -101,7 +101,7 @@ def _punches(result: RollingInputResult, numbers: list[Number]) -> str:
         answer = (
             "So no input spectrum serves both. A punch needs the height of all waves that meet at one place, whatever "
             "their direction. Rolling needs, at each wavenumber along the track, the force of the waves that appear "
-            "there. One number a wavenumber cannot be both."
+            "there. One spectrum cannot have both."
         )
     return (
         "The punches of Fig. 14.1 at Fbar = 0.1, mean stiffness of MDR over boundary elements, by input spectrum: "
@@ -132,7 +132,10 @@ CASE = Case(
     name="rolling_input",
     chapter=Chapter.ROLLING,
     place=3,
-    claim="One dimension has it within 3 dB in one-third octaves, with the rolling-equivalent input spectrum.",
+    claim=(
+        "With the rolling-equivalent input spectrum, springs have the force level of 3D within 3 dB in "
+        "one-third octaves."
+    ),
     answers="The input spectrum of MDR for rolling, and one-third octaves within 3 dB (Ford and Thompson 2006)",
     quick=RollingInput(),
     full=RollingInput(

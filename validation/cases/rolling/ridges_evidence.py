@@ -16,7 +16,7 @@ EDGE = 0.4
 """How far the edge of a contact on a grid is out of place at most, in cells, measured on circles of 8 to 32 cells."""
 FAR = 5.0
 """q a up to which the response is also judged by itself."""
-ERROR, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF of a prescribed force"
+ERROR, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF at a prescribed force"
 
 
 def evidence(result: RidgesResult) -> Evidence:
@@ -27,11 +27,11 @@ def evidence(result: RidgesResult) -> Evidence:
     return Evidence(
         title="Ridges across the track: springs, boundary elements and (14.11)",
         method=(
-            f"{q.size} ridges at once, {_named(q)}, {case.height:g} d high in all, so that each acts by itself. The "
-            "response of the force to the height of each ridge has an amplitude and a phase, over 2 E* a. Boundary "
-            f"elements have {', '.join(map(str, case.cells))} cells to a contact radius, springs "
+            f"{q.size} ridges at once, {_named(q)}, with a sum of heights of {case.height:g} d, so that each acts "
+            "independently. The response of the force to the height of each ridge has an amplitude and a phase, over "
+            f"2 E* a. Boundary elements have {', '.join(map(str, case.cells))} cells to a contact radius, springs "
             f"{', '.join(f'{n:g}' for n in case.springs)}. Errors are over the envelope of |sin(q a) / (q a)|, the "
-            "smaller of 1 and 1/(q a), and so continue through the zeros."
+            "smaller of 1 and 1/(q a), and so are defined at the zeros too."
         ),
         numbers=numbers,
         tables=(_curves(result), _table_of_errors(result)),
@@ -62,10 +62,11 @@ def _conclusions(result: RidgesResult, close: list[Number]) -> tuple[str, ...]:
             "which is some tenths of a cell out of place.",
             close,
         ),
-        f"With {cells} cells to a radius boundary elements err by {_largest(result, BEM, cells, FAR):.2g} of the "
-        f"envelope up to q a = {FAR:g} and by {_largest(result, BEM, cells):.2g} up to {q[-1]:.3g}; springs in full "
-        f"contact, {springs:g} to a radius, by {_largest(result, FULL, springs):.2g}; (14.11) itself on the same track "
-        f"by {_largest(result, FILTER, springs):.1g}. The phase is right: the part of the response out of phase is at "
+        f"The largest error of boundary elements with {cells} cells to a radius is "
+        f"{_largest(result, BEM, cells, FAR):.2g} of the envelope up to q a = {FAR:g} and "
+        f"{_largest(result, BEM, cells):.2g} up to {q[-1]:.3g}. That of springs in full contact, {springs:g} to a "
+        f"radius, is {_largest(result, FULL, springs):.2g}; that of (14.11) on the same track is "
+        f"{_largest(result, FILTER, springs):.1g}. The phase is right: the part of the response out of phase is at "
         f"most {_out_of_phase(result, cells):.1g} of the envelope.",
     )
 
@@ -98,11 +99,11 @@ def _bound(method: str, cells: float, q: FloatArray) -> tuple[FloatArray, str]:
     """How large the error over the envelope may be, and why."""
     if method == BEM:
         off = EDGE * np.maximum(1.0, q) / cells
-        return off, f"the edge of the contact may lie {EDGE:g} dx off: so much of the radius, {EDGE:g} q dx of phase"
+        return off, f"an edge {EDGE:g} dx out of place: that error of the radius, and {EDGE:g} q dx of phase"
     if method == FILTER:
-        return np.full(q.shape, 1e-7), "rounding of forces, over heights that are 1e-5 of the approach"
+        return np.full(q.shape, 1e-7), "rounding of forces, divided by heights of 1e-5 of the approach"
     half = q / cells / 2
-    return 1.01 * (half / np.sin(half) - 1) + 1e-6, "a sum over springs for the integral: z / sin(z) - 1, z = q dx / 2"
+    return 1.01 * (half / np.sin(half) - 1) + 1e-6, "a sum over springs, not an integral: z / sin(z) - 1, z = q dx / 2"
 
 
 def _error(result: RidgesResult, method: str, cells: float) -> Number:
@@ -182,8 +183,8 @@ CASE = Case(
     name="ridges",
     chapter=Chapter.ROLLING,
     place=1,
-    claim="Over ridges across the track one dimension is exact in three, (14.11).",
-    answers="Ridges across the track: rolling force where one dimension is exact in three, (14.11)",
+    claim="Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11).",
+    answers="Ridges across the track: rolling force where the 1D model is exact in 3D, (14.11)",
     quick=Ridges(),
     full=Ridges(cells=(8, 16, 32), springs=(8.5, 16.5, 32.5, 64.5)),
     run=run,

@@ -17,7 +17,7 @@ SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
 BANDS_PER_PERIOD = 12
 """Of the oscillation."""
 ABSENT = "none stands out"
-BOOK, OURS, FOLLOWS = "printed in the book, Table 14.1", "ours", "follows"
+BOOK, OURS, FOLLOWS = "printed in the book, Table 14.1", "chosen here", "computed from the above"
 
 
 def tables_of(result: WheelResult, spectra: dict[str, Spectrum]) -> tuple[Table, ...]:
@@ -142,7 +142,11 @@ def shown_regions(numbers: dict[str, Number]) -> Table:
     """The chapter's regions, one row a feature."""
     rows: list[dict[str, object]] = []
     for key, feature in FEATURES.items():
-        row: dict[str, object] = {"region": feature.region, "the chapter": feature.chapter, "feature": feature.name}
+        row: dict[str, object] = {
+            "region": feature.region,
+            "Chapter 14 of the book": feature.chapter,
+            "feature": feature.name,
+        }
         if number := numbers.get(key):
             row["found"] = plus_minus(number.value, number.uncertainty)
             row["theory"] = f"{number.reference:.5g} = {feature.source}"

@@ -27,7 +27,7 @@ def draw(evidence: Evidence) -> Figure:
     interface.minorticks_off()
     _draw(deviation, curves, "relative deviation")
     deviation.set(yscale="log", ylabel="relative standard deviation of k")
-    titles = ("contact fraction", "mean gap", "interface: level if k ~ F", "fluctuation of the punch")
+    titles = ("contact fraction", "mean gap", "interface: constant if k ~ F", "fluctuation of the punch")
     for axis, title in zip(axes, titles, strict=True):
         axis.set_title(title)
     for axis in (interface, deviation):

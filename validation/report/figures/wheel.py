@@ -51,7 +51,7 @@ def draw(evidence: Evidence) -> Figure:
     omega, mean = table["omega [rad/s]"], table["A [(m/s2)2 s]"]
     floor, linear, hann = table["floor"], table["linear"], table["Hann"]
     whole.plot(omega, _seen(linear), label="linear theory", **GREY)
-    spread: Style = {"color": "#D55E00", "alpha": 0.2, "linewidth": 0, "label": "tenth to tenth"}
+    spread: Style = {"color": "#D55E00", "alpha": 0.2, "linewidth": 0, "label": "10th to 90th percentile"}
     whole.fill_between(omega, table["lowest tenth"], table["highest tenth"], **spread)
     whole.plot(omega, mean, label="no window, (14.17)", **INK)
     whole.plot(omega, hann, color="#000000", linestyle="--", linewidth=1.0, label="Hann")

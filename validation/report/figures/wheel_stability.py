@@ -32,12 +32,12 @@ def draw(evidence: Evidence) -> Figure:
         _growth(growth, name, rows)
     period.set(xlabel="$\\omega\\,dt$", ylabel="relative error", title="period, linear", xscale="log", yscale="log")
     period.legend(loc="lower right")
-    energy.set(xlabel="$\\omega\\,dt$", ylabel="relative change in a turn", title="energy, linear")
+    energy.set(xlabel="$\\omega\\,dt$", ylabel="relative change in one period", title="energy, linear")
     energy.set(xscale="log", yscale="log", ylim=(FLOOR, 30))
     energy.legend(loc="lower right", title="filled: drift, open: swing", title_fontsize=8)
     for limit in sorted(set(LIMITS.values())):
         growth.axvline(limit, **GUIDE)
-    growth.set(xlabel="$\\omega\\,dt$", ylabel="growth of a step", title="about the limits", yscale="log")
+    growth.set(xlabel="$\\omega\\,dt$", ylabel="growth in one step", title="near the limits", yscale="log")
     growth.set(xlim=(0.4, 3.3), ylim=(0.2, 10))
     growth.legend(loc="upper left")
     _hertz(hertz, evidence.table("Hertz vibration"))
@@ -141,7 +141,7 @@ def _spacing(level: Axes, error: Axes, found: Table) -> None:
         _marked(axis, (0.2, 0.5, 1.0, 2.0, 5.0))
         axis.legend(title="$h_{rms}/d_N$", title_fontsize=8, loc="upper left" if axis is level else "lower right")
     level.set(ylabel="error [dB]", title="last one-third octave")
-    error.set(ylabel="error over fluctuation", title="force, springs apart", yscale="log")
+    error.set(ylabel="error over fluctuation", title="force against spacing", yscale="log")
 
 
 def _lift(airborne: Axes, highest: Axes, found: Table) -> None:
@@ -153,9 +153,9 @@ def _lift(airborne: Axes, highest: Axes, found: Table) -> None:
     for sweep, dash in (("height", "-"), ("load", "--")):
         rows = found.where(sweep=sweep)
         x, pull, style = rows["height [d_N]"], 1 + rows["deepest linear pull [F_N]"], {**EXACT, "linestyle": dash}
-        airborne.plot(x, rows["time airborne, linear"], label=f"linear force pulls, {sweep}", **style)
-        highest.plot(x, pull, label=f"1 + deepest linear pull, {sweep}", **style)
-    airborne.set(xlabel="$h_{rms}/d_N$", ylabel="part of the time", title="airborne", xscale="log")
+        airborne.plot(x, rows["time airborne, linear"], label=f"linear force below zero, {sweep}", **style)
+        highest.plot(x, pull, label=f"1 + largest linear tension, {sweep}", **style)
+    airborne.set(xlabel="$h_{rms}/d_N$", ylabel="share of the time", title="in the air", xscale="log")
     airborne.set_yscale("symlog", linthresh=1e-4)
     airborne.set_ylim(-2e-5, 1)
     highest.set(xlabel="$h_{rms}/d_N$", ylabel="highest force / load", title="impacts", xscale="log", yscale="log")

@@ -39,7 +39,7 @@ class SmoothBodyClosedForm(Model):
     def estimate(self, scene: IndentationScene) -> ErrorEstimate:
         """By the height."""
         if scene.ground is None:
-            return ErrorEstimate(error=0.0, reason="the body is smooth, the formula exact")
+            return ErrorEstimate(error=0.0, reason="exact for a smooth body")
         if reason := beyond_spectrum(scene.ground) or outside(conditions_of(scene), BALL):
             return ErrorEstimate.out_of_range(reason)
         ratio = scene.roughness_ratio
