@@ -327,3 +327,9 @@ def test_power_is_looked_for_over_three_decades_beyond_nyquist(draw, power):
     assert beyond.size == 4096
     assert beyond[[0, -1]] == pytest.approx([32 * (1 + 1e-6), 32e3], rel=1e-9)
     assert np.diff(np.log(beyond)) == pytest.approx(np.log(1e3 / (1 + 1e-6)) / 4095, rel=1e-6)
+
+
+def test_one_profile_is_a_count_too():
+    rng = np.random.default_rng(3)
+    rough = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=16 * np.pi, rms=0.1)
+    assert mdr.rough_profiles(rough.c1d, length=1.0, points=64, count=1, rng=rng).shape == (1, 64)
