@@ -494,7 +494,7 @@ def test_a_floor_without_its_leak_is_not_predicted(long_wheel):
 def test_a_lost_force_is_a_missed_criterion(long_wheel):
     after = wheel_evidence.evidence(changed(long_wheel, lambda o: {"balance": o["balance"] + 1e-9}))
     (missed,) = (number for number in after.numbers if not number.met)
-    assert "change of velocity" in missed.quantity
+    assert "velocity change" in missed.quantity
 
 
 def test_what_does_not_stand_out_is_said_so():

@@ -19,11 +19,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from validation.cases.punch import fractal_punch
 from validation.engine import engine as ensemble
 from validation.engine import progress, stored
 from validation.engine.engine import Engine, random_generator
-from validation.simulation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[2]
 # workers of their own find this file as the tests do
@@ -286,14 +284,10 @@ def test_a_failed_write_leaves_nothing_behind(problems, tmp_path, monkeypatch):
     assert list((tmp_path / "store").iterdir()) == []
 
 
-SMALL = fractal_punch.FractalPunch(
-    hursts=(0.7,), cells=16, surfaces=4, profiles=6, points=64, refined=3, decades=(-1, 0), per_decade=1
-)
-SURFACES = [SMALL.surface(0.7, i, 32) for i in range(4)] + [SMALL.surface(0.7, i, 16) for i in range(4)]
-
-
 @pytest.mark.slow
 def test_any_number_of_workers_and_any_order_give_the_same_bits(tmp_path):
+    from tests.engine.small_punches import SURFACES, press_surface
+
     alone = Engine().map(press_surface, SURFACES)
     for workers in (2, 3):
         store = tmp_path / str(workers)
@@ -423,6 +417,8 @@ def cluster(monkeypatch):
 @pytest.mark.slow
 def test_workers_of_a_scheduler_give_the_same_bits_and_one_may_die(cluster, tmp_path):
     """One of three workers is killed in the middle: all results come, each as a single process would have it."""
+    from tests.engine.small_punches import SURFACES, press_surface
+
     address, worker, _ = cluster
     workers = [worker(), worker(), worker(threads=2)]
     log = str(tmp_path / "log")
@@ -548,12 +544,16 @@ def test_realisations_have_addresses():
 
 
 def test_fewer_surfaces_are_the_first_of_more():
+    from tests.engine.small_punches import SMALL, fractal_punch
+
     few = fractal_punch.run(SMALL)
     more = fractal_punch.run(fractal_punch.FractalPunch(**{**vars(SMALL), "surfaces": 5}))
     np.testing.assert_array_equal(few.ensembles[0].bem["stiffness"], more.ensembles[0].bem["stiffness"][:4])
 
 
 def test_a_solve_that_fails_is_counted_and_shown():
+    from tests.engine.small_punches import SMALL, fractal_punch, press_surface
+
     impossible = fractal_punch.FractalPunch(**{**vars(SMALL), "tolerance": 1e-30})
     outcome = press_surface(impossible.surface(0.7, 0, 16))
     assert np.isnan(outcome["stiffness"]).all()

@@ -71,7 +71,7 @@ def test_flight_is_predicted(height, longest, said):
 def test_note_of_short_waves_that_excite_the_free_vibration(longest, grows):
     wheels = scene(0.25, longest=longest, springs=20)
     assert wheels.no_steady_answer() == ""
-    told = [doubt for doubt in wheels.diagnose() if "feeds the free vibration" in doubt]
+    told = [doubt for doubt in wheels.diagnose() if "excites the free vibration" in doubt]
     assert bool(told) == grows
     assert RollingScene.of_wheel(wheels).diagnose() == tuple(told)
     growth, _ = rolled(wheels)
