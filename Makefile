@@ -27,6 +27,9 @@ reference: $(PEERS)  ## the committed one, with the race: reports/reference/inde
 race: $(PEERS)  ## beside the peers, which it installs: reports/race-quick/index.html
 	$(RUN) validation race $(ARGS)
 
+# as many workers as cores: more threads in each would only wait for one another
+fast test oldest coverage verdicts: export OMP_NUM_THREADS := 1
+
 check: lint types fast  ## for the loop while one works, a minute: lint, types and the tests not marked slow
 
 fast: $(READY)
