@@ -200,3 +200,9 @@ def test_checks_name_files_that_are_there(path):
 
 def test_oracles_share_no_code_with_what_they_check():
     assert not rooms(ROOT / "tests" / "oracles.py") & set(PACKAGES)
+
+
+def test_two_cases_of_one_name_are_refused(monkeypatch):
+    monkeypatch.setattr("validation.cases.exact.geike.CASE", contents.CASES["hertz"])
+    with pytest.raises(ValueError, match="a name of its own, got twice: hertz"):
+        contents._found()

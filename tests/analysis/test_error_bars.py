@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from tests.cases.test_limits import STEEP
 from validation.analysis.evidence import table_of
 from validation.analysis.statistics import (
     DECIBEL,
@@ -33,7 +34,7 @@ from validation.benchmarks.work_precision.errors import MethodValues, error
 from validation.benchmarks.work_precision.exact_problem import logarithm
 from validation.benchmarks.work_precision.problem import Quantity
 from validation.cases.limits.numbers import exponent_number, threshold_number
-from validation.cases.limits.sweep import Limit, Sweep, swept
+from validation.cases.limits.sweep import Sweep, swept
 from validation.cases.punch import fractal_punch, fractal_punch_decades
 from validation.cases.punch.area_gap_rolloff_numbers import RollOffSamples
 from validation.cases.punch.ensembles import interval_columns
@@ -741,23 +742,11 @@ def test_the_interval_of_a_share_is_that_of_clopper_and_pearson(share, size):
 
 def test_where_a_limit_is_crossed_is_known_to_its_steps():
     """y = x^2 crosses 4 at 2; the interval of the place is in octaves, and grows with the steps of the sweep."""
-    limit = Limit(
-        name="steep",
-        method="none",
-        title="x to the second",
-        parameter="x",
-        error="y",
-        reference="nothing",
-        condition="x = 2",
-        failing_side="above",
-        tolerance=4.0,
-        factor=1.5,
-    )
 
     def threshold(steps):
         x = np.geomspace(0.25, 8.0, steps)
-        outcome = swept(limit, x, [(y, "") for y in x**2], 2.0)
-        return threshold_number(Sweep.of(limit, outcome))
+        outcome = swept(STEEP, x, [(y, "") for y in x**2], 2.0)
+        return threshold_number(Sweep.of(STEEP, outcome))
 
     fine, coarse = threshold(41), threshold(9)
     for number in (fine, coarse):

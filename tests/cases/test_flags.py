@@ -460,7 +460,7 @@ def lost_if_odd(problem):
     return {"failed": np.array(float(problem % 2))} if problem else {}
 
 
-# --- rungs: what has failed is no answer ---
+# --- models: a failure is no answer ---
 
 
 class Rung:
@@ -478,7 +478,7 @@ class Rung:
         return Answer(value=np.ones(1), **parts, cost=self.cost(), reason="as found", failed=self._failed)
 
 
-def test_a_rung_that_fails_is_no_answer_however_small_its_error():
+def test_a_model_that_fails_is_no_answer_however_small_its_error():
     found = select_model([Rung("fails", 0.01, 0.0, "it was cut short"), Rung("holds", 0.05, 0.04)], 0.05)
     assert [step.status for step in found.candidates] == ["failed", "accepted"]
     assert found.best.model.name == "holds" and found.met
@@ -503,7 +503,7 @@ def test_half_widths_add_and_a_failure_has_no_error_bar():
         ((0.1, 0.5), (0.2, 0.01), ["not accurate enough", "skipped"]),
     ],
 )
-def test_what_becomes_of_rungs(claims, errors, fates):
+def test_what_becomes_of_models(claims, errors, fates):
     """A tolerance of 0.1 is met by an error of just as much."""
     names = "abc"
     found = select_model([Rung(n, c, e) for n, c, e in zip(names, claims, errors, strict=False)], 0.1)

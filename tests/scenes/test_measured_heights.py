@@ -214,7 +214,9 @@ def test_a_tilt_and_steepness_are_notes_and_texture_and_skewness_are_reasons():
     scene = {"name": "it", "shape": "punch", "size": N * DX, "load": 0.1, "modulus": 1e9}
     for ground in (tilted, steep):
         assert ground.beyond_a_spectrum() == ()
-        claims = [rung.estimate() for rung in models_of(IndentationScene(**scene, ground=ground), "stiffness", 0.1, 0)]
+        claims = [
+            model.estimate() for model in models_of(IndentationScene(**scene, ground=ground), "stiffness", 0.1, 0)
+        ]
         assert not any("knows the spectrum alone" in claim.reason for claim in claims)
         assert IndentationScene(**scene, ground=ground).diagnose() == ground.notes()
     for ground in (heights(drawn(), spacing=(DX, 3 * DX)), heights(np.minimum(drawn(), 0.3e-7))):

@@ -336,7 +336,7 @@ def test_force_of_low_roughness_needs_a_filter_and_of_high_boundary_elements():
 
 
 @given(kind=st.sampled_from(KINDS), number=st.integers(0, 10**6), tolerance=st.floats(0.01, 1.0))
-def test_rungs_are_asked_in_the_order_of_their_cost(kind, number, tolerance):
+def test_models_are_asked_in_the_order_of_their_cost(kind, number, tolerance):
     scene = random_scene(kind, number, 0)
     for quantity in QUANTITIES_BY_KIND[kind]:
         costs = [model.cost().seconds for model in models_of(scene, quantity, tolerance, 0)]
@@ -428,7 +428,7 @@ def test_an_estimate_that_is_too_small_is_found_out(account):
     assert "in 0.0% of 5 scenes" in found.conclusions[0]
 
 
-def test_every_case_states_which_rung_it_needed():
+def test_every_case_states_which_model_it_needed():
     needs = {name: entry.model_needed(entry.quick) for name, entry in CASES.items()}
     assert all(needs.values())
     assert needs["hertz"] == needs["square_punch"] == "closed form"

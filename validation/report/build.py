@@ -82,11 +82,13 @@ def _files(
 
 
 def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | None, engine: Engine) -> Section:
-    entry = TIMED[name] if name in TIMED else CASES[name]
-    case = entry.settings(profile, seed, scene)
+    case = TIMED[name] if name in TIMED else CASES[name]
+    settings = case.settings(profile, seed, scene)
     try:
         with as_not_converged():
-            evidence = entry.evidence(entry.run(case, engine))
+            evidence = case.evidence(case.run(settings, engine))
     except NotConvergedError as error:
-        return Section(name, entry, entry.model_needed(case), asdict(case), None, (str(error), *error.unconverged))
-    return Section(name, entry, entry.model_needed(case), asdict(case), evidence)
+        return Section(
+            name, case, case.model_needed(settings), asdict(settings), None, (str(error), *error.unconverged)
+        )
+    return Section(name, case, case.model_needed(settings), asdict(settings), evidence)

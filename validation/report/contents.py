@@ -1,6 +1,5 @@
 """The cases of a report: every module of `cases` and `benchmarks` that has a `CASE`, chapter by chapter."""
 
-from collections.abc import Iterator
 from importlib import import_module
 from pkgutil import walk_packages
 
@@ -9,8 +8,8 @@ from validation.analysis.case import Case, Chapter
 from validation.benchmarks.peers import peers_installed
 
 
-def _found() -> Iterator[Case]:
-    """In the order of their chapters and of their places there."""
+def _found() -> list[Case]:
+    """In the order of their chapters and of their places there. Raises ValueError for a name that two cases have."""
     modules = [
         import_module(module.name)
         for room in (cases, benchmarks)
@@ -18,7 +17,10 @@ def _found() -> Iterator[Case]:
     ]
     chapters = list(Chapter)
     entries = [module.CASE for module in modules if hasattr(module, "CASE")]
-    return iter(sorted(entries, key=lambda case: (chapters.index(case.chapter), case.place)))
+    names = [case.name for case in entries]
+    if twice := {name for name in names if names.count(name) > 1}:
+        raise ValueError(f"a case must have a name of its own, got twice: {', '.join(sorted(twice))}")
+    return sorted(entries, key=lambda case: (chapters.index(case.chapter), case.place))
 
 
 _ALL = {case.name: case for case in _found()}

@@ -1,4 +1,4 @@
-"""Which model of the ladder each case needed: asked of the ladder itself, for the scenes of the case."""
+"""The cheapest model that each case needs, selected for the scenes of the case by the a-priori error estimates."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ TURN = 2 * math.pi
 BEM = "boundary elements"
 
 
-def rung_of(scene: Scene, quantity: str) -> str:
+def model_for(scene: Scene, quantity: str) -> str:
     """The first model whose estimated error is small enough; all grids of boundary elements are one model."""
     model = needed(models_of(scene, quantity, TOLERANCE, 0), TOLERANCE)
     return "none" if model is None else BEM if model.name.startswith(BEM) else model.name
@@ -26,7 +26,7 @@ def rung_of(scene: Scene, quantity: str) -> str:
 
 def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> str:
     """Models along a parameter, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
-    found = [(value, rung_of(scene, quantity)) for value, scene in scenes]
+    found = [(value, model_for(scene, quantity)) for value, scene in scenes]
     pieces = []
     for model, group in groupby(found, key=lambda pair: pair[1]):
         values = [value for value, _ in group]
@@ -49,13 +49,13 @@ class SphereSettings(Protocol):
 def sphere(case: SphereSettings) -> str:
     """A smooth one."""
     scene = IndentationScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
-    return rung_of(scene, "stiffness")
+    return model_for(scene, "stiffness")
 
 
 def square_punch(case: Any) -> str:
     """A smooth one."""
     scene = IndentationScene(name="punch", shape="punch", size=case.side, load=1.0, modulus=case.modulus)
-    return rung_of(scene, "stiffness")
+    return model_for(scene, "stiffness")
 
 
 def punches(case: Any) -> str:
@@ -96,7 +96,7 @@ def wheel(case: Any) -> str:
     scene = case.scene
     if scene.rail is None or scene.wheel is not None:
         return "boundary elements"
-    return rung_of(RollingScene.of_wheel(scene), "acceleration")
+    return model_for(RollingScene.of_wheel(scene), "acceleration")
 
 
 def always(model: str) -> Callable[[Any], str]:
