@@ -464,7 +464,7 @@ def test_a_fifth_more_acceleration_is_another_level(long_wheel):
     # the range of the level ends below the break, which moves with the floor: not at all where it is the cutoff
     assert other.value - one.value == pytest.approx(DECIBEL * math.log(1.44), abs=0.05)
     assert other.verdict is Verdict.DIFFER
-    assert any(s.startswith("Not confirmed by this run: Its level") for s in after.conclusions)
+    assert any(s.startswith("Contradicted by this run: Its level") for s in after.conclusions)
     for name in (PEAK, JUMP, SLOPE, PERIOD):
         assert feature(after, name).value == pytest.approx(feature(before, name).value, rel=1e-9)
     assert all(number.met for number in after.numbers)

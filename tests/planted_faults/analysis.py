@@ -7,13 +7,14 @@ import math
 import numpy as np
 from scipy import stats
 
-from tests.analysis import test_error_bars, test_evidence, test_rules_by_loops
+from tests.analysis import test_error_bars, test_evidence, test_judged_claims, test_rules_by_loops
 from tests.analysis import test_spectra as test_wheel_spectra
 from validation.analysis import difference as difference_module
 from validation.analysis import spectra, statistics
 from validation.analysis import spectral_features as regions
 from validation.analysis.difference import difference
-from validation.analysis.evidence import Number
+from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
+from validation.analysis.over_range import signed_mean, worst
 from validation.cases.punch import fractal_punch_decades
 from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
 
@@ -51,6 +52,26 @@ def half_a_line_on(omega, hann, below):
 def slope_of_what_is_steep(omega, density, first, last, period):
     centres, means = regions.compensated_band_means(omega, density, first, last, period, 0.0)
     return float(np.polyfit(np.log(centres), np.log(means), 1)[0])
+
+
+def holds_unless_it_differs(claim):
+    """A claim whose numbers are undecided taken for one that holds."""
+    return ClaimStatus.CONTRADICTED if claim.count(Verdict.DIFFER) else ClaimStatus.HOLDS
+
+
+def most_agree(claim):
+    """A claim by the majority of its numbers."""
+    return ClaimStatus.HOLDS if 2 * claim.count(claim.confirmed_by) > len(claim.numbers) else ClaimStatus.OPEN
+
+
+def mean_of_the_range(points, parameter):
+    """The signed mean over a range, in which signs cancel."""
+    return dataclasses.replace(worst(points, parameter), value=signed_mean(points))
+
+
+def each_alone(estimate, points):
+    """The interval of one point, for a range of several."""
+    return statistics.student(estimate.samples - 1) * estimate.error
 
 
 def of_one_tail(estimate):
@@ -182,5 +203,21 @@ FAULTS = {
     "a line at the upper edge of a band counted in it": (
         (spectra.Bands, "sums", both_edges),
         test_rules_by_loops.test_a_band_holds_its_lower_edge_and_not_its_upper,
+    ),
+    "an undecided number taken for one that confirms": (
+        (JudgedClaim, "status", property(holds_unless_it_differs)),
+        test_judged_claims.test_one_counterexample_contradicts_and_nothing_undecided_holds,
+    ),
+    "a claim by the majority": (
+        (JudgedClaim, "status", property(most_agree)),
+        test_judged_claims.test_one_counterexample_contradicts_and_nothing_undecided_holds,
+    ),
+    "the mean of a range for its worst point": (
+        (test_judged_claims, "worst", mean_of_the_range),
+        test_judged_claims.test_a_mean_of_both_signs_agrees_where_the_range_does_not,
+    ),
+    "the interval of one point for all of a range": (
+        (statistics.Estimate, "half_width_among", each_alone),
+        test_judged_claims.test_intervals_of_a_range_hold_at_once,
     ),
 }

@@ -271,7 +271,10 @@ def test_a_number_beside_its_reference():
 def test_a_claim_holds_with_all_of_its_numbers():
     good, bad = number(1.0), number(5.0)
     assert if_confirmed("So it is.", [good, good]) == "So it is."
-    for numbers in ([bad], [good, bad], [bad, good], [number(1.0, sample=1.0)]):
+    wide = number(1.0, sample=1.0)
+    for numbers in ([bad], [good, bad], [bad, good], [bad, wide]):
+        assert if_confirmed("So it is.", numbers) == "Contradicted by this run: So it is."
+    for numbers in ([wide], [good, wide]):
         assert if_confirmed("So it is.", numbers) == "Not confirmed by this run: So it is."
 
 
@@ -470,7 +473,7 @@ def test_fig_14_4_prints_the_numbers_it_is_given():
         assert sentence.startswith(start) and with_reference(mine[name] if name else level) in sentence
     off = {**mine, "slope": feature(7.77, name="slope")}
     text = wheel_evidence.conclusions({"the scene": off}, "the scene", level)[2]
-    assert text == f"Not confirmed by this run: Its slope is that of linear theory: {with_reference(off['slope'])}."
+    assert text == f"Contradicted by this run: Its slope is that of linear theory: {with_reference(off['slope'])}."
     assert "7.770 ± 0.050" in text
     without = wheel_evidence.conclusions({"the scene": {"peak": mine["peak"]}}, "the scene", None)
     assert [s.split(":")[0] for s in without[1:]] == ["None stands out in this run"] * 3

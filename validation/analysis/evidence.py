@@ -18,10 +18,14 @@ class Verdict(StrEnum):
 
 
 class Role(StrEnum):
-    """A criterion must agree, or the run has failed; a finding is an answer whichever way it comes out."""
+    """A criterion must agree, or the run has failed; a finding is an answer whichever way it comes out.
+
+    An identity agrees for every input by construction: it checks the code, must agree, and is evidence of no claim.
+    """
 
     CRITERION = "criterion"
     FINDING = "finding"
+    IDENTITY = "identity"
 
 
 Place = str | float | tuple[float, float]
@@ -114,7 +118,7 @@ class Number:
 
     @property
     def met(self) -> bool:
-        """False for a criterion that does not agree."""
+        """False for a criterion or an identity that does not agree."""
         return self.role is Role.FINDING or self.verdict is Verdict.AGREE
 
 
@@ -181,11 +185,69 @@ def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
     return Table(name, {column: [row[column] for row in rows] for column in rows[0]})
 
 
+class ClaimStatus(StrEnum):
+    """What the numbers say of a claim."""
+
+    HOLDS = "holds"
+    LIMITED = "holds within limits"
+    CONTRADICTED = "contradicted"
+    OPEN = "open"
+
+
+@dataclass(frozen=True, kw_only=True)
+class JudgedClaim:
+    """A claim, the numbers that test it, and the answer: one sentence with numbers.
+
+    confirmed_by: agree; or differ, where the claim says that two things are not the same. limits: the conditions under
+    which alone it is said to hold, as text; inside: the numbers under these conditions.
+    Raises ValueError without numbers, for an identity among them, and for limits without numbers inside.
+    """
+
+    claim: str
+    answer: str
+    numbers: tuple[Number, ...]
+    confirmed_by: Verdict = Verdict.AGREE
+    limits: str = ""
+    inside: tuple[Number, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.numbers:
+            raise ValueError(f"numbers must test the claim {self.claim!r}, got none")
+        if identities := [number.label for number in self.numbers if number.role is Role.IDENTITY]:
+            raise ValueError(f"numbers of the claim {self.claim!r} must not be identities, got {identities}")
+        if self.confirmed_by is Verdict.UNDECIDED:
+            raise ValueError(f"confirmed_by of the claim {self.claim!r} must be agree or differ, got undecided")
+        known = {number.label for number in self.numbers}
+        if bool(self.limits) != bool(self.inside) or any(number.label not in known for number in self.inside):
+            raise ValueError(f"limits of the claim {self.claim!r} must come with numbers of its own inside them")
+
+    @property
+    def status(self) -> ClaimStatus:
+        """By the verdicts of all numbers, or of those inside the limits; one counterexample contradicts."""
+        if self._confirmed(self.numbers):
+            return ClaimStatus.HOLDS
+        if self.inside and self._confirmed(self.inside):
+            return ClaimStatus.LIMITED
+        return ClaimStatus.CONTRADICTED if self.count(self._contradicted_by) else ClaimStatus.OPEN
+
+    def count(self, verdict: Verdict) -> int:
+        """Of the numbers that test it."""
+        return sum(number.verdict is verdict for number in self.numbers)
+
+    @property
+    def _contradicted_by(self) -> Verdict:
+        return Verdict.DIFFER if self.confirmed_by is Verdict.AGREE else Verdict.AGREE
+
+    def _confirmed(self, numbers: Sequence[Number]) -> bool:
+        return all(number.verdict is self.confirmed_by for number in numbers)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Evidence:
     """What a case shows: its numbers, the tables behind its figures, and what follows from them.
 
-    method: how they were found; captions: of each figure, by its name; page_tables: printed on the page as they stand.
+    claims: with the numbers that test them, the claim of the case first; method: how the numbers were found; captions:
+    of each figure, by its name; page_tables: printed on the page as they stand.
     """
 
     title: str
@@ -196,11 +258,15 @@ class Evidence:
     captions: Mapping[str, str]
     unconverged: tuple[str, ...] = field(default=())
     page_tables: tuple[Table, ...] = ()
+    claims: tuple[JudgedClaim, ...] = ()
 
     def __post_init__(self) -> None:
         labels = [number.label for number in self.numbers]
         if twice := {label for label in labels if labels.count(label) > 1}:
             raise ValueError(f"numbers of {self.title!r} must have a key of their own, got twice: {sorted(twice)}")
+        tests = {number.label for claim in self.claims for number in claim.numbers}
+        if strangers := tests - set(labels):
+            raise ValueError(f"claims of {self.title!r} must be tested by its numbers, got also {sorted(strangers)}")
 
     def table(self, name: str) -> Table:
         return next(table for table in self.tables if table.name == name)
@@ -231,10 +297,11 @@ def with_reference(number: Number) -> str:
 
 
 def if_confirmed(sentence: str, numbers: Sequence[Number]) -> str:
-    """A conclusion that holds as long as all its numbers agree."""
-    if all(number.verdict is Verdict.AGREE for number in numbers):
-        return sentence
-    return f"Not confirmed by this run: {sentence}"
+    """A conclusion that holds as long as all its numbers agree; one that differs contradicts it."""
+    verdicts = {number.verdict for number in numbers}
+    if Verdict.DIFFER in verdicts:
+        return f"Contradicted by this run: {sentence}"
+    return f"Not confirmed by this run: {sentence}" if Verdict.UNDECIDED in verdicts else sentence
 
 
 def columns(**arrays: ArrayLike) -> dict[str, Sequence[object]]:

@@ -46,7 +46,11 @@ class Estimate:
     @property
     def half_width(self) -> float:
         """Half of the 95 % interval: Student's quantile times the standard error."""
-        return student(self.samples - 1) * self.error
+        return self.half_width_among(1)
+
+    def half_width_among(self, points: int) -> float:
+        """Of an interval that holds at 95 % together with those of the other points of a range, by Bonferroni."""
+        return student(self.samples - 1, 1 - 0.05 / points) * self.error
 
     def minus(self, other: "Estimate") -> "Estimate":
         """The difference to an independent estimate; degrees of freedom by Welch and Satterthwaite."""

@@ -61,7 +61,7 @@ def case_results(section: Section) -> dict[str, object]:
                 **asdict(number),
                 "difference": number.difference,
                 "verdict": number.verdict,
-                "met": number.met if number.role is Role.CRITERION else None,
+                "met": None if number.role is Role.FINDING else number.met,
             }
             for number in section.numbers
         ],
