@@ -19,19 +19,19 @@ INTERFACE = 0.48
 
 def hertz_force(*, radius: float, modulus: float, approach: float) -> float:
     """F = 4/3 E* sqrt(R) d^(3/2) [N]. Source: Hertz; Johnson, Contact Mechanics, chapter 4."""
-    _positive(radius=radius, modulus=modulus, approach=approach)
+    positive(radius=radius, modulus=modulus, approach=approach)
     return 4 / 3 * modulus * math.sqrt(radius) * math.pow(approach, 1.5)
 
 
 def hertz_approach(*, radius: float, modulus: float, force: float) -> float:
     """d = (9 F^2 / (16 R E*^2))^(1/3) [m]. Source: Hertz; Johnson, chapter 4."""
-    _positive(radius=radius, modulus=modulus, force=force)
+    positive(radius=radius, modulus=modulus, force=force)
     return math.cbrt(9 / 16 / radius) * math.cbrt(force / modulus) ** 2
 
 
 def hertz_contact_radius(*, radius: float, approach: float) -> float:
     """a = sqrt(R d) [m]. Source: Hertz; Johnson, chapter 4."""
-    _positive(radius=radius, approach=approach)
+    positive(radius=radius, approach=approach)
     return math.sqrt(radius * approach)
 
 
@@ -40,7 +40,7 @@ def hertz_pressure(r: ArrayLike, *, radius: float, modulus: float, approach: flo
 
     r: distance from the centre, any shape [m]. Source: Hertz; Johnson, chapter 4.
     """
-    _positive(radius=radius, modulus=modulus, approach=approach)
+    positive(radius=radius, modulus=modulus, approach=approach)
     inside = np.maximum(radius * approach - np.asarray(r, dtype=np.float64) ** 2, 0.0)
     pressure: FloatArray = 2 * modulus / (np.pi * radius) * np.sqrt(inside)
     return pressure
@@ -51,7 +51,7 @@ def circular_punch_stiffness(*, radius: float, modulus: float) -> float:
 
     Source: Boussinesq; Johnson, chapter 3.
     """
-    _positive(radius=radius, modulus=modulus)
+    positive(radius=radius, modulus=modulus)
     return 2 * modulus * radius
 
 
@@ -60,7 +60,7 @@ def square_punch_stiffness(*, side: float, modulus: float) -> float:
 
     The square has no closed form: the factor is pi times the numerical capacitance of the unit square.
     """
-    _positive(side=side, modulus=modulus)
+    positive(side=side, modulus=modulus)
     return SQUARE_PUNCH * modulus * side
 
 
@@ -72,7 +72,7 @@ def rough_punch_stiffness(*, side: float, modulus: float, force: float, height: 
     0.3 to 3, about; below, the face is stiffer; beyond, the flat punch counts. No exact law: 0.48 was measured.
     Source: Persson, Phys. Rev. Lett. 99, 125502 (2007); Akarapu, Sharp, Robbins, Phys. Rev. Lett. 106, 204301 (2011).
     """
-    _positive(side=side, modulus=modulus, force=force, height=height)
+    positive(side=side, modulus=modulus, force=force, height=height)
     return 1 / (1 / square_punch_stiffness(side=side, modulus=modulus) + INTERFACE * height / force)
 
 
@@ -81,17 +81,14 @@ def westergaard_full_pressure(*, amplitude: float, wavelength: float, modulus: f
 
     Source: Westergaard, J. Appl. Mech. 6 (1939); Johnson, chapter 13.
     """
-    _positive(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
+    positive(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
     return math.pi * modulus * amplitude / wavelength
 
 
 def westergaard_half_width(*, mean_pressure: float, amplitude: float, wavelength: float, modulus: float) -> float:
     """a from mean(p) / p* = sin^2(pi a / lambda), for 0 < mean(p) <= p* [m]. Source: Johnson, chapter 13."""
-    full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
-    _positive(mean_pressure=mean_pressure)
-    if mean_pressure > full:
-        raise ValueError(f"mean_pressure must not exceed the pressure of full contact, {full:.6g}, got {mean_pressure}")
-    return wavelength / math.pi * math.asin(math.sqrt(mean_pressure / full))
+    s = _part_of_full_contact(mean_pressure, amplitude=amplitude, wavelength=wavelength, modulus=modulus)
+    return wavelength / math.pi * math.asin(math.sqrt(s))
 
 
 def westergaard_approach(*, mean_pressure: float, amplitude: float, wavelength: float, modulus: float) -> float:
@@ -101,11 +98,7 @@ def westergaard_approach(*, mean_pressure: float, amplitude: float, wavelength: 
     dd / dp = -(2 lambda / (pi E*)) ln sin(pi a / lambda), the logarithm of the capacity of an arc of the circle, with
     sin^2(pi a / lambda) = s.
     """
-    full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
-    _positive(mean_pressure=mean_pressure)
-    if mean_pressure > full:
-        raise ValueError(f"mean_pressure must not exceed the pressure of full contact, {full:.6g}, got {mean_pressure}")
-    s = mean_pressure / full
+    s = _part_of_full_contact(mean_pressure, amplitude=amplitude, wavelength=wavelength, modulus=modulus)
     return amplitude * s * (1 - math.log(s))
 
 
@@ -124,12 +117,21 @@ def westergaard_pressure(
     return pressure
 
 
+def _part_of_full_contact(mean_pressure: float, **wave: float) -> float:
+    """s = mean(p) / p*, at most one."""
+    full = westergaard_full_pressure(**wave)
+    positive(mean_pressure=mean_pressure)
+    if mean_pressure > full:
+        raise ValueError(f"mean_pressure must not exceed the pressure of full contact, {full:.6g}, got {mean_pressure}")
+    return mean_pressure / full
+
+
 def line_trace_ratio(hurst: float) -> float:
     """C_line / C_Geike = Gamma(H + 1/2) / (sqrt(pi) Gamma(H + 1)) of an unbounded power law, H > 0 [-].
 
     From C_line(q) = 2 int_q^inf C_2D(s) s / sqrt(s^2 - q^2) ds with C_2D ~ s^(-2H-2), over pi q C_2D(q).
     """
-    _positive(hurst=hurst)
+    positive(hurst=hurst)
     return math.gamma(hurst + 0.5) / (math.sqrt(math.pi) * math.gamma(hurst + 1))
 
 
@@ -139,13 +141,14 @@ def persson_contact_fraction(pressure: float, *, gradient: float) -> float:
     pressure: mean pressure p over E*, zero or positive; gradient: rms slope h', positive.
     Source: Persson, J. Chem. Phys. 115, 3840 (2001), full form.
     """
-    _positive(gradient=gradient)
+    positive(gradient=gradient)
     if not (math.isfinite(pressure) and pressure >= 0):
         raise ValueError(f"pressure must be finite and not negative, got {pressure}")
     return math.erf(math.sqrt(2) * pressure / gradient)
 
 
-def _positive(**values: float) -> None:
+def positive(**values: float) -> None:
+    """Raise ValueError that names the first value that is not finite and positive."""
     for name, value in values.items():
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} must be finite and positive, got {value}")

@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
+from validation.theory.closed_forms import positive
+
 FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
 
@@ -28,8 +30,9 @@ def response(wavenumber: ArrayLike, *, contact_radius: float, modulus: float) ->
     sqrt(a^2 - r^2) = 2 pi sin(k a) / k, whatever the direction of the wave. On springs: E* int_{-a}^{a} exp(i q x) dx.
     Source: Popov and Hess, (14.11); for the half-space, the flat punch: Johnson, Contact Mechanics, chapter 3.
     """
-    a, k = _positive("contact_radius", contact_radius), np.asarray(wavenumber, dtype=np.float64)
-    return np.asarray(2 * _positive("modulus", modulus) * a * np.sinc(k * a / np.pi))
+    positive(contact_radius=contact_radius, modulus=modulus)
+    ka = np.asarray(wavenumber, dtype=np.float64) * contact_radius
+    return np.asarray(2 * modulus * contact_radius * np.sinc(ka / np.pi))
 
 
 def force_spectrum_1d(q: ArrayLike, c1d: Spectrum, *, contact_radius: float, modulus: float) -> FloatArray:
@@ -40,8 +43,9 @@ def force_spectrum_1d(q: ArrayLike, c1d: Spectrum, *, contact_radius: float, mod
 
 def mean_force_spectrum_1d(q: ArrayLike, c1d: Spectrum, *, modulus: float) -> FloatArray:
     """2 E*^2 C_1D(q) / q^2: the mean of (14.12) where q a >> 1. Source: Popov and Hess, (14.14)."""
+    positive(modulus=modulus)
     q = np.asarray(q, dtype=np.float64)
-    return np.asarray(2 * _positive("modulus", modulus) ** 2 * c1d(q) / q**2)
+    return np.asarray(2 * modulus**2 * c1d(q) / q**2)
 
 
 def force_spectrum_3d(
@@ -113,9 +117,10 @@ def contact_lost(c2d: Spectrum, *, edges: Sequence[float], contact_radius: float
     int_0^1 Phi(-p_0 u / (E* h' / 2)) 2 u du, u^2 = 1 - r^2/a^2. The modulus cancels.
     Source: Hertz; Westergaard's wave, whose full pressure is E* q h / 2; Johnson, Contact Mechanics, chapters 4, 13.
     """
+    positive(contact_radius=contact_radius, radius=radius)
     s, weight = _gauss(np.array(_panels(edges[0], edges, math.inf)))
     slope = math.sqrt(2 * math.pi * float(np.sum(weight * s**3 * c2d(s))))
-    peak = 2 * _positive("contact_radius", contact_radius) / (math.pi * _positive("radius", radius))
+    peak = 2 * contact_radius / (math.pi * radius)
     u, weight = _gauss(np.array([0.0, 1.0]))
     return float(2 * np.sum(weight * u * special.ndtr(-peak * u / (slope / 2))))
 
@@ -126,7 +131,7 @@ def level_ratio(hurst: float) -> float:
     Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)): with sin^2 = 1/2, 2 int_q^inf s^(-2H-3) / sqrt(s^2 - q^2) ds =
     q^(-2H-3) sqrt(pi) Gamma(H + 3/2) / Gamma(H + 2), over pi q^(-2H-3).
     """
-    _positive("hurst", hurst)
+    positive(hurst=hurst)
     return math.gamma(hurst + 1.5) / (math.sqrt(math.pi) * math.gamma(hurst + 2))
 
 
@@ -137,8 +142,9 @@ def oscillation(q: ArrayLike, *, hurst: float, contact_radius: float) -> FloatAr
     point s = q of the integral is left, int_0^inf cos(2 (q + t) a) t^(-1/2) dt = sqrt(pi / (2 a)) cos(2 q a + pi/4).
     The zeros of sin^2 fill in, the more the larger q a.
     """
-    qa = np.asarray(q, dtype=np.float64) * _positive("contact_radius", contact_radius)
-    depth = math.gamma(_positive("hurst", hurst) + 2) / math.gamma(hurst + 1.5)
+    positive(contact_radius=contact_radius, hurst=hurst)
+    qa = np.asarray(q, dtype=np.float64) * contact_radius
+    depth = math.gamma(hurst + 2) / math.gamma(hurst + 1.5)
     return np.asarray(1 - depth * np.cos(2 * qa + np.pi / 4) / np.sqrt(qa))
 
 
@@ -148,16 +154,11 @@ def linear_force(height: ArrayLike, *, spacing: float, radius: float, modulus: f
     Hertz, and each wave by `response`, above the middle of axis 1, over the centres of the cells along axis 0.
     height: shape (nx, ny), positive towards the wheel, periodic [m].
     """
+    positive(spacing=spacing, radius=radius, approach=approach)
     h = np.asarray(height, dtype=np.float64)
-    a = math.sqrt(_positive("radius", radius) * _positive("approach", approach))
-    (nx, ny), dx = h.shape, _positive("spacing", spacing)
+    a = math.sqrt(radius * approach)
+    (nx, ny), dx = h.shape, spacing
     qx, qy = (2 * np.pi * np.fft.fftfreq(n, dx) for n in (nx, ny))
     filtered = response(np.hypot(qx[:, np.newaxis], qy), contact_radius=a, modulus=modulus) * np.fft.fft2(h)
     along = np.fft.ifft(filtered @ np.exp(1j * qy * dx * (ny - 1) / 2) / ny).real
     return np.asarray(4 / 3 * modulus * a * approach + along)
-
-
-def _positive(name: str, value: float) -> float:
-    if not (math.isfinite(value) and value > 0):
-        raise ValueError(f"{name} must be finite and positive, got {value}")
-    return float(value)

@@ -50,6 +50,17 @@ class Wave:
     load: float
     cells: int
 
+    @property
+    def scene(self) -> dict[str, float]:
+        """Arguments of the closed forms."""
+        case = self.case
+        return {
+            "mean_pressure": self.load * case.full_pressure,
+            "amplitude": case.amplitude,
+            "wavelength": case.wavelength,
+            "modulus": case.modulus,
+        }
+
 
 @dataclass(frozen=True)
 class WestergaardResult:
@@ -80,16 +91,12 @@ def press_by_bem(wave: Wave) -> Outcome:
     x = (np.arange(wave.cells) + 0.5) * spacing - case.wavelength / 2
     half_space = bem3d.HalfSpace(shape=(wave.cells, 1), spacing=spacing, modulus=case.modulus, periodic=True)
     gap = 2 * case.amplitude * np.sin(np.pi * x / case.wavelength) ** 2
-    mean = wave.load * case.full_pressure
+    force = wave.scene["mean_pressure"] * case.wavelength * spacing
     with warnings.catch_warnings():
         # the contact is a line: one row of cells resolves it
         warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        contact = bem3d.solve(
-            half_space, gap[:, np.newaxis], force=mean * case.wavelength * spacing, tolerance=case.tolerance
-        )
-    exact = closed_forms.westergaard_pressure(
-        x, mean_pressure=mean, amplitude=case.amplitude, wavelength=case.wavelength, modulus=case.modulus
-    )
+        contact = bem3d.solve(half_space, gap[:, np.newaxis], force=force, tolerance=case.tolerance)
+    exact = closed_forms.westergaard_pressure(x, **wave.scene)
     return {
         "x": x,
         "pressure": contact.pressure[:, 0],
@@ -144,12 +151,7 @@ def _share_of_edges(outcome: Outcome) -> float:
 
 def _at_load(case: Westergaard, load: float, outcome: Outcome) -> tuple[Number, Number]:
     """Pressure and width at one load, on the finest grid."""
-    scene = {
-        "mean_pressure": load * case.full_pressure,
-        "amplitude": case.amplitude,
-        "wavelength": case.wavelength,
-        "modulus": case.modulus,
-    }
+    scene = Wave(case=case, load=load, cells=case.cells[-1]).scene
     a, dx = closed_forms.westergaard_half_width(**scene), case.wavelength / case.cells[-1]
     at_edge = closed_forms.westergaard_pressure(a - dx, **scene)
     here = partial(Number, model="bem3d", where={"mean p / p*": load}, source="Westergaard")

@@ -1,13 +1,30 @@
 """Fixed or Gaussian amplitudes, the rms height of each draw or of the ensemble: three ways to draw rough punches."""
 
+import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from validation.analysis.case import Case, Chapter
+from validation.analysis.difference import difference
+from validation.analysis.evidence import Evidence, Number, Table, table_of
+from validation.analysis.statistics import (
+    DECIBEL,
+    THREE_PER_CENT,
+    Estimate,
+    Sample,
+    at_level,
+    difference_of_halves,
+    log_relative_deviation,
+    mean_of,
+    sample,
+)
+from validation.cases.punch.decade_statistics import deviation_over
 from validation.cases.punch.ensembles import PunchEnsembles, press
-from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rough_punch import BEM, MDR, PunchRoughness
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.selection import model_needed
+from validation.simulation.rough_punch import BEM, BOOTSTRAP, MDR, METHODS, PunchRoughness, require_converged
 
 FIXED, EACH, ENSEMBLE = "fixed amplitudes", "Gaussian, rms of each draw", "Gaussian, rms of the ensemble"
 VARIANTS: dict[str, tuple[Literal["fixed", "gaussian"], Literal["each", "ensemble"]]] = {
@@ -71,3 +88,192 @@ def scatter(case: Normalisation, hurst: float, method: str) -> float:
         independent = (waves > 0) & (waves <= last) & ((j > 0) | (i > 0))
         power = waves[independent] ** (-2 * hurst - 2)
     return float(np.sqrt((power**2).sum()) / power.sum())
+
+
+# the spawn key of the bootstrap of pairs
+PAIRS = 4
+
+
+@dataclass(frozen=True)
+class Fluctuations:
+    """Relative deviations of the stiffness, resampled, by Hurst exponent, variant and method."""
+
+    result: NormalisationResult
+    samples: dict[tuple[float, str, str], Sample]
+
+    def of(self, hurst: float, variant: str, method: str, first: float) -> Estimate:
+        """Over a decade, with the error of the sample."""
+        return self.samples[hurst, variant, method].estimate(deviation_over(self.result.case.forces, first))
+
+    def gaussian_over_fixed(self, hurst: float, method: str, first: float) -> Estimate:
+        """The change from fixed amplitudes to Gaussian ones with the rms of each draw; the samples are independent."""
+        return self.of(hurst, EACH, method, first).minus(self.of(hurst, FIXED, method, first))
+
+    def ensemble_over_each(self, hurst: float, method: str, first: float) -> Estimate:
+        """The change to the rms of the ensemble, on the same draws: resampled as pairs."""
+        pair = [self.result.outcomes[hurst, variant, method]["stiffness"] for variant in (EACH, ENSEMBLE)]
+        both = np.concatenate(pair, axis=1)
+        one_missing = np.isnan(both).any(axis=1, keepdims=True)
+        key = (self.result.case.hursts.index(hurst), METHODS.index(method))
+        drawn = sample(np.where(one_missing, np.nan, both), random_generator(self.result.case.seed, PAIRS, *key))
+        return drawn.estimate(difference_of_halves(deviation_over(self.result.case.forces, first)))
+
+    def mdr_over_bem(self, hurst: float, variant: str, first: float) -> Estimate:
+        """The difference of the methods, of one way to draw."""
+        return self.of(hurst, variant, MDR, first).minus(self.of(hurst, variant, BEM, first))
+
+
+CHANGES = {
+    f"{EACH} over {FIXED}": Fluctuations.gaussian_over_fixed,
+    f"{ENSEMBLE} over {EACH}": Fluctuations.ensemble_over_each,
+}
+
+
+def evidence(result: NormalisationResult) -> Evidence:
+    """The relative deviation of each way to draw over that of the one before; methods beside each other, no verdict.
+
+    Raises NotConvergedError where too few surfaces have converged at one of the forces.
+    """
+    case = result.case
+    require_converged([o for (_, _, method), o in result.outcomes.items() if method == BEM], result.unconverged)
+    samples = {
+        key: sample(outcome["stiffness"], random_generator(case.seed, BOOTSTRAP, i))
+        for i, (key, outcome) in enumerate(result.outcomes.items())
+    }
+    found = Fluctuations(result, samples)
+    return Evidence(
+        title="Normalisation: how fluctuations depend on the way heights are drawn",
+        method=(
+            "The punches of Fig. 14.1 drawn in three ways: amplitudes fixed by the spectrum as in (14.8), phases "
+            "random, where every draw has the rms height h exactly; Gaussian amplitudes, each draw scaled to h; and "
+            "Gaussian amplitudes with h as the rms of the ensemble. "
+            f"{case.surfaces} surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs; "
+            "Fbar = F / (E* h L) with the h of the ensemble. The two Gaussian ways are compared on the same draws. "
+            "Each method is compared with itself on one grid. MDR over boundary elements is given without a "
+            "verdict, since the grid error is known for Fig. 14.1 alone."
+        ),
+        numbers=tuple(_numbers(found)),
+        tables=(_curves(found), _heights(result)),
+        page_tables=(_methods(found),),
+        conclusions=(*(_in_decade(found, first) for first in case.first_forces), *_why_fixed(case)),
+        captions={
+            "normalisation": (
+                "Relative standard deviation of the stiffness, a column for each way to draw; 95 % intervals. "
+                "Circles: boundary elements; line in a band: MDR. The first column is Fig. 14.1."
+            )
+        },
+        unconverged=result.unconverged,
+    )
+
+
+def _numbers(found: Fluctuations) -> list[Number]:
+    return [
+        difference(
+            change(found, hurst, method, first),
+            quantity=f"relative deviation, {name}",
+            model=method,
+            where={"H": hurst, "Fbar": (first, 10 * first)},
+            source="no change",
+            tolerance=THREE_PER_CENT,
+            reason="3 %, as in Fig. 14.1",
+            scale=DECIBEL,
+        )
+        for first in found.result.case.first_forces
+        for hurst in found.result.case.hursts
+        for method in METHODS
+        for name, change in CHANGES.items()
+    ]
+
+
+def _curves(found: Fluctuations) -> Table:
+    rows = []
+    for (hurst, variant, method), mine in found.samples.items():
+        for level, force in enumerate(found.result.case.forces):
+            value, low, high = map(math.exp, mine.estimate(at_level(level, log_relative_deviation)).interval)
+            key = {"H": hurst, "drawn with": variant, "method": method, "Fbar": force}
+            rows.append(key | {"relative deviation": value, "low": low, "high": high})
+    return table_of("curves", rows)
+
+
+def _heights(result: NormalisationResult) -> Table:
+    """Scatter of the mean square height, measured and by the number of waves that carry it."""
+    rows = []
+    for (hurst, variant, method), outcome in result.outcomes.items():
+        square = (outcome["height"] / result.case.height) ** 2
+        rows.append(
+            {
+                "H": hurst,
+                "drawn with": variant,
+                "method": method,
+                "mean of h² / h0²": float(square.mean()),
+                "deviation of h² / h0²": float(square.std(ddof=1)),
+                "expected": scatter(result.case, hurst, method) if variant == ENSEMBLE else 0.0,
+            }
+        )
+    return table_of("heights", rows)
+
+
+def _methods(found: Fluctuations) -> Table:
+    """On the page: MDR over boundary elements, a row a Hurst exponent and a decade, a column a way to draw."""
+
+    def cell(hurst: float, variant: str, first: float) -> str:
+        bem, mdr = (math.exp(found.of(hurst, variant, method, first).value) for method in METHODS)
+        return f"{bem:.3f}, {mdr:.3f}: {_percent(found.mdr_over_bem(hurst, variant, first))}"
+
+    rows = [
+        {"H": hurst, "Fbar": _decade(first), **{variant: cell(hurst, variant, first) for variant in VARIANTS}}
+        for hurst in found.result.case.hursts
+        for first in found.result.case.first_forces
+    ]
+    return table_of("relative deviation of boundary elements and MDR, and their difference", rows)
+
+
+def _in_decade(found: Fluctuations, first: float) -> str:
+    """Means over the Hurst exponents, whose samples are independent, with their intervals."""
+    hursts = found.result.case.hursts
+
+    def changed(change: str) -> str:
+        means = {m: mean_of([CHANGES[change](found, hurst, m, first) for hurst in hursts]) for m in METHODS}
+        return ", ".join(f"{_percent(mean)} ({method})" for method, mean in means.items())
+
+    methods = {v: mean_of([found.mdr_over_bem(hurst, v, first) for hurst in hursts]) for v in VARIANTS}
+    gaussian, ensemble = map(changed, CHANGES)
+    return (
+        f"Fbar = {_decade(first)}, mean over H: Gaussian amplitudes in place of fixed ones change the deviation by "
+        f"{gaussian}. The rms of the ensemble in place of that of each draw changes it by {ensemble}. MDR over "
+        f"boundary elements: {', '.join(f'{_percent(mean)} with {variant}' for variant, mean in methods.items())}."
+    )
+
+
+def _why_fixed(case: Normalisation) -> tuple[str, str]:
+    spread = "; ".join(f"H = {h:g}: {scatter(case, h, BEM):.2f} and {scatter(case, h, MDR):.2f}" for h in case.hursts)
+    return (
+        "With q_min = 2π/L the few longest waves carry the height, fewer in 1D than in 2D. The mean square height of "
+        f"Gaussian draws has a relative deviation, on surfaces and on profiles, of {spread}.",
+        "Fig. 14.1 is drawn with fixed amplitudes, as in (14.8), because Fbar is the force over the height. With "
+        "another height in every draw, one Fbar would be another load for each. This scatter, larger in 1D, would be "
+        "counted as scatter of the contact.",
+    )
+
+
+def _decade(first: float) -> str:
+    return f"{first:g} to {10 * first:g}"
+
+
+def _percent(found: Estimate) -> str:
+    middle, low, high = (f"{100 * math.expm1(value):+.0f}" for value in found.interval)
+    return f"{middle} % ({low} to {high})"
+
+
+CASE = Case(
+    name="normalisation",
+    chapter=Chapter.PRESSED,
+    place=2,
+    claim="The fluctuation depends on how heights are normalised.",
+    answers="Fixed or Gaussian amplitudes, height of each draw or of the ensemble: how the fluctuations depend on it",
+    quick=Normalisation(),
+    full=Normalisation(cells=128, surfaces=120, profiles=1000, points=2048, per_decade=3),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.punches,
+)
