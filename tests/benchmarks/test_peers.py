@@ -2,8 +2,10 @@
 
 import dataclasses
 import json
+import multiprocessing
 import os
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -69,8 +71,19 @@ def other(name, prepare, package="numpy"):
     return PeerSolver(name, package, "for a test", prepare, (1.0, 0.1))
 
 
+@pytest.fixture(scope="module")
+def forked():
+    """Isolated processes are copies of one that has imported everything, which takes two seconds; fewest runs."""
+    server = multiprocessing.get_context("forkserver")
+    server.set_forkserver_preload([__name__])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(alone, "multiprocessing", SimpleNamespace(get_context=lambda kind: server))
+        patch.setattr(comparison, "SETTLED", 0.0)
+        yield
+
+
 @pytest.mark.slow
-def test_a_solver_that_fails_is_a_row(monkeypatch):
+def test_a_solver_that_fails_is_a_row(forked, monkeypatch):
     solvers = (
         SOLVERS[0],
         SOLVERS[1],
@@ -123,7 +136,7 @@ def small(**settings):
 
 
 @pytest.fixture(scope="module")
-def result():
+def result(forked):
     return comparison.run(small())
 
 
