@@ -41,9 +41,8 @@ from validation.cases.punch.ensembles import interval_columns
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
 from validation.cases.rolling import input_spectrum as rolling_input
-from validation.cases.rolling.force_spectrum_levels import SPRINGS, LevelsAtHeight
+from validation.cases.rolling.force_spectrum_levels import SPRINGS, LevelsAtHeight, level_3d
 from validation.cases.rolling.input_spectrum_numbers import punch_number
-from validation.cases.rolling.linear_levels import level_3d
 from validation.cases.selection.model_selection_evidence import clopper_pearson
 from validation.cases.stability import long_runs
 from validation.cases.wheel import distance as wheel_distance

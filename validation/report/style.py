@@ -1,7 +1,7 @@
 """The style of figures: readable without colour, and the same bytes every time."""
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, Literal
 
 import matplotlib
@@ -66,6 +66,13 @@ def panels(
     for letter, axis in zip("abcdefghijkl", axes, strict=False):
         axis.set_title(f"({letter})", loc="left")
     return figure, axes
+
+
+def tick(axis: Axes, values: Iterable[float]) -> None:
+    """Ticks of the horizontal axis at these values alone."""
+    values = list(values)
+    axis.set_xticks(values, [f"{value:g}" for value in values])
+    axis.xaxis.minorticks_off()
 
 
 def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:

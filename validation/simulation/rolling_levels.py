@@ -14,12 +14,11 @@ import mdr
 from validation.analysis.spectra import levels, waves
 from validation.engine.engine import random_generator
 from validation.scenes.measured import MeasuredHeights
-from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw, SpringsLaw
-from validation.simulation.motion import simulate
+from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.resolution import too_few
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.surface import surface_on_grid
-from validation.simulation.wheel_on_half_space import crop_to_reach
+from validation.simulation.wheel_on_half_space import crop_to_reach, simulate_from_linear_motion
 from validation.simulation.wheel_on_springs import linear_law_1d, rolling_input
 from validation.theory.rolling import linear_force
 
@@ -147,7 +146,6 @@ def springs_to_a_radius(quantity: RollingQuantity) -> int:
 
 
 def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
-    """Heights, (points, tracks), and their spacing [m]."""
     scene, ground = quantity.scene, quantity.scene.ground
     coarse = RollingGrid.of(quantity, 1)
     a = scene.contact_radius
@@ -195,14 +193,12 @@ def _linear(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> F
     return linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
 
 
-def _rolled_on(quantity: RollingQuantity, law: ContactLaw, linear: LinearLaw, spacing: float) -> FloatArray:
+def _rolled_on(
+    quantity: RollingQuantity, law: BoundaryElementsLaw | SpringsLaw, linear: LinearLaw, spacing: float
+) -> FloatArray:
     """Acceleration of wheels over one round, (steps, wheels), begun on the linear motion that repeats itself."""
     assert quantity.scene.speed is not None  # a dynamic quantity has a speed
-    time_step = spacing / quantity.scene.speed
-    approach, velocity = linear.steady_state(time_step)
-    start = law.at_rest(0) + approach - linear.at_rest(0)
-    body, steps = quantity.scene.body, len(linear.change)
-    return simulate(body, law, time_step=time_step, steps=steps, approach=start, velocity=velocity).acceleration
+    return simulate_from_linear_motion(law, linear, spacing / quantity.scene.speed, len(linear.change)).acceleration
 
 
 def _levels(

@@ -37,7 +37,6 @@ class RollingQuantity:
 
     @property
     def dynamic(self) -> bool:
-        """Whether the wheel has a mass."""
         return self.name.startswith("acceleration")
 
     @cached_property
@@ -60,7 +59,6 @@ class RollingQuantity:
 
     @property
     def whole(self) -> bool:
-        """Whether all bands are one."""
         return self.name.endswith("rms")
 
     @property

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ import mdr
 from validation.analysis.spectra import Bands, cross_levels, levels, waves
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, Outcome, random_generator
+from validation.simulation.surface import draw_surface
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import linear_force
 
@@ -25,6 +26,7 @@ FloatArray = NDArray[np.float64]
 K = TypeVar("K", bound=Hashable)
 
 HERTZ = 4 / 3
+SMOOTH: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 TRACKS, STRIPS, BOOTSTRAP = 1, 2, 3
 """Keys of random numbers: the roughness of both methods, and resampling."""
 
@@ -54,16 +56,13 @@ class Strip:
 
     def surface(self) -> FloatArray:
         """Heights at the centres of the cells, all of them; the same surface on every grid."""
-        with warnings.catch_warnings():
-            # the error of the grid is measured
-            warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-            unit = bem3d.rough_surface(
-                self.spectrum.c2d,
-                shape=(round(self.length * self.cells), round(self.width * self.cells)),
-                spacing=1 / self.cells,
-                rng=random_generator(self.seed, STRIPS, self.realisation),
-                rms=1.0,
-            )
+        unit = draw_surface(
+            self.spectrum.c2d,
+            shape=(round(self.length * self.cells), round(self.width * self.cells)),
+            spacing=1 / self.cells,
+            rng=random_generator(self.seed, STRIPS, self.realisation),
+            rms=1.0,
+        )
         return np.asarray(self.height * unit)
 
 
@@ -73,15 +72,9 @@ def roll_strip(strip: Strip) -> Outcome:
     applications: of the operator; failed: positions that did not converge, whose force is NaN.
     """
     surface, spacing = strip.surface(), 1 / strip.cells
-    linear = linear_force(surface, spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
+    linear = linear_force(surface, spacing=spacing, **SMOOTH)
     found = bem3d.roll(
-        crop_to_reach(surface, spacing),
-        spacing=spacing,
-        radius=1.0,
-        modulus=1.0,
-        approach=1.0,
-        tolerance=strip.tolerance,
-        raise_on_failure=False,
+        crop_to_reach(surface, spacing), spacing=spacing, tolerance=strip.tolerance, raise_on_failure=False, **SMOOTH
     )
     return {
         "force": np.where(found.converged, found.force, np.nan) / HERTZ,
@@ -137,7 +130,6 @@ class Tracks:
     seed: int
 
     def track(self, realisation: int) -> FloatArray:
-        """Heights of the springs."""
         points = round(self.length * self.springs)
         unit = mdr.rough_profile(
             TrackSpectrum(self.spectrum, self.input_spectrum),
@@ -159,7 +151,7 @@ def roll_tracks(tracks: Tracks) -> Outcome:
     force, linear = np.empty((2, tracks.realisations, points))
     examined = np.empty(tracks.realisations)
     for i in range(tracks.realisations):
-        roll = partial(mdr.roll, tracks.track(i), spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
+        roll = partial(mdr.roll, tracks.track(i), spacing=spacing, **SMOOTH)
         found = roll()
         with warnings.catch_warnings():
             # the range of the filter is under test

@@ -59,29 +59,26 @@ def self_affine(hurst: float, first: float = 1.0, last: float = 20.0) -> Piecewi
     return PiecewisePowerLaw(edges=(first, last), exponents=(2 * hurst + 2,))
 
 
+@dataclass(frozen=True)
 class TrackSpectrum:
     """C_1D(q) of a track for an isotropic surface; values are kept, since each is a quadrature.
 
     contact_radius: on which the rolling-equivalent spectrum depends.
     """
 
-    def __init__(self, spectrum: PiecewisePowerLaw, input_spectrum: InputSpectrum, contact_radius: float = 1.0):
-        self._settings = spectrum, input_spectrum, contact_radius
+    spectrum: PiecewisePowerLaw
+    input_spectrum: InputSpectrum
+    contact_radius: float = 1.0
 
     def __call__(self, q: NDArray[np.floating]) -> FloatArray:
-        """C_1D(q)."""
-        return np.array(_c1d(*self._settings, tuple(q.ravel().tolist()))).reshape(q.shape)
+        return _values(self, tuple(q.ravel().tolist())).reshape(q.shape)
 
 
 @cache
-def _c1d(
-    spectrum: PiecewisePowerLaw, rule: InputSpectrum, contact_radius: float, q: tuple[float, ...]
-) -> tuple[float, ...]:
-    wavenumber = np.array(q)
-    if rule == "geike":
-        values = mdr.geike(wavenumber, spectrum.c2d)
-    elif rule == "line":
-        values = section(wavenumber, spectrum.c2d, edges=spectrum.edges)
-    else:
-        values = mdr.rolling_spectrum(wavenumber, spectrum.c2d, edges=spectrum.edges, contact_radius=contact_radius)
-    return tuple(values.tolist())
+def _values(track: TrackSpectrum, q: tuple[float, ...]) -> FloatArray:
+    c2d, edges = track.spectrum.c2d, track.spectrum.edges
+    if track.input_spectrum == "geike":
+        return mdr.geike(np.array(q), c2d)
+    if track.input_spectrum == "line":
+        return section(np.array(q), c2d, edges=edges)
+    return mdr.rolling_spectrum(np.array(q), c2d, edges=edges, contact_radius=track.contact_radius)

@@ -12,7 +12,7 @@ from validation.engine.engine import Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw
+from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import Motion, simulate
 from validation.theory.rolling import linear_force
 
@@ -94,7 +94,7 @@ def simulate_strip(strip: WheelStrip) -> Outcome:
     )
     beside = simulate(wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
     try:
-        motion = simulate_on_half_space(contact, linear, time_step, steps)
+        motion = simulate_from_linear_motion(contact, linear, time_step, steps)
     except bem3d.ConvergenceError:
         motion = None
     found = motion.acceleration[:, 0] if motion else np.full(steps, np.nan)
@@ -116,7 +116,9 @@ def linear_law_3d(strip: WheelStrip, surface: FloatArray) -> LinearLaw:
     return LinearLaw(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
 
 
-def simulate_on_half_space(contact: BoundaryElementsLaw, linear: LinearLaw, time_step: float, steps: int) -> Motion:
+def simulate_from_linear_motion(
+    contact: BoundaryElementsLaw | SpringsLaw, linear: LinearLaw, time_step: float, steps: int
+) -> Motion:
     """A wheel that begins in the steady state of the linear law, at its velocity and its force."""
     approach, velocity = linear.steady_state(time_step)
     start = contact.at_rest(0) + approach - linear.at_rest(0)

@@ -19,7 +19,12 @@ from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve
 from validation.simulation.motion import Motion, periodic_motion, simulate
-from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d, simulate_on_half_space
+from validation.simulation.wheel_on_half_space import (
+    WheelStrip,
+    crop_to_reach,
+    linear_law_3d,
+    simulate_from_linear_motion,
+)
 from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, InputSpectrum, WheelEnsemble, linear_law_1d
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
@@ -326,7 +331,7 @@ class WheelInTimeLoop:
 
             def solve() -> FloatArray:
                 contact.operator_applications = 0
-                motion = simulate_on_half_space(contact, known.linear, known.time_step, len(known.surface))
+                motion = simulate_from_linear_motion(contact, known.linear, known.time_step, len(known.surface))
                 return motion.acceleration[:, 0]
 
             def read(acceleration: FloatArray) -> Result:

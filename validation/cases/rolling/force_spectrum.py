@@ -1,15 +1,68 @@
 """Rolling over isotropic roughness: the force along the track by boundary elements, springs and linear theory."""
 
+import math
 from dataclasses import dataclass
 
-from validation.cases.rolling.settings import RollingSettings
+from validation.analysis.spectra import Bands
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rolling_strip import Strip, roll_strips, roll_tracks, strip_levels
+from validation.simulation.rolling_strip import Strip, Tracks, roll_strips, roll_tracks, strip_levels
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
 ROUGH = 0.3
 """h/d from which on linear theory on the same surface no longer removes the scatter."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollingSettings:
+    """A wheel at the approach d over isotropic roughness, contact radius a.
+
+    heights: h_rms / d, ascending; last: q a of the end of the roughness; lowest: q a of the first one-third octave;
+    length, width: of the periodic surfaces over a; cells: to a contact radius; strips: realisations of boundary
+    elements; tracks: realisations on springs; springs: to a radius; seed: zero or more.
+    """
+
+    heights: tuple[float, ...]
+    last: float = 10.0
+    lowest: float = 0.4
+    length: float = 64.0
+    width: float = 16.0
+    cells: int = 8
+    strips: int
+    tracks: int
+    springs: int = 32
+    seed: int = 144
+
+    @property
+    def bands(self) -> Bands:
+        """One-third octaves from the lowest to the last, one of them around the first zero of sin(q a)."""
+        return Bands.around(math.pi, self.lowest, self.last).on(self.length)
+
+    def strip(
+        self, spectrum: PiecewisePowerLaw, height: float, realisation: int, cells: int, tolerance: float
+    ) -> Strip:
+        return Strip(
+            spectrum=spectrum,
+            height=height,
+            realisation=realisation,
+            length=self.length,
+            width=self.width,
+            cells=cells,
+            tolerance=tolerance,
+            seed=self.seed,
+        )
+
+    def tracks_on(self, spectrum: PiecewisePowerLaw, height: float, rule: InputSpectrum) -> Tracks:
+        return Tracks(
+            spectrum=spectrum,
+            input_spectrum=rule,
+            height=height,
+            realisations=self.tracks,
+            length=self.length,
+            springs=self.springs,
+            bands=self.bands,
+            seed=self.seed,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +83,6 @@ class ForceSpectrum(RollingSettings):
 
     @property
     def spectrum(self) -> PiecewisePowerLaw:
-        """C_2D of the surfaces."""
         return self_affine(self.hurst, self.first, self.last)
 
     def strips_of(self, height: float, cells: int) -> list[Strip]:

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Verdict, number_with, numbers_with
+from validation.analysis.evidence import Evidence, Number, Place, Verdict, number_with, numbers_with
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.rolling import force_spectrum_levels as levels
 from validation.cases.rolling import force_spectrum_numbers as measured
@@ -60,8 +60,7 @@ def _conclusions(case: ForceSpectrum, found: list[levels.LevelsAtHeight], number
         return f"{n.value:+.1f} and {n.reference:+.1f} dB ({n.verdict})"
 
     def sentence(what: str, region: levels.Region, said: Callable[[levels.Region, float], str]) -> str:
-        parts = [f"{height:g}: {said(region, height)}" for height in case.heights]
-        return f"{what}, {_named(region)}, by h/d: {'; '.join(parts)}."
+        return _by_height(f"{what}, {_named(region)}", [(height, said(region, height)) for height in case.heights])
 
     below, *inside = measured.regions(case)
     springs = "Springs over boundary elements, with Geike's spectrum and with the rolling-equivalent spectrum"
@@ -74,10 +73,17 @@ def _conclusions(case: ForceSpectrum, found: list[levels.LevelsAtHeight], number
         ),
         *(sentence(springs, region, both_springs) for region in inside),
         *(sentence(change, region, nonlinear) for region in inside),
-        _coherent(found),
+        "Linear theory fails position by position at a lower roughness than in its level. "
+        + _by_height(
+            "Bands in which boundary elements have a coherence of 0.9 and more with it, and correlation over all bands",
+            [(mine.height, _coherent(mine)) for mine in found],
+        ),
         _variances(numbers),
         _means(numbers),
-        _scatter(found),
+        _by_height(
+            "Standard error of the sample in single one-third octaves of boundary elements, largest",
+            [(mine.height, _scatter(mine)) for mine in found],
+        ),
     ]
 
 
@@ -106,48 +112,37 @@ def _holds(model: str, heights: Sequence[float], numbers: Sequence[Number], wher
     )
 
 
-def _coherent(found: list[levels.LevelsAtHeight]) -> str:
-    """To which height the force is that of linear theory position by position, not only in its level."""
-    parts = [
-        f"{mine.height:g}: {np.count_nonzero(levels.coherence(mine.bem) >= 0.9)} of {len(mine.single_bands)} bands, "
-        f"correlation {levels.correlation(mine.bem)[0]:.3f}"
-        for mine in found
-    ]
-    return (
-        "Linear theory fails position by position at a lower roughness than in its level. Bands in which boundary "
-        "elements have a coherence of 0.9 and more with it, and correlation over all bands, by h/d: "
-        f"{'; '.join(parts)}."
-    )
+def _by_height(what: str, found: Sequence[tuple[Place, str]]) -> str:
+    return f"{what}, by h/d: {'; '.join(f'{height:g}: {text}' for height, text in found)}."
+
+
+def _coherent(mine: levels.LevelsAtHeight) -> str:
+    """Whether the force is that of linear theory position by position, not only in its level."""
+    bands = np.count_nonzero(levels.coherence(mine.bem) >= 0.9)
+    return f"{bands} of {len(mine.single_bands)} bands, correlation {levels.correlation(mine.bem)[0]:.3f}"
 
 
 def _variances(numbers: Sequence[Number]) -> str:
-    parts = [
-        f"{n.where['h/d']:g}: {n.model} {n.value:.3f} ± {n.uncertainty:.3f} ({n.verdict})"
+    found = [
+        (n.where["h/d"], f"{n.model} {n.value:.3f} ± {n.uncertainty:.3f} ({n.verdict})")
         for n in numbers_with(numbers, measured.VARIANCE)
     ]
-    return f"Variance of the force over that of linear theory, by h/d: {'; '.join(parts)}."
+    return _by_height("Variance of the force over that of linear theory", found)
 
 
 def _means(numbers: Sequence[Number]) -> str:
     mine = numbers_with(numbers, measured.MEAN)
-    parts = [f"{n.where['h/d']:g}: {n.value:.3f} and {n.reference:.3f} ({n.verdict})" for n in mine]
-    agree = [n for n in mine if n.verdict is Verdict.AGREE]
+    found = [(n.where["h/d"], f"{n.value:.3f} and {n.reference:.3f} ({n.verdict})") for n in mine]
+    agree = sum(n.verdict is Verdict.AGREE for n in mine)
     return (
-        "Mean force over that of Hertz at the same approach, springs and boundary elements, by h/d: "
-        f"{'; '.join(parts)}. They agree within 2 % at {len(agree)} of {len(mine)} heights."
+        _by_height("Mean force over that of Hertz at the same approach, springs and boundary elements", found)
+        + f" They agree within 2 % at {agree} of {len(mine)} heights."
     )
 
 
-def _scatter(found: list[levels.LevelsAtHeight]) -> str:
-    """What the sample leaves open in single bands."""
-    parts = []
-    for mine in found:
-        errors = [POWER_DECIBEL * mine.bem_level(weights)[0].error for weights in mine.single_bands]
-        parts.append(f"{mine.height:g}: {max(errors):.2f} dB, median {float(np.median(errors)):.2f} dB")
-    return (
-        "Standard error of the sample in single one-third octaves of boundary elements, largest, by h/d: "
-        f"{'; '.join(parts)}."
-    )
+def _scatter(mine: levels.LevelsAtHeight) -> str:
+    errors = [POWER_DECIBEL * mine.bem_level(weights)[0].error for weights in mine.single_bands]
+    return f"{max(errors):.2f} dB, median {float(np.median(errors)):.2f} dB"
 
 
 def _captions(case: ForceSpectrum) -> dict[str, str]:

@@ -1,18 +1,29 @@
-"""Levels of all models over roughness of one height, in one-third octaves, with the errors of sample and grid."""
+"""Levels of all models in one-third octaves, with the errors of sample and grid; a = d = E* = 1."""
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, Sample, extrapolated, paired_samples, sample
+from validation.analysis.spectra import Bands
+from validation.analysis.statistics import (
+    POWER_DECIBEL,
+    Estimate,
+    Sample,
+    difference_of_halves,
+    extrapolated,
+    log_mean,
+    paired_samples,
+    sample,
+    weighted_mean,
+)
 from validation.cases.rolling.force_spectrum import ForceSpectrum, RollingResult
-from validation.cases.rolling.linear_levels import ROUNDING, level_1d, level_3d, over_exact, ratio_of_pairs
 from validation.engine.engine import Outcome, random_generator
-from validation.simulation.rolling_strip import BOOTSTRAP
-from validation.simulation.track_spectrum import InputSpectrum
+from validation.simulation.rolling_strip import BOOTSTRAP, HERTZ
+from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
+from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d
 
 FloatArray = NDArray[np.float64]
 Region = tuple[float, float]
@@ -23,6 +34,10 @@ MODELS = (LINEAR_1D, SPRINGS, LINEAR_3D, ROLLING_SPRINGS)
 RULES: dict[str, InputSpectrum] = {SPRINGS: "geike", ROLLING_SPRINGS: "rolling"}
 EXACT = 10**6
 """Realisations behind a value without scatter."""
+POINTS = 48
+"""Of the midpoint rule in each band."""
+ROUNDING = 1e-300
+"""Where (14.12) is zero, its level is rounding's, which is no reference."""
 
 
 @dataclass(frozen=True)
@@ -38,17 +53,14 @@ class LevelsAtHeight:
 
     @property
     def bem(self) -> Outcome:
-        """Boundary elements, on the grid of all strips."""
         return self.result.bem[self.height]
 
     @property
     def springs(self) -> Outcome:
-        """Springs with Geike's spectrum."""
         return self.result.mdr["geike", self.height]
 
     @cached_property
     def linear(self) -> dict[str, FloatArray]:
-        """Levels of linear theory by quadrature."""
         spectrum, bands = self.case.spectrum, self.case.bands
         levels = {LINEAR_1D: level_1d(spectrum, "geike", bands), LINEAR_3D: level_3d(spectrum, bands)}
         return {model: self.height**2 * level for model, level in levels.items()}
@@ -60,13 +72,11 @@ class LevelsAtHeight:
 
     @cached_property
     def finer(self) -> Sample:
-        """The same surfaces on two grids, in pairs."""
         finer = self.result.refined[self.height]["level"]
         return paired_samples(self.bem["level"][: self.case.refined], finer, self._rng(1))
 
     @cached_property
     def of_springs(self) -> dict[str, Sample]:
-        """Springs by their input spectrum."""
         return {
             model: sample(self.result.mdr[rule, self.height]["level"], self._rng(part))
             for part, (model, rule) in enumerate(RULES.items(), start=2)
@@ -96,7 +106,6 @@ class LevelsAtHeight:
         return extrapolated(ratio_of_pairs(self.bem_over_linear, weights), ratio_of_pairs(self.finer, weights))
 
     def model_level(self, model: str, weights: FloatArray) -> Estimate:
-        """Another model."""
         exact = self.linear[LINEAR_3D]
         if model not in self.linear:
             return over_exact(self.of_springs[model], exact, weights)
@@ -106,7 +115,6 @@ class LevelsAtHeight:
         return Estimate(model_ - reference, 0.0, EXACT)
 
     def decibels_over_bem(self, model: str, weights: FloatArray) -> float:
-        """A model over boundary elements [dB]."""
         return POWER_DECIBEL * (self.model_level(model, weights).value - self.bem_level(weights)[0].value)
 
 
@@ -124,3 +132,38 @@ def correlation(outcome: Outcome) -> tuple[float, float]:
     known = np.isfinite(outcome["level"])
     linear, level = float(outcome["linear level"][known].sum()), float(outcome["level"][known].sum())
     return cross / math.sqrt(linear * level), cross / linear
+
+
+@cache
+def level_1d(spectrum: PiecewisePowerLaw, rule: InputSpectrum, bands: Bands) -> FloatArray:
+    """int C_F dq / F_Hertz^2 over each band of springs with that input spectrum, (14.12), for h_rms = 1."""
+    c1d = TrackSpectrum(spectrum, rule)
+    return _over_bands(lambda q: force_spectrum_1d(q, c1d, contact_radius=1.0, modulus=1.0), bands)
+
+
+@cache
+def level_3d(spectrum: PiecewisePowerLaw, bands: Bands) -> FloatArray:
+    """The same of the half-space."""
+    return _over_bands(lambda q: force_3d(q, spectrum), bands)
+
+
+def force_3d(q: FloatArray, spectrum: PiecewisePowerLaw) -> FloatArray:
+    return force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0)
+
+
+def _over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
+    edges = np.array(bands.edges)
+    q = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS)
+    return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges) / HERTZ**2)
+
+
+def over_exact(levels: Sample, exact: FloatArray, weights: FloatArray) -> Estimate:
+    """ln of mean levels over exact ones, in the mean over bands."""
+    used = weights > 0
+    found = levels.estimate(weighted_mean(weights, log_mean))
+    return Estimate(found.value - float(weights[used] @ np.log(exact[used])), found.error, found.samples)
+
+
+def ratio_of_pairs(pairs: Sample, weights: FloatArray) -> Estimate:
+    """ln of the second half of the levels over the first, realisation by realisation, in the mean over bands."""
+    return pairs.estimate(difference_of_halves(weighted_mean(weights, log_mean)))

@@ -14,8 +14,8 @@ from validation.cases.rolling.force_spectrum_levels import (
     SPRINGS,
     LevelsAtHeight,
     Region,
+    ratio_of_pairs,
 )
-from validation.cases.rolling.linear_levels import ratio_of_pairs
 from validation.theory.rolling import level_ratio
 
 LEVEL, NONLINEAR = "mean level", "level of the nonlinear over the linear force"
@@ -35,7 +35,6 @@ def regions(case: ForceSpectrum) -> list[Region]:
 
 
 def numbers_of(case: ForceSpectrum, found: list[LevelsAtHeight]) -> list[Number]:
-    """All of them, height by height."""
     numbers = [number for mine in found for number in (*_levels(mine), *moments(mine))]
     return [*numbers, _excess(case, numbers)]
 

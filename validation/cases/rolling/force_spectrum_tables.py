@@ -14,8 +14,9 @@ from validation.cases.rolling.force_spectrum_levels import (
     LevelsAtHeight,
     coherence,
     correlation,
+    force_3d,
+    ratio_of_pairs,
 )
-from validation.cases.rolling.linear_levels import force_3d, ratio_of_pairs
 from validation.simulation.rolling_strip import HERTZ
 from validation.simulation.track_spectrum import TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, mean_force_spectrum_1d

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.cases.rolling.settings import RollingSettings
+from validation.cases.rolling.force_spectrum import RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.simulation.rolling_strip import TRACKS, roll_strips, roll_tracks, strip_levels
 from validation.simulation.rough_punch import (
@@ -52,7 +52,6 @@ class RollingInput(RollingSettings):
 
     @property
     def others(self) -> dict[str, PiecewisePowerLaw]:
-        """Spectra for which it was not derived."""
         return {
             "roll-off": PiecewisePowerLaw(edges=(0.25, 2.0, self.last), exponents=(0.0, 3.4)),
             "two power laws": PiecewisePowerLaw(edges=(1.0, 4.0, self.last), exponents=(2.4, 4.0)),
@@ -61,22 +60,18 @@ class RollingInput(RollingSettings):
 
     @property
     def spectra(self) -> dict[str, PiecewisePowerLaw]:
-        """All of them."""
         return {**self.derived_for, **self.others}
 
     @property
     def rolled(self) -> dict[str, PiecewisePowerLaw]:
-        """Those that boundary elements roll over."""
         return {"H = 0.7": self.derived_for["H = 0.7"], **self.others}
 
     @property
     def forces(self) -> tuple[float, ...]:
-        """Fbar at which the punches are pressed."""
         return (0.03, 0.1, 0.3)
 
     @property
     def punch(self) -> PunchRoughness:
-        """The punches of Fig. 14.1."""
         return PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
 
     def inside(self, spectrum: PiecewisePowerLaw) -> NDArray[np.bool_]:

@@ -47,7 +47,6 @@ def _method(case: RollingInput) -> str:
 
 
 def _levels(case: RollingInput, numbers: list[Number]) -> list[str]:
-    """Mean levels in the band of each spectrum."""
 
     def chain(model: str, names: Iterable[str], where: dict[str, Place]) -> str:
         found = {name: number_with(numbers, measured.IN_BAND, model, spectrum=name, **where).value for name in names}
@@ -69,7 +68,6 @@ def _levels(case: RollingInput, numbers: list[Number]) -> list[str]:
 
 
 def _counts(case: RollingInput, bands: Table, rolled: Table) -> list[str]:
-    """In how many bands springs are within 3 dB."""
 
     def count(table: Table) -> str:
         near = {name: np.abs(table[f"{name} [dB]"]) <= measured.FORD_THOMPSON for name in measured.NAMES.values()}

@@ -19,9 +19,9 @@ from validation.analysis.statistics import (
     paired_samples,
     sample,
 )
+from validation.cases.rolling.force_spectrum_levels import ROUNDING, level_1d, level_3d, over_exact, ratio_of_pairs
 from validation.cases.rolling.force_spectrum_numbers import ONE_DECIBEL, REASON
 from validation.cases.rolling.input_spectrum import RollingInput, RollingInputResult
-from validation.cases.rolling.linear_levels import ROUNDING, level_1d, level_3d, over_exact, ratio_of_pairs
 from validation.engine.engine import random_generator
 from validation.simulation.rolling_strip import BOOTSTRAP
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_1D, LINEAR_3D, MODELS, SPRINGS
-from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels
+from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels, tick
 
 POINTS_PER_CELL = 12
 """Of the map, for its border lines."""
@@ -15,14 +15,13 @@ LARGEST = 12.0
 
 
 def draw_line(evidence: Evidence) -> Figure:
-    """Fig. 14.3."""
     found = evidence.table("spectrum")
     figure, (axis,) = panels(1, 1, width=6.4, height=4.2)
     q = found["q a"]
     axis.plot(q, found["linear 3D"], color="#999999", linewidth=3.0, label="linear theory, 3D")
     axis.plot(q, found["springs"], color=MDR["color"], marker=".", markersize=2.5, linestyle="none", label="springs")
-    axis.plot(q, _positive(found["(14.12)"]), label="(14.12)", **EXACT)
-    axis.plot(q, _positive(found["(14.14)"]), label="(14.14)", **{**MDR_OTHER, "linewidth": 1.8})
+    for formula, style in (("(14.12)", EXACT), ("(14.14)", {**MDR_OTHER, "linewidth": 1.8})):
+        axis.plot(q, np.where(found[formula] > 0, found[formula], np.nan), label=formula, **style)
     top = float(found["linear 3D"].max())
     axis.set(xscale="log", yscale="log", ylim=(1e-7 * top, 6 * top))
     axis.set(xlabel="q a", ylabel="C_F / (F_Hertz² a (h/d)²)")
@@ -92,7 +91,6 @@ def draw_coherence(evidence: Evidence) -> Figure:
 
 
 def draw_map(evidence: Evidence) -> Figure:
-    """Error of each model over height and wavenumber."""
     levels = evidence.table("levels")
     place = {"left": 0.08, "right": 0.86, "bottom": 0.08, "top": 0.95, "wspace": 0.06, "hspace": 0.14}
     figure, axes = panels(2, 2, height=6.6, sharex=True, sharey="all", within=place)
@@ -140,16 +138,10 @@ def _points_in_cells(borders: np.ndarray) -> np.ndarray:
     return np.asarray(np.exp((logs[:-1, np.newaxis] + np.diff(logs)[:, np.newaxis] * part).ravel()))
 
 
-def _positive(values: np.ndarray) -> np.ndarray:
-    return np.where(values > 0, values, np.nan)
-
-
 def _on_axis(levels: np.ndarray, top: float) -> np.ndarray:
     """Levels down to 60 dB below the top; NaN for others."""
     return np.where(levels > top - 60, levels, np.nan)
 
 
 def _ticks(axis: Axes, q: np.ndarray) -> None:
-    ticks = [tick for tick in (0.2, 0.5, 1, 2, 5, 10, 20) if 0.85 * q.min() <= tick <= 1.2 * q.max()]
-    axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axis.xaxis.minorticks_off()
+    tick(axis, [qa for qa in (0.2, 0.5, 1, 2, 5, 10, 20) if 0.85 * q.min() <= qa <= 1.2 * q.max()])

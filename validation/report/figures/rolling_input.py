@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
 from validation.cases.rolling.input_spectrum_numbers import NAMES
-from validation.report.style import graded, panels
+from validation.report.style import graded, panels, tick
 
 STYLES = {
     name: {**graded(i, 3), "linestyle": dash}
@@ -35,9 +35,8 @@ def draw_springs(evidence: Evidence) -> Figure:
     """Springs over boundary elements: a row a height, a column a spectrum."""
     rolled = evidence.table("rolled")
     names, heights = list(dict.fromkeys(rolled.columns["spectrum"])), np.unique(rolled["h/d"])
-    figure, axes = panels(
-        heights.size, len(names), width=10.5, height=0.8 + 2.5 * heights.size, sharex=True, sharey="all"
-    )
+    tall = 0.8 + 2.5 * heights.size
+    figure, axes = panels(heights.size, len(names), width=10.5, height=tall, sharex=True, sharey="all")
     for axis, (height, name) in zip(axes, [(h, n) for h in heights for n in names], strict=True):
         mine = rolled.where(**{"spectrum": name, "h/d": height})
         _shade_tolerance(axis)
@@ -52,7 +51,6 @@ def draw_springs(evidence: Evidence) -> Figure:
 
 
 def draw_punch(evidence: Evidence) -> Figure:
-    """The punches of Fig. 14.1 with each input."""
     punches = evidence.table("punches")
     figure, (axis,) = panels(1, 1, width=5.4, height=3.6)
     axis.axhspan(0.9, 1.1, color="#000000", alpha=0.07, linewidth=0)
@@ -62,9 +60,7 @@ def draw_punch(evidence: Evidence) -> Figure:
         bars = [value - mine["low"], mine["high"] - value]
         axis.errorbar(mine["Fbar"] * (0.95 + 0.05 * i), value, yerr=bars, capsize=2, label=label, **STYLES[label])
     axis.set(xscale="log", xlabel="force Fbar = F / (E* h L)", ylabel="mean stiffness, MDR over boundary elements")
-    ticks = np.unique(punches["Fbar"])
-    axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axis.xaxis.minorticks_off()
+    tick(axis, np.unique(punches["Fbar"]))
     axis.legend()
     return figure
 
@@ -82,9 +78,7 @@ def _on_axis(errors: np.ndarray) -> np.ndarray:
 def _format_axis(axis: Axes, title: str) -> None:
     axis.set(xscale="log", ylim=DECIBELS)
     axis.set_title(title)
-    ticks = (0.5, 1, 2, 5, 10, 20)
-    axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axis.xaxis.minorticks_off()
+    tick(axis, (0.5, 1, 2, 5, 10, 20))
 
 
 def _label_axes(figure: Figure, axes: list[Axes], columns: int, label: str) -> None:
