@@ -13,7 +13,7 @@ OLDEST := .venv-oldest
 RECORD := .coverage-times.xml
 RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference race check fast test oldest thorough coverage verdicts mutation lint types format clean
+.PHONY: report full-report reference race check fast test oldest-python oldest thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -38,8 +38,10 @@ fast: $(READY)
 test: $(READY)  ## all tests
 	$(RUN) pytest -n auto $(ARGS)
 
-oldest: $(if $(OLDEST_PYTHON),$(OLDEST)/ready)  ## the tests not marked slow, on the oldest versions that pyproject.toml allows
-	@test -n "$(OLDEST_PYTHON)" || { echo "no Python from 3.11 to 3.13 is installed, which the oldest dependencies need"; exit 2; }
+oldest-python:
+	@test -n "$(OLDEST_PYTHON)" || { echo "the oldest dependencies need a Python from 3.11 to 3.13, and none is installed"; exit 2; }
+
+oldest: oldest-python $(if $(OLDEST_PYTHON),$(OLDEST)/ready)  ## the tests not marked slow, on the oldest versions that pyproject.toml allows
 	# an old library says of its own imports that they are deprecated
 	$(OLDEST)/bin/python -m pytest -q -n auto -m "not slow" -W ignore::DeprecationWarning $(ARGS)
 

@@ -261,9 +261,7 @@ def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: 
         wanted = positive("force", force) / spring
         held(wanted, positive=True)
         steps = np.arange(1, points) * -np.diff(descending, axis=1)
-        stiffness = np.asarray(spring * (1 + np.count_nonzero(np.cumsum(steps, axis=1) < wanted, axis=1)))
-        held(stiffness)
-    return stiffness
+        return np.asarray(spring * (1 + np.count_nonzero(np.cumsum(steps, axis=1) < wanted, axis=1)))
 
 
 def _spring(modulus: float, length: float, points: int) -> float:

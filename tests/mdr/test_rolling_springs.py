@@ -156,6 +156,37 @@ def test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness():
     assert with_spike.max() <= without.max() + 1
 
 
+def test_spikes_by_themselves_change_no_bit(monkeypatch):
+    """Beside a loop over all neighbours, also where the level of the others just touches in rounded numbers."""
+    height = np.full(200, 0.0018639820557123812)
+    height[[40, 95]] += 0.5
+    track = {"spacing": 0.005, "radius": 1.0, "modulus": 1.0, "approach": 0.0017360179442876189}
+    apart = mdr.roll(height, **track)
+    monkeypatch.setattr("mdr.candidate_springs.MAX_WORK_SHARE", 0.0)
+    in_turn = mdr.roll(height, **track)
+    assert apart.examined.max() < in_turn.examined.max()
+    assert np.array_equal(apart.force, in_turn.force)
+    assert np.array_equal(apart.stiffness, in_turn.stiffness)
+
+
+def test_a_force_whose_approach_no_double_holds_is_refused():
+    with pytest.raises(ValueError, match="force"):
+        mdr.roll(np.zeros(400), **{**LIGHT, "modulus": 1e200, "force": 5e-324})
+
+
+@pytest.mark.parametrize(("farthest", "sorts"), [(1, True), (10**9, False)])
+def test_a_wheel_over_more_springs_than_steps_are_worth_is_sorted(farthest, sorts, monkeypatch):
+    """Pressed to the lowest of springs, it would look at all of them in every step."""
+    sorted_blocks = []
+    monkeypatch.setattr("mdr.rolling.FARTHEST", farthest)
+    monkeypatch.setattr("mdr.rolling.by_sorting", lambda *args: sorted_blocks.append(args) or by_sorting(*args))
+    track = rough(100, 0.1, springs=12.3)
+    found = track.roll(force=4 / 3)
+    assert bool(sorted_blocks) == sorts
+    total, _, _ = wheel_on_springs(track.height, spacing=track.spacing, radius=1.0, approach=found.approach)
+    assert track.spacing * total == pytest.approx(np.full(100, 4 / 3), rel=1e-12)
+
+
 @pytest.mark.parametrize("force", [5e-324, 1e-300, 1e-12, 1.0])
 def test_forces_of_any_size_end(force):
     track = {**LIGHT, "force": force, "radius": 1e-3}

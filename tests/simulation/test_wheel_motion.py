@@ -464,10 +464,8 @@ def test_small_vibrations_slow_down_by_a_24th_of_the_amplitude_squared():
     above = np.array([0.4, 0.2, 0.1])
     amplitude = above + above**2 / 12
     slower = np.array([wheel_theory.hertz_period(1 + x) for x in above]) - 1
-    left = slower / (wheel_theory.ANHARMONIC * amplitude**2) - 1
+    left = 24 * slower / amplitude**2 - 1
     assert np.diff(np.log(np.abs(left))) / np.diff(np.log(above)) == pytest.approx(2, abs=0.3)
-    frequency = wheel_theory.frequency_of_amplitude(amplitude)
-    assert (np.abs((1 / frequency - 1) / slower - 1) <= amplitude**2).all()
 
 
 @pytest.mark.parametrize("above", [0.05, 1e-2, 1e-4, 1e-7, 1e-12])

@@ -27,14 +27,17 @@ def difference(
     value, other: independent estimates, natural logarithms as a rule; without other, value is the difference already;
     quantity, model, where: the key of the number; scale: 10 / ln 10 for decibels of a power, 20 / ln 10 of an
     amplitude, 1 for the estimates themselves; grid: half-width that the grids leave, in the unit of the estimates.
+    Raises ValueError where absolute has no other to stand beside.
     """
+    if absolute and other is None:
+        raise ValueError(f"{quantity!r} of {model!r} must have another estimate beside it, got absolute without other")
     apart = value if other is None else value.minus(other)
     return Number(
         quantity=quantity,
         model=model,
         where=where,
         value=scale * (value.value if absolute else apart.value),
-        reference=scale * other.value if absolute and other is not None else 0.0,
+        reference=scale * other.value if absolute and other else 0.0,
         source=source,
         tolerance=tolerance,
         reason=reason,

@@ -1,4 +1,4 @@
-"""A wheel on its contact spring: the resonance, its anharmonicity, and the leakage of a finite record.
+"""A wheel on its contact spring: the resonance, free vibration, and the leakage of a finite record.
 
 References of the dynamic wheel, which import neither method. M z'' = F - F_N, z upward, the approach d downward.
 Frequencies are angular, omega in rad/s; spectra are those of (14.17), two-sided over the frequency f: <x^2> = int A df.
@@ -17,8 +17,6 @@ NODES = 100
 """Of Gauss and Legendre on each part of a period."""
 SLIVER = 1e-6
 """Of the approach without contact, which no part of a period of its own resolves."""
-ANHARMONIC = 1 / 24
-"""Of F ~ d^(3/2): omega = omega_0 (1 - (A / d)^2 / 24) to lowest order."""
 
 
 def eigenfrequency(*, contact_radius: float, modulus: float, mass: float) -> float:
@@ -72,14 +70,6 @@ def _other_turning_point(energy: float) -> float:
         if middle in (low, high):
             return middle
         low, high = (middle, high) if _potential(middle) > energy else (low, middle)
-
-
-def frequency_of_amplitude(amplitude: ArrayLike) -> FloatArray:
-    """omega / omega_0 = 1 - (A / d_N)^2 / 24 of vibration with amplitude A / d_N on a Hertz contact, to second order.
-
-    Source: the expansion of F ~ d^(3/2) to third order; Landau and Lifshitz, Mechanics, section 28.
-    """
-    return np.asarray(1 - ANHARMONIC * np.asarray(amplitude, dtype=np.float64) ** 2)
 
 
 def acceleration_over_force(omega: ArrayLike, *, eigenfrequency: float, mass: float) -> FloatArray:
