@@ -31,8 +31,7 @@ from validation.analysis.statistics import (
     sample,
 )
 from validation.benchmarks.work_precision.errors import MethodValues, error
-from validation.benchmarks.work_precision.exact_problem import logarithm
-from validation.benchmarks.work_precision.problem import Quantity
+from validation.benchmarks.work_precision.problem import Quantity, logarithm
 from validation.cases.limits.numbers import exponent_number, threshold_number
 from validation.cases.limits.sweep import Sweep, swept
 from validation.cases.punch import fractal_punch, fractal_punch_decades

@@ -1,6 +1,7 @@
 """The solver comparison: the same for all solvers, a row for each, and true where other packages are installed."""
 
 import dataclasses
+import itertools
 import json
 import multiprocessing
 import os
@@ -14,6 +15,7 @@ import validation.__main__ as command
 from validation.analysis.evidence import Verdict
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers
+from validation.benchmarks.found_models import TimedProblem
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, PressureField
 from validation.benchmarks.solvers import case as comparison
 from validation.benchmarks.solvers import evidence as comparison_evidence
@@ -21,10 +23,11 @@ from validation.benchmarks.solvers import problems
 from validation.benchmarks.solvers.problems import SurfaceProblem
 from validation.benchmarks.solvers.rolling import RollingThroughput
 from validation.benchmarks.solvers.wheel_steps import SteppingThroughput
+from validation.benchmarks.timing import RunLimits
 from validation.report import contents
 from validation.report.contents import TIMED
 
-RUN = comparison.ProblemRun(SurfaceProblem("rough", 0.004, 32, True, 1), residual=1e-6, slow=5.0, methods=())
+RUN = TimedProblem(SurfaceProblem("rough", 0.004, 32, True, 1, 1e-6), RunLimits(slow=5.0, enough=0.0))
 
 
 def dies(problem, tolerance):
@@ -95,7 +98,8 @@ def test_a_solver_that_fails_is_a_row(forked, monkeypatch):
         other("absent", dies, package="no-such-package"),
         other("warm", warms_up),
     )
-    monkeypatch.setattr(problems, "SOLVERS", solvers)
+    for module in (problems, comparison):
+        monkeypatch.setattr(module, "SOLVERS", solvers)
     outcome = comparison.time_problem(RUN)
     said = dict(zip(outcome["method"].tolist(), outcome["status"].tolist(), strict=True))
     assert list(said) == [solver.name for solver in solvers]
@@ -195,7 +199,7 @@ def test_peers_find_the_same_pressure(name, result):
     i = [solver.name for solver in SOLVERS].index(name)
     if SOLVERS[i].version is None:
         pytest.skip(f"{name} is not installed")
-    for outcome in result.outcomes:
+    for _, outcome in result.problems:
         assert outcome["status"][i] == "finished"
         assert outcome["residual"][i] <= 1e-8
         assert outcome["difference"][i, 0] <= 1e-4
@@ -205,10 +209,11 @@ def test_peers_find_the_same_pressure(name, result):
 
 @pytest.mark.slow
 def test_a_difference_of_answers_is_a_missed_criterion(result):
-    outcomes = [{**outcome} for outcome in result.outcomes]
-    outcomes[0]["difference"] = outcomes[0]["difference"].copy()
-    outcomes[0]["difference"][1] = (2e-4, 2e-6, 0.0, np.nan)
-    numbers = comparison_evidence.evidence(dataclasses.replace(result, outcomes=outcomes)).numbers
+    (problem, outcome), *others = result.problems
+    difference = outcome["difference"].copy()
+    difference[1] = (2e-4, 2e-6, 0.0, np.nan)
+    solved = [(problem, {**outcome, "difference": difference}), *others]
+    numbers = comparison_evidence.evidence(dataclasses.replace(result, problems=solved)).numbers
     assert sum(not number.met for number in numbers) == 2
 
 
@@ -231,21 +236,12 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
 @pytest.mark.slow
 def test_exponents_are_those_of_the_measurements(result):
     """Time n^2.5, memory n^2 planted on grids of 512 and more."""
-    scalings = [
-        dataclasses.replace(m, problem=dataclasses.replace(m.problem, cells=n))
-        for m in result.scalings[::2]
-        for n in (512, 1024, 2048)
-    ]
-    costs = [
-        {
-            **result.costs[0],
-            "seconds": np.array(1e-6 * m.problem.cells**2.5),
-            "idle": np.array(1e6),
-            "peak": np.array(1e6 + 8.0 * m.problem.cells**2),
-        }
-        for m in scalings
-    ]
-    sentences = comparison_evidence.evidence(dataclasses.replace(result, scalings=scalings, costs=costs)).conclusions
+    scalings = []
+    for (problem, outcome), n in itertools.product(result.scalings[::2], (512, 1024, 2048)):
+        planted = {"seconds": 1e-6 * n**2.5, "idle": 1e6, "peak": 1e6 + 8.0 * n**2}
+        cost = {**outcome, **{name: np.array(value) for name, value in planted.items()}}
+        scalings.append((dataclasses.replace(problem, cells=n), cost))
+    sentences = comparison_evidence.evidence(dataclasses.replace(result, scalings=scalings)).conclusions
     assert sum("time grows like n^2.50 (n² log n: n^2.1" in s and "process like n^2.00" in s for s in sentences) == 3
 
 

@@ -13,6 +13,7 @@ import pytest
 import validation.__main__ as command
 from validation.analysis.evidence import Verdict
 from validation.benchmarks import peers, timing
+from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import FINISHED, Configuration, RunLimits
 from validation.benchmarks.work_precision import pareto as precision_front
@@ -26,9 +27,7 @@ from validation.benchmarks.work_precision.dynamic_wheel import (
 )
 from validation.benchmarks.work_precision.errors import MethodValues, error, points
 from validation.benchmarks.work_precision.evidence import evidence
-from validation.benchmarks.work_precision.exact_problem import logarithm
 from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
-from validation.benchmarks.work_precision.grids import Grids
 from validation.benchmarks.work_precision.pareto import (
     Point,
     break_even,
@@ -48,8 +47,9 @@ from validation.benchmarks.work_precision.problem import (
     MDR,
     MDR_ROLLING,
     POLONSKY_KEER,
+    Grids,
     Quantity,
-    TimedProblem,
+    logarithm,
 )
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem, log_deviation
@@ -246,7 +246,7 @@ class Made:
     tried: tuple[Configuration, ...]
     name = "made"
     quantities = (MEAN,)
-    scene = None
+    scene, served = None, ()
 
     def configurations(self):
         return self.tried
@@ -379,7 +379,7 @@ SMALL = Precision(
     ),
     fractal=RoughPunchProblem(
         waves=7,
-        surfaces=4,
+        realisations=4,
         profiles=12,
         grids=Grids(cells=(10, 16, 32, 64), polonsky_keer=(16,), fixed=16, tolerances=(0.1,)),
         springs=(10, 16, 64),
@@ -388,14 +388,14 @@ SMALL = Precision(
         last=6.0,
         length=24,
         width=12,
-        strips=3,
+        realisations=3,
         tracks=6,
         grids=Grids(cells=(1, 3, 6), polonsky_keer=(3,), fixed=3, tolerances=(0.1,), per="to a radius"),
         filtered=(3, 6),
         springs=(1, 8),
     ),
     wheel=WheelProblem(
-        strips=3,
+        realisations=3,
         wheels=6,
         grids=Grids(cells=(6, 12), fixed=6, tolerances=(1e-2,), per="to a radius"),
         filtered=(6,),
@@ -523,7 +523,7 @@ def test_conclusions_and_summary_name_the_cheapest(found):
 @pytest.mark.slow
 def test_an_answer_that_is_lost_is_not_converged(result):
     outcomes = [{**outcome} for outcome in result.outcomes]
-    configurations = precision.configurations_of(SMALL.problems()[0])
+    configurations = configurations_of(SMALL.problems()[0])
     last = max(i for i, each in enumerate(configurations) if each.label == BEM)
     outcomes[0]["status"] = outcomes[0]["status"].astype("<U40")
     outcomes[0]["status"][last] = "failed: ConvergenceError: lost"
@@ -596,7 +596,7 @@ def test_boundary_elements_find_the_approach_under_a_wave(charts):
     assert mine["error"][-1] < mine["error"][0] * mine["value"][0] / mine["value"][-1]
 
 
-STRIP = WheelProblem(strips=3, wheels=6)
+STRIP = WheelProblem(realisations=3, wheels=6)
 
 
 def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():

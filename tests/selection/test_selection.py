@@ -8,7 +8,6 @@ import pytest
 
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
 from validation.benchmarks.work_precision.errors import MethodValues, _half_width, error, points, reference_of
-from validation.benchmarks.work_precision.exact_problem import logarithm
 from validation.benchmarks.work_precision.pareto import (
     TOLERANCES,
     Point,
@@ -22,7 +21,7 @@ from validation.benchmarks.work_precision.pareto import (
     reason_if_none,
     work,
 )
-from validation.benchmarks.work_precision.problem import EXTRAPOLATED, Quantity
+from validation.benchmarks.work_precision.problem import EXTRAPOLATED, Quantity, logarithm
 from validation.engine.convergence import NotConvergedError
 
 K = Quantity(name="mean", log=logarithm("k"), needs=("k",))
@@ -45,7 +44,7 @@ class MadeProblem:
     quantities: tuple[Quantity, ...] = (K,)
     exact: bool = False
     name = "made up"
-    scene = None
+    scene, served = None, ()
 
     def configurations(self):
         return COARSE, FINE, SPRINGS, LOST

@@ -8,12 +8,12 @@ import pytest
 
 from tests.benchmarks.test_work_precision import use_a_clock_of_its_own
 from validation.benchmarks import timing
+from validation.benchmarks.found_models import TimedProblem, all_methods
+from validation.benchmarks.solvers import case as comparison
 from validation.benchmarks.solvers import problems
-from validation.benchmarks.solvers.case import ProblemRun, time_problem
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.errors import points
-from validation.benchmarks.work_precision.grids import Grids
-from validation.benchmarks.work_precision.problem import TimedProblem, measure
+from validation.benchmarks.work_precision.problem import Grids, measure
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
@@ -80,7 +80,7 @@ def test_a_model_that_is_found_is_a_candidate(toy):
 def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     use_a_clock_of_its_own(monkeypatch)
     grids = Grids(cells=(16, 32), fixed=16, tolerances=())
-    problem = RoughPunchProblem(waves=7, surfaces=3, profiles=3, grids=grids, springs=(16,))
+    problem = RoughPunchProblem(waves=7, realisations=3, profiles=3, grids=grids, springs=(16,))
     chart = points(problem, measure(TimedProblem(problem, RunLimits(slow=1.0, enough=0.0))))
     mine = {point.quantity: point for point in chart if point.method == "toy"}
     assert {"mean stiffness", "relative deviation"} == set(mine)
@@ -90,16 +90,17 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
 
 def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     use_a_clock_of_its_own(monkeypatch)
-    monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
-    problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1)
-    outcome = time_problem(ProblemRun(problem, 1e-6, 1.0, problems.methods()))
+    for module in (problems, comparison):
+        monkeypatch.setattr(module, "SOLVERS", problems.SOLVERS[:2])
+    problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1, 1e-6)
+    outcome = comparison.time_problem(TimedProblem(problem, RunLimits(slow=1.0, enough=1.0)))
     methods = outcome["method"].tolist()
     assert {"bem3d", "bem3d, Polonsky-Keer", "closed form", "toy"} <= set(methods)
     assert set(outcome["status"].tolist()) == {timing.FINISHED}
     # of the pressures a model has none, so its stiffness alone is compared
     *pressures, stiffness = outcome["difference"][methods.index("toy")]
     assert np.isfinite(stiffness) and np.isnan(pressures).all()
-    assert "toy" in problems.methods()
+    assert "toy" in all_methods()
 
 
 def test_the_closed_form_of_a_rough_punch_is_one_of_them():

@@ -10,7 +10,9 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
-from typing import TypeVar
+from typing import Protocol, TypeVar
+
+from validation.engine.engine import Outcome
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
 T = TypeVar("T")
@@ -22,7 +24,6 @@ class IsolatedProcess(ProcessPoolExecutor):
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Wait for its task, or end it."""
         if kind is not None:
             for process in list((self._processes or {}).values()):
                 process.kill()
@@ -65,3 +66,15 @@ def one_thread() -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+class Measurement(Protocol):
+    """A frozen dataclass that times itself."""
+
+    def measure(self) -> Outcome: ...
+
+
+def measure_alone(measurement: Measurement) -> Outcome:
+    """In a fresh process with one thread."""
+    with one_thread(), isolated_process() as worker:
+        return worker.submit(measurement.measure).result()

@@ -213,11 +213,6 @@ def peers_installed() -> bool:
     return any(solver.version for solver in SOLVERS if solver.package != OURS)
 
 
-def versions() -> tuple[str, ...]:
-    """Names and versions of all solvers."""
-    return tuple(f"{solver.name} {solver.version}" for solver in SOLVERS)
-
-
 class DiscreteScene(Protocol):
     """A scene that other solvers take in plain values."""
 

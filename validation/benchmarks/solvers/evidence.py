@@ -3,11 +3,11 @@
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Table
+from validation.analysis.evidence import Evidence, Number, Table, table_of
 from validation.benchmarks.peers import OURS, SOLVERS
 from validation.benchmarks.solvers.case import (
     LoadPathWorkload,
-    ProblemRun,
+    Solved,
     SolverComparison,
     SolverComparisonResult,
     run,
@@ -15,7 +15,6 @@ from validation.benchmarks.solvers.case import (
 from validation.benchmarks.solvers.rolling import RollingThroughput
 from validation.benchmarks.solvers.wheel_steps import SteppingThroughput
 from validation.benchmarks.timing import FINISHED
-from validation.engine.engine import Outcome
 
 # the residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells
 AGREEMENT = (
@@ -50,14 +49,14 @@ def evidence(result: SolverComparisonResult) -> Evidence:
         ),
         numbers=tuple(_agreement(result)),
         tables=(
-            _runs(result.runs, result.outcomes, "heats"),
+            _runs(result.problems, "heats"),
             _scaling(result),
-            _runs(result.load_path_runs, result.load_path_outcomes, "errand"),
+            _runs(result.load_path_problems, "errand"),
             result.wheel,
         ),
         page_tables=(
-            _times(result.runs, result.outcomes, "Seconds"),
-            _times(result.load_path_runs, result.load_path_outcomes, "Times at some of the loads of Fig. 14.1"),
+            _times(result.problems, "Seconds"),
+            _times(result.load_path_problems, "Times at some of the loads of Fig. 14.1"),
             result.rolling,
         ),
         conclusions=tuple(_conclusions(result)),
@@ -75,72 +74,66 @@ def evidence(result: SolverComparisonResult) -> Evidence:
             ),
         },
         unconverged=tuple(
-            f"{each.problem.label}: {SOLVERS[i].name} {outcome['status'][i]}"
-            for each, outcome in zip(result.runs, result.outcomes, strict=True)
+            f"{problem.label}: {SOLVERS[i].name} {outcome['status'][i]}"
+            for problem, outcome in result.problems
             for i in range(2)
             if outcome["status"][i] != FINISHED
         ),
     )
 
 
-def _runs(runs: list[ProblemRun], outcomes: list[Outcome], name_of_table: str) -> Table:
-    names = (
-        ("seconds", 0, "median [s]"),
-        ("seconds", 1, "fastest [s]"),
-        ("seconds", 2, "slowest [s]"),
-        ("seconds", 3, "runs"),
-        ("setup", None, "set-up [s]"),
-        ("residual", None, "residual"),
-        ("applications", None, "operator applications"),
-        ("difference", 0, "pressure difference to ours, L2"),
-        ("difference", 1, "force difference to ours"),
-        ("difference", 2, "area difference to ours"),
-        ("difference", 3, "stiffness difference to ours"),
-    )
-    rows: dict[str, list[object]] = {}
-    for each, outcome in zip(runs, outcomes, strict=True):
-        problem = each.problem
-        for i, name in enumerate(outcome["method"]):
-            facts: dict[str, object] = {
-                "problem": problem.label,
-                "surface": problem.surface,
-                "half-space": "periodic" if problem.periodic else "free",
-                "cells": problem.cells,
-                "area": float(outcome["area"]),
-                "solver": str(name),
-                "status": str(outcome["status"][i]),
-            }
-            for key, column, title in names:
-                facts[title] = float(outcome[key][i] if column is None else outcome[key][i, column])
-            for key, value in facts.items():
-                rows.setdefault(key, []).append(value)
-    return Table(name_of_table, rows)
+COLUMNS = (
+    ("seconds", 0, "median [s]"),
+    ("seconds", 1, "fastest [s]"),
+    ("seconds", 2, "slowest [s]"),
+    ("seconds", 3, "runs"),
+    ("setup", None, "set-up [s]"),
+    ("residual", None, "residual"),
+    ("applications", None, "operator applications"),
+    ("difference", 0, "pressure difference to ours, L2"),
+    ("difference", 1, "force difference to ours"),
+    ("difference", 2, "area difference to ours"),
+    ("difference", 3, "stiffness difference to ours"),
+)
+"""Of an outcome: its name, its column, and its title in a table."""
 
 
-def _times(runs: list[ProblemRun], outcomes: list[Outcome], title: str) -> Table:
+def _runs(solved: Solved, name_of_table: str) -> Table:
+    rows = [
+        {
+            "problem": problem.label,
+            "surface": problem.surface,
+            "half-space": problem.half_space,
+            "cells": problem.cells,
+            "area": float(outcome["area"]),
+            "solver": str(name),
+            "status": str(outcome["status"][i]),
+            **{title: float(outcome[key][i] if c is None else outcome[key][i, c]) for key, c, title in COLUMNS},
+        }
+        for problem, outcome in solved
+        for i, name in enumerate(outcome["method"])
+    ]
+    return table_of(name_of_table, rows)
+
+
+def _times(solved: Solved, title: str) -> Table:
     """Seconds as they stand on the page: median, from the fastest to the slowest, and set-up."""
-    rows: dict[str, list[object]] = {"problem": [], "area": []}
-    for each, outcome in zip(runs, outcomes, strict=True):
-        rows["problem"].append(each.problem.label)
-        rows["area"].append(f"{float(outcome['area']):.1%}")
+    names = dict.fromkeys(str(name) for _, outcome in solved for name in outcome["method"])
+    rows = []
+    for problem, outcome in solved:
+        row = {"problem": problem.label, "area": f"{float(outcome['area']):.1%}", **dict.fromkeys(names, "")}
         for i, name in enumerate(outcome["method"]):
             median, fastest, slowest, _ = outcome["seconds"][i]
-            cell = f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {outcome['setup'][i]:.2g} s"
-            done = outcome["status"][i] == FINISHED
-            rows.setdefault(str(name), [""] * (len(rows["area"]) - 1)).append(
-                cell if done else str(outcome["status"][i])
-            )
-        for cells in rows.values():
-            cells += [""] * (len(rows["area"]) - len(cells))
-    return Table(f"{title}: median (from the fastest to the slowest run)", rows)
+            times = f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {outcome['setup'][i]:.2g} s"
+            row[str(name)] = times if outcome["status"][i] == FINISHED else str(outcome["status"][i])
+        rows.append(row)
+    return table_of(f"{title}: median (from the fastest to the slowest run)", rows)
 
 
 def _scaling(result: SolverComparisonResult) -> Table:
-    rows: dict[str, list[object]] = {}
-    for scaling, outcome in zip(result.scalings, result.costs, strict=True):
-        problem = scaling.problem
-        values = {
-            "problem": f"{problem.surface}, {'periodic' if problem.periodic else 'free'}",
+    rows = [
+        {
+            "problem": f"{problem.surface}, {problem.half_space}",
             "cells": problem.cells,
             "solve [s]": float(outcome["seconds"]),
             "first solve, with plans [s]": float(outcome["first"]),
@@ -151,16 +144,16 @@ def _scaling(result: SolverComparisonResult) -> Table:
             "peak memory less start [MiB]": float((outcome["peak"] - outcome["idle"]) / 2**20),
             "peak memory [MiB]": float(outcome["peak"] / 2**20),
         }
-        for name, value in values.items():
-            rows.setdefault(name, []).append(value)
-    return Table("scaling", rows)
+        for problem, outcome in result.scalings
+    ]
+    return table_of("scaling", rows)
 
 
 def _agreement(result: SolverComparisonResult) -> list[Number]:
     """The largest difference to our answer over all runs that a solver has finished."""
     numbers = []
     for i, solver in enumerate(SOLVERS[1:], start=1):
-        done = [o["difference"][i] for o in result.outcomes if o["status"][i] == o["status"][0] == FINISHED]
+        done = [o["difference"][i] for _, o in result.problems if o["status"][i] == o["status"][0] == FINISHED]
         if not done:
             continue
         for column, (what, tolerance, reason) in enumerate(AGREEMENT):
@@ -182,16 +175,14 @@ def _agreement(result: SolverComparisonResult) -> list[Number]:
 def _conclusions(result: SolverComparisonResult) -> list[str]:
     sentences = [_standing(result, periodic, *against) for periodic in (True, False) for against in AGAINST]
     sentences += [
-        f"Not finished: {each.problem.label}: {SOLVERS[i].name} {outcome['status'][i]}."
-        for each, outcome in zip(
-            [*result.runs, *result.load_path_runs], [*result.outcomes, *result.load_path_outcomes], strict=True
-        )
+        f"Not finished: {problem.label}: {SOLVERS[i].name} {outcome['status'][i]}."
+        for problem, outcome in (*result.problems, *result.load_path_problems)
         for i in OTHERS
         if outcome["status"][i].startswith("failed")
     ]
     if result.resumed:
         sentences.append(
-            f"{result.resumed} of {len(result.runs)} problems were solved before this run was interrupted."
+            f"{result.resumed} of {len(result.problems)} problems were solved before this run was interrupted."
         )
     sentences += [_work(result), _rolled(result)]
     table = _scaling(result)
@@ -201,23 +192,23 @@ def _conclusions(result: SolverComparisonResult) -> list[str]:
 
 def _work(result: SolverComparisonResult) -> str:
     """What a contact of Fig. 14.1 costs us, and what it would cost the fastest peer."""
-    load_path = result.case.load_path
-    seconds = sum(float(path["seconds"]) for path in result.paths) / (len(result.paths) * len(load_path.forces))
-    applications = float(np.mean([path["applications"] for path in result.paths]))
+    load_path, cold_solves = result.case.load_path, [outcome for _, outcome in result.load_path_problems]
+    seconds = float(np.mean([path["seconds"] for path in result.load_paths])) / len(load_path.forces)
+    applications = float(np.mean([path["applications"] for path in result.load_paths]))
     ours = (
         f"The work of Fig. 14.1 on {load_path.cells}² cells to a residual of {load_path.tolerance:g}: a contact with "
         f"its stiffness takes us {1e3 * seconds:.1f} ms and {applications:.1f} operator applications, on load paths of "
-        f"{len(load_path.forces)} forces ({len(result.paths)} surfaces, H = 0.7, everything included)"
+        f"{len(load_path.forces)} forces ({len(result.load_paths)} surfaces, H = 0.7, everything included)"
     )
-    times = {}
-    for i in OTHERS:
-        finished = all(outcome["status"][i] == FINISHED for outcome in result.load_path_outcomes)
-        if finished:
-            times[SOLVERS[i].name] = float(np.mean([o["seconds"][i, 0] for o in result.load_path_outcomes]))
+    times = {
+        SOLVERS[i].name: float(np.mean([outcome["seconds"][i, 0] for outcome in cold_solves]))
+        for i in OTHERS
+        if all(outcome["status"][i] == FINISHED for outcome in cold_solves)
+    }
     if not times:
         return f"{ours}; no peer has finished all of the sampled loads."
     fastest = min(times, key=lambda name: times[name])
-    cold = float(np.mean([outcome["seconds"][0, 0] for outcome in result.load_path_outcomes]))
+    cold = float(np.mean([outcome["seconds"][0, 0] for outcome in cold_solves]))
     return (
         f"{ours}. A cold solve without stiffness takes us {1e3 * cold:.1f} ms in the mean over "
         f"{len(load_path.sampled)} of these loads, and the fastest peer that solves them all, {fastest}, "
@@ -264,9 +255,9 @@ def _standing(result: SolverComparisonResult, periodic: bool, name: str, others:
     """Our time beside the fastest of others on each problem."""
     where = f"{'Periodic' if periodic else 'Free space'}, beside {name}"
     pairs = []
-    for each, outcome in zip(result.runs, result.outcomes, strict=True):
+    for problem, outcome in result.problems:
         finished = [i for i in others if outcome["status"][i] == FINISHED]
-        if each.problem.periodic == periodic and outcome["status"][0] == FINISHED and finished:
+        if problem.periodic == periodic and outcome["status"][0] == FINISHED and finished:
             pairs.append(outcome["seconds"][finished, :2].min(axis=0) / outcome["seconds"][0, :2])
     if not pairs:
         return f"{where}: no solver has finished."

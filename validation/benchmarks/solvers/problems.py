@@ -1,23 +1,20 @@
 """Problems on which solvers are compared: a surface that is pressed onto a free or a periodic half-space."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
-from validation.benchmarks.peers import SOLVERS, DiscreteProblem, PressureMethod, versions
+from validation.benchmarks.peers import SOLVERS, DiscreteProblem, PressureMethod
 from validation.benchmarks.timing import Configuration
 from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
-from validation.simulation.method import Resolution, Values
-from validation.simulation.model import all_models, models_serving
+from validation.simulation.method import FloatArray, Resolution, Values
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.surface import draw_surface
-
-FloatArray = NDArray[np.float64]
 
 SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
 SPHERE_LOAD = 4 / 3 / 4**3
@@ -30,7 +27,7 @@ class SurfaceProblem:
     """A surface pressed on an n x n grid of unit side: a sphere with a = n/4 cells, or a self-affine surface.
 
     Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; the punch of Fig. 14.1 alike, with its own
-    height; load: F / (E* L^2).
+    height; load: F / (E* L^2); residual: that each solver reaches, see `bem3d.residual`.
     """
 
     surface: str
@@ -38,24 +35,32 @@ class SurfaceProblem:
     cells: int
     periodic: bool
     seed: int
+    residual: float
 
     @property
     def label(self) -> str:
-        """For tables and figures."""
         load = "" if self.surface == SPHERE else f", F = {self.load:g} E* L²"
-        return f"{self.surface}{load}, {'periodic' if self.periodic else 'free'}, {self.cells}²"
+        return f"{self.surface}{load}, {self.half_space}, {self.cells}²"
+
+    @property
+    def half_space(self) -> str:
+        return "periodic" if self.periodic else "free"
 
     @property
     def scene(self) -> IndentationScene | None:
         """The scene of which models are found; None where the half-space is periodic."""
-        given = {"name": self.label, "size": 1.0, "load": self.load, "modulus": 1.0}
         if self.periodic:
             return None
-        if self.surface == SPHERE:
-            return IndentationScene(shape="sphere", **given)  # type: ignore[arg-type]
-        height = ROUGH_HEIGHT if self.surface == ROUGH else punch(self.cells, self.seed).height
-        ground = Roughness(rms=height, hurst=0.7, longest=1.0, shortest=4 / self.cells)
-        return IndentationScene(shape="punch", ground=ground, **given)  # type: ignore[arg-type]
+        ground = None
+        if self.surface != SPHERE:
+            height = ROUGH_HEIGHT if self.surface == ROUGH else punch(self.cells, self.seed).height
+            ground = Roughness(rms=height, hurst=0.7, longest=1.0, shortest=4 / self.cells)
+        shape: Literal["sphere", "punch"] = "punch" if ground else "sphere"
+        return IndentationScene(name=self.label, shape=shape, size=1.0, load=self.load, modulus=1.0, ground=ground)
+
+    @property
+    def served(self) -> tuple[str, ...]:
+        return "stiffness", "area"
 
     def height(self) -> FloatArray:
         """Positive towards the half-space [L]."""
@@ -71,51 +76,31 @@ class SurfaceProblem:
 
     def discrete(self, cells: int) -> DiscreteProblem:
         """In plain values, with the approach that belongs to its force."""
-        height = self.height()
-        discrete = DiscreteProblem(height, 1 / cells, 1.0, self.periodic, self.load, 0.0)
-        approach = bem3d.solve(discrete.half_space(), discrete.gap, force=self.load, tolerance=1e-10).approach
-        return DiscreteProblem(height, 1 / cells, 1.0, self.periodic, self.load, approach)
+        problem = DiscreteProblem(self.height(), 1 / cells, 1.0, self.periodic, self.load, 0.0)
+        contact = bem3d.solve(problem.half_space(), problem.gap, force=self.load, tolerance=1e-10)
+        return replace(problem, approach=contact.approach)
 
     def read_pressure(self, discrete: DiscreteProblem, pressure: FloatArray) -> Values:
         """The pressure and the residual that it leaves."""
         return {"pressure": pressure, "residual": np.array(discrete.residual(pressure))}
 
+    def configurations(self) -> tuple[Configuration, ...]:
+        """Each solver that is installed, in a process of its own."""
+        return tuple(
+            Configuration(
+                method=PressureMethod(solver),
+                scene=self,
+                resolution=Resolution(size=self.cells, residual=self.residual),
+                label=solver.name,
+                parameter="# cells a side",
+                value=self.cells,
+                worker=solver.name,
+            )
+            for solver in SOLVERS
+            if solver.version is not None
+        )
+
 
 def punch(cells: int, seed: int) -> PunchRoughness:
     """One of those of Fig. 14.1, with four cells to its shortest wave."""
     return PunchRoughness(hurst=0.7, waves=(1, cells // 4), seed=seed)
-
-
-def names_of(problem: SurfaceProblem) -> tuple[str, ...]:
-    """Solvers of pressures, and models that are found for the scene."""
-    return (*(solver.name for solver in SOLVERS), *(model.name for model in models_serving(problem.scene, "stiffness")))
-
-
-def configurations_of(problem: SurfaceProblem, residual: float) -> tuple[Configuration, ...]:
-    """Each solver that is installed, and each model that is found, in a process of its own."""
-    n = problem.cells
-    solvers = tuple(
-        Configuration(
-            method=PressureMethod(solver),
-            scene=problem,
-            resolution=Resolution(size=n, residual=residual),
-            label=solver.name,
-            parameter="# cells a side",
-            value=n,
-            worker=solver.name,
-        )
-        for solver in SOLVERS
-        if solver.version is not None
-    )
-    models = tuple(
-        Configuration(
-            method=model, scene=problem.scene, label=model.name, parameter=model.setting, value=1.0, worker=model.name
-        )
-        for model in models_serving(problem.scene, "stiffness")
-    )
-    return (*solvers, *models)
-
-
-def methods() -> tuple[str, ...]:
-    """Of what timings depend on: a run that goes on after a change of these begins anew."""
-    return (*versions(), *(model.name for model in all_models()))

@@ -3,11 +3,13 @@
 import itertools
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from validation.analysis.evidence import Table, table_of
-from validation.benchmarks.isolation import isolated_process, one_thread, timed
+from validation.benchmarks.isolation import measure_alone, timed
+from validation.benchmarks.work_precision.dynamic_wheel import CountedSprings
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import SpringsLaw
@@ -46,16 +48,6 @@ class SteppingThroughput:
         return found
 
 
-@dataclass(frozen=True, kw_only=True)
-class SpringWheels:
-    """Some steps of many wheels."""
-
-    scene: WheelScene
-    wheels: int
-    steps: int
-    seed: int
-
-
 def stepping_throughput(stepping: SteppingThroughput, engine: Engine) -> Table:
     """Wheel-steps a second by springs and height; the floor: plain sums over all springs, and their difference."""
     problems = stepping.problems()
@@ -68,50 +60,42 @@ def stepping_throughput(stepping: SteppingThroughput, engine: Engine) -> Table:
             "springs examined": float(outcome["examined"]),
             "difference to the plain sum": float(outcome["difference"]),
         }
-        for problem, outcome in zip(problems, engine.map(measure_springs, problems), strict=True)
+        for problem, outcome in zip(problems, engine.map(measure_alone, problems), strict=True)
     ]
     return table_of("wheel", rows)
 
 
-def measure_springs(problem: SpringWheels) -> Outcome:
-    """Wheel-steps a second of the simulation; of the plain sum over all springs within reach; their difference."""
-    with one_thread(), isolated_process() as worker:
-        return worker.submit(_measure_springs, problem).result()
+@dataclass(frozen=True, kw_only=True)
+class SpringWheels:
+    """Some steps of many wheels."""
+
+    scene: WheelScene
+    wheels: int
+    steps: int
+    seed: int
+
+    def measure(self) -> Outcome:
+        """Wheel-steps a second of the simulation; of the plain sum over all springs within reach; their difference."""
+        scene, wheel = self.scene, self.scene.body
+        heights = WheelEnsemble(scene=scene, count=self.wheels, seed=self.seed).heights()
+        law, counted = SpringsLaw(wheel, heights, scene.spacing), CountedSprings(wheel, heights, scene.spacing)
+        settings: dict[str, Any] = {"time_step": scene.time_step, "steps": self.steps}
+        simulate(wheel, counted, **settings)
+        times = [timed(lambda: simulate(wheel, law, **settings)) for _ in range(3)]
+        motion, seconds = min(times, key=lambda time: time[1])
+        plain = PlainSum(scene, heights, float(motion.highest.max()))
+        few = range(max(self.steps // 20, 1))
+        _, slow = timed(lambda: [plain.force(n, motion.approach) for n in few])
+        off = max(float(np.abs(plain.force(n, motion.approach) - law.force(n, motion.approach)).max()) for n in few)
+        return {
+            "rate": np.array(self.steps * self.wheels / seconds),
+            "plain": np.array(len(few) * self.wheels / slow),
+            "examined": np.array(float(np.mean(counted.examined))),
+            "difference": np.array(off / scene.load),
+        }
 
 
-def _measure_springs(problem: SpringWheels) -> Outcome:
-    scene, wheel = problem.scene, problem.scene.body
-    heights = WheelEnsemble(scene=scene, count=problem.wheels, seed=problem.seed).heights()
-    law, examined = SpringsLaw(wheel, heights, scene.spacing), []
-
-    class CountingLaw:
-        """The same law, which counts what it looks at."""
-
-        def force(self, place: int, approach: FloatArray) -> FloatArray:
-            found = law.force(place, approach)
-            examined.append(law.foundation.examined)
-            return found
-
-        def at_rest(self, place: int) -> FloatArray:
-            return law.at_rest(place)
-
-    settings = {"time_step": scene.time_step, "steps": problem.steps}
-    simulate(wheel, CountingLaw(), **settings)  # type: ignore[arg-type]
-    times = [timed(lambda: simulate(wheel, law, **settings)) for _ in range(3)]  # type: ignore[arg-type]
-    motion, seconds = min(times, key=lambda time: time[1])
-    plain = _PlainSum(scene, heights, float(motion.highest.max()))
-    few = max(problem.steps // 20, 1)
-    _, slow = timed(lambda: [plain.force(n, motion.approach) for n in range(few)])
-    off = max(float(np.abs(plain.force(n, motion.approach) - law.force(n, motion.approach)).max()) for n in range(few))
-    return {
-        "rate": np.array(problem.steps * problem.wheels / seconds),
-        "plain": np.array(few * problem.wheels / slow),
-        "examined": np.array(float(np.mean(examined))),
-        "difference": np.array(off / scene.load),
-    }
-
-
-class _PlainSum:
+class PlainSum:
     """F = E* dx sum_j max(d - x_j^2 / R + h_j, 0) over all springs that some wheel may reach, every time."""
 
     def __init__(self, scene: WheelScene, heights: FloatArray, deepest: float):

@@ -2,16 +2,14 @@
 
 from dataclasses import dataclass, field, replace
 
-from validation.benchmarks.peers import versions
+from validation.benchmarks.found_models import TimedProblem, all_methods
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
 from validation.benchmarks.work_precision.exact_problems import RESIDUALS, PunchProblem, SphereProblem, WaveProblem
-from validation.benchmarks.work_precision.grids import Grids
-from validation.benchmarks.work_precision.problem import ChartProblem, TimedProblem, measure
+from validation.benchmarks.work_precision.problem import ChartProblem, Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.model import all_models
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,19 +71,19 @@ FULL = Precision(
         peers=(16, 64, 256, 1024),
     ),
     fractal=RoughPunchProblem(
-        surfaces=100,
+        realisations=100,
         profiles=500,
         grids=Grids(cells=(24, 32, 64, 128, 256), polonsky_keer=(32, 64, 128), fixed=128),
         springs=(24, 32, 64, 128, 256, 512, 1024),
     ),
     rolling=RollingProblem(
         length=32,
-        strips=8,
+        realisations=8,
         tracks=60,
         grids=Grids(cells=(3, 4, 6, 8, 12, 16, 32), polonsky_keer=(4, 6), fixed=12, per="to a radius"),
     ),
     wheel=WheelProblem(
-        strips=8,
+        realisations=8,
         wheels=60,
         grids=Grids(cells=(6, 9, 12, 15, 30), fixed=12, tolerances=(1e-2, 1e-3), per="to a radius"),
         springs=(12, 25, 50, 100),
@@ -105,9 +103,8 @@ class PrecisionResult:
 
 def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
-    methods = (*versions(), *(model.name for model in all_models()))
     limits = RunLimits(slow=case.slow, enough=case.enough)
-    timed = [TimedProblem(problem, limits, methods) for problem in case.problems()]
+    timed = [TimedProblem(problem, limits, all_methods()) for problem in case.problems()]
     with engine.timed() as alone:
         outcomes = alone.map(measure, timed)
     return PrecisionResult(case, outcomes)

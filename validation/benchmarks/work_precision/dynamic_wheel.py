@@ -3,21 +3,28 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import partial
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.benchmarks.timing import Configuration
-from validation.benchmarks.work_precision.grids import ExtrapolatedProblem, Grids, GridSeries
-from validation.benchmarks.work_precision.problem import CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING, Quantity, along
+from validation.benchmarks.work_precision.problem import (
+    CLOSED,
+    FILTER_1D,
+    FILTER_3D,
+    MDR,
+    MDR_ROLLING,
+    ChartProblem,
+    Grids,
+    Quantity,
+)
 from validation.benchmarks.work_precision.rolling import log_levels
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
-from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve
+from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve
 from validation.simulation.motion import Motion, periodic_motion, simulate
 from validation.simulation.wheel_on_half_space import (
     WheelStrip,
@@ -39,32 +46,26 @@ GRIDS = Grids(cells=(6, 12), fixed=6, tolerances=(1e-2, 1e-3), per="to a radius"
 
 
 @dataclass(frozen=True, kw_only=True)
-class WheelProblem(ExtrapolatedProblem):
+class WheelProblem(ChartProblem):
     """Wheels of a scene over isotropic surfaces, in one round of a track.
 
     wheel_scene: whose rail alone is rough; turns: whole, of the resonance, to which a half is added; width: of
-    surfaces over the longest wave; strips: realisations; wheels: on springs, in a batch; filtered: cells for the linear
-    filter; shared: of which all cells are multiples; springs: to a contact radius; seed: zero or positive.
+    surfaces over the longest wave; realisations: of strips; wheels: on springs, in a batch; filtered: cells for the
+    linear filter; shared: of which all cells are multiples; springs: to a contact radius; seed: zero or positive.
+    No models are found: these values are those of a periodic strip.
     """
 
+    name: ClassVar = "dynamic wheel"
     wheel_scene: WheelScene = field(default=SCENE)
     turns: int = 0
     width: int = 2
-    strips: int = 3
+    realisations: int = 3
     wheels: int = 20
     grids: Grids = GRIDS
     filtered: tuple[int, ...] = (6, 12)
     shared: int = 3
     springs: tuple[int, ...] = (12, 25)
     seed: int = 152
-
-    scene: ClassVar = None
-    """No models are found: these values are those of a periodic strip."""
-
-    @property
-    def name(self) -> str:
-        """For tables and figures."""
-        return "dynamic wheel"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -105,19 +106,16 @@ class WheelProblem(ExtrapolatedProblem):
     def configurations(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs with both input spectra, boundary elements in the time loop."""
         springs = (WheelsOnSprings(FILTER_1D, linear=True), WheelsOnSprings(MDR), FOR_ROLLING)
-        batches = partial(along, scene=self, parameter="# springs to a radius", paired=False)
-        strips = partial(along, scene=self, parameter="# cells to a radius", realisations=self.strips)
         return (
-            *along(WheelLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
-            *(each for method in springs for each in batches(method, sizes=self.springs)),
-            *strips(WheelFiltered(), sizes=self.filtered),
-            *self.grid_series.configurations(),
+            *self.along(WheelLinearSpectrum(), (1.0,), "linear theory", paired=False),
+            *(each for m in springs for each in self.along(m, self.springs, "# springs to a radius", paired=False)),
+            *self.along(WheelFiltered(), self.filtered, "# cells to a radius", realisations=self.realisations),
+            *self.boundary_elements(),
         )
 
     @property
-    def grid_series(self) -> GridSeries:
-        """Boundary elements."""
-        return GridSeries(grids=self.grids, scene=self, method=WheelInTimeLoop(), realisations=self.strips)
+    def method(self) -> Method:
+        return WheelInTimeLoop()
 
     def read(self, acceleration: FloatArray, linear: "LinearStrip", work: float) -> Result:
         """Levels of a wheel, and of the linear one on the same surface."""
@@ -126,9 +124,8 @@ class WheelProblem(ExtrapolatedProblem):
 
     def without_surface(self, level: FloatArray, work: float, count: int = 1) -> Result:
         """Of a model without a surface of its own."""
-        return Result(
-            {"level": level, "linear level": np.ones(level.shape), "mean level": np.ones(level.shape)}, work, count
-        )
+        ones = np.ones(level.shape)
+        return Result({"level": level, "linear level": ones, "mean level": ones}, work, count)
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,7 +186,6 @@ class WheelLinearSpectrum:
     name: str = CLOSED
 
     def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
-        """Nothing to do."""
         wheel = scene.wheel_scene.body
         rough = scene.strip(0, scene.shared, scene.grids.tight).roughness
         line = 2 * math.pi / scene.duration
@@ -219,15 +215,18 @@ class WheelLinearSpectrum:
 
 
 class CountedSprings(SpringsLaw):
-    """Springs that count how many of them have been looked at."""
+    """Springs that count how many of them they examine, one by one, for a wheel at each time."""
 
-    looked = 0
+    def __init__(self, *track: Any):
+        super().__init__(*track)
+        self.examined: list[float] = []
+        self.work = 0.0
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:
-        """As they have it."""
         found = super().force(place, approach)
-        # a prefix sum costs as much as two looks
-        self.looked += (self.foundation.examined + 2) * approach.size
+        self.examined.append(self.foundation.examined)
+        # a prefix sum costs as much as two springs
+        self.work += (self.foundation.examined + 2) * approach.size
         return found
 
 
@@ -264,7 +263,7 @@ def _filter(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[Flo
 
 def _springs(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
     scene, wheel = rides.scene, rides.scene.body
-    settings = {"time_step": scene.time_step, "steps": rides.steps}
+    settings: dict[str, Any] = {"time_step": scene.time_step, "steps": rides.steps}
 
     def roll() -> tuple[FloatArray, float]:
         laws = []
@@ -275,11 +274,11 @@ def _springs(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[Fl
 
         first = law(1)
         start = first.at_rest(0), np.zeros(rides.count)
-        approach, velocity, left = periodic_motion(wheel, law, **settings, start=start)  # type: ignore[arg-type]
+        approach, velocity, left = periodic_motion(wheel, law, **settings, start=start)
         if (left > STEADY_TOLERANCE).any():
             raise RuntimeError(f"{np.count_nonzero(left > STEADY_TOLERANCE)} wheels do not repeat their motion")
-        motion: Motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)  # type: ignore[arg-type]
-        return motion.acceleration, float(sum(each.looked for each in laws))
+        motion: Motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)
+        return motion.acceleration, float(sum(each.work for each in laws))
 
     return roll
 
@@ -294,7 +293,6 @@ class WheelFiltered:
     name: str = FILTER_3D
 
     def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
-        """Nothing to do."""
         cells = round(resolution.size)
 
         def draw(realisation: int) -> Solve:

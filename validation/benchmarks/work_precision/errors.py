@@ -9,15 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.statistics import jackknife_error, student
-from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
+from validation.benchmarks.found_models import configurations_of
+from validation.benchmarks.timing import OUT_OF_RANGE, Configuration
 from validation.benchmarks.work_precision.pareto import Point
-from validation.benchmarks.work_precision.problem import (
-    EXTRAPOLATED,
-    ChartProblem,
-    Quantity,
-    configurations_of,
-    values_by_configuration,
-)
+from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartProblem, Quantity, values_by_configuration
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
 from validation.simulation.method import FloatArray, Values
@@ -41,7 +36,6 @@ class MethodValues:
 
     @property
     def size(self) -> int:
-        """Realisations."""
         return len(next(iter(self.fine.values())))
 
     def log(self, quantity: Quantity, rows: IntArray) -> FloatArray:
@@ -130,84 +124,56 @@ def reference_of(problem: ChartProblem, found: Found) -> tuple[MethodValues, Cal
 
 def points(problem: ChartProblem, outcome: Outcome) -> list[Point]:
     """Every configuration and every quantity, and every pair of grids extrapolated, its costs added."""
-    configurations = configurations_of(problem)
-    status = [str(s) for s in outcome["status"]]
     found = values_by_configuration(problem, outcome)
     reference, band = reference_of(problem, found)
-    costs = {a: _cost(outcome, i) for i, a in enumerate(configurations)}
+    timed = {each: _timed(each, outcome, i) for i, each in enumerate(configurations_of(problem))}
     rows: list[Point] = []
     for quantity in problem.quantities:
-        blank = Point(
-            scene=problem.name,
-            quantity=quantity.name,
-            unit="dB" if quantity.decibel else "%",
-            band=band(quantity),
-        )
-        rows += [
-            _point(replace(blank, **costs[a]), a, s, quantity, found.get(a), reference)
-            for a, s in zip(configurations, status, strict=True)
-        ]
+        unit = "dB" if quantity.decibel else "%"
+        chart: dict[str, Any] = {"scene": problem.name, "quantity": quantity.name, "unit": unit, "band": band(quantity)}
+        blank = {each: Point(**chart, **facts) for each, facts in timed.items()}
+        for each, point in blank.items():
+            if each not in found:
+                rows.append(point)
+            elif not set(quantity.needs) <= found[each].keys():
+                rows.append(replace(point, status=f"{OUT_OF_RANGE}: it does not have this quantity"))
+            else:
+                answer = MethodValues(found[each], paired=each.paired)
+                rows.append(_with_error(point, error(quantity, answer, reference)))
         for coarse, fine in problem.pairs():
             if coarse in found and fine in found:
                 both = MethodValues(found[fine], found[coarse], fine.value / coarse.value)
-                rows.append(_extrapolated(blank, costs, coarse, fine, error(quantity, both, reference)))
+                rows.append(_with_error(_extrapolated(blank[coarse], blank[fine]), error(quantity, both, reference)))
     return rows
 
 
-def _cost(outcome: Outcome, i: int) -> dict[str, Any]:
-    low, median, high = np.quantile(outcome[f"seconds {i}"], (0.25, 0.5, 0.75)).tolist()
+def _timed(configuration: Configuration, outcome: Outcome, i: int) -> dict[str, Any]:
+    seconds = outcome[f"seconds {i}"]
     return {
-        "seconds": (low, median, high),
-        "runs": outcome[f"seconds {i}"].size,
+        "method": configuration.label,
+        "parameter": configuration.parameter,
+        "value": configuration.value,
+        "is_reference": configuration.is_reference,
+        "is_model": not configuration.paired,
+        "status": str(outcome["status"][i]),
+        "seconds": tuple(np.quantile(seconds, (0.25, 0.5, 0.75)).tolist()),
+        "runs": seconds.size,
         "setup": float(outcome["setup"][i]),
         "work": float(outcome["work"][i]),
     }
 
 
-def _point(
-    blank: Point,
-    configuration: Configuration,
-    status: str,
-    quantity: Quantity,
-    values: Values | None,
-    reference: MethodValues,
-) -> Point:
-    named = replace(
-        blank,
-        method=configuration.label,
-        parameter=configuration.parameter,
-        value=configuration.value,
-        is_reference=configuration.is_reference,
-        status=status,
-    )
-    if values is None:
-        return named
-    if not set(quantity.needs) <= values.keys():
-        return replace(named, status=f"{OUT_OF_RANGE}: it does not have this quantity")
-    found = error(quantity, MethodValues(values, paired=configuration.paired), reference)
-    return replace(named, error=found.value, half_width=found.half_width, over=found.over)
+def _with_error(point: Point, found: Error) -> Point:
+    return replace(point, error=found.value, half_width=found.half_width, over=found.over)
 
 
-def _extrapolated(
-    blank: Point,
-    costs: Mapping[Configuration, Mapping[str, Any]],
-    coarse: Configuration,
-    fine: Configuration,
-    found: Error,
-) -> Point:
-    one, other = (replace(blank, **costs[a]) for a in (coarse, fine))
-    low, median, high = (x + y for x, y in zip(one.seconds, other.seconds, strict=True))
+def _extrapolated(coarse: Point, fine: Point) -> Point:
+    low, median, high = (x + y for x, y in zip(coarse.seconds, fine.seconds, strict=True))
     return replace(
-        blank,
+        fine,
         method=EXTRAPOLATED,
-        parameter=fine.parameter,
-        value=fine.value,
-        status=FINISHED,
         seconds=(low, median, high),
-        runs=min(one.runs, other.runs),
-        setup=one.setup + other.setup,
-        work=one.work + other.work,
-        error=found.value,
-        half_width=found.half_width,
-        over=found.over,
+        runs=min(coarse.runs, fine.runs),
+        setup=coarse.setup + fine.setup,
+        work=coarse.work + fine.work,
     )

@@ -1,5 +1,6 @@
 """What error against cost shows: every point, the cheapest methods, break-even in words, orders, equal values."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -8,6 +9,7 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, table_of
+from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import FAILED, FINISHED
 from validation.benchmarks.work_precision.case import FULL, Precision, PrecisionResult, run
 from validation.benchmarks.work_precision.errors import points
@@ -23,25 +25,20 @@ from validation.benchmarks.work_precision.pareto import (
     seconds,
     work,
 )
-from validation.benchmarks.work_precision.problem import BEM, CLOSED, FILTER_1D, LOOSE, MDR, MDR_ROLLING, POLONSKY_KEER
+from validation.benchmarks.work_precision.problem import BEM, MDR, POLONSKY_KEER
 
-MODELS = (CLOSED, FILTER_1D, MDR, MDR_ROLLING)
-"""Methods whose error no parameter brings to zero, where the surface is rough."""
-SOLVED = (MDR, MDR_ROLLING, BEM, LOOSE)
-"""Methods that must finish, or be out of range; of the published iteration and of other solvers a failure is a row."""
+MAY_FAIL = (POLONSKY_KEER, *(solver.name for solver in SOLVERS))
+"""Of the published iteration and of other solvers a failure is a row; all others must finish, or be out of range."""
 TEN_PERCENT, ONE_DECIBEL = 0.1, 1.0
 """Within which a model is said to agree."""
 
 
 @dataclass(frozen=True)
 class Charts:
-    """Points of all scenes, a group a quantity."""
-
     result: PrecisionResult
 
     @cached_property
     def points(self) -> list[Point]:
-        """All of them."""
         scenes = zip(self.result.case.problems(), self.result.outcomes, strict=True)
         return [point for scene, outcome in scenes for point in points(scene, outcome)]
 
@@ -61,12 +58,13 @@ class Charts:
 def evidence(result: PrecisionResult) -> Evidence:
     """Criteria where something is predicted exactly; the times are tables and conclusions, none right or wrong."""
     charts = Charts(result)
+    summary = _summary(charts)
     return Evidence(
         title="Speed against accuracy: the error and the cost of every method",
         method=_method(result),
         numbers=(*_orders(charts), *_equal(charts), *_models(charts)),
-        tables=(_table(charts), _summary(charts)),
-        page_tables=(_cheapest(charts), _without(charts)),
+        tables=(_table(charts), summary),
+        page_tables=(_cheapest(summary), _without(charts)),
         conclusions=tuple(break_even(group) for group in charts.groups),
         captions=_captions(),
         unconverged=_unconverged(charts),
@@ -83,9 +81,9 @@ def _method(result: PrecisionResult) -> str:
         "bound, that one is used. Errors of the two finest grids are steps of their own extrapolation. Spectra: root "
         "mean square, over one-third octaves, of level differences. "
         f"Springs have roughness of their own, {case.fractal.profiles} profiles, {case.rolling.tracks} "
-        f"tracks, {case.wheel.wheels} wheels; boundary elements {case.fractal.surfaces} surfaces, "
-        f"{case.rolling.strips} and {case.wheel.strips} strips, whose linear force takes most of their scatter away; "
-        "these are periodic, which closed forms are not. "
+        f"tracks, {case.wheel.wheels} wheels; boundary elements {case.fractal.realisations} surfaces, "
+        f"{case.rolling.realisations} and {case.wheel.realisations} strips, whose linear force takes most of their "
+        "scatter away; these are periodic, which closed forms are not. "
         "Cost: seconds of one realisation, methods in turns, one thread, median and quartiles; set-up "
         "(operators, plans, a first drawing) is timed apart. Work, the same on every machine: cells times operator "
         "applications, as if on the whole grid (rolling: on a square around the smooth contact), springs evaluated, "
@@ -147,38 +145,29 @@ def _table(charts: Charts) -> Table:
 
 
 def _summary(charts: Charts) -> Table:
-    rows: list[dict[str, object]] = []
-    for group in charts.groups:
-        others = [point for point in group if not point.is_reference]
-        for tolerance in TOLERANCES:
-            best = cheapest(others, tolerance)
-            rows.append(
-                {
-                    "scene": group[0].scene,
-                    "quantity": group[0].quantity,
-                    "tolerance": tolerance,
-                    "method": best.method if best else reason_if_none(group, tolerance),
-                    "setting": best.setting if best else "",
-                    "median [s]": seconds(best) if best else float("nan"),
-                }
-            )
-    return table_of("summary", rows)
+    return table_of("summary", [_best(group, tolerance) for group in charts.groups for tolerance in TOLERANCES])
 
 
-def _cheapest(charts: Charts) -> Table:
-    rows: list[dict[str, object]] = []
-    for group in charts.groups:
-        others = [point for point in group if not point.is_reference]
-        row: dict[str, object] = {"scene": group[0].scene, "quantity": group[0].quantity}
-        for tolerance in TOLERANCES:
-            best = cheapest(others, tolerance)
-            row[f"within {100 * tolerance:g} %"] = (
-                f"{best.method}, {best.setting}: {format_seconds(seconds(best))}"
-                if best
-                else reason_if_none(group, tolerance)
-            )
-        rows.append(row)
-    return table_of("the cheapest method within a tolerance, seconds of one realisation", rows)
+def _best(group: Sequence[Point], tolerance: float) -> dict[str, object]:
+    best = cheapest([point for point in group if not point.is_reference], tolerance)
+    return {
+        "scene": group[0].scene,
+        "quantity": group[0].quantity,
+        "tolerance": tolerance,
+        "method": best.method if best else reason_if_none(group, tolerance),
+        "setting": best.setting if best else "",
+        "median [s]": seconds(best) if best else math.nan,
+    }
+
+
+def _cheapest(summary: Table) -> Table:
+    """A column a tolerance."""
+    rows: dict[tuple[str, str], dict[str, object]] = {}
+    for scene, quantity, tolerance, method, setting, median in zip(*summary.columns.values(), strict=True):
+        row = rows.setdefault((scene, quantity), {"scene": scene, "quantity": quantity})
+        text = f"{method}, {setting}: {format_seconds(median)}" if setting else method
+        row[f"within {100 * tolerance:g} %"] = text
+    return table_of("the cheapest method within a tolerance, seconds of one realisation", list(rows.values()))
 
 
 def _without(charts: Charts) -> Table:
@@ -197,7 +186,7 @@ def _without(charts: Charts) -> Table:
 
 
 def _unconverged(charts: Charts) -> tuple[str, ...]:
-    lost = (p for p in charts.points if p.method in SOLVED and p.status.startswith(FAILED))
+    lost = (p for p in charts.points if p.method not in MAY_FAIL and p.status.startswith(FAILED))
     return tuple(dict.fromkeys(f"{p.scene}: {p.method}, {p.setting}: {p.status}" for p in lost))
 
 
@@ -206,14 +195,7 @@ def _orders(charts: Charts) -> list[Number]:
     found = []
     for scene, quantity, line, order, tolerance, reason in (
         ("sphere", "force", BEM, 2.0, 0.5, "second order; the staircase edge scatters the error from grid to grid"),
-        (
-            "sphere",
-            "force",
-            MDR,
-            2.0,
-            0.1,
-            "second order: the contact ends at the same part of a spring on each grid",
-        ),
+        ("sphere", "force", MDR, 2.0, 0.1, "second order: the contact ends at the same part of a spring on each grid"),
         ("square punch", "stiffness", BEM, 1.0, 0.15, "the pressure is singular at the edge: first order"),
     ):
         points = charts.of(scene, quantity, line)
@@ -267,25 +249,22 @@ def _models(charts: Charts) -> list[Number]:
     for group in charts.groups:
         if any(point.is_reference for point in group):
             continue
-        for line in MODELS:
-            mine = [point for point in group if point.method == line and point.finished]
-            if not mine:
-                continue
-            last = mine[-1]
-            decibel = last.unit == "dB"
+        finest = {point.method: point for point in group if point.is_model and point.finished}
+        for method, last in finest.items():
+            scale, tolerance = (1.0, ONE_DECIBEL) if last.unit == "dB" else (100.0, 100 * TEN_PERCENT)
             found.append(
                 Number(
                     quantity=f"error of the {last.quantity}",
-                    model=line,
+                    model=method,
                     where={"scene": last.scene, "setting": last.setting},
-                    value=last.error if decibel else 100 * last.error,
+                    value=scale * last.error,
                     reference=0.0,
                     source="boundary elements, extrapolated",
-                    tolerance=ONE_DECIBEL if decibel else 100 * TEN_PERCENT,
+                    tolerance=tolerance,
                     reason="10 %, or 1 dB: tolerance of agreement",
                     unit=last.unit,
-                    grid=last.band if decibel else 100 * last.band,
-                    sample=last.half_width if decibel else 100 * last.half_width,
+                    grid=scale * last.band,
+                    sample=scale * last.half_width,
                     role=Role.FINDING,
                 )
             )

@@ -4,57 +4,114 @@ Units: E* = 1 and a length of each scene.
 """
 
 import math
+from abc import abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 import bem3d
 import mdr
+from validation.benchmarks import peers
+from validation.benchmarks.peers import DiscreteProblem, PressureMethod
 from validation.benchmarks.timing import Configuration
-from validation.benchmarks.work_precision.exact_problem import (
-    ExactProblem,
-    exact_configurations,
-    grid_series,
-    logarithm,
-)
-from validation.benchmarks.work_precision.grids import Grids
-from validation.benchmarks.work_precision.problem import Quantity
+from validation.benchmarks.work_precision.problem import CLOSED, ChartProblem, Grids, Quantity, logarithm
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.method import FloatArray, Values
-from validation.simulation.pressed import FIXED_AREA_RESIDUAL
+from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
+from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedSprings
 from validation.theory import closed_forms
 
 RESIDUALS = (0.1, 1e-2, 1e-3, 1e-4)
 """Looser than those of all other solves."""
+UNIT_SPHERE = {"radius": 1.0, "modulus": 1.0}
 
 
-class OnExactProblem:
-    """What all of these share."""
+def scalars(**numbers: float) -> Values:
+    return {name: np.array(number) for name, number in numbers.items()}
 
-    def configurations(self: ExactProblem) -> tuple[Configuration, ...]:
-        """See `exact_configurations`."""
-        return exact_configurations(self)
 
-    def reference(self: ExactProblem) -> Values:
-        """What is exact."""
-        return self.exact()
+@dataclass(frozen=True)
+class ClosedForm:
+    """What is exact."""
 
-    def pairs(self: ExactProblem) -> tuple[tuple[Configuration, Configuration], ...]:
-        """Grids of which one has twice the cells of the other."""
-        return grid_series(self).pairs()
+    name: str = CLOSED
+
+    def prepare(self, scene: "ExactProblem", resolution: Resolution) -> Prepared:
+        return lambda _: Solve(scene.exact, lambda found: Result(found, 1.0))
+
+
+class ExactProblem(ChartProblem):
+    """A pressed body whose answer is known: `PressedScene` for our methods, plain values for other solvers.
+
+    peers: cells of other solvers; springs: on a length.
+    """
+
+    peers: tuple[int, ...]
+    springs: tuple[float, ...]
+
+    @abstractmethod
+    def exact(self) -> Values:
+        """By closed forms."""
+
+    @abstractmethod
+    def half_space(self, cells: int) -> bem3d.HalfSpace: ...
+
+    @abstractmethod
+    def gap(self, cells: int, realisation: int = 0) -> FloatArray: ...
+
+    @abstractmethod
+    def peer_force(self, cells: int) -> float:
+        """What other solvers are pressed with."""
+
+    @abstractmethod
+    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
+        """Values of another solver; where it prescribes the other load, carried over along the closed form."""
 
     def load(self, cells: int) -> dict[str, float]:
-        """A unit approach."""
         return {"approach": 1.0}
 
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
         """Nothing beside the contact."""
         return None
 
-    @property
-    def scene(self) -> IndentationScene | None:
-        """The scene of which models are found."""
-        return None
+    def reference(self) -> Values:
+        return {name: value[np.newaxis] for name, value in self.exact().items()}
+
+    def configurations(self) -> tuple[Configuration, ...]:
+        """The closed form, springs, boundary elements, and other solvers where they are installed."""
+        per, tight = self.grids.per, self.grids.tight
+        return (
+            *self.along(ClosedForm(), (1.0,), "exact", is_reference=True),
+            *self.along(PressedSprings(), self.springs, f"# springs {per}"),
+            *self.boundary_elements(),
+            *(
+                each
+                for solver in peers.SOLVERS[2:]
+                if solver.version
+                for each in self.along(
+                    PressureMethod(solver), self.peers, f"# cells {per}", residual=tight, worker=solver.name
+                )
+            ),
+        )
+
+    def discrete(self, cells: int) -> DiscreteProblem:
+        """By a force, or by the approach of the closed form."""
+        return DiscreteProblem(
+            height=-self.gap(cells),
+            spacing=1 / cells,
+            modulus=1.0,
+            periodic=self.half_space(cells).periodic,
+            force=self.peer_force(cells),
+            approach=float(self.exact().get("approach", 1.0)),
+        )
+
+    def read_pressure(self, discrete: DiscreteProblem, pressure: FloatArray) -> Values:
+        """Force, approach and area of a pressure, carried over to the load of the problem."""
+        cells = round(1 / discrete.spacing)
+        separation = discrete.gap + discrete.half_space().displacement(pressure)
+        area = np.count_nonzero(pressure > 1e-9 * pressure.max()) / cells**2
+        approach = float((pressure * separation).sum() / pressure.sum())
+        return self.read_peer(cells, float(pressure.sum()) / cells**2, approach, area)
 
 
 SPHERE_GRIDS = Grids(
@@ -63,17 +120,13 @@ SPHERE_GRIDS = Grids(
 
 
 @dataclass(frozen=True, kw_only=True)
-class SphereProblem(OnExactProblem):
+class SphereProblem(ExactProblem):
     """A rigid sphere, R = a = d = 1, on a grid of 4 a."""
 
+    name: ClassVar = "sphere"
     grids: Grids = SPHERE_GRIDS
     peers: tuple[int, ...] = (8, 16)
     springs: tuple[float, ...] = (2.4, 4.4, 8.4, 16.4, 32.4, 64.4)
-
-    @property
-    def name(self) -> str:
-        """For tables and figures."""
-        return "sphere"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -91,14 +144,13 @@ class SphereProblem(OnExactProblem):
 
     def exact(self) -> Values:
         """Hertz and Boussinesq."""
-        return {
-            "force": np.array([closed_forms.hertz_force(radius=1.0, modulus=1.0, approach=1.0)]),
-            "radius": np.array([closed_forms.hertz_contact_radius(radius=1.0, approach=1.0)]),
-            "stiffness": np.array([closed_forms.circular_punch_stiffness(radius=1.0, modulus=1.0)]),
-        }
+        return scalars(
+            force=closed_forms.hertz_force(**UNIT_SPHERE, approach=1.0),
+            radius=closed_forms.hertz_contact_radius(radius=1.0, approach=1.0),
+            stiffness=closed_forms.circular_punch_stiffness(**UNIT_SPHERE),
+        )
 
     def half_space(self, cells: int) -> bem3d.HalfSpace:
-        """4 a wide."""
         return bem3d.HalfSpace(shape=(4 * cells, 4 * cells), spacing=1 / cells, modulus=1.0)
 
     def gap(self, cells: int, realisation: int = 0) -> FloatArray:
@@ -108,27 +160,19 @@ class SphereProblem(OnExactProblem):
 
     def peer_force(self, cells: int) -> float:
         """Of Hertz."""
-        return float(self.exact()["force"][0])
+        return float(self.exact()["force"])
 
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
-        """The stiffness."""
         return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FIXED_AREA_RESIDUAL)
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
-        """Force, radius of a circle of that area, stiffness."""
+        """The radius is that of a circle of the contact area."""
         assert fixed is not None
-        return {
-            "force": np.array(contact.force),
-            "radius": np.array(math.sqrt(contact.area / math.pi)),
-            "stiffness": np.array(fixed.stiffness),
-        }
+        return scalars(force=contact.force, radius=math.sqrt(contact.area / math.pi), stiffness=fixed.stiffness)
 
     def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
         """F ~ d^(3/2) and a ~ d^(1/2)."""
-        return {
-            "force": np.array(force * approach**-1.5),
-            "radius": np.array(math.sqrt(area / math.pi / approach)),
-        }
+        return scalars(force=force * approach**-1.5, radius=math.sqrt(area / math.pi / approach))
 
     def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
         """x^2 / R, about 4 a long; the contact ends between springs unless a whole number of them makes a radius."""
@@ -138,28 +182,20 @@ class SphereProblem(OnExactProblem):
 
     def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
         """The radius is half the length of the springs in contact."""
-        return {
-            "force": np.array(point.force),
-            "radius": np.array(point.stiffness / 2),
-            "stiffness": np.array(point.stiffness),
-        }
+        return scalars(force=point.force, radius=point.stiffness / 2, stiffness=point.stiffness)
 
 
 PUNCH_GRIDS = Grids(cells=(8, 16, 32, 64), polonsky_keer=(8, 16, 32), fixed=32, tight=1e-8, tolerances=RESIDUALS)
 
 
 @dataclass(frozen=True, kw_only=True)
-class PunchProblem(OnExactProblem):
+class PunchProblem(ExactProblem):
     """A rigid flat square punch of side L = 1 on a grid that just holds it."""
 
+    name: ClassVar = "square punch"
     grids: Grids = PUNCH_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (4, 16, 64)
-
-    @property
-    def name(self) -> str:
-        """For tables and figures."""
-        return "square punch"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -169,19 +205,16 @@ class PunchProblem(OnExactProblem):
 
     @property
     def scene(self) -> IndentationScene:
-        """At about a unit approach."""
         return IndentationScene(name=self.name, shape="punch", size=1.0, load=self.peer_force(0), modulus=1.0)
 
     def exact(self) -> Values:
         """1.1523 E* L."""
-        return {"stiffness": np.array([closed_forms.square_punch_stiffness(side=1.0, modulus=1.0)])}
+        return scalars(stiffness=closed_forms.square_punch_stiffness(side=1.0, modulus=1.0))
 
     def half_space(self, cells: int) -> bem3d.HalfSpace:
-        """As wide as the punch."""
         return bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
 
     def gap(self, cells: int, realisation: int = 0) -> FloatArray:
-        """Flat."""
         return np.zeros((cells, cells))
 
     def peer_force(self, cells: int) -> float:
@@ -189,20 +222,17 @@ class PunchProblem(OnExactProblem):
         return closed_forms.SQUARE_PUNCH
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
-        """F / d."""
-        return {"stiffness": np.array(contact.force / contact.approach)}
+        return scalars(stiffness=contact.force / contact.approach)
 
     def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
-        """F / d."""
-        return {"stiffness": np.array(force / approach)}
+        return scalars(stiffness=force / approach)
 
     def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
         """Flat, L long."""
         return np.zeros(round(springs)), 1.0
 
     def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
-        """All springs."""
-        return {"stiffness": np.array(point.stiffness)}
+        return scalars(stiffness=point.stiffness)
 
 
 WAVE_GRIDS = Grids(
@@ -216,21 +246,17 @@ WAVE_GRIDS = Grids(
 
 
 @dataclass(frozen=True, kw_only=True)
-class WaveProblem(OnExactProblem):
+class WaveProblem(ExactProblem):
     """A rigid wave cos(2 pi x) in line contact, amplitude and wavelength one, at a mean pressure, on one row of cells.
 
     pressure: mean, over that of full contact.
     """
 
+    name: ClassVar = "Westergaard's wave"
     grids: Grids = WAVE_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (64,)
     pressure: float = 0.3
-
-    @property
-    def name(self) -> str:
-        """For tables and figures."""
-        return "Westergaard's wave"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -242,12 +268,10 @@ class WaveProblem(OnExactProblem):
 
     def exact(self) -> Values:
         """Westergaard; the approach from the first touch."""
-        unit = {"amplitude": 1.0, "wavelength": 1.0, "modulus": 1.0}
-        mean = self.pressure * math.pi
-        return {
-            "width": np.array([2 * closed_forms.westergaard_half_width(mean_pressure=mean, **unit)]),
-            "approach": np.array([closed_forms.westergaard_approach(mean_pressure=mean, **unit)]),
-        }
+        wave = {"amplitude": 1.0, "wavelength": 1.0, "modulus": 1.0, "mean_pressure": self.pressure * math.pi}
+        return scalars(
+            width=2 * closed_forms.westergaard_half_width(**wave), approach=closed_forms.westergaard_approach(**wave)
+        )
 
     def half_space(self, cells: int) -> bem3d.HalfSpace:
         """One row, periodic."""
@@ -259,7 +283,6 @@ class WaveProblem(OnExactProblem):
         return np.asarray(2 * np.sin(np.pi * x) ** 2)[:, np.newaxis]
 
     def load(self, cells: int) -> dict[str, float]:
-        """A force."""
         return {"force": self.peer_force(cells)}
 
     def peer_force(self, cells: int) -> float:
@@ -268,19 +291,12 @@ class WaveProblem(OnExactProblem):
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
         """Area over the length of the row's side; the approach of the mean plane."""
-        return {
-            "width": np.array(contact.area / contact.problem.half_space.steps[1]),
-            "approach": np.array(contact.approach),
-        }
+        return scalars(width=contact.area / contact.problem.half_space.steps[1], approach=contact.approach)
 
     def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
         """Of a row as wide as a cell; dd = -ln(s) ds, s the mean pressure over that of full contact."""
         missing = self.pressure - force * cells / math.pi
-        return {
-            "width": np.array(area * cells),
-            "approach": np.array(approach - math.log(self.pressure) * missing),
-        }
+        return scalars(width=area * cells, approach=approach - math.log(self.pressure) * missing)
 
     def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
-        """None."""
         raise ValueError("a line contact that repeats itself has no one-dimensional image of independent springs")

@@ -19,11 +19,11 @@ class Point:
     """One configuration and one quantity.
 
     unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; method,
-    parameter, value: of the configuration; is_reference: whether it is the reference itself; status: "finished", or why
-    not;
-    error, half_width: with the interval of the sample; finer: the largest upper end of an error that more of the same
-    leaves, see `monotone_envelope`; over: the answer over the reference; seconds: quartiles and
-    median, low, middle, high; runs: behind them; setup: seconds; work: the cost that no machine changes.
+    parameter, value: of the configuration; is_reference: whether it is the reference itself; is_model: whether it has
+    no surfaces of the reference, so that no parameter brings its error to zero; status: "finished", or why not; error,
+    half_width: with the interval of the sample; finer: the largest upper end of an error that more of the same leaves,
+    see `monotone_envelope`; over: the answer over the reference; seconds: quartiles and median, low, middle, high;
+    runs: behind them; setup: seconds; work: the cost that no machine changes.
     """
 
     scene: str
@@ -34,6 +34,7 @@ class Point:
     parameter: str = ""
     value: float = NAN
     is_reference: bool = False
+    is_model: bool = False
     status: str = ""
     error: float = NAN
     half_width: float = 0.0
@@ -46,7 +47,6 @@ class Point:
 
     @property
     def finished(self) -> bool:
-        """Whether it has an error."""
         return self.status == FINISHED and math.isfinite(self.error)
 
     @property
@@ -56,7 +56,6 @@ class Point:
 
     @property
     def setting(self) -> str:
-        """The parameter with its value, in words."""
         return self.parameter.replace("#", f"{self.value:g}")
 
 
@@ -73,12 +72,10 @@ Cost = Callable[[Point], float]
 
 
 def seconds(point: Point) -> float:
-    """Median of the turns."""
     return point.seconds[1]
 
 
 def work(point: Point) -> float:
-    """Cells times applications, or springs."""
     return point.work
 
 
@@ -97,7 +94,7 @@ def front(points: Sequence[Point], cost: Cost = seconds, *, gain: float = 1.0) -
 
 
 def in_unit_of_error(tolerance: float, unit: str) -> float:
-    """A relative tolerance in the unit of the error."""
+    """20 lg (1 + tolerance) of levels."""
     return 20 * math.log10(1 + tolerance) if unit == "dB" else tolerance
 
 
@@ -108,7 +105,6 @@ def cheapest(points: Sequence[Point], tolerance: float, cost: Cost = seconds) ->
 
 
 def reason_if_none(points: Sequence[Point], tolerance: float) -> str:
-    """What to say where there is no cheapest."""
     wanted = in_unit_of_error(tolerance, points[0].unit)
     return "the reference cannot tell" if points[0].band > wanted else "none"
 
@@ -148,7 +144,6 @@ def break_even(points: Sequence[Point]) -> str:
 
 
 def format_seconds(value: float) -> str:
-    """Seconds in words."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
         if value >= size or unit == "µs":
             return f"{value / size:.2g} {unit}" if value < 100 * size else f"{value / size:.0f} {unit}"
@@ -156,6 +151,5 @@ def format_seconds(value: float) -> str:
 
 
 def format_error(value: float, unit: str) -> str:
-    """An error in words."""
     size = value if unit == "dB" else 100 * value
     return f"{size:.0f} {unit}" if size >= 100 else f"{size:.2g} {unit}"

@@ -1,16 +1,18 @@
 """A problem of the charts: its quantities, its configurations, its reference, and the measurement of all of them."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any, Protocol
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
 import numpy as np
 
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.benchmarks.timing import FINISHED, Configuration, RunLimits, Timing, time_in_turns
+from validation.benchmarks.found_models import TimedProblem, configurations_of
+from validation.benchmarks.timing import FINISHED, Configuration, Timing, time_in_turns
 from validation.engine.engine import Outcome
 from validation.simulation.method import FloatArray, Method, Resolution, Values
-from validation.simulation.model import models_serving
+from validation.simulation.pressed import PressedGrid
 
 CLOSED = "closed form"
 FILTER_1D, FILTER_3D = "linear filter, 1D", "linear filter, 3D"
@@ -48,70 +50,118 @@ class Quantity:
         return float(np.abs(np.expm1(log_ratio)).max())
 
 
-class ChartProblem(Protocol):
-    """A frozen dataclass: configurations in the order of their parameters, and a reference for their values."""
+def logarithm(name: str) -> Callable[[Values], FloatArray]:
+    """ln of the mean of a value."""
+    return lambda values: np.log(np.mean(values[name], axis=0, keepdims=True))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grids:
+    """Resolutions of boundary elements.
+
+    cells: on a length of the problem, ascending; polonsky_keer: those of them for the published iteration; tight:
+    residual on all of these; tolerances: residuals on the grid `fixed`; per: the length.
+    """
+
+    cells: tuple[int, ...]
+    fixed: int
+    polonsky_keer: tuple[int, ...] = ()
+    tight: float = 1e-5
+    tolerances: tuple[float, ...] = (0.1, 1e-2, 1e-3)
+    per: str = "a side"
+
+
+class ChartProblem(ABC):
+    """A frozen dataclass. Its reference is extrapolated from its two finest grids, unless it has a closed form.
+
+    method, published: boundary elements, ours and the published iteration; realisations: of theirs, none where the
+    same problem is solved again and again; scene: of which models are found, None where there is none.
+    """
+
+    name: ClassVar[str]
+    realisations: int = 0
+    grids: Grids
 
     @property
-    def name(self) -> str:
-        """For tables and figures."""
+    def method(self) -> Method:
+        return PressedGrid()
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """All that are charted."""
+    def published(self) -> Method:
+        return PressedGrid(POLONSKY_KEER, polonsky_keer=True)
+
+    @property
+    @abstractmethod
+    def quantities(self) -> tuple[Quantity, ...]: ...
+
+    @abstractmethod
+    def configurations(self) -> tuple[Configuration, ...]:
+        """All that are timed, models that are found not among them, in the order of their parameters."""
 
     @property
     def scene(self) -> Any:
-        """The scene of which models are found, None where there is none."""
+        return None
 
-    def configurations(self) -> tuple[Configuration, ...]:
-        """All that are timed, models that are found not among them."""
+    @property
+    def served(self) -> tuple[str, ...]:
+        """Names of the values that a model may have."""
+        return tuple(dict.fromkeys(name for quantity in self.quantities for name in quantity.needs))
 
     def reference(self) -> Values | tuple[Configuration, Configuration]:
         """What is exact, or the coarse and the fine grid from which it is extrapolated."""
+        coarse, fine = (self.on(n) for n in self.grids.cells[-2:])
+        return coarse, fine
 
     def pairs(self) -> tuple[tuple[Configuration, Configuration], ...]:
-        """Coarse and fine grids that are extrapolated like the reference."""
+        """Other grids of which one has twice the cells of the other, which are extrapolated like the reference."""
+        cells = self.grids.cells
+        doubled = tuple((self.on(n), self.on(2 * n)) for n in cells if 2 * n in cells)
+        return tuple(pair for pair in doubled if pair != self.reference())
 
+    def on(self, cells: int) -> Configuration:
+        """Our solver on one grid."""
+        return self._on_grids(self.method, BEM, (cells,))[0]
 
-def configurations_of(problem: ChartProblem) -> tuple[Configuration, ...]:
-    """Models that are found in `simulation/models`, and what the problem has."""
-    own = problem.configurations()
-    names = {configuration.label for configuration in own}
-    models = tuple(
-        Configuration(
-            method=model, scene=problem.scene, label=model.name, parameter=model.setting, value=1.0, paired=False
+    def boundary_elements(self) -> tuple[Configuration, ...]:
+        """The published iteration and ours along cells, and ours along the residual on one grid."""
+        grids = self.grids
+        one = replace(self.on(grids.fixed), label=LOOSE, parameter=f"residual #, {grids.fixed} cells {grids.per}")
+        return (
+            *self._on_grids(self.published, POLONSKY_KEER, grids.polonsky_keer),
+            *(self.on(n) for n in grids.cells),
+            *(
+                replace(one, resolution=Resolution(size=grids.fixed, residual=residual), value=residual)
+                for residual in grids.tolerances
+            ),
         )
-        for model in models_serving(problem.scene, "stiffness")
-        if model.name not in names
-    )
-    return (*models, *own)
 
+    def _on_grids(self, method: Method, label: str, cells: Iterable[int]) -> tuple[Configuration, ...]:
+        own: dict[str, Any] = {"residual": self.grids.tight, "realisations": self.realisations}
+        return self.along(method, cells, f"# cells {self.grids.per}", label=label, **own)
 
-def along(
-    method: Method, scene: Any, sizes: Iterable[float], parameter: str, **settings: Any
-) -> tuple[Configuration, ...]:
-    """A method along the sizes of its resolution."""
-    return tuple(
-        Configuration(
-            method=method,
-            scene=scene,
-            resolution=Resolution(size=size),
-            label=method.name,
-            parameter=parameter,
-            value=size,
-            **settings,
+    def along(
+        self,
+        method: Method,
+        sizes: Iterable[float],
+        parameter: str,
+        *,
+        label: str = "",
+        residual: float = 0.0,
+        **settings: Any,
+    ) -> tuple[Configuration, ...]:
+        """A method along the sizes of its resolution."""
+        return tuple(
+            Configuration(
+                method=method,
+                scene=self,
+                resolution=Resolution(size=size, residual=residual),
+                label=label or method.name,
+                parameter=parameter,
+                value=size,
+                **settings,
+            )
+            for size in sizes
         )
-        for size in sizes
-    )
-
-
-@dataclass(frozen=True)
-class TimedProblem:
-    """A problem on the clock. methods: names and versions: a run that goes on after a change of these begins anew."""
-
-    problem: ChartProblem
-    limits: RunLimits
-    methods: tuple[str, ...] = ()
 
 
 def measure(timed: TimedProblem) -> Outcome:

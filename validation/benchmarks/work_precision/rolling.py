@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -15,7 +15,6 @@ import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
 from validation.benchmarks.timing import Configuration
-from validation.benchmarks.work_precision.grids import ExtrapolatedProblem, Grids, GridSeries
 from validation.benchmarks.work_precision.problem import (
     CLOSED,
     FILTER_1D,
@@ -23,10 +22,11 @@ from validation.benchmarks.work_precision.problem import (
     MDR,
     MDR_ROLLING,
     POLONSKY_KEER,
+    ChartProblem,
+    Grids,
     Quantity,
-    along,
 )
-from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
+from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import MOST_ITERATIONS
 from validation.simulation.rolling_strip import HERTZ, Strip, Tracks, crop_to_reach
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
@@ -56,32 +56,26 @@ GRIDS = Grids(cells=(3, 4, 6, 12), polonsky_keer=(4,), fixed=6, per="to a radius
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingProblem(ExtrapolatedProblem):
+class RollingProblem(ChartProblem):
     """A wheel over self-affine roughness, q a from 1 to `last`, at a fixed approach.
 
-    hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; strips, tracks:
-    realisations; filtered: cells for the linear filter; springs: to a contact radius; seed: zero or positive.
+    hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; realisations:
+    of strips; tracks: of springs, their own; filtered: cells for the linear filter; springs: to a contact radius; seed:
+    zero or positive. No models are found: these values are those of a periodic strip.
     """
 
+    name: ClassVar = "rolling force"
     hurst: float = 0.7
     height: float = 0.1
     last: float = 10.0
     length: int = 24
     width: int = 16
-    strips: int = 3
+    realisations: int = 3
     tracks: int = 20
     grids: Grids = GRIDS
     filtered: tuple[int, ...] = (4, 6)
     springs: tuple[int, ...] = (3, 4, 8, 16, 32)
     seed: int = 151
-
-    scene: ClassVar = None
-    """No models are found: these values are those of a periodic strip."""
-
-    @property
-    def name(self) -> str:
-        """For tables and figures."""
-        return "rolling force"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -116,7 +110,6 @@ class RollingProblem(ExtrapolatedProblem):
         )
 
     def track(self, input_spectrum: InputSpectrum, springs: int, realisation: int) -> FloatArray:
-        """For springs."""
         tracks = Tracks(
             spectrum=self.spectrum,
             input_spectrum=input_spectrum,
@@ -132,22 +125,21 @@ class RollingProblem(ExtrapolatedProblem):
     def configurations(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs with both input spectra, boundary elements."""
         springs = (RollingTracks(FILTER_1D, contact="linear"), RollingTracks(MDR), FOR_ROLLING)
-        tracks = partial(along, scene=self, parameter="# springs to a radius", realisations=self.tracks, paired=False)
-        strips = partial(along, scene=self, parameter="# cells to a radius", realisations=self.strips)
+        tracks: dict[str, Any] = {"realisations": self.tracks, "paired": False}
         return (
-            *along(RollingLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
-            *(each for method in springs for each in tracks(method, sizes=self.springs)),
-            *strips(RollingFiltered(), sizes=self.filtered),
-            *self.grid_series.configurations(),
+            *self.along(RollingLinearSpectrum(), (1.0,), "linear theory", paired=False),
+            *(each for m in springs for each in self.along(m, self.springs, "# springs to a radius", **tracks)),
+            *self.along(RollingFiltered(), self.filtered, "# cells to a radius", realisations=self.realisations),
+            *self.boundary_elements(),
         )
 
     @property
-    def grid_series(self) -> GridSeries:
-        """Boundary elements."""
-        published = RollingStrips(POLONSKY_KEER, polonsky_keer=True)
-        return GridSeries(
-            grids=self.grids, scene=self, method=RollingStrips(), published=published, realisations=self.strips
-        )
+    def method(self) -> Method:
+        return RollingStrips()
+
+    @property
+    def published(self) -> Method:
+        return RollingStrips(POLONSKY_KEER, polonsky_keer=True)
 
     def read(self, force: FloatArray, linear: FloatArray, mean: Values, spacing: float, work: float) -> Result:
         """Variance and levels of a force, and of the linear one on the same surface; over the force of Hertz."""
@@ -186,7 +178,6 @@ class RollingLinearSpectrum:
     name: str = CLOSED
 
     def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
-        """Nothing to do."""
         seen = [0]
 
         def c2d(q: FloatArray) -> FloatArray:
@@ -248,7 +239,6 @@ class RollingFiltered:
     name: str = FILTER_3D
 
     def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
-        """Nothing to do."""
         cells = round(resolution.size)
 
         def draw(realisation: int) -> Solve:

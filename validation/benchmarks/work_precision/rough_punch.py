@@ -1,18 +1,17 @@
 """The rough punch of Fig. 14.1 on the charts: mean stiffness under a force, and how much it scatters."""
 
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
 import bem3d
 import mdr
 from validation.benchmarks.timing import Configuration
-from validation.benchmarks.work_precision.exact_problem import logarithm
-from validation.benchmarks.work_precision.grids import ExtrapolatedProblem, Grids, GridSeries
-from validation.benchmarks.work_precision.problem import POLONSKY_KEER, Quantity, along
+from validation.benchmarks.work_precision.problem import ChartProblem, Grids, Quantity, logarithm
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Values
-from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedGrid, PressedSprings
+from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedSprings
 from validation.simulation.rough_punch import PunchRoughness
 
 
@@ -28,26 +27,22 @@ GRIDS = Grids(cells=(24, 32, 64, 128), polonsky_keer=(32, 64), fixed=64)
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoughPunchProblem(ExtrapolatedProblem):
+class RoughPunchProblem(ChartProblem):
     """A square punch of side L = 1, self-affine from q_min = 2 pi / L to q_max, under Fbar = F / (E* h L).
 
-    hurst; waves: on a side, of the shortest; force: Fbar; surfaces: realisations; profiles: of springs, their own;
+    hurst; waves: on a side, of the shortest; force: Fbar; realisations: of surfaces; profiles: of springs, their own;
     springs: of a profile; seed: zero or positive.
     """
 
+    name: ClassVar = "fractal punch"
     hurst: float = 0.7
     waves: int = 15
     force: float = 0.1
-    surfaces: int = 16
+    realisations: int = 16
     profiles: int = 120
     grids: Grids = GRIDS
     springs: tuple[int, ...] = (24, 32, 64, 128, 256, 512)
     seed: int = 150
-
-    @property
-    def name(self) -> str:
-        """For tables and figures."""
-        return "fractal punch"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
@@ -69,36 +64,22 @@ class RoughPunchProblem(ExtrapolatedProblem):
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Springs and boundary elements."""
-        own = {"realisations": self.profiles, "paired": False}
-        springs = along(PressedSprings(), self, self.springs, "# springs a side", **own)
-        return (*springs, *self.grid_series.configurations())
-
-    @property
-    def grid_series(self) -> GridSeries:
-        """Boundary elements."""
-        published = PressedGrid(POLONSKY_KEER, polonsky_keer=True)
-        return GridSeries(
-            grids=self.grids, scene=self, method=PressedGrid(), published=published, realisations=self.surfaces
-        )
+        own: dict[str, Any] = {"realisations": self.profiles, "paired": False}
+        return (*self.along(PressedSprings(), self.springs, "# springs a side", **own), *self.boundary_elements())
 
     def load(self, cells: int) -> dict[str, float]:
-        """A force."""
         return {"force": self.force * self.roughness.height}
 
     def half_space(self, cells: int) -> bem3d.HalfSpace:
-        """As wide as the punch."""
         return bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
 
     def gap(self, cells: int, realisation: int) -> FloatArray:
-        """The rough face."""
         return -self.roughness.surface(cells, realisation)
 
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
-        """The stiffness."""
         return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FIXED_AREA_RESIDUAL)
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
-        """The stiffness."""
         assert fixed is not None
         return {"stiffness": np.array(fixed.stiffness)}
 
@@ -107,5 +88,4 @@ class RoughPunchProblem(ExtrapolatedProblem):
         return self.roughness.profile(round(springs), realisation), 1.0
 
     def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
-        """The stiffness."""
         return {"stiffness": np.array(point.stiffness)}
