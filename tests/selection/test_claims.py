@@ -20,7 +20,7 @@ from validation.selection import indentation_models as indentation_models
 from validation.selection import indentation_on_grids as indentation_on_grids
 from validation.selection import rolling_models as rolling_models
 from validation.selection.compare import Comparison, compare, models_of, quantities_of
-from validation.selection.hierarchy import Answer, grid_error, mean_error, select_model
+from validation.selection.hierarchy import grid_error, mean_error, select_model
 from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
@@ -330,10 +330,6 @@ def test_a_model_out_of_range_is_not_counted_as_covered():
     models = models_of(scene, "stiffness", 0.1, 0)
     assert np.isnan(ladder._solved(models, "springs", np.array([1.0]))).all()
     assert ladder.COARSE not in ladder.CHEAP
-
-
-def test_what_has_failed_leaves_everything_open():
-    assert Answer(value=np.ones(1), cost=Cost(work=1, unit="", seconds=0), grid=math.inf).error == math.inf
 
 
 # Error bars of grids and samples, by hand

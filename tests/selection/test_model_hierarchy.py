@@ -101,29 +101,40 @@ def test_a_climb_ends_where_the_tolerance_is_met():
     assert selection.met
     assert selection.best.model is models[3]
     assert selection.spent == 2 + 4 + 8
-    assert [candidate.reason for candidate in selection.candidates[:4]] == [
-        "claims 0.5",
-        "leaves 0.2",
-        "lost",
-        "leaves 0.1",
+    reasons = [candidate.reason for candidate in selection.candidates[:4]]
+    assert reasons == ["claims 0.5", "leaves 0.2", "lost", "leaves 0.1"]
+
+
+@pytest.mark.parametrize(
+    ("claims", "errors", "expected", "best"),
+    [
+        ((0.2, 0.1), (0.1, 0.05), ["skipped", "accepted"], 1),
+        # an error of just the tolerance meets it
+        ((0.1, 0.1), (0.11, 0.1), ["not accurate enough", "accepted"], 1),
+        ((0.1, 0.1, 0.1), (0.1, 0.0, 0.0), ["accepted", "not needed", "not needed"], 0),
+        # where none meets it, the one that leaves least, though it was skipped at first, or is not the last
+        ((0.2, 0.15, 0.0), (0.15, 0.12, 0.3), ["skipped", "not accurate enough", "not accurate enough"], 1),
+        ((0.5, 0.0), (0.0, 0.3), ["skipped", "not accurate enough"], 1),
+        ((0.1, 0.5), (0.2, 0.01), ["not accurate enough", "skipped"], 0),
+        ((0.0, 0.0), (0.2, 0.3), ["not accurate enough"] * 2, 0),
+        # of equal claims the finest grid is asked
+        ((0.5, 0.5), (0.4, 0.2), ["skipped", "not accurate enough"], 1),
+        ((0.0, 0.0, 0.0), (0.3, 0.2, None), ["not accurate enough", "not accurate enough", "failed"], 1),
+        ((0.01, 0.05), (None, 0.04), ["failed", "accepted"], 1),
+        # no answer at all
+        ((0.0,), (None,), ["failed"], None),
+        ((math.inf,), (0.0,), ["out of range"], None),
+    ],
+)
+def test_what_becomes_of_models(claims, errors, expected, best):
+    """Of a tolerance of 0.1; an error of None fails, however small its claim."""
+    models = [
+        Fake(claimed=c, left=e or 0.0, failed="lost" if e is None else "") for c, e in zip(claims, errors, strict=True)
     ]
-
-
-def test_who_misses_the_tolerance_at_the_top_is_told_the_best_there_is():
-    models = [Fake(left=0.3), Fake(left=0.2), Fake(failed="lost")]
-    selection = select_model(models, 0.1)
-    assert not selection.met
-    assert selection.best.model is models[1]
-    assert select_model([Fake(failed="lost")], 0.1).best is None
-    assert select_model([Fake(claimed=math.inf)], 0.1).best is None
-
-
-def test_the_best_there_is_may_have_been_skipped():
-    models = [Fake(claimed=0.2, left=0.15), Fake(claimed=0.15, left=0.12), Fake(left=0.3)]
-    selection = select_model(models, 0.1)
-    assert statuses(selection) == ["skipped", "not accurate enough", "not accurate enough"]
-    assert selection.best.model is models[1]
-    assert statuses(select_model([Fake(claimed=0.5), Fake(left=0.3)], 0.1)) == ["skipped", "not accurate enough"]
+    found = select_model(models, 0.1)
+    assert statuses(found) == expected
+    assert found.met == ("accepted" in expected)
+    assert (found.best and found.best.model) is (None if best is None else models[best])
 
 
 @pytest.mark.parametrize("tolerance", [0.0, -0.1, math.nan, math.inf])
@@ -153,10 +164,9 @@ def test_what_is_needed_is_known_beforehand():
 
 
 def test_errors_add_as_if_they_went_the_same_way():
-    assert Answer(value=np.ones(1), cost=Fake().cost(), model=0.1, grid=0.02, sample=0.003).error == pytest.approx(
-        0.123
-    )
-    assert Answer(value=np.ones(1), cost=Fake().cost(), failed="lost").error == math.inf
+    parts = {"value": np.ones(1), "cost": Fake().cost(), "model": 0.1, "grid": 0.02, "sample": 0.003}
+    assert Answer(**parts).error == pytest.approx(0.123)
+    assert Answer(**parts, failed="lost").error == Answer(**{**parts, "grid": math.inf}).error == math.inf
 
 
 def test_a_distance_is_over_all_numbers():
@@ -608,16 +618,6 @@ class Finding(Fake):
         model, grid, sample = self.parts
         cost = Cost(work=1, unit="candidates", seconds=self.spent)
         return Answer(value=np.array(self.value), cost=cost, model=model, grid=grid, sample=sample)
-
-
-def test_of_equal_claims_that_miss_the_tolerance_the_finest_grid_is_asked():
-    selection = select_model([Fake(claimed=0.5, left=0.4), Fake(claimed=0.5, left=0.2)], 0.1)
-    assert statuses(selection) == ["skipped", "not accurate enough"]
-
-
-def test_the_least_that_is_left_is_the_best_whoever_comes_last():
-    selection = select_model([Fake(left=0.2), Fake(left=0.3)], 0.1)
-    assert selection.best.model is selection.candidates[0].model
 
 
 PARTS = (0.1, 0.02, 0.003)
