@@ -9,10 +9,18 @@ import numpy as np
 import bem3d
 import mdr
 from bem3d import kernel
-from tests.cases import test_flags, test_fractal_punch, test_limits, test_wheel_cases, test_wheel_stability
+from tests.cases import (
+    test_exact_cases,
+    test_flags,
+    test_fractal_punch,
+    test_limits,
+    test_wheel_cases,
+    test_wheel_stability,
+)
 from tests.planted_faults.wrong import scaled
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict
+from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import ensembles, fractal_punch_decades
@@ -97,6 +105,14 @@ linear_response = rough_springs.linear_response
 
 
 FAULTS = {
+    "the stiffness of the square is that of the finest grid": (
+        (square_punch, "first_order_limit", lambda values: values[-1]),
+        test_exact_cases.test_the_square_the_model_of_its_length_and_the_quoted_factor,
+    ),
+    "a line trace with the moments of Geike's spectrum": (
+        (geike, "mean_power_of_cosine", lambda n: 1.0),
+        test_exact_cases.test_the_line_is_not_geikes_spectrum_and_would_be_told_if_it_were,
+    ),
     "line trace for Geike in Fig. 14.1": (
         (PunchRoughness, "spectrum", property(line_for_geike)),
         functools.partial(test_fractal_punch.test_profiles_are_those_of_geikes_spectrum, 1.0),

@@ -245,7 +245,7 @@ def test_not_converged_is_exit_3(small, tmp_path, monkeypatch, capsys):
     assert "not converged: residual" in printed
     results = json.loads((tmp_path / "results.json").read_text())
     assert results["cases"]["hertz"]["numbers"] == []
-    assert len(results["cases"]["geike"]["numbers"]) == 22
+    assert len(results["cases"]["geike"]["numbers"]) == 14
 
 
 def limited(monkeypatch, is_lost):

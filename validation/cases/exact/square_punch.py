@@ -8,11 +8,13 @@ import numpy as np
 import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, columns
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, columns
 from validation.cases.exact.refinement import first_order_limit
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
 from validation.theory import closed_forms
+
+CLAIM = "A flat square punch on the half-space has the stiffness 1.1523 E* L, and a circular one 2 E* a."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,14 +87,15 @@ def evidence(result: SquarePunchResult) -> Evidence:
     short, long = (k / (case.modulus * case.side) for k in result.springs)
     limit = first_order_limit(square)
     levels = {"capacitance": exact, "extrapolated": limit, "mdr L": short, "mdr 1.1523 L": long}
-    last = result.punches[-1]
+    last, numbers = result.punches[-1], _numbers(case, square, circle, levels)
     return Evidence(
         title="Flat punches",
         method=(
             f"A flat square of side L and a flat circle of diameter L, pressed by boundary elements on {n[0]}² to "
             f"{n[-1]}² cells that cover the square; a flat profile on springs, of length L and of 1.1523 L."
         ),
-        numbers=_numbers(case, square, circle, levels),
+        numbers=numbers,
+        claims=_claims(numbers, error_of_cells=(limit / square[-1] - 1) * n[-1]),
         tables=(
             Table(
                 "refinement",
@@ -109,12 +112,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
                 ),
             ),
         ),
-        conclusions=(
-            f"By boundary elements the stiffness of the square tends to {limit:.5f} E* L. On n cells a side it is too "
-            f"small by a fraction of {(limit / square[-1] - 1) * n[-1]:.3f} / n.",
-            f"In full contact a 1D model of length L is {100 * (1 - short / exact):.1f} % too soft. "
-            "With 1.1523 L it has the stiffness of the square, by choice of the length.",
-        ),
+        conclusions=("With L_1D = 1.1523 L a 1D model has the stiffness of the square, by choice of the length.",),
         captions={
             "square_punch": (
                 "(a) Stiffness against the cell size: the square over E* L, with the extrapolation and both 1D "
@@ -125,12 +123,37 @@ def evidence(result: SquarePunchResult) -> Evidence:
     )
 
 
+def _claims(numbers: tuple[Number, ...], error_of_cells: float) -> tuple[JudgedClaim, ...]:
+    square, _, circle, springs, quoted = numbers
+    return (
+        JudgedClaim(
+            claim=CLAIM,
+            answer=(
+                f"Boundary elements tend to {square.value:.5f} ± {square.uncertainty:.5f} for the square (on n cells a "
+                f"side they have a fraction of {error_of_cells:.3f} / n less), and have {circle.value:.4f} times the "
+                "closed form for the circle."
+            ),
+            numbers=(*numbers[:3],),
+        ),
+        JudgedClaim(
+            claim="A 1D model as long as the side has the stiffness of the square in full contact.",
+            answer=f"It is {100 * (1 - springs.value / springs.reference):.1f} % too soft.",
+            numbers=(springs,),
+        ),
+        JudgedClaim(
+            claim="The factor of the square is 1.012 * 2 / sqrt(pi), as it is often quoted.",
+            answer=f"That is {quoted.value:.4f}, {100 * (1 - quoted.value / quoted.reference):.1f} % too low.",
+            numbers=(quoted,),
+        ),
+    )
+
+
 def _over_cells(result: SquarePunchResult, name: str) -> np.ndarray:
     return np.array([float(o[name]) for o in result.punches])
 
 
 def _numbers(case: SquarePunch, square: np.ndarray, circle: np.ndarray, levels: dict[str, float]) -> tuple[Number, ...]:
-    """Square, circle and both 1D lengths beside the closed forms, and the order in the cell size."""
+    """Square, circle and the 1D model of length L beside the closed forms, and the order in the cell size."""
     limit, steps = levels["extrapolated"], np.abs(np.diff(square))
     beside_square = partial(
         Number, reference=levels["capacitance"], source="capacitance of the square, numerical", tolerance=5e-4
@@ -161,16 +184,13 @@ def _numbers(case: SquarePunch, square: np.ndarray, circle: np.ndarray, levels: 
             tolerance=2 / case.cells[-1],
             reason="half a cell at the edge; a is the radius of a circle with the area of the cells; 2 dx / L",
         ),
-        *(
-            beside_square(
-                quantity="k / (E* L) in full contact",
-                model="mdr",
-                where={"length": f"L_1D = {length}"},
-                value=levels[f"mdr {length}"],
-                reason="five units of the last digit of the reference, 1.1523",
-                role=Role.FINDING,
-            )
-            for length in ("L", "1.1523 L")
+        beside_square(
+            quantity="k / (E* L) in full contact",
+            model="mdr",
+            where={"length": "L_1D = L"},
+            value=levels["mdr L"],
+            reason="five units of the last digit of the reference, 1.1523",
+            role=Role.FINDING,
         ),
         beside_square(
             quantity="often quoted factor 1.012 * 2 / sqrt(pi), against the extrapolated k / (E* L)",
@@ -187,7 +207,7 @@ CASE = Case(
     name="square_punch",
     chapter=Chapter.EXACT,
     place=2,
-    claim="Every load curve ends at the stiffness of the flat punch.",
+    claim=CLAIM,
     answers="Flat punches: the stiffness at which every load curve ends, and the length of the 1D model",
     quick=SquarePunch(),
     full=SquarePunch(cells=(16, 32, 64, 128, 256)),

@@ -1,0 +1,63 @@
+"""Claims of the exact cases: they hold on sound solves, and a planted error turns status and answer."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from validation.analysis.evidence import ClaimStatus, Verdict
+from validation.cases.exact import geike, hertz, square_punch, westergaard
+
+HERTZ = hertz.run(hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2))
+SQUARE = square_punch.run(square_punch.SquarePunch())
+WAVE = westergaard.run(westergaard.Westergaard(loads=(0.3, 0.5), cells=(32, 64, 128)))
+DRAWN = geike.run(geike.Geike(cells=128, surfaces=2, longest=4))
+
+
+def times(outcomes, factor, *names):
+    """Outcomes with a factor on some of their values."""
+    return [o | {name: factor * o[name] for name in names} for o in outcomes]
+
+
+def off_in_force(model, factor):
+    grids = times(getattr(HERTZ, model)["grids"], factor, "force")
+    return replace(HERTZ, **{model: getattr(HERTZ, model) | {"grids": grids}})
+
+
+def test_both_methods_have_hertz_on_few_cells():
+    (claim,) = hertz.evidence(HERTZ).claims
+    assert claim.status is ClaimStatus.HOLDS
+
+
+@pytest.mark.parametrize("model", ["bem", "mdr"])
+def test_a_force_that_is_off_by_two_per_cent_contradicts_hertz(model):
+    """(dx/a)^2 / 4 is 0.4 % on these grids; the answer has what is left."""
+    (claim,) = hertz.evidence(off_in_force(model, 1.02)).claims
+    assert claim.status is ClaimStatus.CONTRADICTED
+    assert "force and approach is at most 2.1e-02" in claim.answer or "2.0e-02" in claim.answer
+
+
+def test_the_square_the_model_of_its_length_and_the_quoted_factor():
+    found = square_punch.evidence(SQUARE).claims
+    assert [claim.status for claim in found] == [ClaimStatus.HOLDS, *2 * [ClaimStatus.CONTRADICTED]]
+    soft = replace(SQUARE, punches=times(SQUARE.punches, 0.99, "square"))
+    assert square_punch.evidence(soft).claims[0].status is ClaimStatus.CONTRADICTED
+    assert "13.2 % too soft" in found[1].answer
+
+
+def test_one_wrong_load_contradicts_westergaard():
+    """Of two loads one has a contact that is two cells too wide at either edge."""
+    assert westergaard.evidence(WAVE).claims[0].status is ClaimStatus.HOLDS
+    wide = [o | {"half_width": o["half_width"] + 2 * np.diff(o["x"])[0]} for o in WAVE.waves[0.3]]
+    (claim,) = westergaard.evidence(replace(WAVE, waves=WAVE.waves | {0.3: wide})).claims
+    assert claim.status is ClaimStatus.CONTRADICTED
+    assert claim.count(Verdict.DIFFER) == 1
+
+
+def test_the_line_is_not_geikes_spectrum_and_would_be_told_if_it_were():
+    keeps, differs, line = geike.evidence(DRAWN).claims
+    assert differs.status is line.status is ClaimStatus.HOLDS
+    assert keeps.status is ClaimStatus.CONTRADICTED or "height" not in keeps.limits
+    by_geike = [o | {"spectrum": DRAWN.profiles[0]["spectrum"]} for o in DRAWN.surfaces]
+    _, differs, line = geike.evidence(replace(DRAWN, surfaces=by_geike)).claims
+    assert differs.status is line.status is ClaimStatus.CONTRADICTED
