@@ -67,12 +67,17 @@ def grid_shape(shape: object) -> tuple[int, int]:
 
 def grid_spacing(spacing: object) -> tuple[float, float]:
     """Cell sides (dx, dy) from one number or two."""
-    if not isinstance(spacing, (Sequence, np.ndarray)) or isinstance(spacing, str) or np.ndim(spacing) == 0:
-        side = positive("spacing", spacing)
-        return side, side
-    if len(spacing) != 2:
-        raise ValueError(f"spacing must be one number or two (dx, dy), got {spacing!r}")
-    return positive("spacing[0]", spacing[0]), positive("spacing[1]", spacing[1])
+    return positive_pair("spacing", spacing, "(dx, dy)")
+
+
+def positive_pair(name: str, value: object, parts: str) -> tuple[float, float]:
+    """Two numbers above zero, from one or two."""
+    if not isinstance(value, (Sequence, np.ndarray)) or isinstance(value, str) or np.ndim(value) == 0:
+        both = positive(name, value)
+        return both, both
+    if len(value) != 2:
+        raise ValueError(f"{name} must be one number or two {parts}, got {value!r}")
+    return positive(f"{name}[0]", value[0]), positive(f"{name}[1]", value[1])
 
 
 def field(name: str, values: ArrayLike, shape: tuple[int, int]) -> FloatArray:

@@ -1,4 +1,4 @@
-"""A rigid sphere rolled over a rough strip, quasi-statically."""
+"""A rigid wheel rolled over a rough strip, quasi-statically."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bem3d.checks import FloatArray, count, positive
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import warn
 from bem3d.read_only import ReadOnly
-from bem3d.rolling_contact import RollingContact, WheelContact, hertz_approach
+from bem3d.rolling_contact import RollingContact, WheelContact
 from bem3d.rolling_frame import Track
 
 
@@ -54,7 +54,7 @@ def roll(
     height: ArrayLike,
     *,
     spacing: float | tuple[float, float],
-    radius: float,
+    radius: float | tuple[float, float],
     modulus: float,
     approach: float | None = None,
     force: float | None = None,
@@ -63,12 +63,12 @@ def roll(
     max_iterations: int = 500,
     raise_on_failure: bool = True,
 ) -> Rolling:
-    """Roll a rigid sphere along a rough strip, quasi-statically.
+    """Roll a rigid wheel along a rough strip, quasi-statically.
 
     Parameters
     ----------
     height : array_like, shape (nx, ny)
-        Heights, positive towards the sphere, periodic along axis 0 [m].
+        Heights, positive towards the wheel, periodic along axis 0 [m].
     spacing, radius, modulus
         As in `Track`.
     approach, force : float, optional
@@ -91,7 +91,7 @@ def roll(
     Warns
     -----
     ResolutionWarning, UnitsWarning
-        As `solve`, of the smooth sphere.
+        As `solve`, of the smooth wheel.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def roll(
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
     prescribed = positive("approach" if force is None else "force", approach if force is None else force)
-    smooth = prescribed if force is None else hertz_approach(track, prescribed)
+    smooth = prescribed if force is None else track.smooth.approach(prescribed / track.modulus)
     _wide_enough(track, smooth)
     warn(track.diagnose(smooth))
     stop = track.height.shape[0] if positions is None else count("positions", positions)
@@ -139,12 +139,12 @@ def rolling_force(
     height: ArrayLike,
     *,
     spacing: float | tuple[float, float],
-    radius: float,
+    radius: float | tuple[float, float],
     modulus: float,
     approach: float,
     tolerance: float = 1e-5,
 ) -> FloatArray:
-    """Force of a sphere that rolls along a rough strip at a given approach.
+    """Force of a wheel that rolls along a rough strip at a given approach.
 
     Parameters
     ----------
@@ -177,10 +177,13 @@ def rolling_force(
 
 
 def _wide_enough(track: Track, approach: float) -> None:
-    """Refuse a strip that cannot hold the contact of the smooth sphere."""
-    diameter = 2 * float(np.sqrt(track.radius * approach))
-    (nx, ny), (dx, dy) = track.height.shape, track.steps
-    if nx * dx <= diameter:
-        raise ValueError(f"height must be longer than the contact, {diameter:.6g} m, got a track of {nx * dx:.6g} m")
-    if ny * dy <= diameter:
-        raise ValueError(f"height must be wider than the contact, {diameter:.6g} m, got a strip of {ny * dy:.6g} m")
+    """Refuse a strip that cannot hold the contact of the smooth wheel."""
+    (length, width), (nx, ny), (dx, dy) = (
+        (2 * a for a in track.smooth.semi_axes(approach)),
+        track.height.shape,
+        track.steps,
+    )
+    if nx * dx <= length:
+        raise ValueError(f"height must be longer than the contact, {length:.6g} m, got a track of {nx * dx:.6g} m")
+    if ny * dy <= width:
+        raise ValueError(f"height must be wider than the contact, {width:.6g} m, got a strip of {ny * dy:.6g} m")

@@ -65,12 +65,12 @@ class WheelContact:
 
 
 class RollingContact:
-    """Sphere over a rough strip, solved position by position, at any approach or force.
+    """Wheel over a rough strip, solved position by position, at any approach or force.
 
     Parameters
     ----------
     track : Track
-        Strip, sphere and modulus.
+        Strip, wheel and modulus.
     tolerance : float, optional
         `residual` to reach, in (0, 1).
     max_iterations : int, optional
@@ -142,7 +142,7 @@ class RollingContact:
         ValueError, TypeError
             If an argument is out of range, or the contact reaches the edge of the strip.
         """
-        d = hertz_approach(self.track, positive("force", force))
+        d = self.track.smooth.approach(positive("force", force) / self.track.modulus)
         return self._solve(count("position", position, least=0), d, lambda _, area: Load(total=force / area))
 
     def pressure(self) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -238,8 +238,3 @@ class RollingContact:
         (first, last), columns = spans
         margin = int(more * max(last - first, columns[1] - columns[0]))
         return Frame(self.track, self.track.widened(((first, last + ROWS_AHEAD), columns), margin))
-
-
-def hertz_approach(track: Track, force: float) -> float:
-    """d = (9 F^2 / (16 R E*^2))^(1/3) of the smooth sphere, from where a force is prescribed [m]."""
-    return float(np.cbrt(9 / 16 / track.radius) * np.cbrt(force / track.modulus) ** 2)

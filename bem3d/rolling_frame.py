@@ -1,4 +1,4 @@
-"""A sphere above a rough strip, and the frame that moves along with it."""
+"""A wheel above a rough strip, and the frame that moves along with it."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from functools import cached_property
 
 import numpy as np
 
-from bem3d.checks import BoolArray, FloatArray, IndexArray, grid_spacing, positive, strip
+from bem3d.checks import BoolArray, FloatArray, IndexArray, grid_spacing, positive, positive_pair, strip
 from bem3d.diagnostics import Diagnostic, diagnose_sphere, diagnose_units
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
+from bem3d.smooth_wheel import SmoothContact, smooth_contact
 from bem3d.window import Box, fast_side
 
 Span = tuple[int, int]
@@ -22,16 +23,16 @@ Spans = tuple[Span, Span]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Track(ReadOnly):
-    """Rough strip, periodic along axis 0, and a rigid sphere that rolls along its middle.
+    """Rough strip, periodic along axis 0, and a rigid wheel that rolls along its middle.
 
     Parameters
     ----------
     height : array_like, shape (nx, ny)
-        Heights, positive towards the sphere [m].
+        Heights, positive towards the wheel [m].
     spacing : float or tuple of float
         Sides of a cell, one number or (dx, dy) [m].
-    radius : float
-        Radius R of the sphere [m].
+    radius : float or tuple of float
+        Radius R of a sphere, or (along, across) the track [m]. Curvatures of two bodies add: 1/R = 1/R_1 + 1/R_2.
     modulus : float
         Contact modulus E* [Pa].
 
@@ -42,8 +43,8 @@ class Track(ReadOnly):
 
     Notes
     -----
-    With the sphere at x_i the gap is g = ((x - x_i)^2 + y^2) / (2 R) - h(x, y), y = 0 in the middle of axis 1. A
-    contact longer than a period meets the same roughness again.
+    With the wheel at x_i the gap is g = (x - x_i)^2 / (2 R_x) + y^2 / (2 R_y) - h(x, y), y = 0 in the middle of
+    axis 1. A contact longer than a period meets the same roughness again.
 
     Examples
     --------
@@ -54,13 +55,13 @@ class Track(ReadOnly):
 
     height: FloatArray
     spacing: float | tuple[float, float]
-    radius: float
+    radius: float | tuple[float, float]
     modulus: float
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "height", kept(strip("height", self.height)))
         object.__setattr__(self, "spacing", grid_spacing(self.spacing))
-        object.__setattr__(self, "radius", positive("radius", self.radius))
+        object.__setattr__(self, "radius", positive_pair("radius", self.radius, "(along, across)"))
         object.__setattr__(self, "modulus", positive("modulus", self.modulus))
 
     @cached_property
@@ -79,6 +80,17 @@ class Track(ReadOnly):
         dx, dy = self.spacing  # type: ignore[misc]
         return dx, dy
 
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Of the wheel, along and across the track (R_x, R_y) [m]."""
+        along, across = self.radius  # type: ignore[misc]
+        return along, across
+
+    @cached_property
+    def smooth(self) -> SmoothContact:
+        """The contact without roughness."""
+        return smooth_contact(self.radii)
+
     def half_space(self, shape: tuple[int, int]) -> HalfSpace:
         """The half-space under a frame of that shape; all are kept, with their plans."""
         if shape not in self._half_spaces:
@@ -89,10 +101,10 @@ class Track(ReadOnly):
     def _half_spaces(self) -> dict[tuple[int, int], HalfSpace]:
         return {}
 
-    def sphere(self, rows: IndexArray, columns: IndexArray) -> FloatArray:
-        """r^2 / (2 R) at cells `rows` ahead of the wheel and columns of the strip, broadcast [m]."""
-        x, y = self.along(rows), self.across(columns)
-        return np.asarray((x**2 + y**2) / (2 * self.radius))
+    def wheel(self, rows: IndexArray, columns: IndexArray) -> FloatArray:
+        """x^2 / (2 R_x) + y^2 / (2 R_y) at cells `rows` ahead and columns of the strip, broadcast [m]."""
+        x, y, (along, across) = self.along(rows), self.across(columns), self.radii
+        return np.asarray((x**2 + along / across * y**2) / (2 * along))
 
     def along(self, rows: IndexArray) -> FloatArray:
         """x of cells so many rows ahead of the wheel [m]."""
@@ -103,22 +115,22 @@ class Track(ReadOnly):
         return np.asarray((columns - (self.height.shape[1] - 1) / 2) * self.steps[1])
 
     def smooth_contact(self, approach: float) -> Spans:
-        """Of the cells under the smooth sphere, one at least, as far as the strip has them."""
-        ny, (dx, dy) = self.height.shape[1], self.steps
-        a = np.sqrt(self.radius * max(approach, 0.0))
-        ahead, across = int(a / dx), min(int(a / dy) + 1, ny // 2)
+        """Of the cells under the smooth wheel, one at least, as far as the strip has them."""
+        ny, (dx, dy), (a, b) = self.height.shape[1], self.steps, self.smooth.semi_axes(approach)
+        ahead, across = int(a / dx), min(int(b / dy) + 1, ny // 2)
         return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
 
     def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
-        """Diagnostics of the contact of the smooth sphere, p = 4 / (3 pi) E* a / R on average by Hertz."""
-        (nx, ny), (dx, dy) = self.height.shape, self.steps
-        pressure = 4 / (3 * math.pi) * math.sqrt(approach / self.radius) * self.modulus
+        """Diagnostics of the contact of the smooth wheel, F / (pi a b) on average by Hertz."""
+        (nx, ny), (dx, dy), smooth = self.height.shape, self.steps, self.smooth
+        area = math.pi * math.sqrt(smooth.along * smooth.across) * approach
+        pressure = 4 / 3 * math.sqrt(smooth.sphere * approach) * (approach / area) * self.modulus
         units = diagnose_units(pressure=pressure, modulus=self.modulus, approach=approach, side=max(nx * dx, ny * dy))
-        return (*diagnose_sphere(math.pi * self.radius * approach / self.cell_area), *units)
+        return (*diagnose_sphere(area / self.cell_area), *units)
 
     def reach(self, approach: float) -> int:
         """How many rows ahead and behind a cell can overlap at this approach [m]."""
-        return int(np.sqrt(2 * self.radius * max(approach + self.highest, 0.0)) / self.steps[0])
+        return int(np.sqrt(2 * self.radii[0] * max(approach + self.highest, 0.0)) / self.steps[0])
 
     def widened(self, spans: Spans, margin: int) -> Spans:
         """Spans that hold these and a margin, of sides that transform fast; columns as far as the strip has them."""
@@ -140,7 +152,7 @@ class Frame:
         self.shape = self.rows[1] - self.rows[0], self.columns[1] - self.columns[0]
         self.half_space = track.half_space(self.shape)
         self._ahead, self._across = np.arange(*self.rows), np.arange(*self.columns)
-        self._sphere = track.sphere(self._ahead[:, np.newaxis], self._across)
+        self._wheel = track.wheel(self._ahead[:, np.newaxis], self._across)
         self._limit = -np.inf
 
     def within(self, other: Frame) -> bool:
@@ -165,7 +177,7 @@ class Frame:
     def gap(self, position: int) -> FloatArray:
         """Undeformed separation in the frame [m]."""
         rows = self.track.height.take(self._ahead + position, axis=0, mode="wrap")
-        return np.asarray(self._sphere - rows[:, slice(*self.columns)])
+        return np.asarray(self._wheel - rows[:, slice(*self.columns)])
 
     def spans_of(self, marked: BoolArray) -> Spans:
         """Of all marked cells, one at least."""
@@ -189,14 +201,14 @@ class Frame:
         """
         if approach > self._limit:
             self._survey(approach)
-        if not self._rim_sphere.size:
+        if not self._rim_wheel.size:
             return None
         track = self.track
         force, centre, variance = self._moments(pressure)
         distance = np.sqrt((self._rim_x - centre[0]) ** 2 + (self._rim_y - centre[1]) ** 2 + variance)
         least = force / (np.pi * track.modulus) / distance
         height = track.height.ravel().take(self._rim + position * track.height.shape[1], mode="wrap")
-        touching = np.flatnonzero(self._rim_sphere - height + least < approach)
+        touching = np.flatnonzero(self._rim_wheel - height + least < approach)
         if not touching.size:
             return None
         ny = track.height.shape[1]
@@ -213,11 +225,11 @@ class Frame:
         across = np.arange(ny)
         inside = (ahead >= self.rows[0]) & (ahead < self.rows[1])
         inside = inside & (across >= self.columns[0]) & (across < self.columns[1])
-        rim = np.nonzero(~inside & (track.sphere(ahead, across) < self._limit + track.highest))
+        rim = np.nonzero(~inside & (track.wheel(ahead, across) < self._limit + track.highest))
         rows, columns = rim[0] - most, rim[1]
         self._rim = rows * ny + columns
         self._rim_x, self._rim_y = track.along(rows), track.across(columns)
-        self._rim_sphere = track.sphere(rows, columns)
+        self._rim_wheel = track.wheel(rows, columns)
 
     def _moments(self, pressure: FloatArray) -> tuple[float, tuple[float, float], float]:
         """Force [N], its centre [m] and the mean square distance from it [m^2]; each cell pressed evenly."""

@@ -17,6 +17,7 @@ from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.checks import FloatArray, doubles, finite_array, held, positive
 from mdr.diagnostics import Diagnostic, diagnose_linearity, warn
+from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling_track import RollingTrack
 from mdr.spring_track import SpringTrack
 
@@ -33,7 +34,7 @@ def roll(
     height: ArrayLike,
     *,
     spacing: float,
-    radius: float,
+    radius: float | tuple[float, float],
     modulus: float,
     approach: float | ArrayLike | None = None,
     force: float | None = None,
@@ -45,8 +46,10 @@ def roll(
     ----------
     height : array_like, shape (points,)
         Heights of the periodic track, positive towards the wheel [m].
-    spacing, radius, modulus : float
-        Distance dx of the springs [m], radius R of the wheel [m], contact modulus E* [Pa].
+    spacing, modulus : float
+        Distance dx of the springs [m], contact modulus E* [Pa].
+    radius : float or tuple of float
+        Radius R of the wheel, or (along, across) the track [m]. Curvatures of two bodies add: 1/R = 1/R_1 + 1/R_2.
     approach : float or array_like, shape (points,), optional
         Approach of the smooth wheel to the plane of height zero [m]: one positive number, or one of any sign at each
         point. Give either ``approach`` or ``force``.
@@ -76,7 +79,9 @@ def roll(
     Notes
     -----
     F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0); Popov and Hess, (14.2), (14.5), (14.11). A contact
-    longer than the track meets the same roughness again.
+    longer than the track meets the same roughness again. Two radii make an ellipse with the semi-axis a_x along the
+    track: R is then a_x^2 / d, and E* is 3 F / (4 a_x d) of its smooth contact, so that load curve and contact length
+    are those of the ellipse.
 
     Examples
     --------
@@ -85,14 +90,19 @@ def roll(
     >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
     499.3 to 567.0 N
     """
-    track = SpringTrack(height, spacing, radius, modulus)
+    track = SpringTrack(height, spacing, *spring_wheel(radius, modulus))
     rolled, diagnostics = _within_doubles(track, approach, force, contact)
     warn(diagnostics)
     return rolled
 
 
 def rolling_force(
-    height: ArrayLike, *, spacing: float, radius: float, modulus: float, approach: float | ArrayLike
+    height: ArrayLike,
+    *,
+    spacing: float,
+    radius: float | tuple[float, float],
+    modulus: float,
+    approach: float | ArrayLike,
 ) -> FloatArray:
     """Force of one-sided springs along a rough track, at a given approach.
 
@@ -100,8 +110,8 @@ def rolling_force(
     ----------
     height : array_like, shape (points,)
         Heights of the periodic track, positive towards the wheel [m].
-    spacing, radius, modulus : float
-        Distance of the springs [m], radius of the wheel [m] and contact modulus E* [Pa].
+    spacing, radius, modulus
+        As in `roll`.
     approach : float or array_like, shape (points,)
         Approach of the smooth wheel to the plane of height zero [m], as in `roll`.
 
@@ -126,7 +136,7 @@ def rolling_force(
     >>> print(f"{force[0]:.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
     532 N, by Hertz 533 N
     """
-    track = SpringTrack(height, spacing, radius, modulus)
+    track = SpringTrack(height, spacing, *spring_wheel(radius, modulus))
     rolled, diagnostics = _within_doubles(track, approach, None, "one-sided")
     warn(diagnostics)
     return rolled.force.copy()

@@ -203,9 +203,9 @@ def test_out_of_range(function, name, values):
         (sphere, ["radius", "modulus"]),
         (half_space, ["modulus"]),
         (solve, ["tolerance", "max_iterations"]),
-        (springs, ["spacing", "radius", "modulus"]),
-        (track, ["radius", "modulus"]),
-        (strip, ["radius", "modulus", "tolerance", "max_iterations"]),
+        (springs, ["spacing", "modulus"]),
+        (track, ["modulus"]),
+        (strip, ["modulus", "tolerance", "max_iterations"]),
         (wheel, ["tolerance", "max_iterations"]),
         (press, ["position", "approach"]),
         (carry, ["position", "force"]),
@@ -216,6 +216,13 @@ def test_what_is_no_number(function, names, value):
     for name in names:
         with pytest.raises(TypeError, match=f"{name} must be a"):
             function(**{name: value})
+
+
+@pytest.mark.parametrize("function", [springs, track, strip])
+@pytest.mark.parametrize("value", [value for value in NO_NUMBER if not isinstance(value, list)])
+def test_a_radius_that_is_no_number(function, value):
+    with pytest.raises(TypeError, match="radius must be a"):
+        function(radius=value)
 
 
 @pytest.mark.parametrize("by_force", [np.nan, np.inf, -1.0])

@@ -372,7 +372,7 @@ def test_a_cell_that_just_overlaps_outside_of_a_frame_is_found(place, share):
     row, column = place
     height = np.zeros((40, 24))
     frame, d = framed(height, ((-3, 3), (10, 15))), 2.0
-    height[row, column] = frame.track.sphere(np.array(row), np.array(column)) - share * d
+    height[row, column] = frame.track.wheel(np.array(row), np.array(column)) - share * d
     rows, columns = framed(height, frame.spans).outside(0, d, np.zeros(frame.shape))
     assert rows[0] <= row < rows[1]
     assert columns[0] <= column < columns[1]

@@ -7,13 +7,15 @@ import math
 import numpy as np
 
 import bem3d
-from bem3d import contact, halfspace, kernel, projected_cg, tangent_stiffness, window, window_solve
+from bem3d import contact, halfspace, kernel, projected_cg, rolling_frame, tangent_stiffness, window, window_solve
 from bem3d import rolling_solve as wheel_on_strip
 from bem3d.rolling_frame import Frame, Track
+from bem3d.smooth_wheel import smooth_contact
 from tests.bem3d import (
     test_accepted_solves,
     test_contact_properties,
     test_convergence_rates,
+    test_elliptic_wheels,
     test_load_paths,
     test_operator_against_dense_twin,
     test_rolling_contact,
@@ -155,7 +157,7 @@ FAULTS = {
         functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
     ),
     "x^2 / R under the sphere": (
-        (Track, "sphere", scaled(Track.sphere, 2.0)),
+        (Track, "wheel", scaled(Track.wheel, 2.0)),
         functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
     ),
     "the wheel half a cell ahead": (
@@ -197,5 +199,15 @@ FAULTS = {
     "the iteration limit taken for convergence": (
         (contact.Contact, "converged", property(whoever_has_ended)),
         functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+    ),
+    "the radii along and across exchanged": (
+        (Track, "radii", property(lambda track: track.radius[::-1])),
+        functools.partial(
+            test_elliptic_wheels.test_low_waves_under_an_ellipse_have_the_filter_of_the_half_space, (1.0, 0.2), (1, 0)
+        ),
+    ),
+    "a circle of the mean radius for an ellipse": (
+        (rolling_frame, "smooth_contact", lambda radii: smooth_contact((math.sqrt(radii[0] * radii[1]),) * 2)),
+        test_elliptic_wheels.test_the_expected_contact_is_the_ellipse_of_hertz,
     ),
 }

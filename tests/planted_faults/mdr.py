@@ -9,14 +9,20 @@ import numpy as np
 import bem3d
 import mdr
 from bem3d import surface
-from mdr import foundation, sphere
+from mdr import elliptic_wheel, foundation, sphere
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
 from mdr import rolling_ensemble as wheels_in_step
 from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.diagnostics import diagnose_linearity
-from tests.mdr import test_drawn_roughness, test_geike_mapping, test_rolling_springs, test_springs_against_brute_force
+from tests.mdr import (
+    test_drawn_roughness,
+    test_elliptic_wheels,
+    test_geike_mapping,
+    test_rolling_springs,
+    test_springs_against_brute_force,
+)
 from tests.mdr import test_rolling_ensemble as test_wheels_on_springs
 from tests.mdr import test_spring_warnings as test_doubts_of_springs
 from tests.planted_faults.wrong import E_FOR_E_STAR, POISSON, force_in_step, one_sided_spectrum, scaled
@@ -231,5 +237,17 @@ FAULTS = {
     "a contact wider than its sphere that nobody asks about": (
         (sphere, "diagnose_units", lambda **_: ()),
         functools.partial(test_doubts_of_springs.test_warnings_of_the_units_of_a_sphere, 1.0, 1.21, 1),
+    ),
+    "springs of an ellipse as stiff as those of a sphere": (
+        (
+            wheel_on_springs,
+            "spring_wheel",
+            lambda radius, modulus: (elliptic_wheel.spring_wheel(radius, 1.0)[0], modulus),
+        ),
+        test_elliptic_wheels.test_the_smooth_wheel_rolls_at_the_approach_of_the_ellipse,
+    ),
+    "the radius along the track for that of the contact": (
+        (test_elliptic_wheels, "spring_wheel", lambda radius, modulus: (radius[0], modulus)),
+        functools.partial(test_elliptic_wheels.test_springs_have_the_load_curve_of_one_ellipse, (0.46, 0.3)),
     ),
 }

@@ -1,0 +1,56 @@
+"""The smooth contact of a wheel with two radii: Hertz on an ellipse."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import optimize, special
+
+
+@dataclass(frozen=True, kw_only=True)
+class SmoothContact:
+    """What two radii make of Hertz: at an approach d, semi-axes sqrt(along d) and sqrt(across d).
+
+    along, across: squares of the semi-axes over the approach [m]; sphere: radius of the sphere with the same load
+    curve, F = 4/3 E* sqrt(R) d^(3/2) [m]. For two equal radii all three are that radius.
+    """
+
+    along: float
+    across: float
+    sphere: float
+
+    def semi_axes(self, approach: float) -> tuple[float, float]:
+        """Along and across the track; zero where there is no contact [m]."""
+        d = max(approach, 0.0)
+        return math.sqrt(self.along * d), math.sqrt(self.across * d)
+
+    def approach(self, force_over_modulus: float) -> float:
+        """d = (9 F^2 / (16 R E*^2))^(1/3) of the sphere [m]."""
+        return float(np.cbrt(9 / 16 / self.sphere) * np.cbrt(force_over_modulus) ** 2)
+
+
+def smooth_contact(radii: tuple[float, float]) -> SmoothContact:
+    """Of radii along and across.
+
+    R_a: the larger; with k = b/a and Carlson's integrals, D = R_D(0, k^2, 1) / 3:
+    R_b / R_a = R_D(0, k^2, 1) / R_D(0, 1, k^2), a^2 / d = 2 R_a D / K, sqrt(R) = pi / (2 K) sqrt(a^2 / d).
+    Source: Johnson, Contact Mechanics, chapter 4, without the difference K - E, which loses digits near the circle.
+    """
+    larger, smaller = max(radii), min(radii)
+    if larger == smaller:
+        return SmoothContact(along=larger, across=larger, sphere=larger)
+    square = _axis_ratio(smaller / larger) ** 2
+    first_kind = float(special.elliprf(0, square, 1))
+    major = 2 * larger * float(special.elliprd(0, square, 1)) / (3 * first_kind)
+    along, across = (major, square * major) if radii[0] == larger else (square * major, major)
+    return SmoothContact(along=along, across=across, sphere=(math.pi / (2 * first_kind)) ** 2 * major)
+
+
+def _axis_ratio(radius_ratio: float) -> float:
+    """k = b/a from R_b / R_a below one: k lies between that and one."""
+
+    def excess(log_k: float) -> float:
+        square = math.exp(2 * log_k)
+        return math.log(float(special.elliprd(0, square, 1) / special.elliprd(0, 1, square)) / radius_ratio)
+
+    return math.exp(optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))

@@ -1,0 +1,61 @@
+"""Wheels with two radii on springs: the load curve of Hertz on an ellipse, the filter over ridges, equal radii."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import mdr
+from mdr.elliptic_wheel import spring_wheel
+from validation.theory.elliptic_contact import elliptic_contact
+
+radii = st.tuples(st.floats(0.05, 5), st.floats(0.05, 5))
+
+
+@given(radii, st.floats(1e-7, 1e-4))
+def test_springs_have_the_load_curve_and_the_length_of_the_ellipse(pair, approach):
+    test_springs_have_the_load_curve_of_one_ellipse(pair, approach)
+
+
+@pytest.mark.parametrize("pair", [(0.46, 0.3), (0.3, 0.46)])
+def test_springs_have_the_load_curve_of_one_ellipse(pair, approach=6e-5):
+    radius, modulus = spring_wheel(pair, 2e11)
+    smooth = elliptic_contact(pair, modulus=2e11, approach=approach)
+    assert math.sqrt(radius * approach) == pytest.approx(smooth.along, rel=1e-9)
+    assert 4 / 3 * modulus * math.sqrt(radius) * approach**1.5 == pytest.approx(smooth.force, rel=1e-9)
+    assert 2 * modulus * smooth.along == pytest.approx(smooth.stiffness, rel=1e-9)
+
+
+def test_the_smooth_wheel_rolls_at_the_approach_of_the_ellipse():
+    smooth = elliptic_contact((0.46, 0.3), modulus=1.154e11, force=5e4)
+    rolled = mdr.roll(np.zeros(4096), spacing=smooth.along / 400, radius=(0.46, 0.3), modulus=1.154e11, force=5e4)
+    assert rolled.approach[0] == pytest.approx(smooth.approach, rel=1e-5)
+    assert rolled.stiffness[0] == pytest.approx(smooth.stiffness, rel=5e-3)
+
+
+@pytest.mark.parametrize("wave", [1, 3, 7, 20])
+def test_ridges_across_the_track_pass_with_the_filter_of_the_semi_axis_along(wave):
+    smooth = elliptic_contact((0.46, 0.3), modulus=1.154e11, force=5e4)
+    points, spacing = 4096, smooth.along / 400
+    q = 2 * np.pi * wave / (points * spacing)
+    track = 1e-4 * smooth.approach * np.cos(q * spacing * np.arange(points))
+    settings = {"spacing": spacing, "radius": (0.46, 0.3), "modulus": 1.154e11, "force": 5e4}
+    moved = mdr.roll(track, **settings).approach - mdr.roll(np.zeros(points), **settings).approach
+    mode = -2 * np.fft.rfft(moved)[wave].real / points / (1e-4 * smooth.approach)
+    assert mode == pytest.approx(np.sinc(q * smooth.along / np.pi), abs=5e-3)
+
+
+def test_equal_radii_are_one_to_the_last_digit():
+    track = 1e-7 * np.random.default_rng(2).standard_normal(512)
+    one, pair = (mdr.roll(track, spacing=1e-4, radius=r, modulus=2e11, force=900.0).approach for r in (0.5, (0.5, 0.5)))
+    np.testing.assert_array_equal(one, pair)
+
+
+@pytest.mark.parametrize(
+    ("radius", "message"), [((1.0,), "one number or two"), ((1.0, 0.0), r"radius\[1\]"), (-1.0, "radius must be")]
+)
+def test_radii_that_are_none_are_refused(radius, message):
+    with pytest.raises(ValueError, match=message):
+        mdr.roll(np.zeros(256), spacing=1e-4, radius=radius, modulus=2e11, approach=1e-6)
