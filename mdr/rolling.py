@@ -46,10 +46,8 @@ def roll(
     ----------
     height : array_like, shape (points,)
         Heights of the periodic track, positive towards the wheel [m].
-    spacing, modulus : float
-        Distance dx of the springs [m], contact modulus E* [Pa].
-    radius : float or tuple of float
-        Radius R of the wheel, or (along, across) the track [m]. Curvatures of two bodies add: 1/R = 1/R_1 + 1/R_2.
+    spacing, radius, modulus : float
+        Distance dx of the springs [m], radius R of the wheel, or two (along, across) [m], contact modulus E* [Pa].
     approach : float or array_like, shape (points,), optional
         Approach of the smooth wheel to the plane of height zero [m]: one positive number, or one of any sign at each
         point. Give either ``approach`` or ``force``.
@@ -79,9 +77,7 @@ def roll(
     Notes
     -----
     F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0); Popov and Hess, (14.2), (14.5), (14.11). A contact
-    longer than the track meets the same roughness again. Two radii make an ellipse with the semi-axis a_x along the
-    track: R is then a_x^2 / d, and E* is 3 F / (4 a_x d) of its smooth contact, so that load curve and contact length
-    are those of the ellipse.
+    longer than the track meets the same roughness again. For two radii see `elliptic_wheel.spring_wheel`.
 
     Examples
     --------
