@@ -1,6 +1,7 @@
 """Every public function refuses what it cannot answer, in one sentence that names the argument."""
 
 import inspect
+from functools import partial
 
 import numpy as np
 import pytest
@@ -13,84 +14,29 @@ NOT_POSITIVE = [*NOT_FINITE, 0.0, -1.0]
 NO_NUMBER = ["one", None, [1.0], True, 1j]
 
 
-def rng():
-    return np.random.default_rng(0)
-
-
-def spectrum(**changes):
-    return mdr.SelfAffine(**{"hurst": 0.7, "q_min": 7.0, "q_max": 50.0, "rms": 1e-6, **changes})
-
-
-def profile(**changes):
-    return mdr.rough_profile(**{"c1d": spectrum().c1d, "length": 1.0, "points": 32, "rng": rng(), **changes})
-
-
-def profiles(**changes):
-    settings = {"c1d": spectrum().c1d, "length": 1.0, "points": 32, "count": 2, "rng": rng()}
-    return mdr.rough_profiles(**{**settings, **changes})
-
-
-def stiffnesses(**changes):
-    settings = {"force": 1.0, "height": np.array([[0.0, 1.0]]), "length": 1.0, "modulus": 1.0}
-    return mdr.stiffness_under(**{**settings, **changes})
-
-
-def surface(**changes):
-    return bem3d.rough_surface(**{"c2d": spectrum().c2d, "shape": (32, 32), "spacing": 1 / 32, "rng": rng(), **changes})
-
-
-def curve(**changes):
-    return mdr.load_curve(**{"height": np.array([0.0, 1.0]), "length": 1.0, "modulus": 1.0, **changes})
-
-
-def sphere(**changes):
-    return mdr.press_sphere(**{"radius": 1.0, "modulus": 1.0, "approach": 1.0, **changes})
-
-
-def half_space(**changes):
-    return bem3d.HalfSpace(**{"shape": (4, 5), "spacing": 1.0, "modulus": 1.0, **changes})
-
-
-def solve(**changes):
-    return bem3d.solve(**{"half_space": half_space(), "gap": np.zeros((4, 5)), "approach": 1.0, **changes})
-
-
-def frozen(**changes):
-    return bem3d.solve_fixed_area(**{"half_space": half_space(), "contact": np.ones((4, 5), dtype=bool), **changes})
-
-
 WHEEL = {"spacing": 1.0, "radius": 4.0, "modulus": 1.0}
 ON_TRACK = {"height": np.zeros(8), **WHEEL, "approach": 1.0}
 ON_STRIP = {**ON_TRACK, "height": np.zeros((8, 7))}
+RNG = np.random.default_rng(0)
 
-
-def springs(**changes):
-    return mdr.roll(**{**ON_TRACK, **changes})
-
-
-def springs_force(**changes):
-    return mdr.rolling_force(**{**ON_TRACK, **changes})
-
-
-def feed(**changes):
-    settings = {"q": 10.0, "c2d": spectrum().c2d, "edges": (7.0, 50.0), "contact_radius": 1.0}
-    return mdr.rolling_spectrum(**{**settings, **changes})
-
-
-def track(**changes):
-    return bem3d.Track(**{"height": np.zeros((8, 7)), **WHEEL, **changes})
-
-
-def strip(**changes):
-    return bem3d.roll(**{**ON_STRIP, **changes})
-
-
-def strip_force(**changes):
-    return bem3d.rolling_force(**{**ON_STRIP, **changes})
-
-
-def wheel(**changes):
-    return bem3d.RollingContact(track(), **changes)
+# good input, some of which is then replaced
+spectrum = partial(mdr.SelfAffine, hurst=0.7, q_min=7.0, q_max=50.0, rms=1e-6)
+profile = partial(mdr.rough_profile, c1d=spectrum().c1d, length=1.0, points=32, rng=RNG)
+profiles = partial(mdr.rough_profiles, c1d=spectrum().c1d, length=1.0, points=32, count=2, rng=RNG)
+stiffnesses = partial(mdr.stiffness_under, force=1.0, height=np.array([[0.0, 1.0]]), length=1.0, modulus=1.0)
+surface = partial(bem3d.rough_surface, c2d=spectrum().c2d, shape=(32, 32), spacing=1 / 32, rng=RNG)
+curve = partial(mdr.load_curve, height=np.array([0.0, 1.0]), length=1.0, modulus=1.0)
+sphere = partial(mdr.press_sphere, radius=1.0, modulus=1.0, approach=1.0)
+half_space = partial(bem3d.HalfSpace, shape=(4, 5), spacing=1.0, modulus=1.0)
+solve = partial(bem3d.solve, half_space=half_space(), gap=np.zeros((4, 5)), approach=1.0)
+frozen = partial(bem3d.solve_fixed_area, half_space=half_space(), contact=np.ones((4, 5), dtype=bool))
+springs = partial(mdr.roll, **ON_TRACK)
+springs_force = partial(mdr.rolling_force, **ON_TRACK)
+feed = partial(mdr.rolling_spectrum, q=10.0, c2d=spectrum().c2d, edges=(7.0, 50.0), contact_radius=1.0)
+track = partial(bem3d.Track, height=np.zeros((8, 7)), **WHEEL)
+strip = partial(bem3d.roll, **ON_STRIP)
+strip_force = partial(bem3d.rolling_force, **ON_STRIP)
+wheel = partial(bem3d.RollingContact, track())
 
 
 def press(**changes):
@@ -397,15 +343,12 @@ def test_strips_with_rows_of_different_length(function):
         function(height=[[1.0], [1.0, 2.0]])
 
 
-def wide(**changes):
-    settings = {"height": np.zeros((12, 40)), "spacing": (0.5, 0.2), "radius": 1.0, "modulus": 1.0, "approach": 1.0}
-    return bem3d.roll(**{**settings, **changes})
+wide = partial(bem3d.roll, height=np.zeros((12, 40)), spacing=(0.5, 0.2), radius=1.0, modulus=1.0, approach=1.0)
 
 
 def wheels_at(**changes):
     """Two tracks, whose middles are 1 and -2 from the plane that heights count from."""
-    settings = {"spacing": 1.0, "radius": 4.0, "modulus": 1.0, "force": 2.0}
-    wheels = mdr.RollingEnsemble(np.tile([1.0, -2.0], (9, 1)), **settings)
+    wheels = mdr.RollingEnsemble(np.tile([1.0, -2.0], (9, 1)), **WHEEL, force=2.0)
     return wheels.force(**{"place": 0, "approach": np.zeros(2), **changes})
 
 

@@ -29,12 +29,8 @@ from validation.report.figures import (
     wheel_distance,
     wheel_stability,
 )
-from validation.report.figures import (
-    mdr_limits as mdr_limits_figure,
-)
-from validation.report.figures import (
-    rolling as rolling_figure,
-)
+from validation.report.figures import mdr_limits as mdr_limits_figure
+from validation.report.figures import rolling as rolling_figure
 
 
 class Made:
@@ -80,12 +76,13 @@ def series(axis):
     return found
 
 
-def drawn(axis, **expected):
-    """The lines of these labels have these values, and no other line has a label."""
+def drawn(axis, expected, table=None):
+    """The lines of these labels have these values, or those of a column of the table; no other line has a label."""
     found = series(axis)
     assert found.keys() == expected.keys()
     for label, values in expected.items():
         y, bars = values if isinstance(values, tuple) else (values, None)
+        y = table[y] if isinstance(y, str) else y
         np.testing.assert_allclose(found[label][0], y, err_msg=label)
         if bars is not None:
             np.testing.assert_allclose(np.sort(found[label][1], axis=1).T, [y - bars[0], y + bars[1]], err_msg=label)
@@ -131,29 +128,21 @@ def bars_of(table, name, rows=slice(None)):
 def test_lines_of_fig_14_1_laid_over_each_other(draw, what, guide):
     table = curves()
     axis = draw(made(curves=table, marks=MARKS)).axes[0]
-    found = series(axis)
-    if guide:
-        found.pop(guide)
-    assert set(found) == {
-        "boundary elements",
-        "boundary elements, few cells",
-        "MDR, L_1D = L",
-        "MDR, L_1D = 1.1523 L",
+    expected = {
+        "boundary elements": bars_of(table, f"bem3d {what}", slice(1, None)),
+        "boundary elements, few cells": bars_of(table, f"bem3d {what}", slice(0, 1)),
+        "MDR, L_1D = L": f"mdr {what}",
+        "MDR, L_1D = 1.1523 L": f"mdr 1.1523 L {what}",
     }
-    for label, rows in (("boundary elements", slice(1, None)), ("boundary elements, few cells", slice(0, 1))):
-        value, (down, up) = bars_of(table, f"bem3d {what}", rows)
-        np.testing.assert_allclose(found[label][0], value)
-        np.testing.assert_allclose(found[label][1].T, [value - down, value + up])
-    np.testing.assert_allclose(found["MDR, L_1D = L"][0], table[f"mdr {what}"])
-    np.testing.assert_allclose(found["MDR, L_1D = 1.1523 L"][0], table[f"mdr 1.1523 L {what}"])
+    drawn(axis, expected | ({guide: series(axis)[guide][0]} if guide else {}), table)
 
 
 def test_lines_of_fig_14_1():
     table = curves()
     of_bem, of_mdr = fractal_punch.draw(made(curves=table)).axes
     assert (of_bem.get_title(), of_mdr.get_title()) == ("boundary elements", "MDR")
-    drawn(of_bem, **{"H = 0.7": table["bem3d relative deviation"]})
-    drawn(of_mdr, **{"H = 0.7": table["mdr relative deviation"]})
+    drawn(of_bem, {"H = 0.7": "bem3d relative deviation"}, table)
+    drawn(of_mdr, {"H = 0.7": "mdr relative deviation"}, table)
 
 
 @pytest.mark.parametrize(("verdict", "sign"), [("agree", "="), ("differ", "≠"), ("undecided", "?")])
@@ -182,31 +171,13 @@ def test_lines_of_the_sphere():
         made(**{**tables, "exact_pressure": tables["exact-pressure"], "refinement": refinement})
     ).axes
     of = tables["load"]
-    drawn(
-        load,
-        **{
-            "Hertz": of["hertz force [N]"],
-            "boundary elements": of["bem3d force [N]"],
-            "MDR": of["mdr force [N]"],
-        },
-    )
+    drawn(load, {"Hertz": "hertz force [N]", "boundary elements": "bem3d force [N]", "MDR": "mdr force [N]"}, of)
     np.testing.assert_allclose(load.get_lines()[0].get_xdata(), 1e6 * of["approach [m]"])
-    drawn(
-        pressure,
-        **{
-            "Hertz": 1e-6 * tables["exact-pressure"]["hertz pressure [Pa]"],
-            "boundary elements": 1e-6 * tables["pressure"]["bem3d pressure [Pa]"],
-        },
-    )
-    off = refinement["bem3d force error"]
-    drawn(
-        errors,
-        **{
-            "boundary elements": off,
-            "MDR": refinement["mdr force error"],
-            "second order": off[0] * np.array([1, 1 / 4, 1 / 16]),
-        },
-    )
+    exact, found = tables["exact-pressure"]["hertz pressure [Pa]"], tables["pressure"]["bem3d pressure [Pa]"]
+    drawn(pressure, {"Hertz": 1e-6 * exact, "boundary elements": 1e-6 * found})
+    second_order = refinement["bem3d force error"][0] * np.array([1, 1 / 4, 1 / 16])
+    expected = {"boundary elements": "bem3d force error", "MDR": "mdr force error", "second order": second_order}
+    drawn(errors, expected, refinement)
 
 
 def test_lines_of_the_flat_punches():
@@ -215,41 +186,29 @@ def test_lines_of_the_flat_punches():
     refinement = Made({"cells per side": np.array([8, 16, 32])})
     pressure = Made({"x / L": np.arange(5.0)})
     stiffness, along = square_punch.draw(made(levels=levels, refinement=refinement, pressure=pressure)).axes
-    square = refinement["square k / (E* L)"]
-    drawn(
-        stiffness,
-        **{
-            "boundary elements, square": square,
-            "boundary elements, circle": refinement["circle k / (2 E* a)"],
-            "first-order extrapolation": [1.15, square[-2]],
-            "square, numerical capacitance": [1.16] * 2,
-            "MDR, L_1D = L": [1.0] * 2,
-            "MDR, L_1D = 1.1523 L": [1.17] * 2,
-        },
-    )
-    drawn(along, **{"boundary elements": pressure["p / mean p"]})
+    expected = {
+        "boundary elements, square": "square k / (E* L)",
+        "boundary elements, circle": "circle k / (2 E* a)",
+        "first-order extrapolation": [1.15, refinement["square k / (E* L)"][-2]],
+        "square, numerical capacitance": [1.16] * 2,
+        "MDR, L_1D = L": [1.0] * 2,
+        "MDR, L_1D = 1.1523 L": [1.17] * 2,
+    }
+    drawn(stiffness, expected, refinement)
+    drawn(along, {"boundary elements": "p / mean p"}, pressure)
 
 
 def test_lines_of_geikes_rule():
     spectra, moments = Made({"q [rad/m]": np.arange(1.0, 6.0)}), Made({"n": np.arange(4)})
     spectrum, moment = geike.draw(made(spectra=spectra, moments=moments)).axes
-    drawn(
-        spectrum,
-        **{
-            "Geike, π q C_2D": spectra["geike [m^3]"],
-            "line trace": spectra["line trace [m^3]"],
-            "drawn profiles": spectra["drawn profiles [m^3]"],
-            "lines cut from drawn surfaces": spectra["lines of drawn surfaces [m^3]"],
-        },
-    )
-    drawn(
-        moment,
-        **{
-            "Geike": moments["geike"],
-            "line trace": moments["line trace"],
-            "mean of |cos φ|ⁿ": moments["exact"],
-        },
-    )
+    expected = {
+        "Geike, π q C_2D": "geike [m^3]",
+        "line trace": "line trace [m^3]",
+        "drawn profiles": "drawn profiles [m^3]",
+        "lines cut from drawn surfaces": "lines of drawn surfaces [m^3]",
+    }
+    drawn(spectrum, expected, spectra)
+    drawn(moment, {"Geike": "geike", "line trace": "line trace", "mean of |cos φ|ⁿ": "exact"}, moments)
 
 
 def test_lines_of_ways_to_draw():
@@ -258,13 +217,8 @@ def test_lines_of_ways_to_draw():
     value = table["relative deviation"]
     table.given["low"], table.given["high"] = 0.8 * value, 1.1 * value
     (axis,) = normalisation.draw(made(curves=table)).axes
-    drawn(
-        axis,
-        **{
-            "boundary elements": (value[:3], (0.2 * value[:3], 0.1 * value[:3])),
-            "MDR, L_1D = L": value[3:],
-        },
-    )
+    of_bem = value[:3], (0.2 * value[:3], 0.1 * value[:3])
+    drawn(axis, {"boundary elements": of_bem, "MDR, L_1D = L": value[3:]})
 
 
 def test_lines_of_where_mdr_must_fail():
@@ -280,21 +234,14 @@ def test_lines_of_where_mdr_must_fail():
             value = (table[f"bem3d {name}"] / unit)[rows]
             expected[f"boundary elements, q_r L / 2π = {roll_off}"] = value, (0.1 * value, 0.3 * value)
             expected[f"MDR, q_r L / 2π = {roll_off}"] = (table[f"mdr {name}"] / unit)[rows]
-        drawn(axis, **expected)
+        drawn(axis, expected)
 
 
 def test_lines_of_fig_14_3():
     table = Made({"q a": np.arange(1.0, 6.0)})
     (axis,) = rolling_figure.draw_line(made(spectrum=table)).axes
-    drawn(
-        axis,
-        **{
-            "linear theory, 3D": table["linear 3D"],
-            "springs": table["springs"],
-            "(14.12)": table["(14.12)"],
-            "(14.14)": table["(14.14)"],
-        },
-    )
+    columns = {"linear theory, 3D": "linear 3D", "springs": "springs", "(14.12)": "(14.12)", "(14.14)": "(14.14)"}
+    drawn(axis, columns, table)
 
 
 def rolled_levels():
@@ -309,15 +256,13 @@ def test_lines_of_rolling():
         mine = table.where(**{"h/d": height})
         bars = mine["± sample [dB]"] + mine["± grid [dB]"]
         assert axis.get_title() == f"h/d = {height:g}"
-        drawn(
-            axis,
-            **{
-                "linear theory, 3D": mine["linear 3D [dB]"],
-                "linear theory, 1D (14.12)": mine["linear 1D [dB]"],
-                "springs": mine["springs [dB]"],
-                "boundary elements": (mine["bem3d [dB]"], (bars, bars)),
-            },
-        )
+        expected = {
+            "linear theory, 3D": "linear 3D [dB]",
+            "linear theory, 1D (14.12)": "linear 1D [dB]",
+            "springs": "springs [dB]",
+            "boundary elements": ("bem3d [dB]", (bars, bars)),
+        }
+        drawn(axis, expected, mine)
 
 
 @pytest.mark.slow
@@ -350,14 +295,11 @@ def test_lines_of_input_spectra():
     bands = Made({"spectrum": np.repeat(names, 3), "q a": [1.0, 2.0, 3.0] * 6})
     for axis, name in zip(rolling_input.draw(made(bands=bands)).axes, names, strict=True):
         mine = bands.where(spectrum=name)
-        drawn(axis, **{label: mine[f"{label} [dB]"] for label in NAMES.values()})
+        drawn(axis, {label: f"{label} [dB]" for label in NAMES.values()}, mine)
     rolled = Made({"spectrum": np.repeat(names[:2], 3), "h/d": np.full(6, 0.1), "q a": [1.0, 2.0, 3.0] * 2})
     for axis, name in zip(rolling_input.draw_springs(made(rolled=rolled)).axes, names, strict=False):
         mine = rolled.where(spectrum=name)
-        drawn(
-            axis,
-            **{label: (mine[f"{label} [dB]"], (mine[f"{label} ± [dB]"],) * 2) for label in NAMES.values()},
-        )
+        drawn(axis, {label: (f"{label} [dB]", (mine[f"{label} ± [dB]"],) * 2) for label in NAMES.values()}, mine)
     punches = Made({"input": np.repeat(list(NAMES.values()), 2), "Fbar": [0.1, 1.0] * len(NAMES)})
     value = punches["mdr over bem3d"]
     punches.given["low"], punches.given["high"] = 0.8 * value, 1.1 * value
@@ -366,32 +308,30 @@ def test_lines_of_input_spectra():
     for label in NAMES.values():
         mine = punches.where(input=label)["mdr over bem3d"]
         expected[label] = mine, (0.2 * mine, 0.1 * mine)
-    drawn(axis, **expected)
+    drawn(axis, expected)
 
 
 def test_lines_of_fig_14_4():
     spectrum, near = Made({"x": np.arange(6)}), Made({"x": np.arange(5)})
     marks = Table("marks", {"mark": ["ω_eigen"], "omega [rad/s]": [1.0]})
     whole, region = wheel.draw(made(spectrum=spectrum, oscillation=near, marks=marks)).axes
-    drawn(
-        whole,
-        **{
-            "linear theory": spectrum["linear"],
-            "no window, (14.17)": spectrum["A [(m/s2)2 s]"],
-            "Hann": spectrum["Hann"],
-            "floor predicted": spectrum["floor"],
-        },
-    )
+    expected = {
+        "linear theory": "linear",
+        "no window, (14.17)": "A [(m/s2)2 s]",
+        "Hann": "Hann",
+        "floor predicted": "floor",
+    }
+    drawn(whole, expected, spectrum)
     band = whole.collections[0].get_paths()[0].vertices[:, 1]
     assert set(np.round(spectrum["lowest tenth"], 9)) <= set(np.round(band, 9))
-    drawn(region, **{"linear theory": near["linear"], "no window": near["springs"], "Hann": near["springs, Hann"]})
+    drawn(region, {"linear theory": "linear", "no window": "springs", "Hann": "springs, Hann"}, near)
 
 
 def test_lines_of_one_parameter_at_a_time():
     names = ["the scene", "v₀ × 2", "F_N × 2", "q_min × 2", "q_max × 2", "H = 1", "h₀ × 4"]
     table = Made({"scene": np.repeat(names, 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 7})
     for axis, name in zip(wheel.draw_parameters(made(variations=table)).axes, names[1:], strict=True):
-        drawn(axis, **{name: table.where(scene=name)["A [(m/s2)2 s]"]})
+        drawn(axis, {name: "A [(m/s2)2 s]"}, table.where(scene=name))
 
 
 def test_lines_of_fig_14_5():
@@ -402,14 +342,12 @@ def test_lines_of_fig_14_5():
     for name in (0.1, 0.2):
         mine = distances.where(**{"distance [m]": name})
         np.testing.assert_allclose(series(spectra)[f"{name:.2g} m"][0], mine["A [(m/s2)2 s]"])
-    drawn(
-        found,
-        **{
-            "found": (np.array([1.5, 2.5]), (breaks["± break [rad/s]"],) * 2),
-            "by the jumps of the records": breaks["break by its jumps [rad/s]"],
-            "T^0.400": law["break [rad/s]"],
-        },
-    )
+    expected = {
+        "found": (np.array([1.5, 2.5]), (breaks["± break [rad/s]"],) * 2),
+        "by the jumps of the records": "break by its jumps [rad/s]",
+        "T^0.400": law["break [rad/s]"],
+    }
+    drawn(found, expected, breaks)
 
 
 def test_lines_of_the_causes():
@@ -419,19 +357,16 @@ def test_lines_of_the_causes():
     tables = {"endings": ends, "plateau": plateau, "vibrations": vibrations, "hertz": hertz}
     spectra, region, peak = wheel_distance.draw_cause(made(**tables)).axes
     names = ("springs, steady-state", "springs, open", "springs, periodic", "springs, open, Hann", "linear, open")
-    drawn(spectra, **{name: ends[name] for name in names})
-    found = series(region)
-    for label, kind in (
-        ("springs, open", "springs, open"),
-        ("linear, open: leakage", "linear, open"),
-        ("springs, steady-state: nonlinearity", "springs, steady-state"),
-    ):
-        y, half = plateau[f"{kind} [dB]"], plateau[f"± {kind} [dB]"]
-        np.testing.assert_allclose(found[label][0], y)
-        np.testing.assert_allclose(found[label][1].T, [y - half, y + half])
+    drawn(spectra, {name: name for name in names}, ends)
+    kinds = {
+        "springs, open": "springs, open",
+        "linear, open: leakage": "linear, open",
+        "springs, steady-state: nonlinearity": "springs, steady-state",
+    }
+    expected = {label: (f"{kind} [dB]", (plateau[f"± {kind} [dB]"],) * 2) for label, kind in kinds.items()}
     for label, kind, order in (("h^2", "linear, open", 2), ("h^4", "springs, steady-state", 4)):
-        expected = plateau[f"{kind} [dB]"][0] + 10 * np.log10(np.array([1.0, 2.0, 4.0]) ** order)
-        np.testing.assert_allclose(found[label][0], expected)
+        expected[label] = plateau[f"{kind} [dB]"][0] + 10 * np.log10(np.array([1.0, 2.0, 4.0]) ** order)
+    drawn(region, expected, plateau)
     bars = next(c for c in peak.containers if isinstance(c, ErrorbarContainer))
     np.testing.assert_allclose(bars.lines[0].get_ydata(), vibrations["peak over omega_eigen"])
     np.testing.assert_allclose(series(peak)["Hertz, quadrature"][0], hertz["peak over omega_eigen"])
@@ -444,17 +379,11 @@ def test_lines_of_the_wheel_in_three_dimensions():
     bem = table["bem3d [dB]"]
     half = sum(table[f"± {of} [dB]"] for of in ("sample", "grid", "solver"))
     over = {name: table[f"{name} over bem3d [dB]"] for name in names}
-    drawn(levels, **{name: bem + off for name, off in over.items()}, **{"boundary elements": (bem, (half, half))})
+    drawn(levels, {name: bem + off for name, off in over.items()} | {"boundary elements": (bem, (half, half))})
     for line, name in zip(differences.get_lines(), names, strict=False):
         np.testing.assert_allclose(line.get_ydata(), over[name])
-    drawn(
-        oscillation,
-        **{
-            "linear contact, 3D": near["linear, 3D"],
-            "springs, Geike spectrum": near["springs, Geike spectrum"],
-            "boundary elements": near["bem3d"],
-        },
-    )
+    columns = {"linear contact, 3D": "linear, 3D", names[2]: names[2], "boundary elements": "bem3d"}
+    drawn(oscillation, columns, near)
     band = differences.collections[0].get_paths()[0].vertices[:, 1]
     assert (band.max(), band.min()) == pytest.approx((half.max(), -half.max()))
 
@@ -469,21 +398,19 @@ def test_lines_of_rounds_and_of_lift_off():
         for what in ("free vibration", "mean square acceleration"):
             value = np.exp(mine[f"{what}, log over first tenth"])
             expected[f"{name}, {what}"] = value, (value * mine[f"{what}, half-width"],) * 2
-    drawn(axis, **expected)
+    drawn(axis, expected)
     lift = Made({"sweep": np.repeat(["height", "load"], 3)})
     airborne, highest = plain_axis(), plain_axis()
     wheel_stability._lift(airborne, highest, lift)
     of = {sweep: lift.where(sweep=sweep) for sweep in ("height", "load")}
-    drawn(
-        airborne,
-        **{f"{sweep} changed": mine["time airborne"] for sweep, mine in of.items()},
-        **{f"linear force below zero, {sweep}": mine["time airborne, linear"] for sweep, mine in of.items()},
-    )
-    drawn(
-        highest,
-        **{f"{sweep} changed": mine["highest force [F_N]"] for sweep, mine in of.items()},
-        **{f"1 + largest linear tension, {sweep}": 1 + mine["deepest linear pull [F_N]"] for sweep, mine in of.items()},
-    )
+    in_the_air, forces = {}, {}
+    for sweep, mine in of.items():
+        in_the_air[f"{sweep} changed"] = mine["time airborne"]
+        in_the_air[f"linear force below zero, {sweep}"] = mine["time airborne, linear"]
+        forces[f"{sweep} changed"] = mine["highest force [F_N]"]
+        forces[f"1 + largest linear tension, {sweep}"] = 1 + mine["deepest linear pull [F_N]"]
+    drawn(airborne, in_the_air)
+    drawn(highest, forces)
 
 
 def plain_axis():
@@ -496,18 +423,13 @@ def test_lines_of_iterations():
     residual = Made(keys)
     axes = limits.draw_solver(made(iterations=table, residual=residual)).axes
     pairs = [(solver, scene) for solver in ("solve", "solve_polonsky_keer") for scene in ("a", "b")]
-    drawn(axes[0], **{f"{v}, {s}": table.where(solver=v, scene=s)["iterations"] for v, s in pairs})
+    drawn(axes[0], {f"{v}, {s}": table.where(solver=v, scene=s)["iterations"] for v, s in pairs})
     for axis, measure in zip(axes[1:], ("load", "stiffness", "pressure"), strict=True):
         assert axis.get_title() == f"true error: {measure}"
         for line, (solver, scene) in zip(axis.get_lines(), pairs, strict=False):
             mine = residual.where(solver=solver, scene=scene)
             np.testing.assert_allclose(line.get_ydata(), mine[f"error of the {measure}"])
-            same = axes[0].get_lines()[pairs.index((solver, scene))]
-            assert (line.get_color(), line.get_marker(), line.get_linestyle()) == (
-                same.get_color(),
-                same.get_marker(),
-                same.get_linestyle(),
-            )
+            assert look(line)[:3] == look(axes[0].get_lines()[pairs.index((solver, scene))])[:3]
 
 
 @pytest.mark.slow

@@ -86,12 +86,16 @@ class Engine:
             f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_version_of_numerics()}" for problem in problems
         ]
         places = [self._place(solve, key) for key in keys]
-        known = {i: outcome for i, outcome in enumerate(map(_load, places, keys)) if outcome is not None}
-        missing = [i for i in range(len(problems)) if i not in known]
+        found = [stored.load(place, key) if place else None for place, key in zip(places, keys, strict=True)]
+        known = {i: outcome for i, outcome in enumerate(found) if outcome is not None}
         failed = sum(map(_failed, known.values()))
         name = solve.__name__.replace("_", " ")
         with Progress(name, total=len(problems), stored=len(known), failed=failed, shown=self.progress) as progress:
-            tasks = [_PendingSolve(solve, problems[i], i, places[i], keys[i]) for i in missing]
+            tasks = [
+                _PendingSolve(solve, problem, i, places[i], keys[i])
+                for i, problem in enumerate(problems)
+                if i not in known
+            ]
             # an exception in this block ends the workers at once
             with closing(self._solved(tasks)) as solved:
                 for i, outcome in solved:
@@ -138,7 +142,7 @@ class Engine:
             ]
             for future in as_completed(futures, loop=client.loop):
                 i, outcome = future.result()
-                _save(by_index[i].place, by_index[i].key, outcome)
+                by_index[i].save(outcome)
                 yield i, outcome
 
     def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
@@ -160,10 +164,14 @@ class _PendingSolve(Generic[P]):
     place: Path | None
     key: str
 
+    def save(self, outcome: Outcome) -> None:
+        if self.place is not None:
+            stored.save(self.place, self.key, outcome)
+
 
 def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome]:
     i, outcome = _solve(task.solve, task.problem, task.index, numerics)
-    _save(task.place, task.key, outcome)
+    task.save(outcome)
     return i, outcome
 
 
@@ -220,15 +228,6 @@ def _client(executor: str) -> Iterator[tuple[Any, Any]]:
         raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {RESUME_NOTE}") from None
     finally:
         logger.setLevel(level)
-
-
-def _load(path: Path | None, key: str) -> Outcome | None:
-    return stored.load(path, key) if path else None
-
-
-def _save(path: Path | None, key: str, outcome: Outcome) -> None:
-    if path:
-        stored.save(path, key, outcome)
 
 
 @cache

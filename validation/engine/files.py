@@ -11,20 +11,8 @@ from pathlib import Path
 
 PARTIAL_FILE = re.compile(r"\.mdr-validation-[a-z0-9_]{8}\.part")
 """The name of a file that a process is writing, or was writing when it was killed."""
-ERRORS_OF_A_PATH = frozenset(
-    {
-        errno.ENOENT,
-        errno.ENOTDIR,
-        errno.EISDIR,
-        errno.EEXIST,
-        errno.EACCES,
-        errno.EPERM,
-        errno.EROFS,
-        errno.ENAMETOOLONG,
-        errno.ELOOP,
-        errno.EINVAL,
-    }
-)
+_NAMES = ("ENOENT", "ENOTDIR", "EISDIR", "EEXIST", "EACCES", "EPERM", "EROFS", "ENAMETOOLONG", "ELOOP", "EINVAL")
+ERRORS_OF_A_PATH = frozenset(getattr(errno, name) for name in _NAMES)
 """Errors that are due to the path; all others are due to the machine."""
 
 

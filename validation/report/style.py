@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Literal
 
 import matplotlib
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -73,6 +74,11 @@ def tick(axis: Axes, values: Iterable[float]) -> None:
     values = list(values)
     axis.set_xticks(values, [f"{value:g}" for value in values])
     axis.xaxis.minorticks_off()
+
+
+def positive(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
+    """NaN in place of what a logarithmic axis has no room for."""
+    return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 
 def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:

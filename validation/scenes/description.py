@@ -18,11 +18,11 @@ def describe(scene: AnyScene) -> Pairs:
     material = scene.material or Material(contact_modulus=scene.modulus)
     modulus = ("contact modulus E*", f"{in_unit(scene.modulus, 'pressure', digits=6)}: {material.origin}")
     if isinstance(scene, WheelScene):
-        return modulus, *_of_wheel(scene), *_of_motion(scene), *_of_roughness_of_wheel(scene)
+        return modulus, *_of_body("wheel", scene.radius, scene), _of_motion(scene), *_of_roughness_of_wheel(scene)
     if isinstance(scene, RollingScene):
-        return modulus, *_of_wheel(scene), *_of_motion(scene), *_of_ground(scene, scene.ground)
+        return modulus, *_of_body("wheel", scene.radius, scene), _of_motion(scene), *_of_ground(scene)
     if scene.shape == "sphere":
-        return modulus, *_of_sphere(scene), *_of_ground(scene, scene.ground)
+        return modulus, *_of_body("sphere", scene.size, scene), *_of_ground(scene)
     return modulus, *_of_punch(scene)
 
 
@@ -39,35 +39,23 @@ def description_lines(scene: AnyScene, *, moving: bool = True) -> list[str]:
     return [*lines, *(f"  {name:{width}s}  {value}" for name, value in pairs)]
 
 
-def _of_sphere(scene: IndentationScene) -> Pairs:
+def _of_body(name: str, radius: float, scene: AnyScene) -> Pairs:
     return (
-        ("sphere", f"radius {in_unit(scene.size, 'length')}, load {in_unit(scene.load, 'force')}"),
-        *_of_contact(scene),
-    )
-
-
-def _of_wheel(scene: RollingScene | WheelScene) -> Pairs:
-    return (
-        ("wheel", f"radius {in_unit(scene.radius, 'length')}, load {in_unit(scene.load, 'force')}"),
-        *_of_contact(scene),
-    )
-
-
-def _of_contact(scene: AnyScene) -> Pairs:
-    return (
+        (name, f"radius {in_unit(radius, 'length')}, load {in_unit(scene.load, 'force')}"),
         ("contact radius a", f"{in_unit(scene.contact_radius, 'length')}, of the smooth body"),
         ("approach d", f"{in_unit(scene.approach, 'length')}, of the smooth body"),
     )
 
 
-def _of_motion(scene: RollingScene | WheelScene) -> Pairs:
+def _of_motion(scene: RollingScene | WheelScene) -> tuple[str, str]:
     if scene.mass is None or scene.speed is None:
-        return (("motion", "none, the wheel keeps its approach"),)
+        return "motion", "none, the wheel keeps its approach"
     body = f"mass {in_unit(scene.mass, 'mass')}, speed {in_unit(scene.speed, 'speed')}"
-    return (("motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, undamped"),)
+    return "motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, undamped"
 
 
-def _of_ground(scene: IndentationScene | RollingScene, ground: RoughSurface | None) -> Pairs:
+def _of_ground(scene: IndentationScene | RollingScene) -> Pairs:
+    ground = scene.ground
     if ground is None:
         return (("roughness", "none"),)
     return (_height(ground.rms, scene.approach), _slope(ground.slope_along, scene), ("waves", _waves(ground, scene)))

@@ -9,19 +9,13 @@ from validation.scenes.printable import quoted
 
 Dimension = Literal["length", "mass", "force", "pressure", "speed"]
 
+ONE = Fraction(1)
 UNITS: dict[Dimension, dict[str, Fraction]] = {
-    "length": {
-        "m": Fraction(1),
-        "mm": Fraction(1, 10**3),
-        "um": Fraction(1, 10**6),
-        "µm": Fraction(1, 10**6),
-        "nm": Fraction(1, 10**9),
-        "km": Fraction(10**3),
-    },
-    "mass": {"kg": Fraction(1), "g": Fraction(1, 10**3), "t": Fraction(10**3)},
-    "force": {"N": Fraction(1), "kN": Fraction(10**3), "MN": Fraction(10**6), "mN": Fraction(1, 10**3)},
-    "pressure": {"Pa": Fraction(1), "kPa": Fraction(10**3), "MPa": Fraction(10**6), "GPa": Fraction(10**9)},
-    "speed": {"m/s": Fraction(1), "mm/s": Fraction(1, 10**3), "km/h": Fraction(10, 36)},
+    "length": {"m": ONE, "mm": ONE / 10**3, "um": ONE / 10**6, "µm": ONE / 10**6, "nm": ONE / 10**9, "km": ONE * 10**3},
+    "mass": {"kg": ONE, "g": ONE / 10**3, "t": ONE * 10**3},
+    "force": {"N": ONE, "kN": ONE * 10**3, "MN": ONE * 10**6, "mN": ONE / 10**3},
+    "pressure": {"Pa": ONE, "kPa": ONE * 10**3, "MPa": ONE * 10**6, "GPa": ONE * 10**9},
+    "speed": {"m/s": ONE, "mm/s": ONE / 10**3, "km/h": ONE * 10 / 36},
 }
 """Each unit over the SI unit of its dimension."""
 EXAMPLES: dict[Dimension, str] = {

@@ -1,14 +1,13 @@
 """Figures of the fractal punch: Fig. 14.1 of the book, both methods in one panel, and their ratio."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels
+from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels, positive
 
 FORCE = "force Fbar = F / (E* h L)"
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
@@ -22,7 +21,7 @@ def draw(evidence: Evidence) -> Figure:
     for axis, method, title in zip(axes, ("bem3d", "mdr"), ("boundary elements", "MDR"), strict=True):
         for i, hurst in enumerate(hursts):
             mine = curves.where(H=hurst)
-            value = _positive(mine[f"{method} relative deviation"])
+            value = positive(mine[f"{method} relative deviation"])
             few = mine["bem3d few cells"] & (method == "bem3d")
             style = graded(i, hursts.size)
             axis.plot(mine["Fbar"], value, label=f"H = {hurst:g}", **style)
@@ -34,7 +33,6 @@ def draw(evidence: Evidence) -> Figure:
 
 
 def draw_overlay(evidence: Evidence) -> Figure:
-    """The relative deviation, a panel for each Hurst exponent."""
     return _by_hurst(evidence, _overlay, "relative standard deviation")
 
 
@@ -57,7 +55,8 @@ def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
         label = f"{claimed:g} dB" if side > 0 else None
         axis.axhline(10 ** (side * claimed / 20), label=label, **GUIDE)
     _with_bars(axis, curves, "mdr over bem3d relative deviation", "at each force")
-    for row in _rows(evidence.table("decades").where(H=hurst, quantity="relative deviation")):
+    decades = evidence.table("decades").where(H=hurst, quantity="relative deviation")
+    for row in (dict(zip(decades.columns, row, strict=True)) for row in zip(*decades.columns.values(), strict=True)):
         if not row["verdict"]:
             continue
         half = row["± sample"] + row["± grid"]
@@ -76,7 +75,6 @@ def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
 
 
 def draw_mean(evidence: Evidence) -> Figure:
-    """The mean stiffness, a panel for each Hurst exponent."""
     return _by_hurst(evidence, _mean, "mean stiffness kbar = k / (E* L)")
 
 
@@ -93,7 +91,6 @@ def _mean(axis: Axes, evidence: Evidence, hurst: float) -> None:
 
 
 def draw_exponent(evidence: Evidence) -> Figure:
-    """The local exponent, a panel for each Hurst exponent."""
     return _by_hurst(evidence, _exponent, "exponent d ln k / d ln F")
 
 
@@ -131,16 +128,16 @@ def _by_hurst(evidence: Evidence, one: Callable[[Axes, Evidence, float], None], 
 def _compare(axis: Axes, curves: Table, name: str) -> None:
     _with_bars(axis, curves, f"bem3d {name}", "boundary elements")
     force = curves["Fbar"]
-    axis.plot(force, _positive(curves[f"mdr {name}"]), label="MDR, L_1D = L", **MDR_LINE)
-    low, high = _positive(curves[f"mdr {name} low"]), _positive(curves[f"mdr {name} high"])
+    axis.plot(force, positive(curves[f"mdr {name}"]), label="MDR, L_1D = L", **MDR_LINE)
+    low, high = positive(curves[f"mdr {name} low"]), positive(curves[f"mdr {name} high"])
     axis.fill_between(force, low, high, color=MDR_LINE["color"], alpha=0.25, linewidth=0)
-    axis.plot(force, _positive(curves[f"mdr 1.1523 L {name}"]), label="MDR, L_1D = 1.1523 L", **MDR_OTHER)
+    axis.plot(force, positive(curves[f"mdr 1.1523 L {name}"]), label="MDR, L_1D = 1.1523 L", **MDR_OTHER)
 
 
 def _with_bars(axis: Axes, curves: Table, column: str, label: str) -> None:
     """Circles with their 95 % intervals, open where contacts have few cells."""
     force = curves["Fbar"]
-    value, low, high = (_positive(curves[f"{column}{end}"]) for end in ("", " low", " high"))
+    value, low, high = (positive(curves[f"{column}{end}"]) for end in ("", " low", " high"))
     few = curves["bem3d few cells"]
     for drawn, face, name in ((~few, BEM["color"], label), (few, "white", f"{label}, few cells")):
         if drawn.any():
@@ -152,12 +149,3 @@ def _with_bars(axis: Axes, curves: Table, column: str, label: str) -> None:
 def _marks(evidence: Evidence) -> dict[str, float]:
     marks = evidence.table("marks")
     return dict(zip(marks["mark"], marks["value"], strict=True))
-
-
-def _rows(table: Table) -> list[dict[str, Any]]:
-    return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
-
-
-def _positive(values: np.ndarray) -> np.ndarray:
-    """NaN in place of zero, as in saturation, for a logarithmic axis."""
-    return np.where(np.isfinite(values) & (values > 0), values, np.nan)

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import BEM, EXACT, MDR, MDR_OTHER, panels
+from validation.report.style import BEM, EXACT, MDR, MDR_OTHER, panels, positive
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -13,17 +13,15 @@ def draw(evidence: Evidence) -> Figure:
     spectra = evidence.table("spectra")
     q = spectra["q [rad/m]"]
     sparse = np.unique(np.geomspace(1, q.size, 60).astype(int)) - 1
-    for column, label, style in (
-        ("geike [m^3]", "Geike, π q C_2D", EXACT),
-        ("line trace [m^3]", "line trace", MDR_OTHER),
+    for column, label, style, some in (
+        ("geike [m^3]", "Geike, π q C_2D", EXACT, slice(None)),
+        ("line trace [m^3]", "line trace", MDR_OTHER, slice(None)),
+        ("drawn profiles [m^3]", "drawn profiles", MDR, sparse),
+        ("lines of drawn surfaces [m^3]", "lines cut from drawn surfaces", BEM, sparse),
     ):
-        spectrum_axis.loglog(q, _positive(spectra[column]), label=label, **style)
-    for column, label, style in (
-        ("drawn profiles [m^3]", "drawn profiles", MDR),
-        ("lines of drawn surfaces [m^3]", "lines cut from drawn surfaces", BEM),
-    ):
-        values = _positive(spectra[column])
-        spectrum_axis.loglog(q[sparse], values[sparse], label=label, **style)
+        # outside the band, transforms have rounding alone
+        values = positive(spectra[column], above=1e-9 * spectra[column].max())
+        spectrum_axis.loglog(q[some], values[some], label=label, **style)
     spectrum_axis.set(xlabel="wavenumber q [rad/m]", ylabel="C_1D [m³]")
     spectrum_axis.legend()
 
@@ -35,8 +33,3 @@ def draw(evidence: Evidence) -> Figure:
     moment_axis.set_xticks(moments["n"])
     moment_axis.legend()
     return figure
-
-
-def _positive(values: np.ndarray) -> np.ndarray:
-    """NaN outside the band, where transforms have rounding alone."""
-    return np.where(values > 1e-9 * values.max(), values, np.nan)

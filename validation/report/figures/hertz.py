@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import BEM, EXACT, GUIDE, MDR, panels
+from validation.report.style import BEM, EXACT, GUIDE, MDR, panels, tick
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -29,15 +29,12 @@ def draw(evidence: Evidence) -> Figure:
 
     refinement = evidence.table("refinement")
     n = refinement["cells per contact radius"]
-    for column, label, style in (
-        ("bem3d force error", "boundary elements", BEM),
-        ("mdr force error", "MDR", MDR),
-    ):
-        error_axis.loglog(n, np.abs(refinement[column]), label=label, **style)
+    error_axis.loglog(n, np.abs(refinement["bem3d force error"]), label="boundary elements", **BEM)
+    error_axis.loglog(n, np.abs(refinement["mdr force error"]), label="MDR", **MDR)
     start = np.abs(refinement["bem3d force error"][0])
     error_axis.loglog(n, start * (n / n[0]) ** -2.0, label="second order", **GUIDE)
     error_axis.set(xlabel="cells per contact radius", ylabel="|F / F(Hertz) - 1|")
-    error_axis.set_xticks(n, [str(value) for value in n])
+    tick(error_axis, n)
     error_axis.minorticks_off()
     error_axis.legend()
     return figure

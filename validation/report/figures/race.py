@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import Style, graded, panels
+from validation.report.style import Style, graded, panels, tick
 
 MARKS: dict[str, Style] = {
     "bem3d": {"color": "#0072B2", "marker": "o"},
@@ -58,7 +58,7 @@ def draw(evidence: Evidence) -> Figure:
     growth_axis.loglog(n, free["solve [s]"][-1] * guide / guide[-1], color="#555555", linestyle=":", label="n² log n")
     for axis, label in ((growth_axis, "time of a solve [s]"), (memory_axis, "memory [MiB]")):
         axis.set(xlabel="cells along a side, n", ylabel=label)
-        axis.set_xticks(n, [str(value) for value in n])
+        tick(axis, n)
         axis.minorticks_off()
         axis.legend(loc="upper left")
     return figure
@@ -75,7 +75,7 @@ def draw_wheel(evidence: Evidence) -> Figure:
         axis.loglog(springs, mine["wheel-steps a second"], label=f"h₀/d = {height:g}", **style)
         open_ = {**style, "markerfacecolor": "white", "linestyle": "--"}
         axis.loglog(springs, mine["plain sums a second"], **open_)
-        axis.set_xticks(springs, [f"{n:g}" for n in springs])
+        tick(axis, springs)
     axis.minorticks_off()
     axis.set(xlabel="springs to a contact radius, a / dx", ylabel="steps of one wheel a second")
     axis.legend()

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import GUIDE, Style, graded, panels
+from validation.report.style import GUIDE, Style, graded, panels, positive
 
 GREY: Style = {"color": "#aaaaaa", "linewidth": 3.0}
 INK: Style = {"color": "#D55E00", "linewidth": 1.2}
@@ -50,7 +50,7 @@ def draw(evidence: Evidence) -> Figure:
     figure, (whole, region) = panels(1, 2, width=11.0, height=4.2)
     omega, mean = table["omega [rad/s]"], table["A [(m/s2)2 s]"]
     floor, linear, hann = table["floor"], table["linear"], table["Hann"]
-    whole.plot(omega, _seen(linear), label="linear theory", **GREY)
+    whole.plot(omega, positive(linear), label="linear theory", **GREY)
     spread: Style = {"color": "#D55E00", "alpha": 0.2, "linewidth": 0, "label": "10th to 90th percentile"}
     whole.fill_between(omega, table["lowest tenth"], table["highest tenth"], **spread)
     whole.plot(omega, mean, label="no window, (14.17)", **INK)
@@ -62,7 +62,7 @@ def draw(evidence: Evidence) -> Figure:
     whole.legend(loc="upper right", fontsize=7)
     near = evidence.table("oscillation")
     omega = near["omega [rad/s]"]
-    region.plot(omega / 1e3, _seen(near["linear"]), label="linear theory", **GREY)
+    region.plot(omega / 1e3, positive(near["linear"]), label="linear theory", **GREY)
     region.plot(omega / 1e3, near["springs"], label="no window", **INK)
     region.plot(omega / 1e3, near["springs, Hann"], color="#000000", linestyle="--", linewidth=1.0, label="Hann")
     region.set(yscale="log", ylim=(0.01, 30), xlabel="ω [1000 rad/s]", ylabel="A over its mean law ω^(-2H-3)")
@@ -97,7 +97,3 @@ def draw_parameters(evidence: Evidence) -> Figure:
     for axis in axes[::3]:
         axis.set_ylabel("A [(m/s²)² s]")
     return figure
-
-
-def _seen(values: np.ndarray) -> np.ndarray:
-    return np.where(values > 0, values, np.nan)

@@ -10,13 +10,7 @@ STYLES: dict[str, Style] = {
     "linear, 3D": {"color": "#aaaaaa", "linewidth": 3.0},
     "linear, 1D (14.12)": {**EXACT, "linestyle": "--"},
     "springs, Geike spectrum": MDR,
-    "springs, rolling spectrum": {
-        "color": "#009E73",
-        "marker": "^",
-        "markersize": 4,
-        "markerfacecolor": "none",
-        "linestyle": "none",
-    },
+    "springs, rolling spectrum": {**MDR, "color": "#009E73", "marker": "^"},
 }
 LOWEST = -45.0
 """Decibels under boundary elements that are shown."""
