@@ -15,14 +15,17 @@ from tests.selection import test_model_hierarchy as test_ladder
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.engine import engine as ensemble
 from validation.scenes import measured
-from validation.selection import compare, summary
-from validation.selection import hierarchy as hierarchy
-from validation.selection import indentation_models as indentation_models
-from validation.selection import indentation_on_grids as indentation_on_grids
-from validation.selection import rolling_models as rolling_models
+from validation.selection import compare, hierarchy, scene_model, summary
 from validation.simulation import indentation as pressed_heights
+from validation.simulation import rolling_claims, sampling
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
+from validation.simulation.models import (
+    boundary_elements_pressed,
+    boundary_elements_rolling,
+    linear_filter_3d,
+    springs_pressed,
+)
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 
@@ -52,17 +55,17 @@ def other_waves_on_every_grid(ground, shortest, cells, side, rng):
 
 
 def the_last_change_alone(earlier, last):
-    return abs(float(last.mean())) + hierarchy.mean_error(last[:, np.newaxis])
+    return abs(float(last.mean())) + sampling.mean_error(last[:, np.newaxis])
 
 
 def without_the_noise_of_its_series(earlier, last):
     before, after = (abs(float(change.mean())) for change in (earlier, last))
-    ratio = min(after / before, hierarchy.SLOWEST)
-    return after * max(1.0, ratio / (1 - ratio)) + hierarchy.mean_error(last[:, np.newaxis])
+    ratio = min(after / before, sampling.SLOWEST)
+    return after * max(1.0, ratio / (1 - ratio)) + sampling.mean_error(last[:, np.newaxis])
 
 
 def mean_over_bands(ratios):
-    return float(np.mean([hierarchy.mean_error(band[:, np.newaxis]) for band in ratios.T]))
+    return float(np.mean([sampling.mean_error(band[:, np.newaxis]) for band in ratios.T]))
 
 
 def the_same_every_time(entropy, *key):
@@ -73,16 +76,19 @@ def of_unit_modulus(**settings):
     return bem3d.HalfSpace(**{**settings, "modulus": 1.0})
 
 
-pressed_on_a_grid = indentation_on_grids.IndentationOnGrid._pressed
+prepared_surface = boundary_elements_pressed.BoundaryElementsPressed.prepare
+prepared_strip = boundary_elements_rolling.BoundaryElementsRolling.prepare
 
 
-def another_surface_on_coarser_grids(model, realisation, cells):
-    return pressed_on_a_grid(model, realisation + (cells != model.cells), cells)
+def another_surface_on_coarser_grids(model, target, resolution):
+    solve = prepared_surface(model, target, resolution)
+    return (lambda surface: solve(surface + 1)) if resolution.size < 32 else solve
 
 
-def another_strip_beside(model, realisation, cells):
-    other = realisation + (cells == model.beside)
-    return rolling_models.on_boundary_elements(model.quantity, cells, other, model.seed)
+def another_strip_on_the_coarse_grid(model, target, resolution):
+    solve = prepared_strip(model, target, resolution)
+    coarse, _ = model.resolutions(target)
+    return (lambda strip: solve(strip + 1)) if resolution == coarse else solve
 
 
 def geike_for_what_rolls(ground, contact_radius):
@@ -103,7 +109,7 @@ FAULTS = {
         test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
     ),
     "one standard error for a 95 % interval": (
-        (hierarchy, "mean_error", one_standard_error),
+        (test_ladder, "mean_error", one_standard_error),
         test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
     ),
     "twice the separation of a rough face": (
@@ -123,7 +129,7 @@ FAULTS = {
         test_ladder.test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed,
     ),
     "an answer that stands on one cell": (
-        (indentation_on_grids, "too_few", lambda *_: ""),
+        (scene_model, "too_few", lambda *_: ""),
         test_claims.test_few_springs_and_few_cells_are_no_answer,
     ),
     "grids that do not converge with the error bar of those that do": (
@@ -131,15 +137,15 @@ FAULTS = {
         test_claims.test_grids_that_do_not_converge_have_no_error_bar,
     ),
     "the error of a grid without that of its sample": (
-        (hierarchy, "mean_error", lambda _: 0.0),
+        (sampling, "mean_error", lambda _: 0.0),
         test_claims.test_grids_that_do_not_converge_have_no_error_bar,
     ),
     "a table of errors held constant beyond its end": (
-        (indentation_models, "outside", lambda *_: ""),
+        (springs_pressed, "outside", lambda *_: ""),
         functools.partial(test_claims.test_light_loads_have_no_answer_unless_it_is_that_of_the_summits, 1e-5, 8),
     ),
     "a linear filter for waves shorter than the contact": (
-        (rolling_models, "outside", lambda *_: ""),
+        (rolling_claims, "outside", lambda *_: ""),
         functools.partial(
             test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15
         ),
@@ -159,7 +165,7 @@ FAULTS = {
         test_claims.test_the_error_over_bands_is_their_root_mean_square,
     ),
     "coarser grids on other surfaces": (
-        (indentation_on_grids.IndentationOnGrid, "_pressed", another_surface_on_coarser_grids),
+        (boundary_elements_pressed.BoundaryElementsPressed, "prepare", another_surface_on_coarser_grids),
         test_claims.test_grids_are_compared_on_the_same_surfaces,
     ),
     "one surface for all": (
@@ -171,11 +177,11 @@ FAULTS = {
         test_claims.test_realisations_are_others,
     ),
     "a half-space of unit modulus": (
-        (indentation_on_grids, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})),
+        (boundary_elements_pressed, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})),
         functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
     ),
     "one measured face for the mean of all": (
-        (indentation_models, "SCATTER", 0.0),
+        (springs_pressed, "SCATTER", 0.0),
         test_claims.test_one_measured_face_is_not_the_mean_of_all,
     ),
     "a sphere cut off at its smooth approach": (
@@ -187,15 +193,15 @@ FAULTS = {
         test_claims.test_grids_are_as_fine_in_any_unit,
     ),
     "the rule of the rms for levels in bands": (
-        (rolling_models, "LINEAR_BANDS", rolling_models.LINEAR_RMS),
+        (linear_filter_3d.LinearFilter3D, "bands", rolling_claims.LINEAR_RMS),
         functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
     ),
     "what the finer of two grids leaves, for the coarser": (
-        (rolling_models, "OF_COARSE", rolling_models.OF_FINE),
+        (boundary_elements_rolling, "OF_COARSE", boundary_elements_rolling.OF_FINE),
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
     ),
     "a grid beside another on another strip": (
-        (rolling_models.RollingOnGrid, "_rolled", another_strip_beside),
+        (boundary_elements_rolling.BoundaryElementsRolling, "prepare", another_strip_on_the_coarse_grid),
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
     ),
     "Geike's spectrum for springs that roll": (

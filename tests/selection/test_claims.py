@@ -8,26 +8,30 @@ import pytest
 from scipy import stats
 
 import bem3d
-from tests.selection.by_kind import OURS, estimates_by_kind, grids_of, model_of_kind
+from tests.selection.by_kind import OURS, estimates_by_kind, grid_of, grids_of, model_of_kind
 from validation.cases.selection import model_selection as ladder
 from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection import hierarchy as hierarchy
-from validation.selection import indentation_models as indentation_models
-from validation.selection import indentation_on_grids as indentation_on_grids
-from validation.selection import rolling_models as rolling_models
+from validation.selection import hierarchy
 from validation.selection.compare import Comparison, compare, models_of, quantities_of
-from validation.selection.hierarchy import grid_error, mean_error, select_model
+from validation.selection.hierarchy import select_model
 from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.calibrated_range import outside
 from validation.simulation.model import Cost, ErrorEstimate
+from validation.simulation.models import (
+    boundary_elements_pressed,
+    boundary_elements_rolling,
+    springs_pressed,
+    springs_rolling,
+)
 from validation.simulation.resolution import too_few
 from validation.simulation.rolling_quantity import RollingQuantity
+from validation.simulation.sampling import grid_error, mean_error
 from validation.theory.rolling import contact_lost
 
 
@@ -122,26 +126,22 @@ def test_light_loads_have_no_answer_unless_it_is_that_of_the_summits(load, last)
 def test_few_springs_and_few_cells_are_no_answer():
     scene = punch(load=1e-3, last=32)
     assert "springs or fewer" in model_of_kind("springs", scene, "stiffness", 0.5).solve().failed
-    assert "cells or fewer" in indentation_on_grids.IndentationOnGrid(scene, 0.5, 0, 64).solve().failed
+    assert "cells or fewer" in grid_of(scene, 0.5, 0, 64).solve().failed
     assert set(statuses(compare(punch(load=1e-6), tolerance=0.5)).values()) == {"out of range", "failed"}
 
 
 def test_a_sphere_that_reaches_the_edge_of_its_grid_is_no_answer(monkeypatch):
     # a = 1
-    for module in (pressed_heights, indentation_on_grids):
+    for module in (pressed_heights, boundary_elements_pressed):
         monkeypatch.setattr(module, "side_of", lambda scene: 1.5)
     ball = rolling(height=0.1, first=4.5, last=9, shape="sphere")
-    assert (
-        indentation_on_grids.IndentationOnGrid(ball, 0.5, 0, 32)
-        .solve()
-        .failed.endswith("the contact reached the edge of the grid")
-    )
+    assert grid_of(ball, 0.5, 0, 32).solve().failed.endswith("the contact reached the edge of the grid")
 
 
 def test_a_contact_that_is_cut_short_is_no_answer(monkeypatch):
     solve = bem3d.solve
     monkeypatch.setattr(bem3d, "solve", lambda *a, **k: solve(*a, **{**k, "max_iterations": 1}))
-    answer = indentation_on_grids.IndentationOnGrid(punch(), 0.5, 0, 32).solve()
+    answer = grid_of(punch(), 0.5, 0, 32).solve()
     assert answer.failed.endswith("did not converge")
     assert answer.error == math.inf
 
@@ -248,10 +248,10 @@ def test_a_band_without_a_wave_that_fits_is_a_row_with_its_reason():
 @pytest.mark.slow
 @pytest.mark.parametrize("problem", [ValueError("no wave"), ZeroDivisionError("division by zero"), MemoryError()])
 def test_a_solve_that_raises_is_a_row_and_the_others_go_on(problem, monkeypatch):
-    def raising(self):
+    def raising(*_):
         raise problem
 
-    monkeypatch.setattr(indentation_models.IndentationOnSprings, "solve", raising)
+    monkeypatch.setattr(springs_pressed.SpringsPressed, "prepare", raising)
     found = compare(punch(load=0.1), tolerance=0.3)
     assert statuses(found)["springs"] == "failed"
     assert found.selection.met
@@ -282,9 +282,9 @@ def test_the_shortest_waves_cost_no_memory():
 
 
 def test_profiles_in_blocks_are_those_drawn_at_once(monkeypatch):
-    model = indentation_models.IndentationOnSprings(punch(), 0.2, seed=3)
+    model = model_of_kind("springs", punch(), "stiffness", 0.2, seed=3)
     whole = model.solve()
-    monkeypatch.setattr(indentation_models, "BLOCK", 7 * model.points)
+    monkeypatch.setattr(springs_pressed, "BLOCK", 7 * round(model.resolution.size))
     assert model.solve().value == whole.value
     assert model.solve().sample == whole.sample
 
@@ -315,10 +315,11 @@ def test_every_model_has_its_claims_tested(kind):
 
 
 def test_a_model_that_the_case_does_not_know_is_an_error():
-    class New(indentation_models.IndentationOnSprings):
-        kind = name = "a new closed form"
+    class New(springs_pressed.SpringsPressed):
+        name = "a new closed form"
 
-    models = [New(punch(), 0.1, 0), *models_of(punch(), "stiffness", 0.1, 0)]
+    models = models_of(punch(), "stiffness", 0.1, 0)
+    models = [replace(models[0], model=New()), *models]
     with pytest.raises(
         ValueError, match=r"^the kind of a model must be one of .*closed form, .*, got a new closed form$"
     ):
@@ -359,10 +360,13 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
     """Half as much again of the last change or of half of that before, whichever is more."""
     height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
     scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
-    left = {cells: indentation_on_grids.IndentationOnGrid(scene, 0.1, 0, cells)._grid_of_one for cells in (16, 32, 64)}
-    assert [left[cells](np.array([0.1, 0.15, 0.2])) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
-    assert left[64](np.array([-0.01, 0.1, 0.2])) == pytest.approx(0.075)
-    assert left[64](np.array([0.2, 0.15, 0.1])) == math.inf
+
+    def left(cells, *changes):
+        return boundary_elements_pressed.grid_error_of_one(scene, cells, np.array(changes))
+
+    assert [left(cells, 0.1, 0.15, 0.2) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
+    assert left(64, -0.01, 0.1, 0.2) == pytest.approx(0.075)
+    assert left(64, 0.2, 0.15, 0.1) == math.inf
 
 
 def test_grids_are_compared_on_the_same_surfaces():
@@ -374,8 +378,8 @@ def test_grids_are_compared_on_the_same_surfaces():
 
     height_of = pressed_heights.height_of
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(indentation_on_grids, "height_of", recorded)
-        indentation_on_grids.IndentationOnGrid(punch(), 0.8, 3, 32).solve()
+        patch.setattr(boundary_elements_pressed, "height_of", recorded)
+        grid_of(punch(), 0.8, 3, 32).solve()
     fine = [(32, i, 3) for i in range(len(seen) - 16)]
     assert sorted(seen) == sorted([*fine, *((cells, i, 3) for cells in (8, 16) for i in range(8))])
 
@@ -397,9 +401,9 @@ def test_realisations_are_others():
 
 
 def test_a_contact_costs_the_same_on_every_grid():
-    model = indentation_on_grids.IndentationOnGrid(punch(), 0.4, 0, 32)
-    cost = model._cost(9, 8)
-    contacts = (cost.seconds - indentation_on_grids.CELL * cost.work) / indentation_on_grids.PRESS
+    model = grid_of(punch(), 0.4, 0, 32)
+    cost = model._cost(9)
+    contacts = (cost.seconds - boundary_elements_pressed.CELL * cost.work) / boundary_elements_pressed.PRESS
     assert contacts == pytest.approx(9 + 2 * 8)
 
 
@@ -450,7 +454,7 @@ def test_one_measured_face_is_not_the_mean_of_all():
 )
 def test_boundary_elements_claim_what_their_sample_leaves(scene, tolerance, count, claimed):
     model = grids_of(scene, "stiffness", tolerance)[-1]
-    assert model.count == count
+    assert model.solves == count
     assert model.estimate().error == pytest.approx(claimed)
 
 
@@ -490,23 +494,23 @@ def test_two_grids_of_second_order_leave_what_they_miss(finest):
         return np.array([realisation % 2 - 0.5 - 20 / cells**2])
 
     coarse, fine = grids_of(rolling(), "force-rms", 0.1)
-    assert fine.cells == 1.5 * coarse.cells
+    assert fine.resolution.size == 1.5 * coarse.resolution.size
     model = fine if finest else coarse
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(rolling_models, "on_boundary_elements", levels)
+        patch.setattr(boundary_elements_rolling, "on_boundary_elements", levels)
         found = model.solve()
-    assert found.grid == pytest.approx(20 / model.cells**2, rel=0.01)
+    assert found.grid == pytest.approx(20 / model.resolution.size**2, rel=0.01)
     assert found.sample == pytest.approx(stats.t(9).ppf(0.975) * 0.5 / 3, rel=1e-9)
-    level = model.quantity.expected(one_dimensional=False)
-    assert found.value == pytest.approx(level * math.exp(-20 / model.cells**2), rel=1e-9)
+    level = model.target.rolling.expected(one_dimensional=False)
+    assert found.value == pytest.approx(level * math.exp(-20 / model.resolution.size**2), rel=1e-9)
 
 
 def test_springs_leave_what_their_tracks_scatter(monkeypatch):
     springs = model_of_kind("springs", rolling(), "force-spectrum", 0.1)
-    change = np.random.default_rng(1).standard_normal((60, springs.quantity.bands.centres.size))
-    monkeypatch.setattr(rolling_models, "on_springs", lambda *_: change)
+    change = np.random.default_rng(1).standard_normal((60, springs.target.rolling.bands.centres.size))
+    monkeypatch.setattr(springs_rolling, "on_springs", lambda *_: change)
     found = springs.solve()
-    assert found.sample == mean_error(change)
+    assert found.sample == pytest.approx(mean_error(change))
     assert found.model == springs.estimate().error
 
 
@@ -576,7 +580,7 @@ def test_a_handful_of_springs_is_none_in_any_unit():
 
 def test_a_sphere_of_low_roughness_is_that_of_hertz():
     scene = rolling(height=0.01, first=1.9, last=4, shape="sphere")
-    found = indentation_on_grids.IndentationOnGrid(scene, 0.1, 0, 32).solve()
+    found = grid_of(scene, 0.1, 0, 32).solve()
     assert found.error < 0.1
     assert abs(math.log(found.value[0] / scene.stiffness)) <= found.error + 0.32 * 0.01 + 0.01
 

@@ -17,11 +17,11 @@ from validation.benchmarks.work_precision.problem import Grids, measure
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
-from validation.selection.compare import compare, kinds_below_boundary_elements, models_of
+from validation.selection.compare import compare, models_of
 from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution
-from validation.simulation.model import models_serving
+from validation.simulation.model import Target, models_serving
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory.closed_forms import rough_punch_stiffness
 
@@ -38,14 +38,14 @@ class Toy(Model):
     def serves(self, scene, quantity):
         return quantity == "stiffness" and getattr(scene, "shape", "") == "punch" and scene.ground is not None
 
-    def estimate(self, scene):
-        return ErrorEstimate(error=0.01, reason="by decree")
+    def estimate(self, target, resolution):
+        return ErrorEstimate(model=0.01, reason="by decree")
 
-    def cost(self, scene):
+    def cost(self, target, resolution):
         return Cost(work=3, unit="toys", seconds=1e-9)
 
-    def prepare(self, scene, resolution):
-        k = scene.stiffness * np.array([0.4, 0.5, 0.6])
+    def prepare(self, target, resolution):
+        k = target.scene.stiffness * np.array([0.4, 0.5, 0.6])
         return lambda _: Solve(lambda: k, lambda found: Result({"stiffness": found}, 3.0, count=3))
 
 
@@ -74,7 +74,6 @@ def test_a_model_that_is_found_is_a_candidate(toy):
     # of three realisations
     assert best.answer.sample == pytest.approx(4.303 * 0.2 / math.sqrt(3), rel=1e-3)
     assert "by toy" in summary(found)
-    assert "toy" in kinds_below_boundary_elements()
 
 
 def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
@@ -105,7 +104,7 @@ def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
 
 def test_the_closed_form_of_a_rough_punch_is_one_of_them():
     (model,) = (one for one in models_serving(PUNCH, "stiffness") if one.name == "closed form")
-    result = model.prepare(PUNCH, Resolution())(0)()
+    result = model.prepare(Target(PUNCH), Resolution())(0)()
     ground = PUNCH.ground
     expected = rough_punch_stiffness(side=1.0, modulus=1.0, force=PUNCH.load, height=ground.rms)
     assert result.values["stiffness"] == expected

@@ -5,7 +5,7 @@ from typing import Any, Protocol
 
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import Configuration, RunLimits
-from validation.simulation.model import all_models
+from validation.simulation.model import Target, all_models
 
 
 class ProblemOfMethods(Protocol):
@@ -41,11 +41,15 @@ def configurations_of(problem: ProblemOfMethods) -> tuple[Configuration, ...]:
 
 
 def found_models(problem: ProblemOfMethods) -> tuple[Configuration, ...]:
-    """All that have one of the quantities."""
-    return tuple(
-        Configuration(
-            method=model, scene=problem.scene, label=model.name, parameter=model.setting, value=1.0, paired=False
-        )
+    """All that have one of the quantities, but those whose resolution charts vary themselves."""
+    targets = [Target(problem.scene, quantity) for quantity in problem.served]
+    served = {
+        model: next((target for target in targets if model.serves(target.scene, target.quantity)), None)
         for model in all_models()
-        if any(model.serves(problem.scene, quantity) for quantity in problem.served)
+        if model.charted
+    }
+    return tuple(
+        Configuration(method=model, scene=target, label=model.name, parameter=model.setting, value=1.0, paired=False)
+        for model, target in served.items()
+        if target is not None
     )

@@ -11,10 +11,8 @@ from mdr.checks import count
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
-from validation.selection import indentation_models, rolling_models
-from validation.selection.found_models import with_found_models
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
-from validation.simulation.model import all_models
+from validation.selection.scene_model import SceneModel, models_on
 from validation.simulation.rolling_quantity import RollingQuantity
 
 FloatArray = NDArray[np.float64]
@@ -89,7 +87,6 @@ class Comparison:
 
     @property
     def unit(self) -> str:
-        """Of the value."""
         return f"dB re 1 {UNITS[self.quantity]}" if self.is_level else UNITS[self.quantity]
 
     @property
@@ -131,22 +128,13 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
     return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
 
 
-def models_of(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[ContactModel]:
+def models_of(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
     """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not."""
     if quantity not in quantities_of(scene):
         raise ValueError(
             f"quantity must be one of {', '.join(quantities_of(scene))} for scene {scene.name!r}, got {quantity!r}"
         )
-    if isinstance(scene, IndentationScene):
-        return with_found_models(indentation_models.models(scene, tolerance, seed), scene, quantity)
-    models = rolling_models.models(scene, quantity, tolerance, seed)  # type: ignore[arg-type]  # as checked
-    return with_found_models(models, scene, quantity)
-
-
-def kinds_below_boundary_elements() -> tuple[str, ...]:
-    """Names of all models below boundary elements."""
-    found = (model.name for model in all_models())
-    return tuple(dict.fromkeys((*found, *rolling_models.CHEAP, indentation_models.IndentationOnSprings.kind)))
+    return models_on(scene, quantity, tolerance, seed)
 
 
 def compare(

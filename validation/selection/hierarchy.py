@@ -8,17 +8,9 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.statistics import student
 from validation.simulation.model import Cost, ErrorEstimate
 
 FloatArray = NDArray[np.float64]
-
-STUDENT = 2.0
-"""Standard errors of a 95 % interval; samples here have eight realisations or more, or say so by a wider one."""
-SLOWEST = 0.8
-"""Largest ratio of two changes that a sample may feign: four times the last change is then left."""
-BOUNDARY_ELEMENTS = "boundary elements"
-"""The model that judges all others, on whichever grid."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,8 +44,7 @@ class ContactModel(Protocol):
         """What kind of model it is, its resolution apart."""
 
     @property
-    def name(self) -> str:
-        """The model with its resolution, for tables."""
+    def name(self) -> str: ...
 
     def cost(self) -> Cost:
         """Expected, before anything is computed."""
@@ -82,7 +73,6 @@ class Candidate:
 
     @property
     def name(self) -> str:
-        """The model with its resolution."""
         return self.model.name
 
     @property
@@ -105,7 +95,6 @@ class Selection:
 
     @property
     def met(self) -> bool:
-        """Whether a model is accepted."""
         return any(candidate.status == "accepted" for candidate in self.candidates)
 
     @property
@@ -155,49 +144,7 @@ def needed(models: Sequence[ContactModel], tolerance: float) -> ContactModel | N
     return next((model for model in models if model.estimate().error <= tolerance), None)
 
 
-def distance(value: FloatArray, other: FloatArray) -> float:
-    """sqrt(mean(ln(x / y)^2)): how far two answers are apart, over all their numbers [-]."""
-    return float(np.sqrt(np.mean(np.log(value / other) ** 2)))
-
-
-def mean_error(ratios: FloatArray) -> float:
-    """Half-width of 95 % that a sample leaves of the mean of logarithms, of all columns together.
-
-    ratios: logarithms, shape (realisations, numbers), two realisations at least.
-    """
-    of_means = ratios.std(axis=0, ddof=1) / math.sqrt(len(ratios))
-    return float(student(len(ratios) - 1) * np.sqrt(np.mean(of_means**2)))
-
-
-def grid_error(earlier: FloatArray, last: FloatArray) -> float:
-    """Half-width of 95 % that a grid leaves, of the changes of the logarithm by the last two refinements.
-
-    earlier, last: one a realisation, the same ones on all grids. The mean of the last changes, and what the sample
-    leaves of it, times r / (1 - r), the rest of a geometric series, where their ratio r is above a half; infinite where
-    they do not shrink and that is not for want of a larger sample: such a sequence of grids has no limit to see.
-    """
-    before, after = (abs(float(change.mean())) for change in (earlier, last))
-    noise_before, noise = (mean_error(change[:, np.newaxis]) for change in (earlier, last))
-    if after <= noise:
-        return after + noise
-    if after >= before + noise_before:
-        return math.inf
-    ratio = after / before
-    if after - noise <= SLOWEST * (before + noise_before):
-        ratio = min(ratio, SLOWEST)
-    return (after + noise) * max(1.0, ratio / (1 - ratio)) if ratio < 1 else math.inf
-
-
-def realisations(deviation: float, error: float, *, least: int = 8, most: int = 2000) -> int:
-    """How many leave a mean within a relative error, 95 %: (2 s / e)^2, between two bounds.
-
-    deviation: s, relative, of one realisation; error: e.
-    """
-    return int(np.clip(math.ceil((STUDENT * deviation / error) ** 2), least, most))
-
-
 def answered(model: ContactModel) -> Answer:
-    """Its answer, or why there is none."""
     try:
         return model.solve()
     except REFUSALS as problem:

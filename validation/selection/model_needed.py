@@ -15,13 +15,12 @@ from validation.simulation.rough_punch import PunchRoughness
 
 TOLERANCE = 0.1
 TURN = 2 * math.pi
-BEM = "boundary elements"
 
 
 def model_for(scene: Scene, quantity: str) -> str:
     """The first model whose estimated error is small enough; all grids of boundary elements are one model."""
     model = needed(models_of(scene, quantity, TOLERANCE, 0), TOLERANCE)
-    return "none" if model is None else BEM if model.name.startswith(BEM) else model.name
+    return "none" if model is None else model.kind
 
 
 def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> str:
@@ -47,13 +46,11 @@ class SphereSettings(Protocol):
 
 
 def sphere(case: SphereSettings) -> str:
-    """A smooth one."""
     scene = IndentationScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
     return model_for(scene, "stiffness")
 
 
 def square_punch(case: Any) -> str:
-    """A smooth one."""
     scene = IndentationScene(name="punch", shape="punch", size=case.side, load=1.0, modulus=case.modulus)
     return model_for(scene, "stiffness")
 
@@ -92,7 +89,6 @@ def rolling(case: Any) -> str:
 
 
 def wheel(case: Any) -> str:
-    """Of the scene of the case."""
     scene = case.scene
     if scene.rail is None or scene.wheel is not None:
         return "boundary elements"

@@ -28,12 +28,13 @@ class Result:
     """Values of a solve, and its work, which is the same on every machine.
 
     work: cells times operator applications, springs evaluated, points filtered; NaN where it is not counted;
-    count: realisations in this solve.
+    count: realisations in this solve; failed: why its values are none, empty where they are.
     """
 
     values: Values
     work: float
     count: int = 1
+    failed: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +50,6 @@ class Solve:
     repeatable: bool = True
 
     def __call__(self) -> Result:
-        """Solve and read."""
         return self.read(self.run())
 
 

@@ -26,8 +26,7 @@ class GridScene(Protocol):
     def load(self, cells: int) -> dict[str, float]:
         """The force or the approach that is prescribed, by its name."""
 
-    def half_space(self, cells: int) -> bem3d.HalfSpace:
-        """The grid."""
+    def half_space(self, cells: int) -> bem3d.HalfSpace: ...
 
     def gap(self, cells: int, realisation: int) -> FloatArray:
         """Undeformed separation."""
@@ -35,8 +34,7 @@ class GridScene(Protocol):
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
         """What is solved beside the contact, on the clock."""
 
-    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
-        """Values by boundary elements."""
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values: ...
 
 
 class PressedScene(GridScene, Protocol):
@@ -45,8 +43,7 @@ class PressedScene(GridScene, Protocol):
     def profile(self, springs: float, realisation: int) -> tuple[FloatArray, float]:
         """Heights and length of the foundation. Raises ValueError where there is no image in one dimension."""
 
-    def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
-        """Values of the foundation."""
+    def read_springs(self, point: mdr.LoadPoint[float]) -> Values: ...
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,8 @@ ACROSS, WIDE = 3, 6
 """The same across it."""
 SPRINGS = 32
 """To a contact radius at least, and four to the shortest wave."""
+FINE, LEAST = 4.0, 8
+"""Cells to the shortest wave on the fine grid, and to a contact radius at least on either."""
 
 
 @dataclass(frozen=True)

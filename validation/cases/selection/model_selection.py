@@ -10,15 +10,17 @@ from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, 
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
-from validation.selection.compare import kinds_below_boundary_elements, models_of
-from validation.selection.hierarchy import BOUNDARY_ELEMENTS, ContactModel, answered, distance, select_model
+from validation.selection.compare import models_of
+from validation.selection.hierarchy import ContactModel, answered, select_model
+from validation.simulation.model import GridModel, all_models
+from validation.simulation.sampling import distance
 
 OTHER_SEED = 1_000_003
 """Added to the seed of the tested models: the reference has surfaces of its own."""
 REFERENCE_TOLERANCE = 0.1
 """Tolerance of the reference: a sample that leaves half of it."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
-CHEAP = kinds_below_boundary_elements()
+CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel)))
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 
@@ -62,7 +64,7 @@ class CalibrationTrial:
         """The quantities of the kind, one scene after the other."""
         return QUANTITIES_BY_KIND[self.kind][self.number % len(QUANTITIES_BY_KIND[self.kind])]
 
-    def models(self, tolerance: float, seed: int = 0) -> list[ContactModel]:
+    def models(self, tolerance: float, seed: int = 0) -> Sequence[ContactModel]:
         """All models of the scene; seed: added to that of the trial."""
         scene = random_scene(self.kind, self.number, self.seed)
         return models_of(scene, self.quantity, tolerance, self.seed + seed)
@@ -70,8 +72,6 @@ class CalibrationTrial:
 
 @dataclass(frozen=True)
 class CalibrationResult:
-    """One outcome a trial."""
-
     case: CalibrationTest
     outcomes: list[Outcome]
     unconverged: tuple[str, ...]
@@ -128,9 +128,9 @@ def _selected(trial: CalibrationTrial, tolerance: float, truth: np.ndarray, slow
 
 def name_in_models(model: ContactModel, models: Sequence[ContactModel]) -> str:
     """Which of MODELS it is. Raises ValueError for a model that is none of them: its estimates would not be tested."""
-    name = (FINE if model is models[-1] else COARSE) if model.kind == BOUNDARY_ELEMENTS else model.kind
+    name = (FINE if model is models[-1] else COARSE) if model.kind == GridModel.name else model.kind
     if name not in MODELS:
-        raise ValueError(f"the kind of a model must be one of {', '.join((*CHEAP, BOUNDARY_ELEMENTS))}, got {name}")
+        raise ValueError(f"the kind of a model must be one of {', '.join((*CHEAP, GridModel.name))}, got {name}")
     return name
 
 

@@ -116,7 +116,6 @@ def _conclusion(tolerance: float, scenes: Table, known: Table) -> str:
 
 
 def _selected(table: Table) -> str:
-    """How often each model was selected."""
     counts = {name: int(np.count_nonzero(table["model"] == name)) for name in (*MODELS, NONE)}
     return ", ".join(f"{name} ({count})" for name, count in counts.items() if count)
 
@@ -132,7 +131,6 @@ def _scene(outcome: Outcome) -> Row:
 
 
 def _scenes(result: CalibrationResult) -> Table:
-    """A row a scene and tolerance."""
     rows: list[Row] = []
     for outcome, named in _trials(result):
         for i, tolerance in enumerate(result.case.tolerances):

@@ -15,7 +15,7 @@ from validation.simulation.calibrated_range import (
     outside,
 )
 from validation.simulation.method import Prepared, Resolution, Result, Solve
-from validation.simulation.model import Cost, ErrorEstimate, Model
+from validation.simulation.model import Cost, ErrorEstimate, Model, Target
 
 ROUGH_SPHERE = 0.32
 """Error over h/d, beside boundary elements."""
@@ -28,26 +28,25 @@ class SmoothBodyClosedForm(Model):
     setting: ClassVar = "smooth body"
 
     def serves(self, scene: object, quantity: str) -> bool:
-        """The stiffness of spheres and of smooth punches."""
         body = isinstance(scene, IndentationScene) and (scene.shape == "sphere" or scene.ground is None)
         return body and quantity == "stiffness"
 
-    def cost(self, scene: IndentationScene) -> Cost:
-        """A formula."""
+    def cost(self, target: Target, resolution: Resolution) -> Cost:
         return Cost(work=1, unit="formula", seconds=2.0e-5)
 
-    def estimate(self, scene: IndentationScene) -> ErrorEstimate:
-        """By the height."""
+    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
+        scene = target.scene
         if scene.ground is None:
-            return ErrorEstimate(error=0.0, reason="exact for a smooth body")
+            return ErrorEstimate(reason="exact for a smooth body")
         if reason := beyond_spectrum(scene.ground) or outside(conditions_of(scene), BALL):
             return ErrorEstimate.out_of_range(reason)
         ratio = scene.roughness_ratio
-        return ErrorEstimate(error=ROUGH_SPHERE * ratio + SPHERE_FLOOR, reason=counted({HEIGHT: ratio}))
+        return ErrorEstimate(model=ROUGH_SPHERE * ratio + SPHERE_FLOOR, reason=counted({HEIGHT: ratio}))
 
-    def prepare(self, scene: IndentationScene, resolution: Resolution) -> Prepared:
-        """The same for all realisations."""
-        return lambda _: Solve(lambda: scene.stiffness, lambda found: Result({"stiffness": np.array(found)}, 1.0))
+    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
+        return lambda _: Solve(
+            lambda: target.scene.stiffness, lambda found: Result({"stiffness": np.array(found)}, 1.0)
+        )
 
 
 MODEL = SmoothBodyClosedForm()

@@ -20,7 +20,7 @@ from validation.simulation.calibrated_range import (
 )
 from validation.simulation.indentation import ground_of
 from validation.simulation.method import Prepared, Resolution, Result, Solve
-from validation.simulation.model import Cost, ErrorEstimate, Model
+from validation.simulation.model import Cost, ErrorEstimate, Model, Target
 from validation.theory.closed_forms import rough_punch_stiffness
 
 MEASURED = (
@@ -40,17 +40,15 @@ class RoughPunchClosedForm(Model):
     setting: ClassVar = "flat punch on its rough face"
 
     def serves(self, scene: object, quantity: str) -> bool:
-        """The stiffness of rough punches."""
         rough_punch = isinstance(scene, IndentationScene) and scene.shape == "punch" and scene.ground is not None
         return rough_punch and quantity == "stiffness"
 
-    def cost(self, scene: IndentationScene) -> Cost:
-        """A formula."""
+    def cost(self, target: Target, resolution: Resolution) -> Cost:
         return Cost(work=1, unit="formula", seconds=2.0e-5)
 
-    def estimate(self, scene: IndentationScene) -> ErrorEstimate:
+    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
         """By the load; a measured face is one of many that have its spectrum."""
-        ground, conditions = ground_of(scene), conditions_of(scene)
+        ground, conditions = ground_of(target.scene), conditions_of(target.scene)
         if reason := beyond_spectrum(ground) or outside(conditions, RANGES):
             return ErrorEstimate.out_of_range(reason)
         load, waves = conditions[LOAD], conditions[WAVES]
@@ -58,11 +56,10 @@ class RoughPunchClosedForm(Model):
         error = float(np.interp(power, *MEASURED)) * 10 ** min(last - power, 0.0)
         own = 2 * SCATTER / max(load, 1.0) ** 2 if ground.is_single else 0.0
         reason = counted({LOAD: load, WAVES: waves})
-        return ErrorEstimate(error=error + ROLL_OFF * max(waves - 1, 0.0) + own, reason=reason)
+        return ErrorEstimate(model=error + ROLL_OFF * max(waves - 1, 0.0) + own, reason=reason)
 
-    def prepare(self, scene: IndentationScene, resolution: Resolution) -> Prepared:
-        """The same for all realisations."""
-        height = ground_of(scene).rms
+    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
+        scene, height = target.scene, ground_of(target.scene).rms
         formula = partial(
             rough_punch_stiffness, side=scene.size, modulus=scene.modulus, force=scene.load, height=height
         )

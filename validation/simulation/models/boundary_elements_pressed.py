@@ -1,0 +1,189 @@
+"""Boundary elements under a rough body: surfaces on a grid, and what coarser grids say of its error."""
+
+import math
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+from validation.scenes.indentation import IndentationScene
+from validation.simulation.calibrated_range import SCATTER
+from validation.simulation.indentation import (
+    FEW,
+    cells_wanted,
+    finest_cells,
+    ground_of,
+    height_of,
+    highest_of,
+    holds_waves,
+    side_of,
+)
+from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
+from validation.simulation.model import Cost, ErrorEstimate, GridModel, Sampling, Target
+from validation.simulation.pressed import PressedGrid
+from validation.simulation.sampling import STUDENT, grid_error
+
+FloatArray = NDArray[np.float64]
+
+CELL, PRESS = 2.0e-8, 3.5e-3
+"""Seconds that a cell takes in an application, and what else a contact, about."""
+RESIDUAL = 1e-4
+APPLICATIONS = 24
+"""Of the operator, to a contact and its stiffness."""
+SPHERE_SCATTER = 0.3
+"""Relative deviation of the stiffness of one rough sphere, over h/d, about."""
+EDGE = 0.35
+"""Error of the stiffness of a flat square punch times its cells a side."""
+FEWEST, MOST = 8, 1000
+"""Surfaces: of which a deviation is estimated, and that are drawn at the most."""
+
+
+class BoundaryElementsPressed(GridModel):
+    """Surfaces on cells x cells, with the waves that those carry: what half as many a side change is the error.
+
+    A measured surface is itself; on a coarser grid, the mean of its points in each cell.
+    """
+
+    def serves(self, scene: object, quantity: str) -> bool:
+        return isinstance(scene, IndentationScene) and scene.ground is not None and quantity == "stiffness"
+
+    def label(self, resolution: Resolution) -> str:
+        return f"{self.name} {resolution.size:g}²"
+
+    def resolutions(self, target: Target) -> tuple[Resolution, ...]:
+        """Measured heights on their own points alone."""
+        finest = finest_cells(target.scene)
+        sides = (finest,) if ground_of(target.scene).is_single else (finest // 4, finest // 2, finest)
+        return tuple(on_grid(cells) for cells in sides if cells >= FEW)
+
+    def references(self, target: Target, resolution: Resolution) -> tuple[Resolution, ...]:
+        """Each of half as many cells a side: two, of a single surface three."""
+        halvings = 3 if ground_of(target.scene).is_single else 2
+        return tuple(on_grid(round(resolution.size) // 2**i) for i in range(1, halvings + 1))
+
+    def sampling(self, target: Target) -> Sampling:
+        """A single surface, or so many that they leave half of the tolerance."""
+        if ground_of(target.scene).is_single:
+            return Sampling(compared=1)
+        return Sampling(scatter=_scatter(target.scene), fewest=FEWEST, most=MOST, compared=FEWEST)
+
+    def cost(self, target: Target, resolution: Resolution) -> Cost:
+        work = APPLICATIONS * resolution.size**2
+        return Cost(work=work, unit="cell applications", seconds=CELL * work + PRESS)
+
+    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
+        """The sample's part: only a solve tells what the grid leaves."""
+        coarsest = round(self.references(target, resolution)[-1].size)
+        if not holds_waves(target.scene, coarsest):
+            return ErrorEstimate.out_of_range(
+                f"a grid of {coarsest}² cells, the reference of its grid error, resolves no wave"
+            )
+        least = STUDENT * _scatter(target.scene) / math.sqrt(MOST)
+        return ErrorEstimate(
+            sample=0.0 if ground_of(target.scene).is_single else max(target.tolerance / 2, least),
+            reason="sample only: the grid error is estimated from coarser grids after the solve",
+        )
+
+    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
+        pressed = PressedGrid(warm_up=False).prepare(RoughBody(target.scene, target.seed), resolution)
+        at_edge = target.scene.shape == "sphere"
+        return lambda realisation: Solve(lambda: _result(pressed(realisation), at_edge), lambda result: result)
+
+    def grid_error(
+        self, target: Target, resolution: Resolution, values: FloatArray, others: FloatArray
+    ) -> tuple[float, str]:
+        """Of the changes of the logarithm from grid to grid, the same surfaces on each."""
+        cells, compared = round(resolution.size), others.shape[1]
+        levels = np.log([values[:compared, 0], *others[:, :, 0]])
+        changes = levels[:-1] - levels[1:]
+        if ground_of(target.scene).is_single:
+            grid = grid_error_of_one(target.scene, cells, changes[:, 0]) + hidden(target, resolution, values[0, 0])
+        else:
+            grid = grid_error(changes[1], changes[0])
+        last = math.expm1(float(changes[0].mean()))
+        return grid, f"{cells}² cells change {cells // 2}² by {last:+.1%}, surfaces: {len(values)}"
+
+
+def on_grid(cells: int) -> Resolution:
+    """So many cells a side."""
+    return Resolution(size=cells, residual=RESIDUAL)
+
+
+def _scatter(scene: IndentationScene) -> float:
+    """Of one drawn surface, relative, about."""
+    return SCATTER if scene.shape == "punch" else SPHERE_SCATTER * scene.roughness_ratio
+
+
+def _result(solve: Solve, at_edge: bool) -> Result:
+    """at_edge: whether a contact at the edge of the grid is none; a punch ends where its grid does."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", bem3d.ContactWarning)
+        try:
+            found = solve()
+        except bem3d.ConvergenceError:
+            return Result({}, math.nan, failed="a contact did not converge")
+    if at_edge and any(issubclass(one.category, bem3d.EdgeWarning) for one in said):
+        return Result({}, found.work, failed="the contact reached the edge of the grid")
+    return found
+
+
+def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray) -> float:
+    """The largest of the last changes, those before halved for each doubling since, with half as much again.
+
+    One face may hide any of them, but not the edge of a punch; and as much for each doubling that is left to the
+    points of the face, which have waves that this one has not. Infinite where the last change is the largest.
+    """
+    last, *before = np.abs(changes)
+    if last >= max(before):
+        return math.inf if last > 0 else 0.0
+    edge = EDGE / cells if scene.shape == "punch" else 0.0
+    change = max(last, before[0] / 2, before[1] / 4, edge)
+    return float(1.5 * change * (1 + math.log2(cells_wanted(scene) / cells)))
+
+
+def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:
+    """What the mean over cells may hide: the change of the logarithm by the highest point of each in its place."""
+    scene, cells = target.scene, round(resolution.size)
+    highest = highest_of(scene, cells)
+    if np.array_equal(highest, height_of(scene, cells, 0, target.seed)):
+        return 0.0
+    body = RoughBody(scene, target.seed, given=highest)
+    found = _result(PressedGrid(warm_up=False).prepare(body, resolution)(0), scene.shape == "sphere")
+    return math.inf if found.failed else abs(math.log(float(found.values["stiffness"]) / stiffness))
+
+
+@dataclass(frozen=True, eq=False)
+class RoughBody:
+    """The body of a scene with its rough face, or with given heights of it."""
+
+    scene: IndentationScene
+    seed: int
+    given: FloatArray | None = None
+
+    def load(self, cells: int) -> dict[str, float]:
+        return {"force": self.scene.load}
+
+    def half_space(self, cells: int) -> bem3d.HalfSpace:
+        """As wide as what it may touch."""
+        spacing = side_of(self.scene) / cells
+        return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=self.scene.modulus)
+
+    def gap(self, cells: int, realisation: int) -> FloatArray:
+        """Of the rough face, below a sphere with r^2 / 2R."""
+        height = height_of(self.scene, cells, realisation, self.seed) if self.given is None else self.given
+        if self.scene.shape == "punch":
+            return -height
+        x = ((np.arange(cells) + 0.5) / cells - 0.5) * side_of(self.scene)
+        return -height + (x[:, np.newaxis] ** 2 + x**2) / (2 * self.scene.size)
+
+    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
+        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0)
+
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
+        assert fixed is not None
+        return {"stiffness": np.array(fixed.stiffness), "in contact": np.array(np.count_nonzero(contact.pressure))}
+
+
+MODEL = BoundaryElementsPressed()

@@ -1,0 +1,56 @@
+"""A linear filter in three dimensions: the spectrum of the force for a contact that keeps its radius."""
+
+import math
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.model import Cost, Target
+from validation.simulation.rolling_claims import FORCE_RMS, LINEAR_BANDS, NODE, CheapRollingModel
+from validation.simulation.rolling_levels import FINE, LEAST, by_linear_theory, strip_of
+from validation.simulation.rolling_quantity import RollingQuantity
+
+
+class LinearFilter3D(CheapRollingModel):
+    """On the half-space; of measured heights, on themselves. In one dimension the rms of the force is the same."""
+
+    name: ClassVar = "linear filter, 3D"
+    setting: ClassVar = "a contact that keeps its radius"
+
+    bands: ClassVar = LINEAR_BANDS
+    own: ClassVar = 0.0
+
+    def serves(self, scene: Any, quantity: str) -> bool:
+        return super().serves(scene, quantity) and (quantity != FORCE_RMS or scene.ground.is_single)
+
+    def beyond(self, target: Target) -> str:
+        return str(target.scene.ground.not_gaussian())
+
+    def cost(self, target: Target, resolution: Resolution) -> Cost:
+        nodes = target.rolling.nodes
+        return Cost(work=nodes, unit="quadratures", seconds=NODE * nodes)
+
+    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
+        quantity = target.rolling
+        levels = _of_heights if quantity.scene.ground.is_single else _of_spectrum
+
+        def read(value: NDArray[np.float64]) -> Result:
+            failed = "" if (value > 0).all() else "the heights have no waves in some band"
+            return Result({quantity.name: value}, float(quantity.nodes), failed=failed)
+
+        return lambda _: Solve(lambda: levels(quantity), read)
+
+
+def _of_spectrum(quantity: RollingQuantity) -> NDArray[np.float64]:
+    return quantity.expected(one_dimensional=False)
+
+
+def _of_heights(quantity: RollingQuantity) -> NDArray[np.float64]:
+    a = quantity.scene.contact_radius
+    cells = max(LEAST, math.ceil(FINE * quantity.q_max * a / (2 * math.pi)))
+    return by_linear_theory(quantity, strip_of(quantity, cells, 0, 0), a / cells)
+
+
+MODEL = LinearFilter3D()

@@ -1,0 +1,99 @@
+"""The errors that cheap models of a rolling wheel claim, and the scenes on which those were measured."""
+
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.scenes.rolling import RollingScene
+from validation.simulation.calibrated_range import (
+    HEIGHT,
+    HURST,
+    LONG,
+    RATIO,
+    SHORT,
+    Ranges,
+    beyond_spectrum,
+    counted,
+    outside,
+)
+from validation.simulation.method import Resolution
+from validation.simulation.model import ErrorEstimate, Model, Target
+from validation.simulation.rolling_quantity import RollingQuantity
+from validation.simulation.sampling import distance
+from validation.theory.rolling import contact_lost
+
+FloatArray = NDArray[np.float64]
+Rule = tuple[float, float, float]
+LINEAR_BANDS: Rule = (2.0, 0.5, 0.015)
+LINEAR_RMS: Rule = (1.2, 0.05, 0.002)
+GEIKE_BANDS: Rule = (2.0, 0.5, 0.55)
+FED_BANDS: Rule = (0.0, 0.6, 0.45)
+SPRINGS_RMS: Rule = (1.0, 0.1, 0.002)
+"""Errors of linear theory, of that with Geike's spectrum in one dimension, and of springs, in bands and in the rms: a
+sum over the contact that linear theory loses, h/d, and one. Envelopes of what was measured beside boundary elements on
+random scenes; others hold them to account, see `cases/selection/model_selection.py`."""
+FORCE_RMS = "force-rms"
+"""The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force."""
+MEASURED_SCATTER = 0.5
+"""Of the levels of one track about those of all that have its spectrum."""
+FORMULA, NODE, SPRING, CELL, POSITION = 1.0e-4, 4.5e-4, 6.0e-7, 2.0e-8, 1.0e-3
+"""Seconds that a formula at a node takes, a quadrature across the track there, a position on springs, a cell in an
+application, what else a contact, about."""
+RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), HURST: (0.2, 1.2)}
+"""Scenes for which the errors above hold: drawn ones were rolled with h/d from 0.003, q a of the longest wave from
+0.2 and bands up to a factor 20 wide. Longer waves only move the contact, which linear theory knows; that it holds
+in wider bands is taken from Table 14.1 alone."""
+
+
+class CheapRollingModel(Model):
+    """A model below boundary elements: its error is a rule in bands, and another in the rms.
+
+    bands, rms: the rules; on_bands, on_rms: what else the error rests on; own: error of one measured track about all
+    that have its spectrum.
+    """
+
+    bands: ClassVar[Rule]
+    rms: ClassVar[Rule] = LINEAR_RMS
+    on_bands: ClassVar[str] = ""
+    on_rms: ClassVar[str] = ""
+    own: ClassVar[float] = MEASURED_SCATTER
+
+    def serves(self, scene: object, quantity: str) -> bool:
+        return isinstance(scene, RollingScene) and quantity != "stiffness"
+
+    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
+        quantity = target.rolling
+        scene, ratio = quantity.scene, quantity.scene.roughness_ratio * quantity.amplification
+        if reason := self.beyond(target) or quantity.unsteady or outside(rolling_conditions(quantity), RANGES):
+            return ErrorEstimate.out_of_range(reason)
+        lost = contact_lost(
+            scene.ground.c2d, edges=scene.ground.edges, contact_radius=scene.contact_radius, radius=scene.radius
+        )
+        rule, rest = (self.rms, self.on_rms) if quantity.name == FORCE_RMS else (self.bands, self.on_bands)
+        height = "h/d, by the resonance" if quantity.amplification > 1 else "h/d"
+        reason = counted({"loss of contact by linear theory": lost, height: ratio})
+        error = float(np.dot(rule, (lost, ratio, 1.0))) + (self.own if scene.ground.is_single else 0.0)
+        return ErrorEstimate(model=error, reason=f"{reason}; {rest}" if rest else reason)
+
+    def beyond(self, target: Target) -> str:
+        """Why the model cannot know this surface; empty where it can."""
+        return beyond_spectrum(target.scene.ground)
+
+    def left_out(self, target: Target, value: FloatArray) -> float:
+        """Error of bands in which measured heights have next to no waves: what linear theory leaves out fills them.
+
+        That is h/d of the level of all bands, in each of them; a drawn band has waves of its own throughout.
+        """
+        if not target.scene.ground.is_single or value.size == 1:
+            return 0.0
+        other = target.scene.roughness_ratio * float(np.linalg.norm(value))
+        return distance(np.hypot(value, other), value)
+
+
+def rolling_conditions(quantity: RollingQuantity) -> dict[str, float]:
+    """What decides how far cheap models are off."""
+    scene, ground = quantity.scene, quantity.scene.ground
+    first, last = (q * scene.contact_radius for q in (ground.q_min, quantity.q_max))
+    conditions = {HEIGHT: scene.roughness_ratio, LONG: first, SHORT: last, RATIO: last / first}
+    return conditions if ground.hurst is None else {**conditions, HURST: ground.hurst}
