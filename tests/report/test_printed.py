@@ -31,6 +31,7 @@ from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import numbers as limits_numbers
 from validation.cases.punch import area_gap_rolloff_evidence, fractal_punch_decades, fractal_punch_text
 from validation.cases.punch.fractal_punch import FractalPunch
+from validation.cases.rolling import claims as rolling_claims
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import force_spectrum_tables as rolling_tables
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, MEAN, VARIANCE
@@ -349,41 +350,41 @@ def test_a_summary_counts_and_ranges_its_numbers():
 
 
 def test_rolling_prints_the_numbers_it_is_given():
-    n = number(-1.26, tolerance=1.0, reference=0.0, sample=0.3, grid=0.22)
-    assert rolling_evidence._signed(n) == "-1.3 ± 0.5 dB (undecided)"
     mine = [
         number(v, quantity=VARIANCE, model=model, where={"h/d": 0.1}, sample=0.0123)
         for v, model in ((0.7777, "bem3d"), (1.05, "springs"))
     ]
     assert rolling_evidence._variances(mine) == (
-        "Variance of the force over that of linear theory, by h/d: 0.1: bem3d 0.778 ± 0.012 (differ); "
-        "0.1: springs 1.050 ± 0.012 (agree)."
+        "at h/d = 0.1 bem3d 0.778 ± 0.012 (differ); at h/d = 0.1 springs 1.050 ± 0.012 (agree)"
     )
     means = [
         number(0.5432, quantity=MEAN, where={"h/d": 0.3}, reference=0.9, tolerance=0.02),
         number(1.001, quantity=MEAN, where={"h/d": 0.1}, tolerance=0.02),
     ]
-    text = rolling_evidence._means(means)
-    assert "0.3: 0.543 and 0.900 (differ); 0.1: 1.001 and 1.000 (agree)" in text
-    assert text.endswith("within 2 % at 1 of 2 heights.")
+    assert rolling_evidence._means(means) == (
+        "at h/d = 0.3 springs 0.543, boundary elements 0.900 of Hertz's (differ); "
+        "at h/d = 0.1 springs 1.001, boundary elements 1.000 of Hertz's (agree)"
+    )
 
 
-def test_rolling_holds_up_to_the_last_height_that_agrees():
-    low, heights = (0.4, 1.0), (0.1, 0.3, 1.0)
+def test_a_claim_of_rolling_holds_up_to_the_last_height_that_agrees():
+    heights = (0.1, 0.3, 1.0)
     found = [
-        number(
-            v, reference=0.0, tolerance=1.0, quantity=LEVEL, model="springs over bem3d", where={"h/d": h, "q a": low}
-        )
+        number(v, reference=0.0, tolerance=1.0, quantity=LEVEL, where={"h/d": h})
         for v, h in zip((0.5, 2.5, 0.1), heights, strict=True)
     ]
-    assert rolling_evidence._holds("springs", heights, found, [low]).endswith("q a = 0.4 to 1: up to h/d = 0.1.")
-    assert rolling_evidence._holds("springs", heights[1:], found, [low]).endswith("q a = 0.4 to 1: at no height.")
+    claim = rolling_claims.answered("It is so.", found, "that much.", slope=2.7)
+    assert claim.answer == "Within limits (up to h/d = 0.1, h' a/d = 0.27): that much."
+    assert rolling_claims.answered("It is so.", found[1:], "that much.", slope=2.7).answer == "No: that much."
+    assert rolling_claims.answered("It is so.", found[:1], "that much.", slope=2.7).answer == "Yes: that much."
 
 
 def test_bands_within_1_and_3_db_are_counted():
     case = SimpleNamespace(first=1.0, bands=SimpleNamespace(edges=(0.5, 0.9, 1.2, 1.6, 2.0)))
     off = (0.5, -2.0, 3.5, -0.9)
-    mine = SimpleNamespace(height=0.1, single_bands=range(4), decibels_over_bem=lambda model, band: off[band])
+    mine = SimpleNamespace(
+        height=0.1, slope=0.3, single_bands=range(4), decibels_over_bem=lambda model, band: off[band]
+    )
     table = rolling_tables.bands_within(case, [mine])
     assert table.columns["springs, in the band"] == ["1 and 2 of 3"]
     assert table.columns["springs, below the band"] == ["1 and 1 of 1"]

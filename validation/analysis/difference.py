@@ -21,12 +21,14 @@ def difference(
     grid: float = 0.0,
     role: Role = Role.FINDING,
     absolute: bool = False,
+    among: int = 1,
 ) -> Number:
     """value - other, times the scale of the unit, beside zero; if absolute, value beside other itself.
 
     value, other: independent estimates, natural logarithms as a rule; without other, value is the difference already;
     quantity, model, where: the key of the number; scale: 10 / ln 10 for decibels of a power, 20 / ln 10 of an
-    amplitude, 1 for the estimates themselves; grid: half-width that the grids leave, in the unit of the estimates.
+    amplitude, 1 for the estimates themselves; grid: half-width that the grids leave, in the unit of the estimates;
+    among: how many points of a range have intervals that hold at once.
     Raises ValueError where absolute has no other to stand beside.
     """
     if absolute and other is None:
@@ -43,6 +45,6 @@ def difference(
         reason=reason,
         unit=unit,
         grid=scale * grid,
-        sample=scale * apart.half_width,
+        sample=scale * apart.half_width_among(among),
         role=role,
     )

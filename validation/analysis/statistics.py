@@ -101,13 +101,29 @@ def ratio_of_means(values: FloatArray, references: FloatArray) -> Estimate:
     return Estimate(ratio, error, left.size)
 
 
-def extrapolated(coarse: Estimate, finer: Estimate) -> tuple[Estimate, float]:
+def log_ratio_of_means(values: FloatArray, references: FloatArray, weights: FloatArray) -> Estimate:
+    """ln of the mean of x over the mean of y in each column, in the mean over columns, with its jackknife error.
+
+    values, references: x, y, one row a realisation, two at least, NaN in rows of x that are lost; or y one row, which
+    is exact; weights: of the columns, which add to one.
+    """
+    used, known = weights > 0, np.isfinite(values).all(axis=1)
+    pairs = np.stack([values, np.broadcast_to(references, values.shape)])[:, known][:, :, used]
+    count = pairs.shape[1]
+    total = pairs.sum(axis=1, keepdims=True)
+    mean, without = total / count, (total - pairs) / (count - 1)
+    whole, rest = ((np.log(x) - np.log(y)) @ weights[used] for x, y in (mean, without))
+    return Estimate(float(whole[0]), float(jackknife_error(rest)), count)
+
+
+def extrapolated(coarse: Estimate, finer: Estimate, among: int = 1) -> tuple[Estimate, float]:
     """To cells of no size, to first order, and what that leaves open: half of the way there, and its interval.
 
-    finer: the change from these cells to half as long ones, on the same realisations.
+    finer: the change from these cells to half as long ones, on the same realisations; among: how many points of a range
+    have intervals that hold at once.
     """
     value = Estimate(coarse.value + 2 * finer.value, coarse.error, coarse.samples)
-    return value, abs(finer.value) + 2 * finer.half_width
+    return value, abs(finer.value) + 2 * finer.half_width_among(among)
 
 
 @dataclass(frozen=True)

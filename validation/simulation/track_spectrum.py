@@ -44,14 +44,25 @@ class PiecewisePowerLaw:
     @property
     def _levels(self) -> FloatArray:
         """C_2D at the first edge of each piece, of mean square one."""
-        level, moments, found = 1.0, 0.0, []
+        found = [1.0]
         for low, high, n in zip(self.edges, self.edges[1:], self.exponents, strict=False):
-            found.append(level)
-            log = math.log(high / low)
-            whole = log if n == 2 else math.expm1((2 - n) * log) / (2 - n)
-            moments += 2 * math.pi * level * low**2 * whole
-            level *= (high / low) ** -n
-        return np.array(found) / moments
+            found.append(found[-1] * (high / low) ** -n)
+        levels = np.array(found[:-1])
+        return levels / self._moment(levels, 0)
+
+    @property
+    def slope(self) -> float:
+        """h' a for h_rms = 1: h'^2 = 2 pi int q^3 C_2D dq, the mean square gradient, and that of Geike's profile."""
+        return math.sqrt(self._moment(self._levels, 2))
+
+    def _moment(self, levels: FloatArray, order: int) -> float:
+        """2 pi int q^(1 + order) C_2D dq."""
+        total = 0.0
+        for low, high, n, level in zip(self.edges, self.edges[1:], self.exponents, levels, strict=False):
+            power, log = 2 + order - n, math.log(high / low)
+            whole = log if power == 0 else math.expm1(power * log) / power
+            total += 2 * math.pi * level * low ** (2 + order) * whole
+        return total
 
 
 def self_affine(hurst: float, first: float = 1.0, last: float = 20.0) -> PiecewisePowerLaw:

@@ -78,7 +78,7 @@ class ForceSpectrum(RollingSettings):
     first: float = 1.0
     strips: int = 6
     rough_strips: int = 6
-    refined: int = 3
+    refined: int = 6
     tracks: int = 60
 
     @property

@@ -1,18 +1,22 @@
 """What rolling over isotropic roughness shows: its numbers and tables in sentences, and the case of the report."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Place, Verdict, number_with, numbers_with
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, number_with, numbers_with, with_reference
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.rolling import force_spectrum_levels as levels
 from validation.cases.rolling import force_spectrum_numbers as measured
 from validation.cases.rolling import force_spectrum_tables as tables
+from validation.cases.rolling.claims import answered, from_to, height_of
 from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
 from validation.selection import model_needed
+
+CLAIM = (
+    "Springs with Geike's spectrum have the force spectrum of a wheel that rolls over isotropic roughness (Fig. 14.3)."
+)
 
 
 def evidence(result: RollingResult) -> Evidence:
@@ -20,15 +24,17 @@ def evidence(result: RollingResult) -> Evidence:
     case = result.case
     found = [levels.LevelsAtHeight(result, height) for height in case.heights]
     numbers, within, summary = measured.numbers_of(case, found), tables.bands_within(case, found), tables.summary(found)
+    judged = tables.judged_levels(found, numbers)
     return Evidence(
         title="Rolling over isotropic roughness: levels of 1D models against boundary elements",
         method=_method(case),
         numbers=tuple(numbers),
         tables=(tables.levels(found), summary, tables.spectrum(result), tables.forces(result)),
-        conclusions=tuple(_conclusions(case, found, numbers)),
+        conclusions=tuple(_conclusions(found, numbers)),
+        claims=_claims(case, found, numbers),
         captions=_captions(case),
         unconverged=result.unconverged,
-        page_tables=(within, summary),
+        page_tables=(judged, within, summary),
     )
 
 
@@ -43,43 +49,87 @@ def _method(case: ForceSpectrum) -> str:
         "level of linear theory in 3D along the track (case rolling_input). Linear theory: (14.12) in 1D, and the same "
         "filter on the surface in 3D, both by quadrature. Levels of the force in one-third octaves of q a are powers, "
         "in dB. Boundary elements are taken over linear theory on the same surfaces, which removes most of the "
-        "scatter. The mean over the bands of a region is resampled as one number. Errors of single bands, as at the "
-        "zeros of sin(q a), may cancel in it: the first table below and the map show them."
+        "scatter. A range of bands is judged by its worst one-third octave, within 3 dB, and by the root mean square "
+        "over its bands, within 1 dB. Errors of both signs cancel in the mean, which stands beside them and is not "
+        "judged. h' is the rms gradient of the surface, which is the rms slope of Geike's profile too."
     )
 
 
-def _conclusions(case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: list[Number]) -> list[str]:
-    def level(model: str, region: levels.Region, height: float) -> str:
-        return _signed(number_with(numbers, measured.LEVEL, f"{model} over bem3d", **measured.place(height, region)))
+def _claims(case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: list[Number]) -> tuple[JudgedClaim, ...]:
+    """Of the book and of what follows from it, each with the numbers that test it."""
+    slope = case.spectrum.slope
+    below, *_, band = measured.regions(case)
+    lowest = found[0]
 
-    def both_springs(region: levels.Region, height: float) -> str:
-        return f"{level(levels.SPRINGS, region, height)} and {level(levels.ROLLING_SPRINGS, region, height)}"
+    def of(model: str) -> list[Number]:
+        over = numbers_with(numbers, model=f"{model} over bem3d")
+        return [number for number in over if number.quantity != measured.EXCESS]
 
-    def nonlinear(region: levels.Region, height: float) -> str:
-        n = number_with(numbers, measured.NONLINEAR, measured.BOTH, **measured.place(height, region))
-        return f"{n.value:+.1f} and {n.reference:+.1f} dB ({n.verdict})"
+    def mean(model: str, region: levels.Region, among: Sequence[levels.LevelsAtHeight]) -> str:
+        return from_to([mine.decibels_over_bem(model, mine.weights(region)) for mine in among])
 
-    def sentence(what: str, region: levels.Region, said: Callable[[levels.Region, float], str]) -> str:
-        return _by_height(f"{what}, {_named(region)}", [(height, said(region, height)) for height in case.heights])
+    def at(model: str, region: levels.Region, mine: levels.LevelsAtHeight) -> str:
+        where, over = measured.place(mine.height, region), f"{model} over bem3d"
+        worst, rms = (number_with(numbers, name, over, **where) for name in (measured.LEVEL, measured.IN_RMS))
+        return f"rms {rms.value:.1f} dB, worst {worst.value:+.1f} dB at q a = {worst.where['worst at']:.2g}"
 
-    below, *inside = measured.regions(case)
-    springs = "Springs over boundary elements, with Geike's spectrum and with the rolling-equivalent spectrum"
-    change = "Level of the nonlinear over the linear force, of springs and of boundary elements"
-    return [
-        *(_holds(model, case.heights, numbers, [below, *inside]) for model in levels.MODELS),
-        *(
-            sentence("Linear theory in 3D over boundary elements", region, partial(level, levels.LINEAR_3D))
-            for region in (below, *inside)
+    geike, equivalent, linear = levels.SPRINGS, levels.ROLLING_SPRINGS, levels.LINEAR_3D
+    nonlinear = [n for n in numbers if n.model == measured.BOTH and n.quantity != measured.MEAN]
+    means, variances = (numbers_with(numbers, quantity) for quantity in (measured.MEAN, measured.VARIANCE))
+    return (
+        answered(
+            CLAIM,
+            [*of(levels.LINEAR_1D), *of(geike)],
+            f"springs with Geike's spectrum are {mean(geike, band, found)} dB off boundary elements in the mean over "
+            f"the bands of q a = {_named(band)}, at h/d = {lowest.height:g} with {at(geike, band, lowest)}, and "
+            f"{mean(geike, below, found)} dB below the band.",
+            slope=slope,
         ),
-        *(sentence(springs, region, both_springs) for region in inside),
-        *(sentence(change, region, nonlinear) for region in inside),
+        answered(
+            "With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third "
+            "octave.",
+            of(equivalent),
+            f"the mean over the bands of q a = {_named(band)} is {mean(equivalent, band, found)} dB off, but at h/d = "
+            f"{lowest.height:g} the {at(equivalent, band, lowest)}.",
+            slope=slope,
+        ),
+        answered(
+            "Linear theory in 3D has the level of boundary elements in each one-third octave.",
+            of(linear),
+            "; ".join(f"at h' a/d = {mine.slope:.2g} {at(linear, band, mine)}" for mine in found) + ".",
+            slope=slope,
+        ),
+        answered(
+            "Nonlinearity changes the level of springs as it changes that of boundary elements.",
+            nonlinear,
+            "; ".join(
+                f"at h' a/d = {slope * height_of(n):.2g} the changes differ by {n.value:.1f} dB in the rms"
+                for n in nonlinear
+                if n.quantity == measured.RMS + measured.NONLINEAR
+            )
+            + ".",
+            slope=slope,
+        ),
+        answered(
+            "The force at one position has the variance of linear theory, which Geike's rule keeps.",
+            variances,
+            f"{_variances(variances)}.",
+            slope=slope,
+        ),
+        answered("Springs have the mean force of boundary elements.", means, f"{_means(means)}.", slope=slope),
+    )
+
+
+def _conclusions(found: list[levels.LevelsAtHeight], numbers: list[Number]) -> list[str]:
+    excess = number_with(numbers, measured.EXCESS)
+    return [
+        f"By linear theory Geike's spectrum is too loud in the mean over one-third octaves, {excess.conditions}: "
+        f"{with_reference(excess)}; the reference is the limit for q a >> 1.",
         "Linear theory fails position by position at a lower roughness than in its level. "
         + _by_height(
             "Bands in which boundary elements have a coherence of 0.9 and more with it, and correlation over all bands",
             [(mine.height, _coherent(mine)) for mine in found],
         ),
-        _variances(numbers),
-        _means(numbers),
         _by_height(
             "Standard error of the sample in single one-third octaves of boundary elements, largest",
             [(mine.height, _scatter(mine)) for mine in found],
@@ -88,31 +138,10 @@ def _conclusions(case: ForceSpectrum, found: list[levels.LevelsAtHeight], number
 
 
 def _named(region: levels.Region) -> str:
-    return f"q a = {region[0]:g} to {region[1]:g}"
+    return f"{region[0]:g} to {region[1]:g}"
 
 
-def _signed(number: Number) -> str:
-    return f"{number.value:+.1f} ± {number.uncertainty:.1f} dB ({number.verdict})"
-
-
-def _holds(model: str, heights: Sequence[float], numbers: Sequence[Number], where: Sequence[levels.Region]) -> str:
-    """Up to which height a model is within 1 dB of boundary elements, in the mean over each region."""
-    parts = []
-    for region in where:
-        last = "at no height"
-        for height in heights:
-            mine = numbers_with(numbers, measured.LEVEL, f"{model} over bem3d", **measured.place(height, region))
-            if [number.verdict for number in mine] != [Verdict.AGREE]:
-                break
-            last = f"up to h/d = {height:g}"
-        parts.append(f"{_named(region)}: {last}")
-    return (
-        f'Within {measured.ONE_DECIBEL:g} dB of boundary elements in the mean over bands, the model "{model}": '
-        f"{'; '.join(parts)}."
-    )
-
-
-def _by_height(what: str, found: Sequence[tuple[Place, str]]) -> str:
+def _by_height(what: str, found: Sequence[tuple[float, str]]) -> str:
     return f"{what}, by h/d: {'; '.join(f'{height:g}: {text}' for height, text in found)}."
 
 
@@ -122,21 +151,16 @@ def _coherent(mine: levels.LevelsAtHeight) -> str:
     return f"{bands} of {len(mine.single_bands)} bands, correlation {levels.correlation(mine.bem)[0]:.3f}"
 
 
-def _variances(numbers: Sequence[Number]) -> str:
-    found = [
-        (n.where["h/d"], f"{n.model} {n.value:.3f} ± {n.uncertainty:.3f} ({n.verdict})")
-        for n in numbers_with(numbers, measured.VARIANCE)
-    ]
-    return _by_height("Variance of the force over that of linear theory", found)
+def _variances(variances: Sequence[Number]) -> str:
+    return "; ".join(
+        f"at h/d = {height_of(n):g} {n.model} {n.value:.3f} ± {n.uncertainty:.3f} ({n.verdict})" for n in variances
+    )
 
 
-def _means(numbers: Sequence[Number]) -> str:
-    mine = numbers_with(numbers, measured.MEAN)
-    found = [(n.where["h/d"], f"{n.value:.3f} and {n.reference:.3f} ({n.verdict})") for n in mine]
-    agree = sum(n.verdict is Verdict.AGREE for n in mine)
-    return (
-        _by_height("Mean force over that of Hertz at the same approach, springs and boundary elements", found)
-        + f" They agree within 2 % at {agree} of {len(mine)} heights."
+def _means(means: Sequence[Number]) -> str:
+    return "; ".join(
+        f"at h/d = {height_of(n):g} springs {n.value:.3f}, boundary elements {n.reference:.3f} of Hertz's ({n.verdict})"
+        for n in means
     )
 
 
@@ -177,7 +201,7 @@ CASE = Case(
     name="rolling",
     chapter=Chapter.ROLLING,
     place=2,
-    claim="A one-dimensional model has the force spectrum of a rolling wheel (Fig. 14.3).",
+    claim=CLAIM,
     answers="Fig. 14.3: rolling force over isotropic roughness, where each model holds",
     quick=ForceSpectrum(),
     full=ForceSpectrum(

@@ -8,20 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import (
-    POWER_DECIBEL,
-    Estimate,
-    Sample,
-    difference_of_halves,
-    extrapolated,
-    log_mean,
-    paired_samples,
-    sample,
-    weighted_mean,
-)
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated, log_ratio_of_means
 from validation.cases.rolling.force_spectrum import ForceSpectrum, RollingResult
-from validation.engine.engine import Outcome, random_generator
-from validation.simulation.rolling_strip import BOOTSTRAP, HERTZ
+from validation.engine.engine import Outcome
+from validation.simulation.rolling_strip import HERTZ
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d
 
@@ -52,6 +42,11 @@ class LevelsAtHeight:
         return self.result.case
 
     @property
+    def slope(self) -> float:
+        """h' a / d."""
+        return self.height * self.case.spectrum.slope
+
+    @property
     def bem(self) -> Outcome:
         return self.result.bem[self.height]
 
@@ -65,54 +60,39 @@ class LevelsAtHeight:
         levels = {LINEAR_1D: level_1d(spectrum, "geike", bands), LINEAR_3D: level_3d(spectrum, bands)}
         return {model: self.height**2 * level for model, level in levels.items()}
 
-    @cached_property
-    def bem_over_linear(self) -> Sample:
-        """Boundary elements and linear theory on the same surfaces, in pairs."""
-        return paired_samples(self.bem["linear level"], self.bem["level"], self._rng(0))
-
-    @cached_property
-    def finer(self) -> Sample:
-        finer = self.result.refined[self.height]["level"]
-        return paired_samples(self.bem["level"][: self.case.refined], finer, self._rng(1))
-
-    @cached_property
-    def of_springs(self) -> dict[str, Sample]:
-        return {
-            model: sample(self.result.mdr[rule, self.height]["level"], self._rng(part))
-            for part, (model, rule) in enumerate(RULES.items(), start=2)
-        }
-
-    @cached_property
-    def springs_over_linear(self) -> Sample:
-        """Springs and the linear filter on the same tracks, in pairs."""
-        return paired_samples(np.maximum(self.springs["linear level"], ROUNDING), self.springs["level"], self._rng(4))
-
-    def _rng(self, part: int) -> np.random.Generator:
-        return random_generator(self.case.seed, BOOTSTRAP, self.case.heights.index(self.height), part)
+    def bands_in(self, region: Region) -> list[int]:
+        """Indices of the one-third octaves that lie in a region."""
+        edges = np.array(self.case.bands.edges)
+        inside = (edges[:-1] > region[0] * (1 - 1e-9)) & (edges[1:] < region[1] * (1 + 1e-9))
+        return np.flatnonzero(inside).tolist()
 
     def weights(self, region: Region) -> FloatArray:
         """Of the mean over the bands in a region."""
-        edges = np.array(self.case.bands.edges)
-        inside = (edges[:-1] > region[0] * (1 - 1e-9)) & (edges[1:] < region[1] * (1 + 1e-9))
-        return np.asarray(inside / inside.sum())
+        return np.asarray(self.single_bands[self.bands_in(region)].mean(axis=0))
 
     @property
     def single_bands(self) -> FloatArray:
         """Weights of each band alone, a row a band."""
         return np.eye(len(self.case.bands.centres))
 
-    def bem_level(self, weights: FloatArray) -> tuple[Estimate, float]:
-        """Boundary elements on cells of no size, and the half-width that the grid leaves."""
-        return extrapolated(ratio_of_pairs(self.bem_over_linear, weights), ratio_of_pairs(self.finer, weights))
+    def bem_level(self, weights: FloatArray, among: int = 1) -> tuple[Estimate, float]:
+        """Boundary elements on cells of no size, and the half-width that the grid leaves; among: see `extrapolated`."""
+        coarse, fine = self.bem["level"], self.result.refined[self.height]["level"]
+        over_linear = log_ratio_of_means(coarse, self.bem["linear level"], weights)
+        return extrapolated(over_linear, log_ratio_of_means(fine, coarse[: len(fine)], weights), among)
 
     def model_level(self, model: str, weights: FloatArray) -> Estimate:
         exact = self.linear[LINEAR_3D]
-        if model not in self.linear:
-            return over_exact(self.of_springs[model], exact, weights)
+        if model in RULES:
+            return log_ratio_of_means(self.result.mdr[RULES[model], self.height]["level"], exact, weights)
         used = weights > 0
         with np.errstate(divide="ignore"):
-            model_, reference = (float(weights[used] @ np.log(one[used])) for one in (self.linear[model], exact))
-        return Estimate(model_ - reference, 0.0, EXACT)
+            over_exact = np.log(self.linear[model][used] / exact[used])
+        return Estimate(float(weights[used] @ over_exact), 0.0, EXACT)
+
+    def springs_over_linear(self, weights: FloatArray) -> Estimate:
+        """Springs over the linear filter on the same tracks."""
+        return log_ratio_of_means(self.springs["level"], np.maximum(self.springs["linear level"], ROUNDING), weights)
 
     def decibels_over_bem(self, model: str, weights: FloatArray) -> float:
         return POWER_DECIBEL * (self.model_level(model, weights).value - self.bem_level(weights)[0].value)
@@ -155,15 +135,3 @@ def _over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
     edges = np.array(bands.edges)
     q = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS)
     return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges) / HERTZ**2)
-
-
-def over_exact(levels: Sample, exact: FloatArray, weights: FloatArray) -> Estimate:
-    """ln of mean levels over exact ones, in the mean over bands."""
-    used = weights > 0
-    found = levels.estimate(weighted_mean(weights, log_mean))
-    return Estimate(found.value - float(weights[used] @ np.log(exact[used])), found.error, found.samples)
-
-
-def ratio_of_pairs(pairs: Sample, weights: FloatArray) -> Estimate:
-    """ln of the second half of the levels over the first, realisation by realisation, in the mean over bands."""
-    return pairs.estimate(difference_of_halves(weighted_mean(weights, log_mean)))

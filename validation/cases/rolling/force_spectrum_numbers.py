@@ -1,42 +1,48 @@
 """Numbers of rolling over isotropic roughness: levels over boundary elements, variance and mean of the force."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from validation.analysis.difference import difference
-from validation.analysis.evidence import Number, Place, Role, number_with
-from validation.analysis.statistics import POWER_DECIBEL, mean_estimate, ratio_of_means
+from validation.analysis.evidence import Number, Place, Role
+from validation.analysis.over_range import root_mean_square, worst
+from validation.analysis.statistics import Estimate, mean_estimate, ratio_of_means
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.force_spectrum_levels import (
     LINEAR_1D,
     LINEAR_3D,
-    ROLLING_SPRINGS,
+    MODELS,
     SPRINGS,
+    FloatArray,
     LevelsAtHeight,
     Region,
-    ratio_of_pairs,
 )
 from validation.theory.rolling import level_ratio
 
-LEVEL, NONLINEAR = "mean level", "level of the nonlinear over the linear force"
+LEVEL, NONLINEAR = "level of a one-third octave", "nonlinear over linear level of a one-third octave"
+RMS = "rms of "
+"""Before the name of what the root mean square over a range is taken of."""
+IN_RMS = RMS + LEVEL
 VARIANCE, MEAN = "variance of the force over that of linear theory", "mean force over that of Hertz"
+EXCESS = "mean level over its limit for q a >> 1"
 BOTH = "springs beside bem3d"
-ONE_DECIBEL = 1.0
-REASON = "1 dB: repeatability of measured one-third octave levels"
+THREE_DECIBELS, FORD_THOMPSON = 3.0, "3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)"
+ONE_DECIBEL, REPEATABLE = 1.0, "1 dB: repeatability of measured one-third octave levels"
 LINEAR_UP_TO = 0.01
 """h/d up to which boundary elements must agree with linear theory, or something is wrong with them."""
 
 
 def regions(case: ForceSpectrum) -> list[Region]:
-    """Below the band, where springs with Geike's spectrum have no level; its long waves; its short ones."""
-    middle = 4 * case.first
-    ends = ((case.lowest, case.first), (case.first, middle), (middle, case.last))
+    """Below the band, where springs with Geike's spectrum have no level; the band."""
+    ends = ((case.lowest, case.first), (case.first, case.last))
     return [region for region in ends if region[0] < region[1]]
 
 
 def numbers_of(case: ForceSpectrum, found: list[LevelsAtHeight]) -> list[Number]:
     numbers = [number for mine in found for number in (*_levels(mine), *moments(mine))]
-    return [*numbers, _excess(case, numbers)]
+    return [*numbers, _excess(found[0])]
 
 
 def place(height: float, region: Region) -> dict[str, Place]:
@@ -44,50 +50,72 @@ def place(height: float, region: Region) -> dict[str, Place]:
     return {"h/d": height, "q a": region}
 
 
-def over_bem(mine: LevelsAtHeight, model: str, region: Region, role: Role = Role.FINDING) -> Number:
-    """A model over boundary elements, in the mean over the bands of a region."""
-    weights = mine.weights(region)
-    bem, grid = mine.bem_level(weights)
-    return difference(
-        mine.model_level(model, weights),
-        bem,
+def over_bem(mine: LevelsAtHeight, model: str, region: Region, role: Role = Role.FINDING) -> list[Number]:
+    """A model over boundary elements: the worst one-third octave of a region, and the rms over all of its."""
+    return _judged(
+        mine,
+        region,
+        lambda weights: mine.model_level(model, weights),
         quantity=LEVEL,
         model=f"{model} over bem3d",
-        where=place(mine.height, region),
         source="bem3d, extrapolated, on the same surfaces as linear theory in 3D",
-        tolerance=ONE_DECIBEL,
-        reason=REASON,
-        grid=grid,
         role=role,
     )
 
 
-def nonlinear(mine: LevelsAtHeight, region: Region) -> Number:
+def nonlinear(mine: LevelsAtHeight, region: Region) -> list[Number]:
     """What nonlinearity does to the level of springs, beside what it does to that of boundary elements."""
-    weights = mine.weights(region)
-    bem, grid = mine.bem_level(weights)
-    return difference(
-        ratio_of_pairs(mine.springs_over_linear, weights),
-        bem,
-        absolute=True,
+    return _judged(
+        mine,
+        region,
+        mine.springs_over_linear,
         quantity=NONLINEAR,
         model=BOTH,
-        where=place(mine.height, region),
         source="bem3d over linear theory in 3D",
-        tolerance=ONE_DECIBEL,
-        reason=REASON,
-        grid=grid,
+        absolute=True,
     )
+
+
+def _judged(
+    mine: LevelsAtHeight, region: Region, level: Callable[[FloatArray], Estimate], **settings: Any
+) -> list[Number]:
+    """The intervals of the worst band hold together with those of all others, those of the mean square alone."""
+    bands = mine.bands_in(region)
+
+    def points(among: int) -> list[Number]:
+        found = []
+        for band in bands:
+            weights = mine.single_bands[band]
+            bem, grid = mine.bem_level(weights, among)
+            found.append(
+                difference(
+                    level(weights),
+                    bem,
+                    where={"h/d": mine.height, "q a": float(mine.case.bands.centres[band])},
+                    tolerance=THREE_DECIBELS,
+                    reason=FORD_THOMPSON,
+                    grid=grid,
+                    among=among,
+                    **settings,
+                )
+            )
+        return found
+
+    rms = replace(root_mean_square(points(1), "q a", ONE_DECIBEL, REPEATABLE), role=Role.FINDING)
+    return [replace(one, where={**one.where, "q a": region}) for one in (worst(points(len(bands)), "q a"), rms)]
 
 
 def _levels(mine: LevelsAtHeight) -> list[Number]:
     numbers = []
-    for i, region in enumerate(regions(mine.case)):
-        must = i < 2 and mine.height <= LINEAR_UP_TO
-        numbers.append(over_bem(mine, LINEAR_3D, region, Role.CRITERION if must else Role.FINDING))
-        if i > 0:
-            numbers += [over_bem(mine, LINEAR_1D, region), nonlinear(mine, region)]
-        numbers += [over_bem(mine, model, region) for model in (SPRINGS, ROLLING_SPRINGS)]
+    for region in regions(mine.case):
+        inside = region[0] >= mine.case.first
+        for model in MODELS:
+            if inside or model != LINEAR_1D:
+                must = model == LINEAR_3D and mine.height <= LINEAR_UP_TO
+                role = Role.CRITERION if must else Role.FINDING
+                numbers += over_bem(mine, model, region, role)
+        if inside:
+            numbers += nonlinear(mine, region)
     return numbers
 
 
@@ -125,14 +153,20 @@ def moments(mine: LevelsAtHeight) -> list[Number]:
     return [*variances, mean]
 
 
-def _excess(case: ForceSpectrum, numbers: list[Number]) -> Number:
-    """By how much Geike's spectrum is too loud along the track, beside the power law without ends."""
-    found = number_with(numbers, LEVEL, f"{LINEAR_1D} over bem3d", **place(case.heights[0], regions(case)[-1]))
-    return replace(
-        found,
-        quantity="mean level over its limit for q a >> 1",
-        reference=-POWER_DECIBEL * math.log(level_ratio(case.hurst)),
-        source="sqrt(π) Γ(H + 2) / Γ(H + 3/2), an unbounded power law in linear theory",
+def _excess(mine: LevelsAtHeight) -> Number:
+    """By how much Geike's spectrum is too loud along the track in the mean, beside the power law without ends."""
+    short: Region = (4 * mine.case.first, mine.case.last)
+    bem, grid = mine.bem_level(mine.weights(short))
+    limit = Estimate(-math.log(level_ratio(mine.case.hurst)), 0.0, bem.samples)
+    return difference(
+        mine.model_level(LINEAR_1D, mine.weights(short)).minus(bem),
+        limit,
+        absolute=True,
+        quantity=EXCESS,
+        model=f"{LINEAR_1D} over bem3d",
+        where=place(mine.height, short),
+        source="sqrt(π) Γ(H + 2) / Γ(H + 3/2), an unbounded power law in linear theory, whose sin² has the mean 1/2",
         tolerance=0.5,
         reason="0.5 dB: the band is bounded and q a is finite",
+        grid=grid,
     )

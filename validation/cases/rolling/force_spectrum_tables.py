@@ -1,11 +1,12 @@
 """Tables of rolling over isotropic roughness: what the figures are drawn from, and what the page prints."""
 
 import math
+from itertools import product
 
 import numpy as np
 
-from validation.analysis.evidence import Table, columns, table_of
-from validation.analysis.statistics import POWER_DECIBEL, ratio_of_means
+from validation.analysis.evidence import Number, Table, VerdictCell, columns, number_with, numbers_with, table_of
+from validation.analysis.statistics import POWER_DECIBEL, log_ratio_of_means, ratio_of_means
 from validation.cases.rolling.force_spectrum import ForceSpectrum, RollingResult
 from validation.cases.rolling.force_spectrum_levels import (
     LINEAR_1D,
@@ -15,8 +16,8 @@ from validation.cases.rolling.force_spectrum_levels import (
     coherence,
     correlation,
     force_3d,
-    ratio_of_pairs,
 )
+from validation.cases.rolling.force_spectrum_numbers import IN_RMS, LEVEL, place, regions
 from validation.simulation.rolling_strip import HERTZ
 from validation.simulation.track_spectrum import TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, mean_force_spectrum_1d
@@ -36,10 +37,12 @@ def _levels(mine: LevelsAtHeight) -> list[Row]:
     waves = case.bands.counts(2 * np.pi / case.length * np.arange(1, int(case.length * case.springs / 2)))
     rows: list[Row] = []
     for i, weights in enumerate(mine.single_bands):
-        (bem, grid), as_rolled = mine.bem_level(weights), ratio_of_pairs(mine.bem_over_linear, weights)
+        bem, grid = mine.bem_level(weights)
+        as_rolled = log_ratio_of_means(mine.bem["level"], mine.bem["linear level"], weights)
         unit = POWER_DECIBEL * math.log(mine.linear[LINEAR_3D][i] / mine.height**2)
         row: Row = {
             "h/d": mine.height,
+            "h' a/d": mine.slope,
             "q a": float(centres[i]),
             "from": edges[i],
             "to": edges[i + 1],
@@ -70,6 +73,7 @@ def _summary(mine: LevelsAtHeight) -> Row:
     variance, variance_1d = (ratio_of_means(one["variance"], one["linear variance"]).value for one in (bem, springs))
     return {
         "h / d": mine.height,
+        "h' a / d": _rounded(mine.slope),
         "bem3d: correlation with linear": round(of_bem, 4),
         "bem3d: slope": round(slope, 4),
         "springs: correlation with linear": round(of_springs, 4),
@@ -116,10 +120,34 @@ def bands_within(case: ForceSpectrum, found: list[LevelsAtHeight]) -> Table:
     inside = np.array(case.bands.edges[1:]) > case.first * (1 + 1e-9)
     rows: list[Row] = []
     for mine in found:
-        row: Row = {"h / d": mine.height}
+        row: Row = {"h / d": mine.height, "h' a / d": _rounded(mine.slope)}
         for model in MODELS:
             off = np.abs([mine.decibels_over_bem(model, weights) for weights in mine.single_bands])
             for where, some in (("in the band", inside), ("below the band", ~inside)):
                 row[f"{model}, {where}"] = f"{(off[some] <= 1).sum()} and {(off[some] <= 3).sum()} of {some.sum()}"
         rows.append(row)
     return table_of("bands within 1 and within 3 dB of boundary elements", rows)
+
+
+def judged_levels(found: list[LevelsAtHeight], numbers: list[Number]) -> Table:
+    """A row a height and region: mean, root mean square and worst of each model over boundary elements."""
+    rows: list[Row] = []
+    for mine, region in product(found, regions(found[0].case)):
+        row: Row = {"h / d": mine.height, "h' a / d": _rounded(mine.slope), "q a": f"{region[0]:g} to {region[1]:g}"}
+        for model in MODELS:
+            judged = numbers_with(numbers, None, f"{model} over bem3d", **place(mine.height, region))
+            row[model] = _cell(mine.decibels_over_bem(model, mine.weights(region)), judged)
+        rows.append(row)
+    return table_of("mean, rms and worst one-third octave over boundary elements [dB]", rows)
+
+
+def _cell(mean: float, judged: list[Number]) -> object:
+    if not judged:
+        return "no level"
+    worst, rms = (number_with(judged, quantity) for quantity in (LEVEL, IN_RMS))
+    at = worst.where["worst at"]
+    return VerdictCell(f"{mean:+.1f}, {rms.value:.1f}, {worst.value:+.1f} at {at:.2g}", worst.verdict)
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.3g}")

@@ -2,28 +2,23 @@
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Role, Table, table_of
-from validation.analysis.statistics import (
-    POWER_DECIBEL,
-    Estimate,
-    Sample,
-    at_level,
-    log_mean,
-    nearest,
-    paired_samples,
-    sample,
+from validation.analysis.over_range import root_mean_square, worst
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, log_ratio_of_means, nearest
+from validation.cases.rolling.force_spectrum_levels import ROUNDING, level_1d, level_3d
+from validation.cases.rolling.force_spectrum_numbers import (
+    FORD_THOMPSON,
+    LEVEL,
+    ONE_DECIBEL,
+    REPEATABLE,
+    THREE_DECIBELS,
 )
-from validation.cases.rolling.force_spectrum_levels import ROUNDING, level_1d, level_3d, over_exact, ratio_of_pairs
-from validation.cases.rolling.force_spectrum_numbers import ONE_DECIBEL, REASON
 from validation.cases.rolling.input_spectrum import RollingInput, RollingInputResult
-from validation.engine.engine import random_generator
-from validation.simulation.rolling_strip import BOOTSTRAP
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum
 
 FloatArray = NDArray[np.float64]
@@ -34,9 +29,6 @@ NAMES: dict[InputSpectrum, str] = {
     "line": "line trace",
     "rolling": "rolling-equivalent spectrum",
 }
-FORD_THOMPSON = 3.0
-"""dB in one-third octaves: how near springs come to a 3D analysis. Ford and Thompson, J. Sound Vib. 293 (2006)."""
-IN_BAND, WORST = "mean level in the band", "worst one-third octave but that of q a = π"
 STIFFNESS = "mean stiffness of punches"
 LINEAR, ONE_SIDED = "linear springs over linear 3D", "springs over bem3d"
 
@@ -62,30 +54,34 @@ def linear_bands(case: RollingInput) -> Table:
 
 
 def linear_numbers(bands: Table, name: str) -> list[Number]:
-    """The mean over the bands in that of a spectrum, and the worst of all bands but that of the first zero."""
-
-    def number(quantity: str, rule: InputSpectrum, value: float, tolerance: float, reason: str) -> Number:
-        return Number(
-            quantity=quantity,
-            model=LINEAR,
-            where={"spectrum": name, "input": NAMES[rule]},
-            value=value,
-            reference=0.0,
-            source="linear theory in 3D, by quadrature",
-            tolerance=tolerance,
-            unit="dB",
-            reason=reason,
-            role=Role.FINDING,
+    """(14.12) over linear theory in 3D in the band of a spectrum: the worst one-third octave, and the rms over all."""
+    mine = bands.where(spectrum=name, **{"in the band": True})
+    return [
+        number
+        for rule in INPUT_SPECTRA
+        for number in judged(
+            [
+                Number(
+                    quantity=LEVEL,
+                    model=LINEAR,
+                    where={"spectrum": name, "input": NAMES[rule], "q a": float(q)},
+                    value=float(error),
+                    reference=0.0,
+                    source="linear theory in 3D, by quadrature",
+                    tolerance=THREE_DECIBELS,
+                    reason=FORD_THOMPSON,
+                    unit="dB",
+                    role=Role.FINDING,
+                )
+                for q, error in zip(mine["q a"], mine[f"{NAMES[rule]} [dB]"], strict=True)
+            ]
         )
+    ]
 
-    mine, numbers = bands.where(spectrum=name), []
-    for rule in INPUT_SPECTRA:
-        errors = mine[f"{NAMES[rule]} [dB]"]
-        numbers.append(number(IN_BAND, rule, float(errors[mine["in the band"]].mean()), ONE_DECIBEL, REASON))
-        worst = float(np.abs(errors[~mine["first zero"]]).max())
-        if math.isfinite(worst):
-            numbers.append(number(WORST, rule, worst, FORD_THOMPSON, "3 dB: Ford and Thompson (2006)"))
-    return numbers
+
+def judged(points: list[Number], alone: list[Number] | None = None) -> list[Number]:
+    """The worst point; and the root mean square, of points whose intervals are those of one alone."""
+    return [worst(points, "q a"), root_mean_square(alone or points, "q a", ONE_DECIBEL, REPEATABLE)]
 
 
 def bands_within(case: RollingInput, bands: Table) -> Table:
@@ -95,7 +91,7 @@ def bands_within(case: RollingInput, bands: Table) -> Table:
         mine = bands.where(spectrum=name)
         row: Row = {"spectrum": name}
         for rule in INPUT_SPECTRA:
-            near = np.abs(mine[f"{NAMES[rule]} [dB]"]) <= FORD_THOMPSON
+            near = np.abs(mine[f"{NAMES[rule]} [dB]"]) <= THREE_DECIBELS
             for part, where in (("in the band", mine["in the band"]), ("below the band", ~mine["in the band"])):
                 row[f"{NAMES[rule]}, {part}"] = f"{int(near[where].sum())} of {int(where.sum())}"
         rows.append(row)
@@ -111,34 +107,51 @@ class InputLevels:
     height: float
     rule: InputSpectrum
 
-    @cached_property
-    def _samples(self) -> tuple[Sample, Sample]:
-        """Springs; boundary elements and linear theory on the same surfaces, in pairs."""
-        case, bem = self.result.case, self.result.bem[self.spectrum, self.height]
-        springs = np.maximum(self.result.mdr[self.spectrum, self.height, self.rule]["level"], ROUNDING)
-        key = list(case.spectra).index(self.spectrum), case.heights.index(self.height), INPUT_SPECTRA.index(self.rule)
-        of_bem, of_springs = (random_generator(case.seed, BOOTSTRAP, *key, part) for part in (0, 1))
-        return sample(springs, of_springs), paired_samples(bem["linear level"], bem["level"], of_bem)
-
     def both(self, weights: FloatArray) -> tuple[Estimate, Estimate]:
         """ln of springs and of boundary elements over linear theory in 3D."""
-        (springs, pairs), case = self._samples, self.result.case
+        case, bem = self.result.case, self.result.bem[self.spectrum, self.height]
         exact = self.height**2 * level_3d(case.spectra[self.spectrum], case.bands)
-        return over_exact(springs, exact, weights), ratio_of_pairs(pairs, weights)
+        springs = np.maximum(self.result.mdr[self.spectrum, self.height, self.rule]["level"], ROUNDING)
+        pairs = log_ratio_of_means(bem["level"], bem["linear level"], weights)
+        return log_ratio_of_means(springs, exact, weights), pairs
 
     @property
-    def number(self) -> Number:
-        """Springs over boundary elements, in the mean over the bands in that of the spectrum."""
-        inside = self.result.case.inside(self.result.case.spectra[self.spectrum])
-        return difference(
-            *self.both(inside / inside.sum()),
-            quantity=IN_BAND,
-            model=ONE_SIDED,
-            where={"spectrum": self.spectrum, "h/d": self.height, "input": NAMES[self.rule]},
-            source="bem3d, relative to linear theory on the same surfaces",
-            tolerance=ONE_DECIBEL,
-            reason=REASON,
-        )
+    def inside(self) -> NDArray[np.intp]:
+        """Indices of the one-third octaves in the band of the spectrum."""
+        return np.flatnonzero(self.result.case.inside(self.result.case.spectra[self.spectrum]))
+
+    @property
+    def mean(self) -> float:
+        """Springs over boundary elements in the mean over the bands in that of the spectrum [dB]."""
+        weights = np.eye(len(self.result.case.bands.centres))[self.inside].mean(axis=0)
+        springs, bem = self.both(weights)
+        return POWER_DECIBEL * (springs.value - bem.value)
+
+    @property
+    def numbers(self) -> list[Number]:
+        """Springs over boundary elements in the band of the spectrum: the worst one-third octave, and the rms."""
+        return judged(self._points(self.inside.size), self._points(1))
+
+    def _points(self, among: int) -> list[Number]:
+        centres = self.result.case.bands.centres
+        return [
+            difference(
+                *self.both(np.eye(centres.size)[band]),
+                quantity=LEVEL,
+                model=ONE_SIDED,
+                where={
+                    "spectrum": self.spectrum,
+                    "h/d": self.height,
+                    "input": NAMES[self.rule],
+                    "q a": float(centres[band]),
+                },
+                source="bem3d, relative to linear theory on the same surfaces",
+                tolerance=THREE_DECIBELS,
+                reason=FORD_THOMPSON,
+                among=among,
+            )
+            for band in self.inside
+        ]
 
 
 def rolled_bands(result: RollingInputResult, levels: list[InputLevels]) -> Table:
@@ -159,10 +172,12 @@ def rolled_bands(result: RollingInputResult, levels: list[InputLevels]) -> Table
 
 def stiffness_ratio(result: RollingInputResult, rule: InputSpectrum, force: int) -> Estimate:
     """ln of the mean stiffness of punches, springs over boundary elements, at the force of that index."""
-    seed, springs = result.case.seed, result.profiles[rule]["stiffness"]
-    of_springs = sample(springs, random_generator(seed, BOOTSTRAP, 90, INPUT_SPECTRA.index(rule)))
-    of_bem = sample(result.punches["stiffness"], random_generator(seed, BOOTSTRAP, 91))
-    return of_springs.estimate(at_level(force, log_mean)).minus(of_bem.estimate(at_level(force, log_mean)))
+    weights = np.eye(len(result.case.forces))[force]
+    springs, bem = (
+        log_ratio_of_means(pressed["stiffness"], np.ones(weights.size), weights)
+        for pressed in (result.profiles[rule], result.punches)
+    )
+    return springs.minus(bem)
 
 
 def punch_number(result: RollingInputResult, rule: InputSpectrum) -> Number:
