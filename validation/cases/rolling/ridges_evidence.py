@@ -70,9 +70,9 @@ def _conclusions(result: RidgesResult) -> tuple[str, ...]:
     return (
         f"The largest error of boundary elements with {cells} cells to a radius is "
         f"{_largest(result, BEM, cells, FAR):.2g} of the envelope up to q a = {FAR:g}. That of springs in full "
-        f"contact, {springs:g} to a radius, is {_largest(result, FULL, springs):.2g}; that of (14.11) on the same "
-        f"track, an identity, is {_largest(result, FILTER, springs):.1g}. The part of the response out of phase is at most "
-        f"{_out_of_phase(result, cells):.1g} of the envelope.",
+        f"contact, {springs:g} to a radius, is {_largest(result, FULL, springs):.2g}. That of (14.11) on the same "
+        f"track, an identity, is {_largest(result, FILTER, springs):.1g}. "
+        f"The part of the response out of phase is at most {_out_of_phase(result, cells):.1g} of the envelope.",
     )
 
 
