@@ -46,7 +46,8 @@ from validation.cases.rolling.input_spectrum_numbers import punch_number
 from validation.cases.selection.model_selection_evidence import clopper_pearson
 from validation.cases.stability import long_runs
 from validation.cases.wheel import distance as wheel_distance
-from validation.cases.wheel import distance_levels, distance_numbers, spectrum_numbers
+from validation.cases.wheel import distance_numbers, spectrum_numbers
+from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_levels as wheel_3d_levels
 from validation.cases.wheel.features import FLOOR, Spectrum, measured
@@ -530,7 +531,7 @@ def test_levels_of_groups_of_wheels_cover_their_truth(groups):
     band = (5.0, 20.0)
 
     def drawn():
-        return ends(distance_levels.level(grouped(rng, groups, 2.0, spread=0.1), band))
+        return ends(wheel_features.level(grouped(rng, groups, 2.0, spread=0.1), band))
 
     assert holds(covered(drawn, math.log(2)), short=0.01, wide=0.01)
 
@@ -544,14 +545,14 @@ def test_ratios_of_groups_of_wheels_cover_their_truth(shared):
         other = {**one, "plain": 3 * one["plain"]} if shared else grouped(rng, 8, 3.0, spread=0.1)
         if shared:
             other["plain"] = other["plain"] * (1 + 0.02 * rng.standard_normal((8, 1)))
-        return ends(distance_levels.ratio(other, one, (5.0, 20.0)))
+        return ends(wheel_features.ratio(other, one, (5.0, 20.0)))
 
     assert holds(covered(drawn, math.log(3)), short=0.01)
 
 
 def test_shared_tracks_leave_no_error_of_a_ratio():
     one = grouped(np.random.default_rng(0), 5)
-    assert distance_levels.ratio({**one, "plain": 3 * one["plain"]}, one, (5.0, 20.0)).error < 1e-15
+    assert wheel_features.ratio({**one, "plain": 3 * one["plain"]}, one, (5.0, 20.0)).error < 1e-15
 
 
 def test_the_law_of_the_break_covers_its_truth():

@@ -245,9 +245,7 @@ def test_slope_of_a_power_law():
 
 def test_theory_of_small_changes_of_energy():
     """Thresholds of explicit Euler and of Runge-Kutta, from the product of their factors over a turn."""
-    outcome = time_stepping.sweep_time_step(
-        time_stepping.TimeSteps(verlet=(1.0,), euler=(0.01, 0.02), kutta=(0.9, 1.1), turns=6)
-    )
+    outcome = time_stepping.TimeSteps(verlet=(1.0,), euler=(0.01, 0.02), kutta=(0.9, 1.1), turns=6).sweep()
     x = float(outcome["Euler threshold"])
     assert (1 + x**2) ** (2 * np.pi / x) - 1 == pytest.approx(time_stepping.EULER.tolerance, rel=2 * x)
     x = float(outcome["Runge-Kutta threshold"])

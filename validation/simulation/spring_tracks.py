@@ -50,8 +50,8 @@ class RoughTrack:
     def points(self) -> int:
         return round(self.waves * self.longest / self.spacing)
 
-    def heights(self, count: int) -> FloatArray:
-        """So many tracks, shape (points, count) [m]."""
+    def heights(self, count: int, points: int | None = None) -> FloatArray:
+        """So many tracks, shape (points, count) [m]; points: of another grid."""
         spectrum = mdr.SelfAffine(
             hurst=self.hurst, q_min=2 * np.pi / self.longest, q_max=2 * np.pi / self.shortest, rms=self.rms
         )
@@ -59,7 +59,7 @@ class RoughTrack:
             mdr.rough_profile(
                 spectrum.c1d,
                 length=self.waves * self.longest,
-                points=self.points,
+                points=points or self.points,
                 rng=random_generator(self.seed, self.realisation + i),
                 rms=self.rms,
             )
@@ -167,15 +167,18 @@ def linear_change(wheel: Wheel, track: RoughTrack, height: FloatArray) -> FloatA
     """dF / F_N of (14.11) along a track."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mdr.LinearityWarning)
-        rolled = mdr.roll(
-            height,
-            spacing=track.spacing,
-            radius=wheel.radius,
-            modulus=wheel.modulus,
-            approach=wheel.approach,
-            contact="linear",
-        )
-    return np.asarray(rolled.force / wheel.load - 1)
+        return np.asarray(filtered(wheel, track, height).force / wheel.load - 1)
+
+
+def filtered(wheel: Wheel, track: RoughTrack, height: FloatArray) -> mdr.RollingTrack:
+    return mdr.roll(
+        height,
+        spacing=track.spacing,
+        radius=wheel.radius,
+        modulus=wheel.modulus,
+        approach=wheel.approach,
+        contact="linear",
+    )
 
 
 def coarsen(track: RoughTrack) -> Outcome:

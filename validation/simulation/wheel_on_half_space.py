@@ -1,7 +1,6 @@
 """A wheel over an isotropic surface with boundary elements inside the time loop, and the linear contact beside it."""
 
 import math
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +13,7 @@ from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import Motion, simulate
+from validation.simulation.surface import surface_on_grid
 from validation.theory.rolling import linear_force
 
 FloatArray = NDArray[np.float64]
@@ -65,16 +65,8 @@ class WheelStrip:
 
     def surface(self) -> FloatArray:
         """Heights at the centres of the cells [m]; the same surface on every grid."""
-        with warnings.catch_warnings():
-            # the error of few cells to a wave is part of what the grids measure
-            warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-            return bem3d.rough_surface(
-                self.roughness.spectrum.c2d,
-                shape=self.shape,
-                spacing=self.spacing,
-                rng=random_generator(self.seed, STRIPS, self.realisation),
-                rms=self.roughness.rms,
-            )
+        rng = random_generator(self.seed, STRIPS, self.realisation)
+        return surface_on_grid(self.roughness, shape=self.shape, spacing=self.spacing, rng=rng)
 
 
 def simulate_strip(strip: WheelStrip) -> Outcome:

@@ -56,6 +56,16 @@ class Octaves:
     centres: tuple[float, ...] = (0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 8.0, 16.0)
     lines: int = 48
 
+    def sweep(self) -> Outcome:
+        """Level of springs over the half-space [dB], with Geike's spectrum and with the rolling-equivalent one."""
+        spectrum = self_affine(self.hurst, self.first, self.last)
+        differences = np.array([_octave(spectrum, centre, self.lines) for centre in self.centres])
+        geike, rolling = np.abs(differences).T
+        # springs have a spectrum and no surface: one track, with the waves about the contact, gives their only message
+        _, message = call_and_record_warnings(partial(_rolled, self_affine(self.hurst, 0.25, 8.0), self.seed))
+        points = [(float(error), message) for error in geike]
+        return {**swept(LEVEL, self.centres, points, 1.0), "level, rolling-equivalent spectrum": rolling}
+
 
 @dataclass(frozen=True, kw_only=True)
 class Anisotropy:
@@ -67,20 +77,27 @@ class Anisotropy:
     last: float = 200.0
     ratios: tuple[float, ...] = (1.05, 1.1, 1.2, 1.3, 1.45, 1.65, 2.0, 3.0, 5.0, 9.0)
 
+    def sweep(self) -> Outcome:
+        """rms force of springs that take a cut along the track for isotropic, over that of the half-space.
+
+        Waves (k_x, k_y) of the stretched surface are (k_x / sqrt(ratio), k_y sqrt(ratio)) of the isotropic one, and its
+        cut along x is that of isotropic roughness stretched both ways: C_2D'(q) = ratio C_2D(sqrt(ratio) q). For
+        q a >> 1 the half-space feels 1 / |k|^2, whose mean over all directions does not depend on the ratio.
+        """
+        spectrum = self_affine(self.hurst, self.first, self.last)
+
+        def point(ratio: float) -> Point:
+            cut = cut_along(spectrum, ratio)
+            springs = force_variance(cut.c2d, edges=cut.edges, contact_radius=1.0, modulus=1.0)
+            error = abs(math.sqrt(springs / stretched_variance(spectrum, ratio)) - 1)
+            return error, call_and_record_warnings(partial(_rolled, cut, self.seed))[1]
+
+        threshold = (1 + ANISOTROPY.tolerance) ** 2 - 1
+        return swept(ANISOTROPY, np.array(self.ratios) - 1, [point(ratio) for ratio in self.ratios], threshold)
+
 
 def decibel(ratio: float) -> float:
     return 10 * math.log10(ratio)
-
-
-def sweep_wavenumber(problem: Octaves) -> Outcome:
-    """Level of springs over the half-space [dB], with Geike's spectrum and with the rolling-equivalent one."""
-    spectrum = self_affine(problem.hurst, problem.first, problem.last)
-    differences = np.array([_octave(spectrum, centre, problem.lines) for centre in problem.centres])
-    geike, rolling = np.abs(differences).T
-    # springs have a spectrum and no surface: one track, with the waves about the contact, gives their only message
-    _, message = call_and_record_warnings(partial(_rolled, self_affine(problem.hurst, 0.25, 8.0), problem.seed))
-    points = [(float(error), message) for error in geike]
-    return {**swept(LEVEL, problem.centres, points, 1.0), "level, rolling-equivalent spectrum": rolling}
 
 
 def _octave(spectrum: PiecewisePowerLaw, centre: float, lines: int) -> tuple[float, float]:
@@ -103,25 +120,6 @@ def _rolled(spectrum: PiecewisePowerLaw, seed: int) -> FloatArray:
     rng = random_generator(seed, GEIKE_TRACK)
     track = mdr.rough_profile(TrackSpectrum(spectrum, "geike"), length=length, points=points, rng=rng, rms=1e-3)
     return mdr.rolling_force(track, spacing=length / points, radius=1.0, modulus=1.0, approach=1.0)
-
-
-def sweep_anisotropy(problem: Anisotropy) -> Outcome:
-    """rms force of springs that take a cut along the track for isotropic, over that of the half-space.
-
-    Waves (k_x, k_y) of the stretched surface are (k_x / sqrt(ratio), k_y sqrt(ratio)) of the isotropic one, and its cut
-    along x is that of isotropic roughness stretched both ways: C_2D'(q) = ratio C_2D(sqrt(ratio) q). For q a >> 1 the
-    half-space feels 1 / |k|^2, whose mean over all directions does not depend on the ratio.
-    """
-    spectrum = self_affine(problem.hurst, problem.first, problem.last)
-
-    def point(ratio: float) -> Point:
-        cut = cut_along(spectrum, ratio)
-        springs = force_variance(cut.c2d, edges=cut.edges, contact_radius=1.0, modulus=1.0)
-        error = abs(math.sqrt(springs / stretched_variance(spectrum, ratio)) - 1)
-        return error, call_and_record_warnings(partial(_rolled, cut, problem.seed))[1]
-
-    threshold = (1 + ANISOTROPY.tolerance) ** 2 - 1
-    return swept(ANISOTROPY, np.array(problem.ratios) - 1, [point(ratio) for ratio in problem.ratios], threshold)
 
 
 def cut_along(spectrum: PiecewisePowerLaw, ratio: float) -> PiecewisePowerLaw:

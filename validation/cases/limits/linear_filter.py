@@ -8,7 +8,7 @@ import numpy as np
 
 import mdr
 from validation.cases.limits.isotropy import HURST, decibel
-from validation.cases.limits.sweep import FloatArray, Limit, Point, call_and_record_warnings, swept
+from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome, random_generator
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.rolling_strip import Strip, roll_strip
@@ -74,6 +74,27 @@ class TrackHeights:
     heights: tuple[float, ...] = (0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.7, 1.0)
     springs: int = 32
 
+    def sweep(self) -> Outcome:
+        """The linear filter against one-sided springs: difference about its mean, over the fluctuation."""
+        spectrum = self_affine(self.hurst, 1.0, self.last)
+        unit = mdr.rough_profile(
+            TrackSpectrum(spectrum, "geike"),
+            length=self.length,
+            points=round(self.length * self.springs),
+            rng=random_generator(self.seed, UNIT_TRACK),
+            rms=1.0,
+        )
+
+        def point(height: float) -> Point:
+            spacing = 1 / self.springs
+            roll = partial(mdr.roll, height * unit, spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
+            linear, message = call_and_record_warnings(partial(roll, contact="linear"))
+            assert linear is not None
+            return float(np.std(linear.force - roll().force) / np.std(linear.force)), message
+
+        c = math.sqrt(force_variance(spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0))
+        return swept(LINEAR, self.heights, [point(height) for height in self.heights], 2 * c * LINEAR.tolerance)
+
 
 @dataclass(frozen=True, kw_only=True)
 class StripHeights:
@@ -87,6 +108,29 @@ class StripHeights:
     heights: tuple[float, ...] = (0.003, 0.01, 0.02, 0.04, 0.08, 0.12, 0.18, 0.27, 0.4, 0.7)
     width: float = 12.0
 
+    def sweep(self) -> Outcome:
+        """Linear theory of the half-space against boundary elements, alike; failed: positions that did not converge."""
+        spectrum = self_affine(self.hurst, 1.0, self.last)
+        points: list[Point] = []
+        failed = 0.0
+        for height in self.heights:
+            strip = Strip(
+                spectrum=spectrum,
+                height=height,
+                realisation=0,
+                length=self.length,
+                width=self.width,
+                cells=self.cells,
+                tolerance=1e-4,
+                seed=self.seed,
+            )
+            found, message = call_and_record_warnings(partial(roll_strip, strip))
+            assert found is not None
+            points.append((float(np.nanstd(found["force"] - found["linear"]) / np.std(found["linear"])), message))
+            failed += float(found["failed"])
+        threshold = FILTER_3D.tolerance / (math.sqrt(math.pi / 8) * rms_slope(spectrum))
+        return {**swept(FILTER_3D, self.heights, points, threshold), "failed": np.array(failed)}
+
 
 @dataclass(frozen=True, kw_only=True)
 class CoarserSprings:
@@ -94,76 +138,17 @@ class CoarserSprings:
 
     seed: int
 
-
-def sweep_height(problem: TrackHeights) -> Outcome:
-    """The linear filter against one-sided springs: difference about its mean, over the fluctuation."""
-    spectrum = self_affine(problem.hurst, 1.0, problem.last)
-    unit = mdr.rough_profile(
-        TrackSpectrum(spectrum, "geike"),
-        length=problem.length,
-        points=round(problem.length * problem.springs),
-        rng=random_generator(problem.seed, UNIT_TRACK),
-        rms=1.0,
-    )
-
-    def point(height: float) -> Point:
-        spacing = 1 / problem.springs
-        roll = partial(mdr.roll, height * unit, spacing=spacing, radius=1.0, modulus=1.0, approach=1.0)
-        linear, message = call_and_record_warnings(partial(roll, contact="linear"))
-        assert linear is not None
-        return float(np.std(linear.force - roll().force) / np.std(linear.force)), message
-
-    c = math.sqrt(force_variance(spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0))
-    return swept(LINEAR, problem.heights, [point(height) for height in problem.heights], 2 * c * LINEAR.tolerance)
-
-
-def sweep_strip_height(problem: StripHeights) -> Outcome:
-    """Linear theory of the half-space against boundary elements, alike; failed: positions that did not converge."""
-    spectrum = self_affine(problem.hurst, 1.0, problem.last)
-    points: list[Point] = []
-    failed = 0.0
-    for height in problem.heights:
-        strip = Strip(
-            spectrum=spectrum,
-            height=height,
-            realisation=0,
-            length=problem.length,
-            width=problem.width,
-            cells=problem.cells,
-            tolerance=1e-4,
-            seed=problem.seed,
-        )
-        found, message = call_and_record_warnings(partial(roll_strip, strip))
-        assert found is not None
-        points.append((float(np.nanstd(found["force"] - found["linear"]) / np.std(found["linear"])), message))
-        failed += float(found["failed"])
-    threshold = FILTER_3D.tolerance / (math.sqrt(math.pi / 8) * rms_slope(spectrum))
-    return {**swept(FILTER_3D, problem.heights, points, threshold), "failed": np.array(failed)}
+    def sweep(self) -> Outcome:
+        """The last one-third octave on coarser springs; messages are those of drawing such a track."""
+        track = RoughTrack(rms=1e-3 * WHEEL.approach, seed=self.seed, waves=9, per_wave=FINE)
+        levels = coarsen(track)["level"]
+        draws = [partial(track.heights, 1, track.points // stride) for stride in STRIDES]
+        messages = [call_and_record_warnings(draw)[1] for draw in draws]
+        errors = [abs(decibel(level)) if level > 0 else math.inf for level in levels]
+        return swept(SPACING, FINE / np.array(STRIDES), list(zip(errors, messages, strict=True)), 4.0)
 
 
 def rms_slope(spectrum: PiecewisePowerLaw) -> float:
     """h' of unit height: the root of 2 pi int q^3 C_2D dq."""
     q = np.geomspace(spectrum.edges[0], spectrum.edges[-1], 4001)
     return math.sqrt(float(np.trapezoid(2 * np.pi * q**4 * spectrum.c2d(q), np.log(q))))
-
-
-def sweep_spacing(problem: CoarserSprings) -> Outcome:
-    """The last one-third octave on coarser springs; messages are those of drawing such a track."""
-    track = RoughTrack(rms=1e-3 * WHEEL.approach, seed=problem.seed, waves=9, per_wave=FINE)
-    levels = coarsen(track)["level"]
-    points = [
-        (
-            abs(decibel(level)) if level > 0 else math.inf,
-            call_and_record_warnings(partial(_drawn_on, track, track.points // stride))[1],
-        )
-        for level, stride in zip(levels, STRIDES, strict=True)
-    ]
-    return swept(SPACING, FINE / np.array(STRIDES), points, 4.0)
-
-
-def _drawn_on(track: RoughTrack, points: int) -> FloatArray:
-    q_min, q_max = 2 * np.pi / track.longest, 2 * np.pi / track.shortest
-    spectrum = mdr.SelfAffine(hurst=track.hurst, q_min=q_min, q_max=q_max, rms=track.rms)
-    return mdr.rough_profile(
-        spectrum.c1d, length=track.waves * track.longest, points=points, rng=random_generator(track.seed), rms=track.rms
-    )

@@ -66,6 +66,20 @@ class RoughGrids:
     finest: int = 512
     force: float = 1.5
 
+    def sweep(self) -> Outcome:
+        """Contact area under one force on each grid against the finest; messages are those of drawing the surface."""
+        r, surfaces = self.roughness, range(self.surfaces)
+        true = [_area(r, self.finest, i, self.force) for i in surfaces]
+
+        def point(cells: int) -> Point:
+            draw = partial(bem3d.rough_surface, r.spectrum.c2d, shape=(cells, cells), spacing=1 / cells, rms=r.height)
+            _, message = call_and_record_warnings(partial(draw, rng=random_generator(r.seed)))
+            found = [_area(r, cells, i, self.force) for i in surfaces]
+            squares = sum((area / one - 1) ** 2 for area, one in zip(found, true, strict=True))
+            return math.sqrt(squares / len(true)), message
+
+        return swept(WAVES, np.array(self.cells) / r.waves[1], [point(cells) for cells in self.cells], 4.0)
+
 
 @dataclass(frozen=True, kw_only=True)
 class WaveUnderLoad:
@@ -75,20 +89,16 @@ class WaveUnderLoad:
     loads: tuple[float, ...] = (0.5, 0.8, 0.9, 0.98, 0.995, 0.999, 1.0, 1.01, 1.1, 1.5)
     huge: tuple[float, ...] = tuple(2 * 10.0**i for i in range(17))
 
+    def sweep(self) -> Outcome:
+        """A wave of unit length and amplitude: by the approach that a mean pressure has; by a huge force.
 
-def sweep_cells_to_a_wave(problem: RoughGrids) -> Outcome:
-    """Contact area under one force on each grid against the finest; messages are those of drawing the surface."""
-    r, surfaces = problem.roughness, range(problem.surfaces)
-    true = [_area(r, problem.finest, i, problem.force) for i in surfaces]
-
-    def point(cells: int) -> Point:
-        draw = partial(bem3d.rough_surface, r.spectrum.c2d, shape=(cells, cells), spacing=1 / cells, rms=r.height)
-        _, message = call_and_record_warnings(partial(draw, rng=random_generator(r.seed)))
-        found = [_area(r, cells, i, problem.force) for i in surfaces]
-        squares = sum((area / one - 1) ** 2 for area, one in zip(found, true, strict=True))
-        return math.sqrt(squares / len(true)), message
-
-    return swept(WAVES, np.array(problem.cells) / r.waves[1], [point(cells) for cells in problem.cells], 4.0)
+        iterations, L2: of the solve by force at the same mean pressures, and its error against Westergaard.
+        """
+        n = self.cells
+        body = bem3d.HalfSpace(shape=(n, 1), spacing=1 / n, modulus=1.0, periodic=True)
+        x = (np.arange(n) + 0.5) / n - 0.5
+        gap = 2 * np.sin(np.pi * x[:, np.newaxis]) ** 2
+        return {**_by_approach(body, gap, x, self.loads), **_by_force(body, gap, x, self.huge)}
 
 
 def _area(roughness: PunchRoughness, cells: int, realisation: int, force: float) -> float:
@@ -106,18 +116,6 @@ def _area(roughness: PunchRoughness, cells: int, realisation: int, force: float)
 def distance(found: FloatArray, true: FloatArray) -> float:
     """Relative difference in L2."""
     return float(np.sqrt(np.sum((found - true) ** 2) / np.sum(true**2)))
-
-
-def press_waves(problem: WaveUnderLoad) -> Outcome:
-    """A wave of unit length and amplitude: by the approach that a mean pressure has; by a huge force.
-
-    iterations, L2: of the solve by force at the same mean pressures, and its error against Westergaard.
-    """
-    n = problem.cells
-    body = bem3d.HalfSpace(shape=(n, 1), spacing=1 / n, modulus=1.0, periodic=True)
-    x = (np.arange(n) + 0.5) / n - 0.5
-    gap = 2 * np.sin(np.pi * x[:, np.newaxis]) ** 2
-    return {**_by_approach(body, gap, x, problem.loads), **_by_force(body, gap, x, problem.huge)}
 
 
 def _by_approach(body: bem3d.HalfSpace, gap: FloatArray, x: FloatArray, loads: tuple[float, ...]) -> Outcome:

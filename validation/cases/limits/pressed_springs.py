@@ -72,6 +72,28 @@ class Punches:
     points: int = 1024
     forces: tuple[float, ...] = (*force_levels((-2, 2), 2), 10**2.5)
 
+    def sweep(self) -> Outcome:
+        """Contact fraction and mean gap of springs against boundary elements, means over the draws."""
+        r, forces = self.roughness, self.forces
+        surfaces = [
+            press_surface(Surface(roughness=r, realisation=i, cells=self.cells, forces=forces, tolerance=1e-4))
+            for i in range(self.surfaces)
+        ]
+        springs = press_profiles(
+            Profiles(roughness=r, realisations=self.profiles, points=self.points, length=1.0, forces=forces)
+        )
+        area, gap = (np.mean([s[name] for s in surfaces], axis=0) for name in ("area", "gap"))
+        area_error = np.abs(springs["area"].mean(axis=0) / area - 1)
+        gap_error = np.abs(springs["gap"].mean(axis=0) - gap) / r.height
+        curve = mdr.load_curve(r.profile(self.points, 0), length=1.0, modulus=1.0)
+        messages = [call_and_record_warnings(partial(curve.at_force, r.height * f))[1] for f in forces]
+        slope = float(np.mean([s["gradient"] for s in surfaces])) / r.height
+        return {
+            **swept(AREA, forces, list(zip(area_error, messages, strict=True)), FULL * slope),
+            **swept(GAP, forces, list(zip(gap_error, messages, strict=True)), HALF * slope),
+            "failed": np.array(sum(float(s["failed"]) for s in surfaces)),
+        }
+
 
 @dataclass(frozen=True, kw_only=True)
 class Asperities:
@@ -83,46 +105,22 @@ class Asperities:
     finer: int = 32
     forces: tuple[float, ...] = tuple(10.0 ** (-i / 2) for i in range(1, 11))
 
+    def sweep(self) -> Outcome:
+        """Stiffness against finer springs on the same profiles, rms at each force.
 
-def press_punches(problem: Punches) -> Outcome:
-    """Contact fraction and mean gap of springs against boundary elements, means over the draws."""
-    r, forces = problem.roughness, problem.forces
-    surfaces = [
-        press_surface(Surface(roughness=r, realisation=i, cells=problem.cells, forces=forces, tolerance=1e-4))
-        for i in range(problem.surfaces)
-    ]
-    springs = press_profiles(
-        Profiles(roughness=r, realisations=problem.profiles, points=problem.points, length=1.0, forces=forces)
-    )
-    area, gap = (np.mean([s[name] for s in surfaces], axis=0) for name in ("area", "gap"))
-    area_error = np.abs(springs["area"].mean(axis=0) / area - 1)
-    gap_error = np.abs(springs["gap"].mean(axis=0) - gap) / r.height
-    curve = mdr.load_curve(r.profile(problem.points, 0), length=1.0, modulus=1.0)
-    messages = [call_and_record_warnings(partial(curve.at_force, r.height * f))[1] for f in forces]
-    slope = float(np.mean([s["gradient"] for s in surfaces])) / r.height
-    return {
-        **swept(AREA, forces, list(zip(area_error, messages, strict=True)), FULL * slope),
-        **swept(GAP, forces, list(zip(gap_error, messages, strict=True)), HALF * slope),
-        "failed": np.array(sum(float(s["failed"]) for s in surfaces)),
-    }
-
-
-def press_asperities(problem: Asperities) -> Outcome:
-    """Stiffness against finer springs on the same profiles, rms at each force.
-
-    Messages are those of the profile whose number of springs in contact is nearest to the mean.
-    """
-    r, forces = problem.roughness, problem.forces
-    coarse, fine = (
-        press_profiles(Profiles(roughness=r, realisations=problem.profiles, points=n, length=1.0, forces=forces))
-        for n in (problem.points, problem.finer * problem.points)
-    )
-    springs = coarse["stiffness"] * problem.points
-    error = np.sqrt(np.mean((coarse["stiffness"] / fine["stiffness"] - 1) ** 2, axis=0))
-    messages = []
-    for force, count in zip(r.height * np.array(forces), springs.T, strict=True):
-        typical = int(np.argmin(np.abs(count - count.mean())))
-        curve = mdr.load_curve(r.profile(problem.points, typical), length=1.0, modulus=1.0)
-        messages.append(call_and_record_warnings(partial(curve.at_force, float(force)))[1])
-    threshold = 1 / (math.sqrt(6) * ASPERITY.tolerance)
-    return swept(ASPERITY, springs.mean(axis=0), list(zip(error, messages, strict=True)), threshold)
+        Messages are those of the profile whose number of springs in contact is nearest to the mean.
+        """
+        r, forces = self.roughness, self.forces
+        coarse, fine = (
+            press_profiles(Profiles(roughness=r, realisations=self.profiles, points=n, length=1.0, forces=forces))
+            for n in (self.points, self.finer * self.points)
+        )
+        springs = coarse["stiffness"] * self.points
+        error = np.sqrt(np.mean((coarse["stiffness"] / fine["stiffness"] - 1) ** 2, axis=0))
+        messages = []
+        for force, count in zip(r.height * np.array(forces), springs.T, strict=True):
+            typical = int(np.argmin(np.abs(count - count.mean())))
+            curve = mdr.load_curve(r.profile(self.points, typical), length=1.0, modulus=1.0)
+            messages.append(call_and_record_warnings(partial(curve.at_force, float(force)))[1])
+        threshold = 1 / (math.sqrt(6) * ASPERITY.tolerance)
+        return swept(ASPERITY, springs.mean(axis=0), list(zip(error, messages, strict=True)), threshold)

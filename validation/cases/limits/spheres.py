@@ -104,6 +104,10 @@ class Spheres:
     finer: int = 8
     heights: tuple[float, ...] = (0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 30.0, 100.0, 1e3)
 
+    def sweep(self) -> Outcome:
+        sweeps = sweep_cells, sweep_period, sweep_grid_side, sweep_strip_width, sweep_spike
+        return {name: values for sweep in sweeps for name, values in sweep(self).items()}
+
 
 def sphere(cells: int, spacing: float, place: float = 0.0) -> FloatArray:
     """Gap of the sphere over a grid, so many cells aside of its middle along both axes."""
@@ -114,11 +118,6 @@ def sphere(cells: int, spacing: float, place: float = 0.0) -> FloatArray:
 def half_space(cells: int, spacing: float, *, periodic: bool = False) -> bem3d.HalfSpace:
     """E* = 1."""
     return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=1.0, periodic=periodic)
-
-
-def press_spheres(problem: Spheres) -> Outcome:
-    sweeps = sweep_cells, sweep_period, sweep_grid_side, sweep_strip_width, sweep_spike
-    return {name: values for sweep in sweeps for name, values in sweep(problem).items()}
 
 
 def sweep_cells(problem: Spheres) -> Outcome:

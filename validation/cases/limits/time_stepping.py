@@ -6,14 +6,13 @@ from functools import partial
 
 import numpy as np
 
-import mdr
 from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
 from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA, VELOCITY_VERLET, Integrator
 from validation.simulation.motion import simulate
-from validation.simulation.spring_tracks import LiftOff, RoughTrack, lift_off
+from validation.simulation.spring_tracks import LiftOff, RoughTrack, filtered, lift_off
 
 STEP = Limit(
     name="step",
@@ -78,6 +77,24 @@ class TimeSteps:
     kutta: tuple[float, ...] = (0.3, 0.6, 0.9, 1.1, 1.4, 2.0, 2.6, 2.9)
     turns: int = 3
 
+    def sweep(self) -> Outcome:
+        """Growth of a step, or the change of the energy in a turn; messages are those of beginning a motion."""
+        gain = math.log1p(EULER.tolerance) / (2 * math.pi)
+        loss = (-72 * math.log1p(-KUTTA.tolerance) / (2 * math.pi)) ** 0.2
+        sweeps = (
+            (STEP, VELOCITY_VERLET, self.verlet, 2.0),
+            (EULER, EXPLICIT_EULER, self.euler, gain),
+            (KUTTA, RUNGE_KUTTA, self.kutta, loss),
+        )
+        outcome: Outcome = {}
+        for limit, scheme, steps, threshold in sweeps:
+            assert SCHEMES[scheme.name] is scheme
+            found = vibrate(Vibrations(scheme=scheme.name, steps=steps, natural_periods=self.turns))
+            error = np.maximum(found["growth"] - 1, 0.0) if limit is STEP else found["change"]
+            points = [(float(e), _message_of_step(scheme, x)) for e, x in zip(error, steps, strict=True)]
+            outcome |= swept(limit, steps, points, threshold)
+        return outcome
+
 
 @dataclass(frozen=True, kw_only=True)
 class HigherTracks:
@@ -88,24 +105,20 @@ class HigherTracks:
     heights: tuple[float, ...] = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.3, 1.8)
     waves: int = 6
 
-
-def sweep_time_step(problem: TimeSteps) -> Outcome:
-    """Growth of a step, or the change of the energy in a turn; messages are those of beginning a motion."""
-    gain = math.log1p(EULER.tolerance) / (2 * math.pi)
-    loss = (-72 * math.log1p(-KUTTA.tolerance) / (2 * math.pi)) ** 0.2
-    sweeps = (
-        (STEP, VELOCITY_VERLET, problem.verlet, 2.0),
-        (EULER, EXPLICIT_EULER, problem.euler, gain),
-        (KUTTA, RUNGE_KUTTA, problem.kutta, loss),
-    )
-    outcome: Outcome = {}
-    for limit, scheme, steps, threshold in sweeps:
-        assert SCHEMES[scheme.name] is scheme
-        found = vibrate(Vibrations(scheme=scheme.name, steps=steps, natural_periods=problem.turns))
-        error = np.maximum(found["growth"] - 1, 0.0) if limit is STEP else found["change"]
-        points = [(float(e), _message_of_step(scheme, x)) for e, x in zip(error, steps, strict=True)]
-        outcome |= swept(limit, steps, points, threshold)
-    return outcome
+    def sweep(self) -> Outcome:
+        """Part of the time in the air; imbalance: largest error of the balance of momentum, over F_N T."""
+        points: list[Point] = []
+        imbalance, pulls = [], []
+        for height in self.heights:
+            track = RoughTrack(rms=height * WHEEL.approach, seed=self.seed, waves=self.waves)
+            found = lift_off(LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=self.wheels, laps=1))
+            # a linear contact in motion has its force from the filter, which is what warns
+            _, message = call_and_record_warnings(partial(filtered, WHEEL, track, track.heights(1)[:, 0]))
+            points.append((float(found["airborne"].mean()), message))
+            imbalance.append(float(np.abs(found["mean"] - 1 + found["momentum"]).max()))
+            pulls.append(float(found["pull"].max()))
+        threshold = self.heights[0] / pulls[0]
+        return {**swept(LIFT, self.heights, points, threshold), "imbalance": np.array(imbalance)}
 
 
 def _message_of_step(scheme: Integrator, x: float) -> str:
@@ -113,31 +126,3 @@ def _message_of_step(scheme: Integrator, x: float) -> str:
     time_step = x / WHEEL.eigenfrequency / scheme.cells
     begin = partial(simulate, WHEEL, HertzLaw(WHEEL), time_step=time_step, steps=1, integrator=scheme)
     return call_and_record_warnings(begin)[1]
-
-
-def sweep_lift_off(problem: HigherTracks) -> Outcome:
-    """Part of the time in the air; imbalance: largest error of the balance of momentum, over F_N T."""
-    points: list[Point] = []
-    imbalance, pulls = [], []
-    for height in problem.heights:
-        track = RoughTrack(rms=height * WHEEL.approach, seed=problem.seed, waves=problem.waves)
-        found = lift_off(LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=problem.wheels, laps=1))
-        # a linear contact in motion has its force from the filter, which is what warns
-        _, message = call_and_record_warnings(partial(_filtered, track))
-        points.append((float(found["airborne"].mean()), message))
-        imbalance.append(float(np.abs(found["mean"] - 1 + found["momentum"]).max()))
-        pulls.append(float(found["pull"].max()))
-    threshold = problem.heights[0] / pulls[0]
-    return {**swept(LIFT, problem.heights, points, threshold), "imbalance": np.array(imbalance)}
-
-
-def _filtered(track: RoughTrack) -> mdr.RollingTrack:
-    """The linear force along the first of the tracks."""
-    return mdr.roll(
-        track.heights(1)[:, 0],
-        spacing=track.spacing,
-        radius=WHEEL.radius,
-        modulus=WHEEL.modulus,
-        approach=WHEEL.approach,
-        contact="linear",
-    )

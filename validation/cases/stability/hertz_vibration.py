@@ -50,10 +50,37 @@ def hertz_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
     smooth = orders_table(table).where(**{"loses contact": 0.0})
     names, releases, orders = (smooth[column].tolist() for column in ("scheme", RELEASE, "order"))
     step = result.case.hertz_steps[2]
+    verlet = {highest: _of(table, VELOCITY_VERLET.name, highest) for highest in result.case.highest}
     return [
-        *(_period_number(table, highest) for highest in result.case.highest),
-        *(_energy_number(table, highest) for highest in result.case.highest if highest < LIFT_OFF),
-        *(_order_number(*found, step) for found in zip(names, releases, orders, strict=True)),
+        *(_period_number(rows, highest) for highest, rows in verlet.items()),
+        *(
+            Number(
+                quantity="largest change of energy, second half over first half",
+                model=VELOCITY_VERLET.name,
+                where={"contact": HERTZ, RELEASE: highest},
+                value=float(rows["energy, second half"][0] / rows["energy, first half"][0]),
+                reference=1.0,
+                source="no drift: a symplectic scheme conserves a quantity close to the energy",
+                tolerance=0.05,
+                reason="extremes lie between steps; a drift by a twentieth of the oscillation of the energy would show",
+            )
+            for highest, rows in verlet.items()
+            if highest < LIFT_OFF
+        ),
+        *(
+            Number(
+                quantity="order of the error of the period",
+                model=name,
+                where={"contact": HERTZ, RELEASE: highest},
+                value=order,
+                reference=PERIOD_ORDERS[name],
+                source="order of the scheme",
+                tolerance=2 * step,
+                reason=f"twice the largest of three steps, omega dt = {step:g}: the next term is smaller by that "
+                "factor, since Runge-Kutta loses a part of order (omega dt)^5 of its energy in one period",
+            )
+            for name, highest, order in zip(names, releases, orders, strict=True)
+        ),
     ]
 
 
@@ -61,12 +88,11 @@ def _of(table: Table, scheme: str, highest: float) -> Table:
     return table.where(**{"scheme": scheme, RELEASE: highest})
 
 
-def _period_number(table: Table, highest: float) -> Number:
-    rows = _of(table, VELOCITY_VERLET.name, highest)
+def _period_number(rows: Table, highest: float) -> Number:
+    """Extrapolated from the two smallest steps."""
     x, found = rows["omega dt"][:2], rows["period [2 pi/omega]"][:2]
     square = x**2
     limit = (square[1] * found[0] - square[0] * found[1]) / (square[1] - square[0])
-    correction = abs(limit - found[0])
     part = 0.1 if highest < LIFT_OFF else 0.5
     return Number(
         quantity="period over 2 pi / omega, extrapolated to dt = 0",
@@ -75,34 +101,6 @@ def _period_number(table: Table, highest: float) -> Number:
         value=float(limit),
         reference=float(rows["period of Hertz [2 pi/omega]"][0]),
         source="integral of the energy between the turning points",
-        tolerance=float(part * correction),
+        tolerance=float(part * abs(limit - found[0])),
         reason=f"terms after dt^2, less than {part:g} of the correction; that part is larger where the contact opens",
-    )
-
-
-def _energy_number(table: Table, highest: float) -> Number:
-    rows = _of(table, VELOCITY_VERLET.name, highest)
-    return Number(
-        quantity="largest change of energy, second half over first half",
-        model=VELOCITY_VERLET.name,
-        where={"contact": HERTZ, RELEASE: highest},
-        value=float(rows["energy, second half"][0] / rows["energy, first half"][0]),
-        reference=1.0,
-        source="no drift: a symplectic scheme conserves a quantity close to the energy",
-        tolerance=0.05,
-        reason="extremes lie between steps; a drift by a twentieth of the oscillation of the energy would show",
-    )
-
-
-def _order_number(name: str, highest: float, order: float, step: float) -> Number:
-    return Number(
-        quantity="order of the error of the period",
-        model=name,
-        where={"contact": HERTZ, RELEASE: highest},
-        value=order,
-        reference=PERIOD_ORDERS[name],
-        source="order of the scheme",
-        tolerance=2 * step,
-        reason=f"twice the largest of three steps, omega dt = {step:g}: the next term is smaller by that factor, since "
-        "Runge-Kutta loses a part of order (omega dt)^5 of its energy in one period",
     )

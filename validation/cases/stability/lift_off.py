@@ -37,51 +37,51 @@ def _lift_row(problem: LiftOff, found: Outcome) -> Row:
 def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
     """What must hold in the air as on the ground, and from where on wheels lift off."""
     steps = result.case.lift_laps * RoughTrack(rms=HEIGHT, seed=0).points
-    highest = float(table["highest force [F_N]"].max())
+    highest, rounding = float(table["highest force [F_N]"].max()), float(np.finfo(float).eps)
+    sweeps = {sweep: table.where(sweep=sweep) for sweep in ("height", "load")}
     return [
         Number(
             quantity="lowest force over F_N, if negative",
             model="springs",
             value=float(np.minimum(table["lowest force [F_N]"], 0.0).min()),
-            source="springs carry no tension",
-            tolerance=4 * float(np.finfo(float).eps),
-            reason="rounding of g - F / M",
             reference=0.0,
+            source="springs carry no tension",
+            tolerance=4 * rounding,
+            reason="rounding of g - F / M",
         ),
         Number(
             quantity="imbalance of impulse and momentum over F_N T, largest of all loads and heights",
             model="springs",
             value=float(table["balance of momentum"].max()),
-            source="momentum: F T - F_N T = M (v_0 - v_end); Verlet counts the first and the last acceleration half",
-            tolerance=float(np.finfo(float).eps) * highest * steps,
-            reason="rounding: one unit in the last place of the highest force in each step",
             reference=0.0,
+            source="momentum: F T - F_N T = M (v_0 - v_end); Verlet counts the first and the last acceleration half",
+            tolerance=rounding * highest * steps,
+            reason="rounding: one unit in the last place of the highest force in each step",
         ),
-        *[number for sweep in ("height", "load") for number in _threshold_numbers(table.where(sweep=sweep), sweep)],
+        *(
+            _threshold_number(rows, sweep, seen)
+            for sweep, rows in sweeps.items()
+            if (seen := first_lift(rows)) is not None
+        ),
     ]
 
 
-def _threshold_numbers(rows: Table, sweep: str) -> list[Number]:
-    """From which h / d linear theory pulls and a wheel is first airborne; none where no wheel is."""
-    seen = first_lift(rows)
-    if seen is None:
-        return []
+def _threshold_number(rows: Table, sweep: str, seen: float) -> Number:
+    """From which h / d linear theory pulls and a wheel is first airborne."""
     below = rows["height [d_N]"][rows["height [d_N]"] < seen]
     pull = pulls_from(rows)
-    return [
-        Number(
-            quantity="h / d of the first lift-off",
-            model="springs",
-            where={"sweep": f"sweep of the {sweep}"},
-            value=seen,
-            reference=pull,
-            source="(14.11): the largest tension exceeds F_N, on the same tracks",
-            tolerance=0.2 * pull,
-            reason="20 % of h / d",
-            grid=seen - float(below.max()) if below.size else 0.0,
-            role=Role.FINDING,
-        )
-    ]
+    return Number(
+        quantity="h / d of the first lift-off",
+        model="springs",
+        where={"sweep": f"sweep of the {sweep}"},
+        value=seen,
+        reference=pull,
+        source="(14.11): the largest tension exceeds F_N, on the same tracks",
+        tolerance=0.2 * pull,
+        reason="20 % of h / d",
+        grid=seen - float(below.max()) if below.size else 0.0,
+        role=Role.FINDING,
+    )
 
 
 def first_lift(rows: Table) -> float | None:

@@ -1,6 +1,7 @@
 """Free vibration on a linear contact: growth, angle and energy of a step of each scheme against its eigenvalue."""
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -49,57 +50,47 @@ def _numbers_of_scheme(name: str, table: Table) -> list[Number]:
     growth = np.abs(np.log(table["growth of a step"] / table["growth by theory"])).max()
     below = x < (SCHEMES[name].limit or x[-1])
     angle = np.abs(table["angle of a step [rad]"] / table["angle by theory [rad]"] - 1)[below].max()
+    errors = {
+        "largest error of ln(growth in one step), on both sides of the limit": growth,
+        "largest relative error of the phase angle of one step, below the limit": angle,
+    }
+    number = partial(Number, model=name)
     return [
-        _eigenvalue_number(name, "largest error of ln(growth in one step), on both sides of the limit", float(growth)),
-        _eigenvalue_number(
-            name, "largest relative error of the phase angle of one step, below the limit", float(angle)
+        *(
+            number(
+                quantity=quantity,
+                where={"contact": LINEAR},
+                value=float(error),
+                reference=0.0,
+                source="eigenvalue of one step of y'' = -omega^2 y",
+                tolerance=ROUNDING,
+                reason="both are exact; rounding remains",
+            )
+            for quantity, error in errors.items()
         ),
-        _order_number(name, table, "error of the period", PERIOD_ORDERS[name]),
-        _order_number(name, table, "change in a turn", ENERGY_ORDERS[name]),
-        _energy_number(name, table),
+        *(
+            number(
+                quantity=f"order of the {column}",
+                where={"contact": LINEAR},
+                value=math.log(table[column][1] / table[column][0]) / math.log(x[1] / x[0]),
+                reference=order,
+                source="leading term in omega dt of the eigenvalue of one step",
+                tolerance=10 * x[1] + 2 * ROUNDING,
+                reason="higher terms, and a period that is no whole number of steps: both of the order of omega dt",
+            )
+            for column, order in (
+                ("error of the period", PERIOD_ORDERS[name]),
+                ("change in a turn", ENERGY_ORDERS[name]),
+            )
+        ),
+        number(
+            quantity="change of the energy in one period, over theory",
+            where={"contact": LINEAR, "omega dt": float(x[0])},
+            value=float(table["change in a turn"][0] / table["change by theory"][0]),
+            reference=1.0,
+            source="the conserved quantity of the scheme, or |lambda|^2",
+            tolerance=max(10 * x[0] ** 2, 1e-4 if name == RUNGE_KUTTA.name else 0.0),
+            reason="the extremes may lie between steps, (omega dt)^2; for Runge-Kutta the change is so small that "
+            "rounding shows",
+        ),
     ]
-
-
-def _eigenvalue_number(name: str, quantity: str, error: float) -> Number:
-    return Number(
-        quantity=quantity,
-        model=name,
-        where={"contact": LINEAR},
-        value=error,
-        reference=0.0,
-        source="eigenvalue of one step of y'' = -omega^2 y",
-        tolerance=ROUNDING,
-        reason="both are exact; rounding remains",
-    )
-
-
-def _order_number(name: str, table: Table, column: str, order: float) -> Number:
-    """Between the two smallest steps."""
-    x, error = table["omega dt"][:2], table[column][:2]
-    return Number(
-        quantity=f"order of the {column}",
-        model=name,
-        where={"contact": LINEAR},
-        value=math.log(error[1] / error[0]) / math.log(x[1] / x[0]),
-        reference=order,
-        source="leading term in omega dt of the eigenvalue of one step",
-        tolerance=10 * x[1] + 2 * ROUNDING,
-        reason="higher terms, and a period that is no whole number of steps: both of the order of omega dt",
-    )
-
-
-def _energy_number(name: str, table: Table) -> Number:
-    """The change within a turn against its theory at the smallest step."""
-    return Number(
-        quantity="change of the energy in one period, over theory",
-        model=name,
-        where={"contact": LINEAR, "omega dt": float(table["omega dt"][0])},
-        value=float(table["change in a turn"][0] / table["change by theory"][0]),
-        reference=1.0,
-        source="the conserved quantity of the scheme, or |lambda|^2",
-        tolerance=max(10 * table["omega dt"][0] ** 2, 1e-4 if name == RUNGE_KUTTA.name else 0.0),
-        reason=(
-            "the extremes may lie between steps, (omega dt)^2; for Runge-Kutta the change is so small that "
-            "rounding shows"
-        ),
-    )

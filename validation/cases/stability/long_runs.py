@@ -44,10 +44,12 @@ def long_table(result: WheelStabilityResult) -> Table:
 
 def long_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
     """Drift where contact stays, and the growth by explicit Euler."""
-    drifts = []
-    for highest in (u for u in result.case.long_highest if u < LIFT_OFF):
-        rows = table.where(**{"scheme": VELOCITY_VERLET.name, RELEASE: highest})
-        drifts.append(_drift_number(result, highest, rows["change of conserved quantity"]))
+    verlet = table.where(scheme=VELOCITY_VERLET.name)
+    drifts = [
+        _drift_number(result, highest, verlet.where(**{RELEASE: highest})["change of conserved quantity"])
+        for highest in result.case.long_highest
+        if highest < LIFT_OFF
+    ]
     return [*drifts, _euler_number(result, table)]
 
 

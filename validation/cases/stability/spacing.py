@@ -1,6 +1,7 @@
 """Springs too far apart: the level of the last one-third octave and the force on coarser springs."""
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from validation.simulation.spring_tracks import FINE, STRIDES
 
 HEIGHT, LEVEL = "height [d_N]", "error of the last one-third octave [dB]"
 OPEN = "left open by the ends of contact, first order [dB]"
+PARTS = "dx over the shortest wave"
 QUARTER = 25
 """The stride of springs a quarter of the shortest wave apart."""
 
@@ -41,43 +43,34 @@ def spacing_table(result: WheelStabilityResult) -> Table:
 def spacing_numbers(table: Table) -> list[Number]:
     """The lowest roughness against linear theory, and what a quarter of a wave costs there: above, tracks differ."""
     lowest = float(table[HEIGHT].min())
-    low = table.where(**{HEIGHT: lowest, "carried": 1.0})
-    return [_least_likely_number(low, lowest), _quarter_number(quarter_wave(low), lowest)]
+    rows = table.where(**{HEIGHT: lowest, "carried": 1.0})
+    difference = rows[LEVEL] - rows["by linear theory [dB]"]
+    least_likely = int(np.argmax(np.abs(difference) / rows[OPEN]))
+    quarter = quarter_wave(rows)
+    number = partial(Number, model="springs", reference=0.0, unit="dB")
+    return [
+        number(
+            quantity="level of the last one-third octave over the sum over springs, at the least likely spacing",
+            where={"h/d": lowest, PARTS: float(rows["dx [shortest wave]"][least_likely])},
+            value=float(difference[least_likely]),
+            source="dx sin(q (m + 1/2) dx) / sin(q dx / 2) in place of 2 sin(q a) / q",
+            tolerance=5 * float(rows[OPEN][least_likely]),
+            reason="five standard deviations of the part of the waves that the moving ends of the contact make on a "
+            "track; each spring there has the weight phi(gap / h_rms)",
+        ),
+        number(
+            quantity="error of the last one-third octave",
+            where={"h/d": lowest, PARTS: QUARTER / FINE},
+            value=float(quarter[LEVEL][0]),
+            source="the condition dx < lambda / 4",
+            tolerance=1.0,
+            reason="1 dB: z / sin(z) with z = pi / 4 is 0.91 dB at the shortest wave alone",
+            sample=2 * float(quarter[OPEN][0]),
+            role=Role.FINDING,
+        ),
+    ]
 
 
 def quarter_wave(table: Table) -> Table:
     """Springs a quarter of the shortest wave apart."""
     return table.where(**{"dx [shortest wave]": QUARTER / FINE})
-
-
-def _least_likely_number(rows: Table, height: float) -> Number:
-    difference = rows[LEVEL] - rows["by linear theory [dB]"]
-    worst = int(np.argmax(np.abs(difference) / rows[OPEN]))
-    return Number(
-        quantity="level of the last one-third octave over the sum over springs, at the least likely spacing",
-        model="springs",
-        where={"h/d": height, "dx over the shortest wave": float(rows["dx [shortest wave]"][worst])},
-        value=float(difference[worst]),
-        reference=0.0,
-        source="dx sin(q (m + 1/2) dx) / sin(q dx / 2) in place of 2 sin(q a) / q",
-        tolerance=5 * float(rows[OPEN][worst]),
-        reason="five standard deviations of the part of the waves that the moving ends of the contact make on a "
-        "track; each spring there has the weight phi(gap / h_rms)",
-        unit="dB",
-    )
-
-
-def _quarter_number(rows: Table, height: float) -> Number:
-    return Number(
-        quantity="error of the last one-third octave",
-        model="springs",
-        where={"h/d": height, "dx over the shortest wave": QUARTER / FINE},
-        value=float(rows[LEVEL][0]),
-        reference=0.0,
-        source="the condition dx < lambda / 4",
-        tolerance=1.0,
-        reason="1 dB: z / sin(z) with z = pi / 4 is 0.91 dB at the shortest wave alone",
-        unit="dB",
-        sample=2 * float(rows[OPEN][0]),
-        role=Role.FINDING,
-    )

@@ -1,7 +1,6 @@
 """One wheel in motion, seen at one place: its contact on springs, and on the half-space."""
 
 import math
-import warnings
 from dataclasses import dataclass
 from functools import partial
 
@@ -14,6 +13,7 @@ from validation.engine.engine import Outcome, random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate
+from validation.simulation.surface import draw_surface
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
 FloatArray = NDArray[np.float64]
@@ -63,13 +63,11 @@ def _rolled_contact(snapshot: Snapshot) -> bem3d.RollingContact:
     scene, wheel, cells = snapshot.scene, snapshot.scene.body, snapshot.cells
     spacing = scene.contact_radius / cells
     surface = np.zeros((12 * cells, 6 * cells))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        for i, rough in enumerate((scene.rail, scene.wheel)):
-            if rough is not None:
-                c2d = partial(_cut_off, rough.spectrum, math.pi / (2 * spacing))
-                rng = random_generator(snapshot.seed, STRIP, i)
-                surface += bem3d.rough_surface(c2d, shape=surface.shape, spacing=spacing, rng=rng)
+    for i, rough in enumerate((scene.rail, scene.wheel)):
+        if rough is not None:
+            c2d = partial(_cut_off, rough.spectrum, math.pi / (2 * spacing))
+            rng = random_generator(snapshot.seed, STRIP, i)
+            surface += draw_surface(c2d, shape=surface.shape, spacing=spacing, rng=rng)
     law = BoundaryElementsLaw(wheel, [surface], spacing)
     simulate(wheel, law, time_step=spacing / scene.speed, steps=snapshot.steps)
     return law.contacts[0]

@@ -8,8 +8,8 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.wheel import distance_numbers as numbers_of_distance
 from validation.cases.wheel import distance_tables as tables
 from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY, TABLE, DistanceResult, WheelDistance, run
-from validation.cases.wheel.distance_levels import FOURTH, PLATEAU, level, regions_of
 from validation.cases.wheel.distance_numbers import BREAK_LAW, FLOOR, HANN, JUMP, LEVEL, ORDER, PEAK, SQUARE
+from validation.cases.wheel.features import FOURTH, PLATEAU, level, regions_of
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 

@@ -10,7 +10,8 @@ from validation.analysis.evidence import Number, Role, Table
 from validation.analysis.statistics import Estimate, ratio_of_means
 from validation.cases.wheel.distance import LINEAR_OPEN, LINEAR_STEADY, OPEN, PERIODIC, STEADY, WheelDistance
 from validation.cases.wheel.distance import DistanceResult as Result
-from validation.cases.wheel.distance_levels import FOURTH, PLATEAU, THIRD, level, peaks, ratio, regions_of
+from validation.cases.wheel.features import FOURTH, PLATEAU, THIRD, Spectrum, hurst, level, measured, ratio, regions_of
+from validation.cases.wheel.features import PEAK as PEAK_OF
 from validation.theory import wheel as wheel_theory
 
 BREAK_LAW, FLOOR, JUMP, LEVEL = (
@@ -33,8 +34,7 @@ def numbers_of(result: Result, breaks: Table) -> list[Number]:
         break_law(result.case, breaks),
         *floors(breaks),
         rms_jump(breaks),
-        *causes(result),
-        *shares(result),
+        *levels_over_open(result),
         order_in_height(result),
         mean_square(result),
         *peak_frequencies(result),
@@ -71,18 +71,12 @@ def break_law(case: WheelDistance, breaks: Table) -> Number:
         model=OPEN,
         where={"durations": f"over a factor of {2**case.doublings}"},
         value=estimate.value,
-        reference=wheel_theory.break_exponent(hurst(case)),
+        reference=wheel_theory.break_exponent(hurst(case.scene)),
         source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
         tolerance=0.1,
         reason="0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
         sample=estimate.half_width,
     )
-
-
-def hurst(case: WheelDistance) -> float:
-    """H of the rail, or of the wheel where the rail is smooth."""
-    rough = case.scene.rail or case.scene.wheel
-    return rough.hurst if rough else math.nan
 
 
 def floors(breaks: Table) -> list[Number]:
@@ -120,39 +114,30 @@ def rms_jump(breaks: Table) -> Number:
     )
 
 
-def causes(result: Result) -> list[Number]:
-    """Region 4 of springs without a jump at the end, and of the linear contact, over springs on open tracks."""
-    ends, band = result.ends, regions_of(result.case.scene)[FOURTH]
-    ratios = {HANN: ratio(ends[OPEN], ends[OPEN], band, "hann")}
-    ratios |= {kind: ratio(ends[kind], ends[OPEN], band) for kind in (PERIODIC, STEADY, LINEAR_OPEN)}
-    return [
-        difference(
-            value,
-            quantity=LEVEL,
-            model=f"{kind}, over {OPEN}",
-            where={"region": FOURTH},
-            source="no change: what a region 4 without leakage would show",
-            tolerance=1.0,
-            reason="1 dB: the scatter of a few wheels",
-        )
-        for kind, value in ratios.items()
-    ]
+def levels_over_open(result: Result) -> list[Number]:
+    """Regions 4 and 2 over springs on open tracks: without a jump at the end, of leakage or nonlinearity alone."""
+    ends, bands = result.ends, regions_of(result.case.scene)
 
-
-def shares(result: Result) -> list[Number]:
-    """Region 2 of leakage alone, and of nonlinearity alone, over springs on open tracks."""
-    ends, band = result.ends, regions_of(result.case.scene)[PLATEAU]
-    return [
-        difference(
-            ratio(ends[kind], ends[OPEN], band),
+    def over(
+        model: str, kind: str, region: str, source: str, reason: str, window: str = "plain", **where: str
+    ) -> Number:
+        return difference(
+            ratio(ends[kind], ends[OPEN], bands[region], window),
             quantity=LEVEL,
-            model=f"{kind}, over {OPEN}",
-            where={"region": PLATEAU, "cause": cause},
-            source="all of the plateau",
+            model=f"{model}, over {OPEN}",
+            where={"region": region, **where},
+            source=source,
             tolerance=1.0,
-            reason="1 dB: a fifth of the power of the plateau",
+            reason=reason,
         )
-        for kind, cause in ((LINEAR_OPEN, "leakage alone"), (STEADY, "nonlinearity alone"))
+
+    fourth = FOURTH, "no change: what a region 4 without leakage would show", "1 dB: the scatter of a few wheels"
+    plateau = PLATEAU, "all of the plateau", "1 dB: a fifth of the power of the plateau"
+    return [
+        over(HANN, OPEN, *fourth, window="hann"),
+        *(over(kind, kind, *fourth) for kind in (PERIODIC, STEADY, LINEAR_OPEN)),
+        over(LINEAR_OPEN, LINEAR_OPEN, *plateau, cause="leakage alone"),
+        over(STEADY, STEADY, *plateau, cause="nonlinearity alone"),
     ]
 
 
@@ -204,3 +189,13 @@ def peak_frequencies(result: Result) -> list[Number]:
         )
         for release, estimate in peaks(result).items()
     ]
+
+
+def peaks(result: Result) -> dict[float, Estimate]:
+    """The frequency of the peak over omega_eigen, by release."""
+    frequencies = {}
+    for release, ensemble in result.case.vibrations().items():
+        value = measured(Spectrum.of(ensemble.scene, [result.vibrations[release]]))[PEAK_OF]
+        frequency = ensemble.scene.eigenfrequency
+        frequencies[release] = Estimate(value.value / frequency, value.error / frequency, value.samples)
+    return frequencies

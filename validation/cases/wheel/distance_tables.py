@@ -9,8 +9,18 @@ from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.wheel import features
 from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY, DistanceResult
-from validation.cases.wheel.distance_levels import PLATEAU, level, peaks, regions_of
-from validation.cases.wheel.features import BREAK, FLOOR, PREDICTED, Spectrum, sixths_of_an_octave, spectrum_rows
+from validation.cases.wheel.distance_numbers import peaks
+from validation.cases.wheel.features import (
+    BREAK,
+    FLOOR,
+    PLATEAU,
+    PREDICTED,
+    Spectrum,
+    level,
+    regions_of,
+    sixths_of_an_octave,
+    spectrum_rows,
+)
 from validation.theory import wheel as wheel_theory
 
 

@@ -125,13 +125,8 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
     jumps: of some of the wheels, all by default.
     """
     scene = spectrum.scene
-    rough = scene.rail or scene.wheel
-    if rough is None:
-        raise ValueError("scene must be rough, got a smooth rail and a smooth wheel")
-    exponent, floor = (
-        -2 * rough.hurst - 3,
-        float(np.mean((spectrum.jumps if jumps is None else jumps) ** 2)) / spectrum.duration,
-    )
+    exponent = -2 * hurst(scene) - 3
+    floor = float(np.mean((spectrum.jumps if jumps is None else jumps) ** 2)) / spectrum.duration
     period = scene.oscillation_period
     # sin^2 in the mean: (14.14) through the resonator, far above the resonance
     power = wheel_theory.over_frequency(
@@ -154,6 +149,14 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
         FLOOR: floor,
         BREAK: regions.crossing(float(power), exponent, floor),
     }
+
+
+def hurst(scene: WheelScene) -> float:
+    """H of the rail, or of the wheel where the rail is smooth."""
+    rough = scene.rail or scene.wheel
+    if rough is None:
+        raise ValueError("scene must be rough, got a smooth rail and a smooth wheel")
+    return rough.hurst
 
 
 def _third(scene: WheelScene, jump: float) -> tuple[float, float]:
@@ -191,3 +194,41 @@ def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: Fl
         values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])
         values[BREAK + PREDICTED] = values[BREAK] / expect[BREAK]
     return values
+
+
+# --- levels of the regions ---
+
+PLATEAU, THIRD, FOURTH = "region 2", "region 3", "region 4"
+
+
+def regions_of(scene: WheelScene) -> dict[str, tuple[float, float]]:
+    """The band in which each region is measured [rad/s]."""
+    return {
+        PLATEAU: (2 * scene.eigenfrequency, 0.8 * scene.jump),
+        THIRD: (1.1 * scene.jump, 1.1 * scene.jump + scene.oscillation_period / 2),
+        FOURTH: (1.3 * scene.cutoff, 2.6 * scene.cutoff),
+    }
+
+
+def _of_groups(outcome: Outcome, band: tuple[float, float], window: str) -> np.ndarray:
+    """The mean of A in a band, group by group."""
+    inside = (outcome["omega"] >= band[0]) & (outcome["omega"] <= band[1])
+    return np.asarray(outcome[window][:, inside].mean(axis=1))
+
+
+def level(outcome: Outcome, band: tuple[float, float], window: str = "plain") -> Estimate:
+    """ln of the mean of A in a band, with its standard error over groups of wheels."""
+    groups = _of_groups(outcome, band, window)
+    mean = float(groups.mean())
+    error = float(np.std(groups, ddof=1)) / math.sqrt(groups.size) / mean if groups.size > 1 else 0.0
+    return Estimate(math.log(max(mean, 1e-300)), error, max(groups.size, 2))
+
+
+def ratio(mine: Outcome, other: Outcome, band: tuple[float, float], window: str = "plain") -> Estimate:
+    """ln of a level over that of another ensemble without window; with its standard error over groups of wheels, which
+    may share their tracks.
+    """
+    value = level(mine, band, window).value - level(other, band).value
+    groups, others = _of_groups(mine, band, window), _of_groups(other, band, "plain")
+    spread = np.std(groups / groups.mean() - others / others.mean(), ddof=1)
+    return Estimate(value, float(spread) / math.sqrt(groups.size), groups.size)

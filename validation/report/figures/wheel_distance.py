@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import EXACT, GUIDE, Style, graded, panels
+from validation.report.style import EXACT, GUIDE, Style, graded, panels, tick
 
 ENDINGS: dict[str, Style] = {
     "springs, steady-state": {"color": "#bbbbbb", "linewidth": 3.5},
@@ -78,8 +78,7 @@ def _plateau(axis: Axes, evidence: Evidence) -> None:
         level = table[f"{kind} [dB]"][0] + 10 * order * np.log10(height / height[0])
         axis.plot(height, level, label=f"h^{order}", **{**EXACT, "linestyle": dash})
     axis.set(xscale="log", xlabel="h / d", ylabel="mean of A in region 2 [dB over (m/s²)² s]")
-    axis.set_xticks(height, [f"{h:.2g}" for h in height])
-    axis.xaxis.minorticks_off()
+    tick(axis, np.round(height, 3))
     axis.legend(loc="lower right", fontsize=7)
 
 

@@ -1,19 +1,21 @@
 """Figures of where time stepping and springs fail: schemes about their limits; long runs, coarse springs, lift-off."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.style import BEM, EXACT, GUIDE, MDR, graded, panels
+from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, graded, panels, tick
 
-COLORS = {
-    "explicit Euler": ("#D55E00", "^"),
-    "symplectic Euler": ("#009E73", "s"),
-    "velocity Verlet": ("#0072B2", "o"),
-    "Runge-Kutta": ("#000000", "D"),
+SCHEMES: dict[str, Style] = {
+    "explicit Euler": {"color": "#D55E00", "marker": "^"},
+    "symplectic Euler": {"color": "#009E73", "marker": "s", "markersize": 6.5, "markerfacecolor": "none"},
+    "velocity Verlet": {"color": "#0072B2", "marker": "o"},
+    "Runge-Kutta": {"color": "#000000", "marker": "D"},
 }
+"""Symplectic Euler is open: it lies under another scheme."""
 LIMITS = {"symplectic Euler": 2.0, "velocity Verlet": 2.0, "Runge-Kutta": 8**0.5}
 FLOOR = 1e-17
 
@@ -25,7 +27,7 @@ def draw(evidence: Evidence) -> Figure:
     """Period, energy and growth of a linear vibration; the period on a Hertz contact."""
     figure, (period, energy, growth, hertz) = panels(2, 2, height=6.6)
     found = evidence.table("linear vibration")
-    for name in COLORS:
+    for name in SCHEMES:
         rows = found.where(scheme=name)
         _period(period, name, rows)
         _energy(energy, name, rows)
@@ -44,41 +46,33 @@ def draw(evidence: Evidence) -> Figure:
     return figure
 
 
+def _points(axis: Axes, x: np.ndarray, y: np.ndarray, name: str, **style: Any) -> None:
+    axis.plot(x, y, **{"linestyle": "none", "markersize": 4, **SCHEMES[name], **style})
+
+
 def _period(axis: Axes, name: str, rows: Table) -> None:
-    color, marker = COLORS[name]
     x = rows["omega dt"]
     below = x < LIMITS.get(name, 2.0)
     theory = np.abs(x / rows["angle by theory [rad]"] - 1)
-    axis.plot(x[below], theory[below], color=color, linewidth=0.8)
-    axis.plot(x[below], rows["error of the period"][below], linestyle="none", color=color, marker=marker, label=name)
-    axis.lines[-1].set(markersize=6 if name == "symplectic Euler" else 4, markerfacecolor=_face(name, color))
-
-
-def _face(name: str, color: str) -> str:
-    """Open where it lies under another scheme's."""
-    return "none" if name == "symplectic Euler" else color
+    axis.plot(x[below], theory[below], color=SCHEMES[name]["color"], linewidth=0.8)
+    _points(axis, x[below], rows["error of the period"][below], name, label=name)
 
 
 def _energy(axis: Axes, name: str, rows: Table) -> None:
     """Of schemes that drift, the drift; of those that do not, swing and drift."""
-    color, marker = COLORS[name]
-    x = rows["omega dt"]
+    x, color = rows["omega dt"], SCHEMES[name]["color"]
     below = x < LIMITS.get(name, 2.0)
     drift = np.maximum(rows["drift of energy in a turn"], FLOOR)
-    axis.plot(x[below], drift[below], linestyle="none", color=color, marker=marker, markersize=4, label=name)
+    _points(axis, x[below], drift[below], name, label=name, markersize=4, markerfacecolor=color)
     axis.plot(x[x < 1], rows["change by theory"][x < 1], color=color, linewidth=0.8)
     if name in ("symplectic Euler", "velocity Verlet"):
-        swing = rows["change in a turn"][below]
-        axis.plot(x[below], swing, linestyle="none", color=color, marker=marker, markersize=5, markerfacecolor="none")
+        _points(axis, x[below], rows["change in a turn"][below], name, markersize=5, markerfacecolor="none")
 
 
 def _growth(axis: Axes, name: str, rows: Table) -> None:
-    color, marker = COLORS[name]
     x = rows["omega dt"]
-    size = 7 if name == "symplectic Euler" else 4
-    axis.plot(x, rows["growth by theory"], color=color, linewidth=0.8)
-    axis.plot(x, rows["growth of a step"], linestyle="none", color=color, marker=marker, markersize=size, label=name)
-    axis.lines[-1].set_markerfacecolor(_face(name, color))
+    axis.plot(x, rows["growth by theory"], color=SCHEMES[name]["color"], linewidth=0.8)
+    _points(axis, x, rows["growth of a step"], name, label=name)
 
 
 def _hertz(axis: Axes, found: Table) -> None:
@@ -91,14 +85,8 @@ def _hertz(axis: Axes, found: Table) -> None:
             axis.plot(rows["omega dt"], rows["error of the period"], label=label, **style)
     axis.set(xlabel="$\\omega\\,dt$", ylabel="relative error", title="period, Hertz contact")
     axis.set(xscale="log", yscale="log")
-    _marked(axis, (0.01, 0.03, 0.1, 0.3))
+    tick(axis, (0.01, 0.03, 0.1, 0.3))
     axis.legend(title="released at, over $d_N$", title_fontsize=8, loc="lower right", ncols=2)
-
-
-def _marked(axis: Axes, ticks: tuple[float, ...]) -> None:
-    """Ticks of a logarithmic axis that spans little more than a decade."""
-    axis.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axis.xaxis.set_minor_formatter(NullFormatter())
 
 
 def draw_rough(evidence: Evidence) -> Figure:
@@ -138,7 +126,7 @@ def _spacing(level: Axes, error: Axes, found: Table) -> None:
         axis.axvline(np.pi / 2, **GUIDE)
         axis.axvline(np.pi, **GUIDE)
         axis.set(xlabel="$q_{max}\\,dx$", xscale="log")
-        _marked(axis, (0.2, 0.5, 1.0, 2.0, 5.0))
+        tick(axis, (0.2, 0.5, 1.0, 2.0, 5.0))
         axis.legend(title="$h_{rms}/d_N$", title_fontsize=8, loc="upper left" if axis is level else "lower right")
     level.set(ylabel="error [dB]", title="last one-third octave")
     error.set(ylabel="error over fluctuation", title="force against spacing", yscale="log")
@@ -167,18 +155,9 @@ def _laps(axis: Axes, found: Table) -> None:
     for name in ("velocity Verlet", "explicit Euler"):
         rows = found.where(scheme=name)
         for what, face in (("free vibration", None), ("mean square acceleration", "none")):
-            axis.errorbar(
-                rows["laps"],
-                np.exp(rows[f"{what}, log over first tenth"]),
-                np.exp(rows[f"{what}, log over first tenth"]) * rows[f"{what}, half-width"],
-                color=COLORS[name][0],
-                marker=COLORS[name][1],
-                markersize=4,
-                markerfacecolor=face,
-                linewidth=0.8,
-                linestyle="none",
-                label=f"{name}, {what}",
-            )
+            growth = np.exp(rows[f"{what}, log over first tenth"])
+            style = {**SCHEMES[name], "markersize": 4, "markerfacecolor": face, "linewidth": 0.8, "linestyle": "none"}
+            axis.errorbar(rows["laps"], growth, growth * rows[f"{what}, half-width"], label=f"{name}, {what}", **style)
     rows = found.where(scheme="explicit Euler")
     axis.plot(rows["laps"], np.exp(rows["linear theory"]), **GUIDE)
     axis.set(xlabel="laps", ylabel="over the first tenth", title="springs, rough track")
