@@ -8,51 +8,17 @@ import subprocess
 import sys
 import time
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
+from tests.engine.jobs import Job, die_at_once, lose_alone, stay
 from tests.engine.test_engine import ENVIRONMENT, ROOT
 from validation import __main__ as command
 from validation.benchmarks.isolation import isolated_process
 from validation.engine.engine import Engine, WorkerLostError
 from validation.report.contents import CASES
-
-
-@dataclass(frozen=True)
-class Job:
-    number: int
-    folder: str
-
-
-def die_at_once(job):
-    """The first ends well, the others as the system ends a process that wants too much memory."""
-    if job.number > 0:
-        while not list(Path(job.folder).rglob("*.npz")):
-            time.sleep(0.02)
-        os.kill(os.getpid(), signal.SIGKILL)
-    return {"value": np.ones(1)}
-
-
-def stay(job):
-    """Says which process it is, and never ends, but the first."""
-    if job.number > 0:
-        (Path(job.folder) / f"{os.getpid()}.pid").touch()
-        time.sleep(600)
-    return {"value": np.ones(1)}
-
-
-def stay_alone(job):
-    """In a process of its own, as what is timed."""
-    with isolated_process() as lane:
-        return lane.submit(stay, job).result()
-
-
-def lose_alone(job):
-    with isolated_process() as lane:
-        return lane.submit(os._exit, 1).result()
 
 
 def run_of(solve, folder):
@@ -97,14 +63,14 @@ RUN = """
 import signal
 import sys
 from pathlib import Path
-from tests.engine import test_endings
+from tests.engine import jobs, test_endings
 from validation import __main__ as command
 from validation.report.contents import CASES
 solve, folder, workers = sys.argv[1:]
 # whoever started the tests may have had them ignored
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
 signal.signal(signal.SIGINT, signal.default_int_handler)
-CASES["hertz"] = test_endings.run_of(getattr(test_endings, solve), Path(folder))
+CASES["hertz"] = test_endings.run_of(getattr(jobs, solve), Path(folder))
 words = ["report", "--only", "hertz", "--out", folder + "/out", "--workers", workers]
 sys.exit(command.main(words))
 """
