@@ -559,16 +559,6 @@ def test_cells_outside_are_listed_for_a_twentieth_more():
         assert frame._rim is not listed
 
 
-def test_moments_of_one_long_cell():
-    """Pressed evenly: (dx^2 + dy^2) / 12 about its centre."""
-    frame, pressure = Frame(long_cells(), ((-2, 3), (25, 35))), np.zeros((5, 10))
-    pressure[4, 1] = 7.0
-    force, centre, variance = frame._moments(pressure)
-    assert force == pytest.approx(7.0 * 0.12)
-    assert centre == pytest.approx((2 * 0.6, (26 - 29.5) * 0.2))
-    assert variance == pytest.approx((0.36 + 0.04) / 12)
-
-
 def test_a_wheel_that_just_touches_bears_nothing():
     """At the very approach of first touch, over the middle of a cell."""
     wheel = bem3d.RollingContact(bem3d.Track(height=np.zeros((9, 9)), spacing=1.0, **SPHERE))

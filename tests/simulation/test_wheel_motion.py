@@ -444,33 +444,15 @@ def test_motions_that_are_refused(changes, named):
 # --- the period of a Hertz contact ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("highest", [1.1, 1.5, 1.84, 1.845, 2.0, 2.2, 3.0, 10.0])
+@pytest.mark.parametrize("highest", [1.1, 1.5, 1.84, 1.845, 2.0, 2.2, 3.0, 10.0, 100.0])
 def test_period_of_free_vibration_by_small_steps(highest):
     """Lifted off from (5/2)^(2/3) = 1.842 on, where V = 0."""
     assert wheel_theory.hertz_period(highest) == pytest.approx(free_vibration_by_small_steps(highest), rel=1e-9)
 
 
-def test_a_wheel_thrown_high_flies_for_most_of_its_period():
-    """sqrt(8 h / g) of a flight up to -h, which is what remains of the energy; the contact takes one of order one."""
-    highest = 100.0
-    above = 1.5 * 2 / 3 * (0.4 * highest**2.5 - highest)
-    flight = math.sqrt(8 * above / GRAVITY) / (2 * math.pi)
-    found = wheel_theory.hertz_period(highest)
-    assert flight < found < flight + 1
-
-
-def test_small_vibrations_slow_down_by_a_24th_of_the_amplitude_squared():
-    """A is that of the first harmonic: highest - 1 = A - A^2 / 12, since F'' / 6 k = 1 / 12. Next is A^4."""
-    above = np.array([0.4, 0.2, 0.1])
-    amplitude = above + above**2 / 12
-    slower = np.array([wheel_theory.hertz_period(1 + x) for x in above]) - 1
-    left = 24 * slower / amplitude**2 - 1
-    assert np.diff(np.log(np.abs(left))) / np.diff(np.log(above)) == pytest.approx(2, abs=0.3)
-
-
 @pytest.mark.parametrize("above", [0.05, 1e-2, 1e-4, 1e-7, 1e-12])
 def test_the_period_of_the_smallest_vibrations(above):
-    """Differences of the potential cancel there; the period does not, 1 + A^2 / 24."""
+    """Differences of the potential cancel there; the period does not, 1 + A^2 / 24 by Landau and Lifshitz, section 28."""
     assert wheel_theory.hertz_period(1 + above) == pytest.approx(1 + above**2 / 24, abs=1e-10 + above**3 / 100)
 
 
