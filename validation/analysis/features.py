@@ -46,3 +46,60 @@ class JudgedFeature:
             sample=sample,
             role=role,
         )
+
+
+FEATURES: Mapping[str, JudgedFeature] = {
+    "peak": JudgedFeature(
+        quantity="peak ω_eigen",
+        tolerance=0.005,
+        relative=True,
+        unit="rad/s",
+        reason="0.5 %: a small part of the spacing of spectral lines, between which the peak is interpolated",
+    ),
+    "jump": JudgedFeature(
+        quantity="jump",
+        tolerance=0.03,
+        relative=True,
+        unit="rad/s",
+        reason="3 %: half of the main lobe of Hann's window, two lines of a record of fifty longest waves and more",
+    ),
+    "slope": JudgedFeature(
+        quantity="slope of region 3",
+        tolerance=0.05,
+        reason="0.05: 1 %, a difference of slope that is hardly visible on a double-logarithmic plot",
+    ),
+    "period": JudgedFeature(
+        quantity="period of the oscillation",
+        tolerance=0.01,
+        relative=True,
+        unit="rad/s",
+        reason="1 %: roughness at the edge of the contact changes the contact length to second order",
+    ),
+    "contrast": JudgedFeature(
+        quantity="contrast of the oscillation",
+        tolerance=3.0,
+        unit="dB",
+        reason="3 dB: maxima over zeros lower by a factor of two, hardly visible over decades",
+    ),
+    "floor": JudgedFeature(
+        quantity="floor over predicted", tolerance=0.1, reason="10 %: 0.4 dB of a level, far below what a plot shows"
+    ),
+    "break": JudgedFeature(
+        quantity="break over predicted",
+        tolerance=0.1,
+        reason="10 %: a floor 0.4 dB off alone moves the break by 3 to 6 %",
+    ),
+    "lift-off": JudgedFeature(
+        quantity="h / d of the first lift-off",
+        tolerance=0.2,
+        relative=True,
+        reason="20 % of h / d: heights of a sweep lie about as far apart",
+    ),
+    "level": JudgedFeature(
+        quantity="level",
+        tolerance=1.0,
+        unit="dB",
+        reason="1 dB: a third of the 3 dB accepted for one-third octaves of rolling noise",
+    ),
+}
+"""Of the wheel and of its contact force; levels are over a reference, in one region of the spectrum."""
