@@ -61,7 +61,7 @@ FEATURES: Mapping[str, JudgedFeature] = {
         tolerance=0.03,
         relative=True,
         unit="rad/s",
-        reason="3 %: half of the main lobe of Hann's window, two lines of a record of fifty longest waves and more",
+        reason="3 %: half of the main lobe of Hann's window, two lines of a record of 65 longest waves",
     ),
     "slope": JudgedFeature(
         quantity="slope of region 3",
