@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from validation.benchmarks.peers import SOLVERS
-from validation.benchmarks.timing import Configuration, RunLimits
+from validation.benchmarks.timing import Configuration, RunLimits, along
 from validation.simulation.model import Target, all_models
 
 
@@ -49,7 +49,8 @@ def found_models(problem: ProblemOfMethods) -> tuple[Configuration, ...]:
         if model.charted
     }
     return tuple(
-        Configuration(method=model, scene=target, label=model.name, parameter=model.setting, value=1.0, paired=False)
+        each
         for model, target in served.items()
-        if target is not None
+        if target
+        for each in along(model, target, (1.0,), model.setting, paired=False)
     )

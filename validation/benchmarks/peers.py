@@ -2,14 +2,16 @@
 
 import importlib.metadata
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
+from validation.benchmarks.timing import Configuration, along
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 
 Field = NDArray[np.float64]
@@ -94,25 +96,22 @@ class PeerSolver:
 
 def bem3d_fast(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
     """Our solver, by force; its plans, coarser grids and windows are made beforehand, by a first solve."""
-    half_space = problem.half_space()
-
-    def solve() -> PressureField:
-        contact = bem3d.solve(half_space, problem.gap, force=problem.force, tolerance=tolerance)
-        return PressureField(contact.pressure, contact.operator_applications)
-
+    solve = _by_force(bem3d.solve, problem, tolerance)
     solve()
     return solve
 
 
 def bem3d_plain(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
     """The iteration of Polonsky and Keer on our operator, by force."""
+    return _by_force(partial(bem3d.solve_polonsky_keer, max_iterations=5000), problem, tolerance)
+
+
+def _by_force(solver: Callable[..., bem3d.Contact], problem: DiscreteProblem, tolerance: float) -> ColdSolve:
     half_space = problem.half_space()
     half_space.displacement(problem.gap)
 
     def solve() -> PressureField:
-        contact = bem3d.solve_polonsky_keer(
-            half_space, problem.gap, force=problem.force, tolerance=tolerance, max_iterations=5000
-        )
+        contact = solver(half_space, problem.gap, force=problem.force, tolerance=tolerance)
         return PressureField(contact.pressure, contact.operator_applications)
 
     return solve
@@ -231,7 +230,6 @@ class PressureMethod:
 
     @property
     def name(self) -> str:
-        """Of the solver."""
         return self.solver.name
 
     def prepare(self, scene: DiscreteScene, resolution: Resolution) -> Prepared:
@@ -244,6 +242,18 @@ class PressureMethod:
             return Result(values, found.applications * found.pressure.size)
 
         return lambda _: Solve(self.solver.prepare(discrete, tolerance), read, repeatable=False)
+
+
+def solvers_on_grids(
+    solvers: Sequence[PeerSolver], scene: DiscreteScene, cells: Sequence[int], per: str, residual: float
+) -> tuple[Configuration, ...]:
+    """Each that is installed, in a process of its own."""
+    return tuple(
+        each
+        for solver in solvers
+        if solver.version
+        for each in along(PressureMethod(solver), scene, cells, f"# cells {per}", residual=residual, worker=solver.name)
+    )
 
 
 def find_tolerance(solver: PeerSolver, discrete: DiscreteProblem, residual: float) -> float:

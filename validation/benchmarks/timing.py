@@ -2,7 +2,7 @@
 
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -15,7 +15,6 @@ FINISHED, OUT_OF_RANGE, FAILED = "finished", "out of range", "failed"
 OURS = "ours"
 FEWEST_RUNS, MOST_RUNS = 5, 15
 NO_GRID = Resolution()
-"""Of a formula."""
 SHORTEST = 1e-3
 """Seconds that a run lasts at least: a shorter solve is repeated in it, or a waking processor is timed."""
 
@@ -43,6 +42,31 @@ class Configuration:
     def prepare(self) -> Prepared:
         """Set-up: operators, plans, all that is done once. Raises ValueError where the scene is out of range."""
         return self.method.prepare(self.scene, self.resolution)
+
+
+def along(
+    method: Method,
+    scene: Any,
+    sizes: Iterable[float],
+    parameter: str,
+    *,
+    label: str = "",
+    residual: float = 0.0,
+    **settings: Any,
+) -> tuple[Configuration, ...]:
+    """A method along the sizes of its resolution; a formula has one, and no size."""
+    return tuple(
+        Configuration(
+            method=method,
+            scene=scene,
+            resolution=Resolution(size=size, residual=residual),
+            label=label or method.name,
+            parameter=parameter,
+            value=size,
+            **settings,
+        )
+        for size in sizes
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,12 +7,12 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.peers import SOLVERS, DiscreteProblem, PressureMethod
+from validation.benchmarks.peers import SOLVERS, DiscreteProblem, solvers_on_grids
 from validation.benchmarks.timing import Configuration
 from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
-from validation.simulation.method import FloatArray, Resolution, Values
+from validation.simulation.method import FloatArray, Values
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.surface import draw_surface
 
@@ -86,19 +86,7 @@ class SurfaceProblem:
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Each solver that is installed, in a process of its own."""
-        return tuple(
-            Configuration(
-                method=PressureMethod(solver),
-                scene=self,
-                resolution=Resolution(size=self.cells, residual=self.residual),
-                label=solver.name,
-                parameter="# cells a side",
-                value=self.cells,
-                worker=solver.name,
-            )
-            for solver in SOLVERS
-            if solver.version is not None
-        )
+        return solvers_on_grids(SOLVERS, self, (self.cells,), "a side", self.residual)
 
 
 def punch(cells: int, seed: int) -> PunchRoughness:

@@ -7,6 +7,7 @@ import numpy as np
 import bem3d
 from validation.analysis.evidence import Table, table_of
 from validation.benchmarks.isolation import measure_alone, timed
+from validation.benchmarks.work_precision.rolling import moving_window
 from validation.engine.engine import Engine, Outcome
 from validation.simulation.method import FloatArray
 from validation.simulation.rolling_strip import Strip, crop_to_reach
@@ -104,17 +105,10 @@ class RolledStrip:
     def _warm_solves(self) -> Outcome:
         """By `solve`, each position from the pressure of the last, moved with the ground, on one fixed window."""
         strip = self.strip
-        n, spacing = 3 * strip.cells, 1 / strip.cells
-        surface = strip.surface()
-        first = surface.shape[1] // 2 - n // 2
-        height = surface[:, first : first + n]
-        half_space = bem3d.HalfSpace(shape=(n, n), spacing=spacing, modulus=1.0)
-        x, y = (np.arange(n) - n // 2) * spacing, (np.arange(n) - (n - 1) / 2) * spacing
-        sphere = (x[:, np.newaxis] ** 2 + y**2) / 2
+        half_space, gap = moving_window(strip.surface(), strip.cells)
 
         def solve(position: int, start: FloatArray | None = None) -> bem3d.Contact:
-            gap = sphere - height.take(np.arange(n) - n // 2 + position, axis=0, mode="wrap")
-            return bem3d.solve(half_space, gap, approach=1.0, start=start, tolerance=strip.tolerance)
+            return bem3d.solve(half_space, gap(position), approach=1.0, start=start, tolerance=strip.tolerance)
 
         contact, total = solve(0), 0.0
         count = min(self.positions, WARM_SOLVES)

@@ -5,7 +5,14 @@ from dataclasses import dataclass, field, replace
 from validation.benchmarks.found_models import TimedProblem, all_methods
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
-from validation.benchmarks.work_precision.exact_problems import RESIDUALS, PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.exact_problems import (
+    PUNCH_GRIDS,
+    SPHERE_GRIDS,
+    WAVE_GRIDS,
+    PunchProblem,
+    SphereProblem,
+    WaveProblem,
+)
 from validation.benchmarks.work_precision.problem import ChartProblem, Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
@@ -38,35 +45,17 @@ class Precision:
 
 FULL = Precision(
     sphere=SphereProblem(
-        grids=Grids(
-            cells=(4, 8, 16, 32, 64),
-            polonsky_keer=(4, 8, 16, 32),
-            fixed=16,
-            tight=1e-8,
-            tolerances=RESIDUALS,
-            per="to a radius",
-        ),
+        grids=replace(SPHERE_GRIDS, cells=(4, 8, 16, 32, 64), polonsky_keer=(4, 8, 16, 32)),
         peers=(4, 8, 16, 32),
         springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
     ),
     punch=PunchProblem(
-        grids=Grids(
-            cells=(8, 16, 32, 64, 128, 256),
-            polonsky_keer=(8, 16, 32, 64),
-            fixed=64,
-            tight=1e-8,
-            tolerances=RESIDUALS,
-        ),
+        grids=replace(PUNCH_GRIDS, cells=(8, 16, 32, 64, 128, 256), polonsky_keer=(8, 16, 32, 64), fixed=64),
         peers=(8, 16),
     ),
     wave=WaveProblem(
-        grids=Grids(
-            cells=(16, 32, 64, 128, 256, 512, 1024),
-            polonsky_keer=(16, 64, 256, 1024),
-            fixed=256,
-            tight=1e-8,
-            tolerances=RESIDUALS,
-            per="to a wavelength",
+        grids=replace(
+            WAVE_GRIDS, cells=(16, 32, 64, 128, 256, 512, 1024), polonsky_keer=(16, 64, 256, 1024), fixed=256
         ),
         peers=(16, 64, 256, 1024),
     ),

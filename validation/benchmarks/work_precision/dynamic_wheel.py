@@ -3,13 +3,14 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
-from validation.benchmarks.timing import Configuration
+from validation.benchmarks.timing import Configuration, along
 from validation.benchmarks.work_precision.problem import (
     CLOSED,
     FILTER_1D,
@@ -17,10 +18,11 @@ from validation.benchmarks.work_precision.problem import (
     MDR,
     MDR_ROLLING,
     ChartProblem,
+    CountedSpectrum,
     Grids,
     Quantity,
+    log_power,
 )
-from validation.benchmarks.work_precision.rolling import log_levels
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
@@ -70,8 +72,8 @@ class WheelProblem(ChartProblem):
     @property
     def quantities(self) -> tuple[Quantity, ...]:
         """Between twice the resonance and the shortest wave."""
-        names = ("level", "linear level", "mean level")
-        return (Quantity(name="acceleration spectrum", log=log_levels, needs=names, decibel=True),)
+        log = partial(log_power, name="level")
+        return (Quantity(name="acceleration spectrum", log=log, needs=("level",), decibel=True),)
 
     def strip(self, realisation: int, cells: int, tolerance: float) -> WheelStrip:
         """The same surface on every grid."""
@@ -107,25 +109,22 @@ class WheelProblem(ChartProblem):
         """Linear theory three times, springs with both input spectra, boundary elements in the time loop."""
         springs = (WheelsOnSprings(FILTER_1D, linear=True), WheelsOnSprings(MDR), FOR_ROLLING)
         return (
-            *self.along(WheelLinearSpectrum(), (1.0,), "linear theory", paired=False),
-            *(each for m in springs for each in self.along(m, self.springs, "# springs to a radius", paired=False)),
-            *self.along(WheelFiltered(), self.filtered, "# cells to a radius", realisations=self.realisations),
+            *along(WheelLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
+            *(each for m in springs for each in along(m, self, self.springs, "# springs to a radius", paired=False)),
+            *along(
+                WheelOnStrips(FILTER_3D), self, self.filtered, "# cells to a radius", realisations=self.realisations
+            ),
             *self.boundary_elements(),
         )
 
     @property
     def method(self) -> Method:
-        return WheelInTimeLoop()
+        return WheelOnStrips()
 
     def read(self, acceleration: FloatArray, linear: "LinearStrip", work: float) -> Result:
         """Levels of a wheel, and of the linear one on the same surface."""
         level = self.levels(acceleration[:, np.newaxis], linear.time_step)[0]
         return Result({"level": level, "linear level": linear.level, "mean level": linear.mean}, work)
-
-    def without_surface(self, level: FloatArray, work: float, count: int = 1) -> Result:
-        """Of a model without a surface of its own."""
-        ones = np.ones(level.shape)
-        return Result({"level": level, "linear level": ones, "mean level": ones}, work, count)
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,9 +138,7 @@ class LinearStrip:
     mean: FloatArray
 
 
-def linear_strip(scene: WheelProblem, realisation: int, cells: int, tolerance: float) -> LinearStrip:
-    """One strip, drawn."""
-    strip = scene.strip(realisation, cells, tolerance)
+def linear_strip(scene: WheelProblem, strip: WheelStrip) -> LinearStrip:
     surface, time_step = strip.surface(), strip.spacing / scene.wheel_scene.speed
     linear = linear_law_3d(strip, surface)
     found = scene.levels(steady_acceleration(linear, time_step), time_step)[0]
@@ -190,14 +187,10 @@ class WheelLinearSpectrum:
         rough = scene.strip(0, scene.shared, scene.grids.tight).roughness
         line = 2 * math.pi / scene.duration
         omega = line * np.arange(1, math.ceil(scene.edges[-1] / line) + 1)
-        seen = [0]
-
-        def c2d(q: FloatArray) -> FloatArray:
-            seen[0] += q.size
-            return rough.spectrum.c2d(q)
+        c2d = CountedSpectrum(rough.spectrum.c2d)
 
         def solve() -> FloatArray:
-            seen[0] = 0
+            c2d.nodes = 0
             force = rolling_theory.force_spectrum_3d(
                 omega / scene.wheel_scene.speed,
                 c2d,
@@ -209,7 +202,7 @@ class WheelLinearSpectrum:
             return np.asarray(dynamic * wheel_theory.over_frequency(force, speed=scene.wheel_scene.speed))
 
         def read(density: FloatArray) -> Result:
-            return scene.without_surface(band_levels(omega, density, scene.edges), seen[0])
+            return Result({"level": band_levels(omega, density, scene.edges)}, c2d.nodes)
 
         return lambda _: Solve(solve, read)
 
@@ -244,98 +237,79 @@ class WheelsOnSprings:
         distance = scene.duration * scene.wheel_scene.speed
         on = replace(scene.wheel_scene, distance=distance, springs=round(resolution.size))
         rides = WheelEnsemble(scene=on, count=count, track="steady-state", input_spectrum=spectrum, seed=scene.seed)
-        heights = rides.heights()
-        roll = _filter(rides, heights) if self.linear else _springs(rides, heights)
+        roll = partial(_filtered if self.linear else _on_springs, rides, rides.heights())
 
         def read(found: tuple[FloatArray, float]) -> Result:
-            return scene.without_surface(scene.levels(found[0], on.time_step), found[1], count)
+            return Result({"level": scene.levels(found[0], on.time_step)}, found[1], count)
 
         return lambda _: Solve(roll, read)
 
 
-def _filter(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
-    def roll() -> tuple[FloatArray, float]:
-        linear = linear_law_1d(rides.scene.body, heights, rides.scene.spacing)
-        return steady_acceleration(linear, rides.scene.time_step), float(heights.size)
-
-    return roll
+def _filtered(rides: WheelEnsemble, heights: FloatArray) -> tuple[FloatArray, float]:
+    linear = linear_law_1d(rides.scene.body, heights, rides.scene.spacing)
+    return steady_acceleration(linear, rides.scene.time_step), float(heights.size)
 
 
-def _springs(rides: WheelEnsemble, heights: FloatArray) -> Callable[[], tuple[FloatArray, float]]:
-    scene, wheel = rides.scene, rides.scene.body
+def _on_springs(rides: WheelEnsemble, heights: FloatArray) -> tuple[FloatArray, float]:
+    scene, wheel, laws = rides.scene, rides.scene.body, []
     settings: dict[str, Any] = {"time_step": scene.time_step, "steps": rides.steps}
 
-    def roll() -> tuple[FloatArray, float]:
-        laws = []
+    def law(copies: int) -> CountedSprings:
+        laws.append(CountedSprings(wheel, np.tile(heights, (1, copies)), scene.spacing))
+        return laws[-1]
 
-        def law(copies: int) -> CountedSprings:
-            laws.append(CountedSprings(wheel, np.tile(heights, (1, copies)), scene.spacing))
-            return laws[-1]
-
-        first = law(1)
-        start = first.at_rest(0), np.zeros(rides.count)
-        approach, velocity, left = periodic_motion(wheel, law, **settings, start=start)
-        if (left > STEADY_TOLERANCE).any():
-            raise RuntimeError(f"{np.count_nonzero(left > STEADY_TOLERANCE)} wheels do not repeat their motion")
-        motion: Motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)
-        return motion.acceleration, float(sum(each.work for each in laws))
-
-    return roll
+    first = law(1)
+    start = first.at_rest(0), np.zeros(rides.count)
+    approach, velocity, left = periodic_motion(wheel, law, **settings, start=start)
+    if (left > STEADY_TOLERANCE).any():
+        raise RuntimeError(f"{np.count_nonzero(left > STEADY_TOLERANCE)} wheels do not repeat their motion")
+    motion: Motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)
+    return motion.acceleration, float(sum(each.work for each in laws))
 
 
 FOR_ROLLING = WheelsOnSprings(MDR_ROLLING, input_spectrum="rolling")
 
 
 @dataclass(frozen=True)
-class WheelFiltered:
-    """Linear theory on the same surface: force and wheel by their responses."""
-
-    name: str = FILTER_3D
-
-    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
-        cells = round(resolution.size)
-
-        def draw(realisation: int) -> Solve:
-            known = linear_strip(scene, realisation, cells, scene.grids.tight)
-            strip = scene.strip(realisation, cells, scene.grids.tight)
-
-            def solve() -> FloatArray:
-                return steady_acceleration(linear_law_3d(strip, known.surface), known.time_step)[:, 0]
-
-            return Solve(solve, lambda found: scene.read(found, known, known.surface.size))
-
-        return draw
-
-
-@dataclass(frozen=True)
-class WheelInTimeLoop:
-    """Boundary elements at each time step, each contact from the two before."""
+class WheelOnStrips:
+    """A wheel over a strip, beside that of linear theory: by the filter itself, or with boundary elements."""
 
     name: str = "BEM"
 
     def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
         """Raises ValueError for waves that cells do not resolve."""
-        cells, wheel = round(resolution.size), scene.wheel_scene.body
-        spacing = scene.strip(0, cells, resolution.residual).spacing
+        cells = round(resolution.size)
 
         def draw(realisation: int) -> Solve:
-            known = linear_strip(scene, realisation, cells, resolution.residual)
-            contact = BoundaryElementsLaw(
-                wheel, [crop_to_reach(known.surface, spacing, wheel)], spacing, tolerance=resolution.residual
-            )
-            # frames and their plans belong to a strip: they are made over its beginning
-            for place in range(min(WARM, len(known.surface))):
-                contact.force(place, np.array([wheel.approach]))
-
-            def solve() -> FloatArray:
-                contact.operator_applications = 0
-                motion = simulate_from_linear_motion(contact, known.linear, known.time_step, len(known.surface))
-                return motion.acceleration[:, 0]
-
-            def read(acceleration: FloatArray) -> Result:
-                return scene.read(acceleration, known, contact.operator_applications * (2.0 * cells) ** 2)
-
-            return Solve(solve, read)
+            strip = scene.strip(realisation, cells, resolution.residual)
+            known = linear_strip(scene, strip)
+            run = (_filter_strip if self.name == FILTER_3D else _in_time_loop)(strip, known)
+            return Solve(run, lambda found: scene.read(found[0], known, found[1]))
 
         draw(0)
         return draw
+
+
+def _filter_strip(strip: WheelStrip, known: LinearStrip) -> Callable[[], tuple[FloatArray, float]]:
+    """Force and wheel by their responses."""
+    return lambda: (
+        steady_acceleration(linear_law_3d(strip, known.surface), known.time_step)[:, 0],
+        float(known.surface.size),
+    )
+
+
+def _in_time_loop(strip: WheelStrip, known: LinearStrip) -> Callable[[], tuple[FloatArray, float]]:
+    """Boundary elements at each time step, each contact from the two before."""
+    wheel = strip.scene.body
+    height = crop_to_reach(known.surface, strip.spacing, wheel)
+    contact = BoundaryElementsLaw(wheel, [height], strip.spacing, tolerance=strip.tolerance)
+    # frames and their plans belong to a strip: they are made over its beginning
+    for place in range(min(WARM, len(height))):
+        contact.force(place, np.array([wheel.approach]))
+
+    def run() -> tuple[FloatArray, float]:
+        contact.operator_applications = 0
+        motion = simulate_from_linear_motion(contact, known.linear, known.time_step, len(height))
+        return motion.acceleration[:, 0], contact.operator_applications * (2.0 * strip.cells) ** 2
+
+    return run

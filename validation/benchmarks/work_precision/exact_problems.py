@@ -6,6 +6,7 @@ Units: E* = 1 and a length of each scene.
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -13,8 +14,8 @@ import numpy as np
 import bem3d
 import mdr
 from validation.benchmarks import peers
-from validation.benchmarks.peers import DiscreteProblem, PressureMethod
-from validation.benchmarks.timing import Configuration
+from validation.benchmarks.peers import DiscreteProblem, solvers_on_grids
+from validation.benchmarks.timing import Configuration, along
 from validation.benchmarks.work_precision.problem import CLOSED, ChartProblem, Grids, Quantity, logarithm
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
@@ -79,19 +80,12 @@ class ExactProblem(ChartProblem):
 
     def configurations(self) -> tuple[Configuration, ...]:
         """The closed form, springs, boundary elements, and other solvers where they are installed."""
-        per, tight = self.grids.per, self.grids.tight
+        grids = self.grids
         return (
-            *self.along(ClosedForm(), (1.0,), "exact", is_reference=True),
-            *self.along(PressedSprings(), self.springs, f"# springs {per}"),
+            *along(ClosedForm(), self, (1.0,), "exact", is_reference=True),
+            *along(PressedSprings(), self, self.springs, f"# springs {grids.per}"),
             *self.boundary_elements(),
-            *(
-                each
-                for solver in peers.SOLVERS[2:]
-                if solver.version
-                for each in self.along(
-                    PressureMethod(solver), self.peers, f"# cells {per}", residual=tight, worker=solver.name
-                )
-            ),
+            *solvers_on_grids(peers.SOLVERS[2:], self, self.peers, grids.per, grids.tight),
         )
 
     def discrete(self, cells: int) -> DiscreteProblem:
@@ -114,9 +108,8 @@ class ExactProblem(ChartProblem):
         return self.read_peer(cells, float(pressure.sum()) / cells**2, approach, area)
 
 
-SPHERE_GRIDS = Grids(
-    cells=(4, 8, 16, 32), polonsky_keer=(4, 8, 16), fixed=16, per="to a radius", tight=1e-8, tolerances=RESIDUALS
-)
+ExactGrids = partial(Grids, tight=1e-8, tolerances=RESIDUALS)
+SPHERE_GRIDS = ExactGrids(cells=(4, 8, 16, 32), polonsky_keer=(4, 8, 16), fixed=16, per="to a radius")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -185,7 +178,7 @@ class SphereProblem(ExactProblem):
         return scalars(force=point.force, radius=point.stiffness / 2, stiffness=point.stiffness)
 
 
-PUNCH_GRIDS = Grids(cells=(8, 16, 32, 64), polonsky_keer=(8, 16, 32), fixed=32, tight=1e-8, tolerances=RESIDUALS)
+PUNCH_GRIDS = ExactGrids(cells=(8, 16, 32, 64), polonsky_keer=(8, 16, 32), fixed=32)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -235,14 +228,7 @@ class PunchProblem(ExactProblem):
         return scalars(stiffness=point.stiffness)
 
 
-WAVE_GRIDS = Grids(
-    cells=(16, 32, 64, 128, 256),
-    polonsky_keer=(16, 64, 256),
-    fixed=128,
-    per="to a wavelength",
-    tight=1e-8,
-    tolerances=RESIDUALS,
-)
+WAVE_GRIDS = ExactGrids(cells=(16, 32, 64, 128, 256), polonsky_keer=(16, 64, 256), fixed=128, per="to a wavelength")
 
 
 @dataclass(frozen=True, kw_only=True)

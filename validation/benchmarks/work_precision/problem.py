@@ -9,7 +9,7 @@ import numpy as np
 
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.benchmarks.found_models import TimedProblem, configurations_of
-from validation.benchmarks.timing import FINISHED, Configuration, Timing, time_in_turns
+from validation.benchmarks.timing import FINISHED, Configuration, Timing, along, time_in_turns
 from validation.engine.engine import Outcome
 from validation.simulation.method import FloatArray, Method, Resolution, Values
 from validation.simulation.pressed import PressedGrid
@@ -53,6 +53,26 @@ class Quantity:
 def logarithm(name: str) -> Callable[[Values], FloatArray]:
     """ln of the mean of a value."""
     return lambda values: np.log(np.mean(values[name], axis=0, keepdims=True))
+
+
+def log_power(values: Values, name: str) -> FloatArray:
+    """ln of the mean of a power; on a surface over that of linear theory there, times what this has in the mean."""
+    power = values[name].mean(axis=0)
+    if f"linear {name}" in values:
+        power = power / values[f"linear {name}"].mean(axis=0) * values[f"mean {name}"].mean(axis=0)
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.log(np.atleast_1d(power)))
+
+
+class CountedSpectrum:
+    """C_2D that counts the nodes of a quadrature."""
+
+    def __init__(self, c2d: Callable[[FloatArray], FloatArray]):
+        self.c2d, self.nodes = c2d, 0
+
+    def __call__(self, q: FloatArray) -> FloatArray:
+        self.nodes += q.size
+        return self.c2d(q)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,14 +140,14 @@ class ChartProblem(ABC):
 
     def on(self, cells: int) -> Configuration:
         """Our solver on one grid."""
-        return self._on_grids(self.method, BEM, (cells,))[0]
+        return self.on_grids(self.method, BEM, (cells,))[0]
 
     def boundary_elements(self) -> tuple[Configuration, ...]:
         """The published iteration and ours along cells, and ours along the residual on one grid."""
         grids = self.grids
         one = replace(self.on(grids.fixed), label=LOOSE, parameter=f"residual #, {grids.fixed} cells {grids.per}")
         return (
-            *self._on_grids(self.published, POLONSKY_KEER, grids.polonsky_keer),
+            *self.on_grids(self.published, POLONSKY_KEER, grids.polonsky_keer),
             *(self.on(n) for n in grids.cells),
             *(
                 replace(one, resolution=Resolution(size=grids.fixed, residual=residual), value=residual)
@@ -135,33 +155,9 @@ class ChartProblem(ABC):
             ),
         )
 
-    def _on_grids(self, method: Method, label: str, cells: Iterable[int]) -> tuple[Configuration, ...]:
+    def on_grids(self, method: Method, label: str, cells: Iterable[int]) -> tuple[Configuration, ...]:
         own: dict[str, Any] = {"residual": self.grids.tight, "realisations": self.realisations}
-        return self.along(method, cells, f"# cells {self.grids.per}", label=label, **own)
-
-    def along(
-        self,
-        method: Method,
-        sizes: Iterable[float],
-        parameter: str,
-        *,
-        label: str = "",
-        residual: float = 0.0,
-        **settings: Any,
-    ) -> tuple[Configuration, ...]:
-        """A method along the sizes of its resolution."""
-        return tuple(
-            Configuration(
-                method=method,
-                scene=self,
-                resolution=Resolution(size=size, residual=residual),
-                label=label or method.name,
-                parameter=parameter,
-                value=size,
-                **settings,
-            )
-            for size in sizes
-        )
+        return along(method, self, cells, f"# cells {self.grids.per}", label=label, **own)
 
 
 def measure(timed: TimedProblem) -> Outcome:

@@ -14,7 +14,7 @@ import numpy as np
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.benchmarks.timing import Configuration
+from validation.benchmarks.timing import Configuration, along
 from validation.benchmarks.work_precision.problem import (
     CLOSED,
     FILTER_1D,
@@ -23,8 +23,10 @@ from validation.benchmarks.work_precision.problem import (
     MDR_ROLLING,
     POLONSKY_KEER,
     ChartProblem,
+    CountedSpectrum,
     Grids,
     Quantity,
+    log_power,
 )
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import MOST_ITERATIONS
@@ -37,19 +39,6 @@ WARM = 40
 """Positions before the clock runs: frames that find their size, plans."""
 WINDOW = 3
 """Contact radii of the window on which Polonsky and Keer's iteration solves each position."""
-
-
-def log_rms(values: Values) -> FloatArray:
-    """ln of the root mean square, over that of linear theory on the same surfaces, times what this has in the mean."""
-    variance, linear, exact = (values[name].mean(axis=0) for name in ("variance", "linear variance", "mean variance"))
-    return np.asarray(np.log(np.atleast_1d(variance / linear * exact)) / 2)
-
-
-def log_levels(values: Values) -> FloatArray:
-    """The same of the level in each band, which is a power."""
-    level, linear, mean = (values[name].mean(axis=0) for name in ("level", "linear level", "mean level"))
-    with np.errstate(divide="ignore"):
-        return np.asarray(np.log(level / linear * mean))
 
 
 GRIDS = Grids(cells=(3, 4, 6, 12), polonsky_keer=(4,), fixed=6, per="to a radius")
@@ -80,10 +69,9 @@ class RollingProblem(ChartProblem):
     @property
     def quantities(self) -> tuple[Quantity, ...]:
         """Of the force at a place of an endless track."""
-        names = ("variance", "linear variance", "mean variance"), ("level", "linear level", "mean level")
         return (
-            Quantity(name="rms", log=log_rms, needs=names[0]),
-            Quantity(name="spectrum", log=log_levels, needs=names[1], decibel=True),
+            Quantity(name="rms", log=lambda values: log_power(values, "variance") / 2, needs=("variance",)),
+            Quantity(name="spectrum", log=partial(log_power, name="level"), needs=("level",), decibel=True),
         )
 
     @property
@@ -99,37 +87,29 @@ class RollingProblem(ChartProblem):
     def strip(self, realisation: int, cells: int) -> Strip:
         """The same on every grid."""
         return Strip(
-            spectrum=self.spectrum,
-            height=self.height,
-            realisation=realisation,
-            length=float(self.length),
-            width=float(self.width),
-            cells=cells,
-            tolerance=self.grids.tight,
-            seed=self.seed,
+            realisation=realisation, width=float(self.width), cells=cells, tolerance=self.grids.tight, **self._rough
         )
 
     def track(self, input_spectrum: InputSpectrum, springs: int, realisation: int) -> FloatArray:
         tracks = Tracks(
-            spectrum=self.spectrum,
-            input_spectrum=input_spectrum,
-            height=self.height,
-            realisations=self.tracks,
-            length=float(self.length),
-            springs=springs,
-            bands=self.bands,
-            seed=self.seed,
+            input_spectrum=input_spectrum, realisations=self.tracks, springs=springs, bands=self.bands, **self._rough
         )
         return tracks.track(realisation)
+
+    @property
+    def _rough(self) -> dict[str, Any]:
+        return {"spectrum": self.spectrum, "height": self.height, "length": float(self.length), "seed": self.seed}
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs with both input spectra, boundary elements."""
         springs = (RollingTracks(FILTER_1D, contact="linear"), RollingTracks(MDR), FOR_ROLLING)
         tracks: dict[str, Any] = {"realisations": self.tracks, "paired": False}
         return (
-            *self.along(RollingLinearSpectrum(), (1.0,), "linear theory", paired=False),
-            *(each for m in springs for each in self.along(m, self.springs, "# springs to a radius", **tracks)),
-            *self.along(RollingFiltered(), self.filtered, "# cells to a radius", realisations=self.realisations),
+            *along(RollingLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
+            *(each for m in springs for each in along(m, self, self.springs, "# springs to a radius", **tracks)),
+            *along(
+                RollingStrips(FILTER_3D), self, self.filtered, "# cells to a radius", realisations=self.realisations
+            ),
             *self.boundary_elements(),
         )
 
@@ -139,7 +119,7 @@ class RollingProblem(ChartProblem):
 
     @property
     def published(self) -> Method:
-        return RollingStrips(POLONSKY_KEER, polonsky_keer=True)
+        return RollingStrips(POLONSKY_KEER)
 
     def read(self, force: FloatArray, linear: FloatArray, mean: Values, spacing: float, work: float) -> Result:
         """Variance and levels of a force, and of the linear one on the same surface; over the force of Hertz."""
@@ -153,12 +133,6 @@ class RollingProblem(ChartProblem):
             },
             work,
         )
-
-    def without_surface(self, variance: float, level: FloatArray, work: float) -> Result:
-        """Of a model without a surface of its own, or with many tracks."""
-        one, ones = np.ones(()), np.ones(level.size)
-        found = {"variance": np.array(variance), "linear variance": one, "mean variance": one}
-        return Result({**found, "level": level, "linear level": ones, "mean level": ones}, work)
 
     def mean(self, surface: FloatArray, spacing: float) -> Values:
         """Variance at a place and levels of the linear force, in the mean over all phases of these waves."""
@@ -178,24 +152,19 @@ class RollingLinearSpectrum:
     name: str = CLOSED
 
     def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
-        seen = [0]
-
-        def c2d(q: FloatArray) -> FloatArray:
-            seen[0] += q.size
-            return np.asarray(scene.height**2 * scene.spectrum.c2d(q))
-
-        settings = {"edges": scene.spectrum.edges, "contact_radius": 1.0, "modulus": 1.0}
+        c2d = CountedSpectrum(lambda q: np.asarray(scene.height**2 * scene.spectrum.c2d(q)))
+        settings: dict[str, Any] = {"edges": scene.spectrum.edges, "contact_radius": 1.0, "modulus": 1.0}
         dq = 2 * np.pi / scene.length
         q = dq * np.arange(1, int(scene.bands.edges[-1] / dq) + 1)
 
         def solve() -> tuple[float, FloatArray]:
-            seen[0] = 0
-            variance = rolling_theory.force_variance(c2d, **settings)  # type: ignore[arg-type]
-            return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)  # type: ignore[arg-type]
+            c2d.nodes = 0
+            variance = rolling_theory.force_variance(c2d, **settings)
+            return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)
 
         def read(found: tuple[float, FloatArray]) -> Result:
-            level = scene.bands.sums(q, found[1]).real
-            return scene.without_surface(found[0] / HERTZ**2, level / HERTZ**2, seen[0])
+            variance, level = found[0], scene.bands.sums(q, found[1]).real
+            return Result({"variance": np.array(variance / HERTZ**2), "level": level / HERTZ**2}, c2d.nodes)
 
         return lambda _: Solve(solve, read)
 
@@ -222,7 +191,7 @@ class RollingTracks:
                 # sums of neighbours cost as much as two looks at each spring
                 work = float(found.examined.sum()) + 2 * track.size
                 level = levels(waves(force, spacing=1 / springs), scene.bands)
-                return scene.without_surface(float(force.var()), level, work)
+                return Result({"variance": np.array(force.var()), "level": level}, work)
 
             return Solve(solve, read)
 
@@ -233,46 +202,23 @@ FOR_ROLLING = RollingTracks(MDR_ROLLING, input_spectrum="rolling")
 
 
 @dataclass(frozen=True)
-class RollingFiltered:
-    """Linear theory on the same surface: each wave by its response."""
-
-    name: str = FILTER_3D
-
-    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
-        cells = round(resolution.size)
-
-        def draw(realisation: int) -> Solve:
-            surface = scene.strip(realisation, cells).surface()
-            mean = scene.mean(surface, 1 / cells)
-
-            def read(force: FloatArray) -> Result:
-                return scene.read(force / HERTZ, force / HERTZ, mean, 1 / cells, surface.size)
-
-            return Solve(partial(rolling_theory.linear_force, surface, spacing=1 / cells, **SMOOTH), read)
-
-        return draw
-
-
-@dataclass(frozen=True)
 class RollingStrips:
-    """Boundary elements, position by position: ours each from the two before, Polonsky and Keer's each cold."""
+    """The force along a strip, beside that of linear theory: by the filter itself, or by boundary elements."""
 
     name: str = "BEM"
-    polonsky_keer: bool = False
 
     def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
         """Raises ValueError for waves that cells do not resolve."""
         cells = round(resolution.size)
-        spacing, roller = 1 / cells, _roll_published if self.polonsky_keer else _roll
 
         def draw(realisation: int) -> Solve:
             surface = scene.strip(realisation, cells).surface()
-            linear = rolling_theory.linear_force(surface, spacing=spacing, **SMOOTH) / HERTZ
-            mean = scene.mean(surface, spacing)
-            roll = roller(surface, cells, resolution.residual)
+            linear = rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH) / HERTZ
+            mean = scene.mean(surface, 1 / cells)
+            roll = ROLLERS[self.name](surface, cells, resolution.residual)
 
             def read(found: tuple[FloatArray, float]) -> Result:
-                return scene.read(found[0] / HERTZ, linear, mean, spacing, found[1])
+                return scene.read(found[0] / HERTZ, linear, mean, 1 / cells, found[1])
 
             return Solve(roll, read)
 
@@ -280,8 +226,13 @@ class RollingStrips:
         return draw
 
 
+def _filtered(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
+    """Each wave by its response."""
+    return lambda: (rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH), surface.size)
+
+
 def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
-    """Force, and applications times the cells of a square around the smooth contact.
+    """Each position from the two before; applications times the cells of a square around the smooth contact.
 
     Frames and their plans belong to the strip: they are made by rolling over its beginning.
     """
@@ -302,26 +253,30 @@ def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tup
 
 
 def _roll_published(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
-    """The same by one cold solve of Polonsky and Keer's a position, on a window that moves with the wheel."""
+    """One cold solve of Polonsky and Keer's a position, on a window that moves with the wheel."""
+    half_space, gap = moving_window(surface, cells)
+    solve = partial(bem3d.solve_polonsky_keer, half_space, tolerance=tolerance, max_iterations=MOST_ITERATIONS)
+
+    def roll() -> tuple[FloatArray, float]:
+        contacts = [solve(gap(position), approach=1.0) for position in range(len(surface))]
+        work = sum(contact.operator_applications * contact.pressure.size for contact in contacts)
+        return np.array([contact.force for contact in contacts]), float(work)
+
+    half_space.displacement(gap(0))
+    return roll
+
+
+def moving_window(surface: FloatArray, cells: int) -> tuple[bem3d.HalfSpace, Callable[[int], FloatArray]]:
+    """A half-space of three contact radii that moves with the wheel, and the gap on it at each position."""
     n, spacing = 2 * math.ceil(WINDOW * cells / 2), 1 / cells
     first = (surface.shape[1] - n) // 2
-    height = surface[:, first : first + n]
-    half_space = bem3d.HalfSpace(shape=(n, n), spacing=spacing, modulus=1.0)
-    ahead = np.arange(n) - n // 2
+    height, ahead = surface[:, first : first + n], np.arange(n) - n // 2
     # the wheel stands over a cell along the track, and in the middle of the strip across it
     x, y = ahead * spacing, (np.arange(n) + first - (surface.shape[1] - 1) / 2) * spacing
     sphere = (x[:, np.newaxis] ** 2 + y**2) / 2
+    half_space = bem3d.HalfSpace(shape=(n, n), spacing=spacing, modulus=1.0)
+    return half_space, lambda position: sphere - height.take(ahead + position, axis=0, mode="wrap")
 
-    def roll() -> tuple[FloatArray, float]:
-        force, work = np.empty(len(surface)), 0.0
-        for position in range(len(surface)):
-            gap = sphere - height.take(ahead + position, axis=0, mode="wrap")
-            contact = bem3d.solve_polonsky_keer(
-                half_space, gap, approach=1.0, tolerance=tolerance, max_iterations=MOST_ITERATIONS
-            )
-            force[position] = contact.force
-            work += contact.operator_applications * n**2
-        return force, work
 
-    half_space.displacement(sphere)
-    return roll
+ROLLERS = {FILTER_3D: _filtered, "BEM": _roll, POLONSKY_KEER: _roll_published}
+"""Of a surface, cells to a contact radius and a residual: a function that returns force and work."""

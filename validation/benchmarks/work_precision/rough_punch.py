@@ -7,7 +7,7 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.timing import Configuration
+from validation.benchmarks.timing import Configuration, along
 from validation.benchmarks.work_precision.problem import ChartProblem, Grids, Quantity, logarithm
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Values
@@ -65,7 +65,7 @@ class RoughPunchProblem(ChartProblem):
     def configurations(self) -> tuple[Configuration, ...]:
         """Springs and boundary elements."""
         own: dict[str, Any] = {"realisations": self.profiles, "paired": False}
-        return (*self.along(PressedSprings(), self.springs, "# springs a side", **own), *self.boundary_elements())
+        return (*along(PressedSprings(), self, self.springs, "# springs a side", **own), *self.boundary_elements())
 
     def load(self, cells: int) -> dict[str, float]:
         return {"force": self.force * self.roughness.height}
