@@ -452,7 +452,7 @@ def test_period_of_free_vibration_by_small_steps(highest):
 
 @pytest.mark.parametrize("above", [0.05, 1e-2, 1e-4, 1e-7, 1e-12])
 def test_the_period_of_the_smallest_vibrations(above):
-    """Differences of the potential cancel there; the period does not, 1 + A^2 / 24 (Landau and Lifshitz, section 28)."""
+    """Differences of the potential cancel there; the period does not, 1 + A^2 / 24 (Landau, Lifshitz, section 28)."""
     assert wheel_theory.hertz_period(1 + above) == pytest.approx(1 + above**2 / 24, abs=1e-10 + above**3 / 100)
 
 
