@@ -1,16 +1,9 @@
 """Claims about rolling with answers that begin with the verdict, and the roughness up to which a claim holds."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
-from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
-
-SHORT = {
-    ClaimStatus.HOLDS: "Yes",
-    ClaimStatus.LIMITED: "Within limits",
-    ClaimStatus.CONTRADICTED: "No",
-    ClaimStatus.OPEN: "Not decided",
-}
+from validation.analysis import answers
+from validation.analysis.evidence import JudgedClaim, Number, Verdict
 
 
 def answered(
@@ -20,11 +13,7 @@ def answered(
     inside = confirmed_up_to(numbers, confirmed_by) if slope else ()
     highest = max((height_of(number) for number in inside), default=0.0)
     limits = f"up to h/d = {highest:g}, h' a/d = {slope * highest:.2g}" if inside else ""
-    judged = JudgedClaim(
-        claim=claim, answer=answer, numbers=tuple(numbers), confirmed_by=confirmed_by, limits=limits, inside=inside
-    )
-    where = f" ({limits})" if judged.status is ClaimStatus.LIMITED else ""
-    return replace(judged, answer=f"{SHORT[judged.status]}{where}: {answer}")
+    return answers.answered(claim, numbers, answer, confirmed_by=confirmed_by, limits=limits, inside=inside)
 
 
 def confirmed_up_to(numbers: Sequence[Number], confirmed_by: Verdict = Verdict.AGREE) -> tuple[Number, ...]:
