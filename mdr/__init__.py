@@ -10,6 +10,7 @@ from mdr.profile import rough_profile, rough_profiles
 from mdr.rolling import roll, rolling_force
 from mdr.rolling_ensemble import RollingEnsemble
 from mdr.rolling_spectrum import rolling_spectrum
+from mdr.rolling_surface import roll_surface
 from mdr.rolling_track import RollingTrack
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
 from mdr.sphere import SphereContact, press_sphere, sphere_profile
@@ -40,6 +41,7 @@ __all__ = [
     "load_curve",
     "press_sphere",
     "roll",
+    "roll_surface",
     "rolling_force",
     "rolling_spectrum",
     "rough_profile",

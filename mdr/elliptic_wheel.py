@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from scipy import optimize, special
@@ -9,8 +10,16 @@ from scipy import optimize, special
 from mdr.checks import positive
 
 
-def spring_wheel(radius: float | Sequence[float], modulus: float) -> tuple[float, float]:
-    """Radius of the profile x^2 / R_1 and modulus E_1 of the springs, for a radius R or two, (along, across) the track.
+class SpringWheel(NamedTuple):
+    """Radius R_1 of the profile x^2 / R_1, modulus E_1 of the springs, a_y / a_x of the contact that they stand for."""
+
+    radius: float
+    modulus: float
+    aspect: float
+
+
+def spring_wheel(radius: float | Sequence[float], modulus: float) -> SpringWheel:
+    """The wheel on springs, for a radius R or two, (along, across) the track.
 
     Hertz on an ellipse with the semi-axis a_x along the track, the larger one a, has R_1 = a_x^2 / d and
     F = 2/3 pi E* a d / K(e) = 4/3 E_1 a_x d, so that E_1 = pi E* a / (2 K a_x); of a sphere, R and E*. The load curve
@@ -18,20 +27,20 @@ def spring_wheel(radius: float | Sequence[float], modulus: float) -> tuple[float
     Popov and Hess, (14.2).
     """
     if not isinstance(radius, (Sequence, np.ndarray)) or isinstance(radius, str) or np.ndim(radius) == 0:
-        return positive("radius", radius), positive("modulus", modulus)
+        return SpringWheel(positive("radius", radius), positive("modulus", modulus), 1.0)
     if len(radius) != 2:
         raise ValueError(f"radius must be one number or two (along, across), got {radius!r}")
     along, across = positive("radius[0]", radius[0]), positive("radius[1]", radius[1])
     modulus = positive("modulus", modulus)
     if along == across:
-        return along, modulus
+        return SpringWheel(along, modulus, 1.0)
     larger = max(along, across)
     k = _axis_ratio(min(along, across) / larger)
     whole = float(special.ellipkm1(k**2))
     major = 2 * larger * _integral(k) / whole
     if along == larger:
-        return major, modulus * math.pi / (2 * whole)
-    return k**2 * major, modulus * math.pi / (2 * whole * k)
+        return SpringWheel(major, modulus * math.pi / (2 * whole), k)
+    return SpringWheel(k**2 * major, modulus * math.pi / (2 * whole * k), 1 / k)
 
 
 def _axis_ratio(radius_ratio: float) -> float:

@@ -86,7 +86,8 @@ def roll(
     >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
     499.3 to 567.0 N
     """
-    track = SpringTrack(height, spacing, *spring_wheel(radius, modulus))
+    wheel = spring_wheel(radius, modulus)
+    track = SpringTrack(height, spacing, wheel.radius, wheel.modulus)
     rolled, diagnostics = _within_doubles(track, approach, force, contact)
     warn(diagnostics)
     return rolled
@@ -132,7 +133,8 @@ def rolling_force(
     >>> print(f"{force[0]:.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
     532 N, by Hertz 533 N
     """
-    track = SpringTrack(height, spacing, *spring_wheel(radius, modulus))
+    wheel = spring_wheel(radius, modulus)
+    track = SpringTrack(height, spacing, wheel.radius, wheel.modulus)
     rolled, diagnostics = _within_doubles(track, approach, None, "one-sided")
     warn(diagnostics)
     return rolled.force.copy()

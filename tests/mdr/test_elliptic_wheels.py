@@ -21,9 +21,10 @@ def test_springs_have_the_load_curve_and_the_length_of_the_ellipse(pair, approac
 
 @pytest.mark.parametrize("pair", [(0.46, 0.3), (0.3, 0.46)])
 def test_springs_have_the_load_curve_of_one_ellipse(pair, approach=6e-5):
-    radius, modulus = spring_wheel(pair, 2e11)
+    radius, modulus, aspect = spring_wheel(pair, 2e11)
     smooth = elliptic_contact(pair, modulus=2e11, approach=approach)
     assert math.sqrt(radius * approach) == pytest.approx(smooth.along, rel=1e-9)
+    assert aspect == pytest.approx(smooth.across / smooth.along, rel=1e-9)
     assert 4 / 3 * modulus * math.sqrt(radius) * approach**1.5 == pytest.approx(smooth.force, rel=1e-9)
     assert 2 * modulus * smooth.along == pytest.approx(smooth.stiffness, rel=1e-9)
 

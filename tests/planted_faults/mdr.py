@@ -9,18 +9,20 @@ import numpy as np
 import bem3d
 import mdr
 from bem3d import surface
-from mdr import elliptic_wheel, foundation, sphere
+from mdr import elliptic_wheel, foundation, rolling_surface, sphere
 from mdr import profile as profile_module
 from mdr import rolling as wheel_on_springs
 from mdr import rolling_ensemble as wheels_in_step
 from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.diagnostics import diagnose_linearity
+from mdr.rolling_surface import weights_across
 from tests.mdr import (
     test_drawn_roughness,
     test_elliptic_wheels,
     test_geike_mapping,
     test_rolling_springs,
+    test_rolling_surface,
     test_springs_against_brute_force,
 )
 from tests.mdr import test_rolling_ensemble as test_wheels_on_springs
@@ -29,6 +31,13 @@ from tests.planted_faults.wrong import E_FOR_E_STAR, POISSON, force_in_step, one
 from validation.analysis import spectra
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
+
+
+def even_across(half_widths, points, step):
+    """Equal weights over the contact, for those of the flat punch."""
+    y = np.abs(np.arange(points) + 0.5 - points / 2)[:, np.newaxis] * step
+    inside = (y <= np.maximum(half_widths, step)).astype(float)
+    return inside / inside.sum(axis=0)
 
 
 def half_a_circle(modes, own_mirror, amplitudes, rng):
@@ -242,12 +251,26 @@ FAULTS = {
         (
             wheel_on_springs,
             "spring_wheel",
-            lambda radius, modulus: (elliptic_wheel.spring_wheel(radius, 1.0)[0], modulus),
+            lambda radius, modulus: elliptic_wheel.spring_wheel(radius, 1.0)._replace(modulus=modulus),
         ),
         test_elliptic_wheels.test_the_smooth_wheel_rolls_at_the_approach_of_the_ellipse,
     ),
     "the radius along the track for that of the contact": (
-        (test_elliptic_wheels, "spring_wheel", lambda radius, modulus: (radius[0], modulus)),
+        (test_elliptic_wheels, "spring_wheel", lambda radius, modulus: (radius[0], modulus, 1.0)),
         functools.partial(test_elliptic_wheels.test_springs_have_the_load_curve_of_one_ellipse, (0.46, 0.3)),
+    ),
+    "equal weights across the contact": (
+        (rolling_surface, "weights_across", even_across),
+        functools.partial(
+            test_rolling_surface.test_low_waves_of_any_direction_have_the_filter_of_the_half_space, 1.0, (0, 3)
+        ),
+    ),
+    "one width across for all springs": (
+        (
+            rolling_surface,
+            "weights_across",
+            lambda widths, points, step: weights_across(np.full_like(widths, widths.max()), points, step),
+        ),
+        test_rolling_surface.test_it_is_a_sum_over_springs_and_across,
     ),
 }

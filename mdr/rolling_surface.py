@@ -1,0 +1,145 @@
+"""The wheel on springs that read a surface: each spring has the mean of the heights across the contact at its place."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
+from mdr.diagnostics import Diagnostic, diagnose_units, diagnose_wheel, warn
+from mdr.elliptic_wheel import SpringWheel, spring_wheel
+from mdr.rolling import smooth_approach
+from mdr.rolling_track import RollingTrack
+
+MOST_NUMBERS = 2**20
+"""Springs times positions that are sorted at once."""
+
+
+def roll_surface(
+    height: ArrayLike,
+    *,
+    spacing: float | tuple[float, float],
+    radius: float | tuple[float, float],
+    modulus: float,
+    approach: float | None = None,
+    force: float | None = None,
+) -> RollingTrack:
+    """Roll a wheel along a rough strip on one-sided springs that read the heights across it.
+
+    Parameters
+    ----------
+    height : array_like, shape (points, across)
+        Heights, positive towards the wheel, periodic along axis 0; the wheel rolls along the middle of axis 1 [m].
+    spacing : float or tuple of float
+        Distance of the springs, and of the heights across the track: one number or (dx, dy) [m].
+    radius, modulus
+        As in `roll`.
+    approach, force : float, optional
+        Either the approach to the plane of height zero [m] or the normal force [N], both positive.
+
+    Returns
+    -------
+    RollingTrack
+        Force, approach and stiffness with the wheel over each row in turn.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is out of range, or the strip is not larger than the contact of the smooth wheel.
+
+    Warns
+    -----
+    SpringResolutionWarning, SpringUnitsWarning
+        As `roll`.
+
+    Notes
+    -----
+    F(x_i) = E_1 dx sum_j max(d - x_j^2 / R_1 + H_j(x_i + x_j), 0), H_j(x) = int h dy / (pi sqrt(b_j^2 - y^2)) over
+    |y| < b_j = a_y sqrt(1 - x_j^2 / a_x^2): the spring at x_j reads the mean across the smooth contact by the weight
+    of the flat punch, 1 / (2 pi a_x a_y sqrt(1 - x^2 / a_x^2 - y^2 / a_y^2)), whose marginal along the track is even.
+    Springs outside of the smooth contact read the middle line. While all springs of it touch, the force is that of
+    linear theory on the half-space, position by position. What opens inside of the contact is not known to it.
+
+    Examples
+    --------
+    >>> strip = 1e-7 * np.cos(2 * np.pi * np.arange(256) / 64)[:, np.newaxis] * np.ones(64)
+    >>> rolled = mdr.roll_surface(strip, spacing=1e-4, radius=0.5, modulus=2e11, approach=2e-6)
+    >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
+    499.3 to 567.0 N
+    """
+    heights = finite_array("height", height, ndim=2)
+    dx, dy = spacing if isinstance(spacing, tuple) else (spacing, spacing)
+    steps = positive("spacing", dx), positive("spacing", dy)
+    wheel = spring_wheel(radius, modulus)
+    if (approach is None) == (force is None):
+        raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
+    load = {"force": force} if approach is None else {"approach": approach}
+    with doubles(height=float(np.abs(heights).max()), spacing=steps[0], modulus=wheel.modulus, **load):
+        rolled, diagnostics = _rolled(heights, steps, wheel, approach, force)
+        held(rolled.force, rolled.approach, rolled.stiffness)
+    warn(diagnostics)
+    return rolled
+
+
+def _rolled(
+    heights: FloatArray, steps: tuple[float, float], wheel: SpringWheel, approach: float | None, force: float | None
+) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
+    (points, across), (dx, dy) = heights.shape, steps
+    spring = stiffness_of_springs("spacing", wheel.modulus, dx)
+    if force is None:
+        d = positive("approach", approach)
+    else:
+        d = smooth_approach(wheel.radius, positive("force", force) / wheel.modulus)
+    a = math.sqrt(wheel.radius * d)
+    for name, size, contact in (("longer", points * dx, 2 * a), ("wider", across * dy, 2 * a * wheel.aspect)):
+        if size <= contact:
+            raise ValueError(f"height must be {name} than the contact, {contact:.6g} m, got a strip of {size:.6g} m")
+    deepest = d if force is None else d - float(heights.min())
+    reach = math.ceil(math.sqrt(wheel.radius * max(deepest + float(heights.max()), 0.0)) / dx)
+    offsets = np.arange(-reach, reach + 1)
+    half_widths = wheel.aspect * np.sqrt(np.maximum(a**2 - (dx * np.arange(reach + 1)) ** 2, 0.0))
+    read = heights @ weights_across(half_widths, across, dy)
+    found = []
+    for first in range(0, points, max(1, MOST_NUMBERS // offsets.size)):
+        rows = np.arange(first, min(first + max(1, MOST_NUMBERS // offsets.size), points))
+        level = read[(rows[:, np.newaxis] + offsets) % points, np.abs(offsets)] - (dx * offsets) ** 2 / wheel.radius
+        found.append(_at_approach(level, d) if force is None else _under_force(level, force / spring))
+    total, depth, pressed = np.concatenate(found, axis=1)
+    rolled = RollingTrack(
+        force=spring * total if force is None else np.full(points, force),
+        approach=depth,
+        stiffness=spring * pressed,
+        examined=np.full(points, float(offsets.size)),
+    )
+    diagnostics = (*diagnose_wheel(2 * a / dx), *diagnose_units(approach=d, radius=wheel.radius))
+    return rolled, diagnostics
+
+
+def weights_across(half_widths: FloatArray, points: int, step: float) -> FloatArray:
+    """int dy / (pi sqrt(b^2 - y^2)) over each of so many points across, for each half-width b; sums are one.
+
+    half_widths: zero for the middle alone; shape of the result: (points, half_widths).
+    """
+    edges = (np.arange(points + 1) - points / 2)[:, np.newaxis] * step
+    narrow = np.maximum(half_widths, 1e-9 * step)
+    return np.asarray(np.diff(np.arcsin(np.clip(edges / narrow, -1.0, 1.0)), axis=0) / np.pi)
+
+
+def _at_approach(level: FloatArray, approach: float) -> FloatArray:
+    """Sum of compressions, approach, and springs in contact of each position."""
+    compression = approach + level
+    total = np.maximum(compression, 0.0).sum(axis=1)
+    return np.stack([total, np.full(total.size, approach), np.count_nonzero(compression > 0, axis=1)])
+
+
+def _under_force(level: FloatArray, wanted: float) -> FloatArray:
+    """The same where the sum is given: the highest n springs bear it, and a sort finds n."""
+    highest_first = -np.sort(-level, axis=1)
+    below = highest_first[:, :1] - highest_first
+    met = np.cumsum(np.arange(1, level.shape[1]) * np.diff(below, axis=1), axis=1)
+    pressed = 1 + np.count_nonzero(met < wanted, axis=1)
+    in_contact = np.arange(level.shape[1]) < pressed[:, np.newaxis]
+    overlap = (wanted + np.where(in_contact, below, 0.0).sum(axis=1)) / pressed
+    return np.stack([np.full(pressed.size, wanted), overlap - highest_first[:, 0], pressed])
