@@ -33,7 +33,7 @@ def roll_surface(
     height : array_like, shape (points, across)
         Heights, positive towards the wheel, periodic along axis 0; the wheel rolls along the middle of axis 1 [m].
     spacing : float or tuple of float
-        Distance of the springs, and of the heights across the track: one number or (dx, dy) [m].
+        Distance of the springs and of the heights across the track, one number or (dx, dy) [m].
     radius, modulus
         As in `roll`.
     approach, force : float, optional
@@ -57,10 +57,8 @@ def roll_surface(
     Notes
     -----
     F(x_i) = E_1 dx sum_j max(d - x_j^2 / R_1 + H_j(x_i + x_j), 0), H_j(x) = int h dy / (pi sqrt(b_j^2 - y^2)) over
-    |y| < b_j = a_y sqrt(1 - x_j^2 / a_x^2): the spring at x_j reads the mean across the smooth contact by the weight
-    of the flat punch, 1 / (2 pi a_x a_y sqrt(1 - x^2 / a_x^2 - y^2 / a_y^2)), whose marginal along the track is even.
-    Springs outside of the smooth contact read the middle line. While all springs of it touch, the force is that of
-    linear theory on the half-space, position by position. What opens inside of the contact is not known to it.
+    |y| < b_j = a_y sqrt(1 - x_j^2 / a_x^2): the mean across the smooth contact by the weight of the flat punch, and the
+    middle line outside of it. While all springs inside touch, the force is that of linear theory on the half-space.
 
     Examples
     --------
@@ -71,8 +69,7 @@ def roll_surface(
     """
     heights = finite_array("height", height, ndim=2)
     dx, dy = spacing if isinstance(spacing, tuple) else (spacing, spacing)
-    steps = positive("spacing", dx), positive("spacing", dy)
-    wheel = spring_wheel(radius, modulus)
+    steps, wheel = (positive("spacing", dx), positive("spacing", dy)), spring_wheel(radius, modulus)
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
     load = {"force": force} if approach is None else {"approach": approach}
