@@ -18,7 +18,7 @@ from validation.engine.termination import TerminatedError, terminable
 from validation.report.build import build
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.section import Section
-from validation.report.terminal import lines_of
+from validation.report.terminal import lines_of, total_of
 from validation.scenes.description import description_lines
 from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
 from validation.scenes.load import bundled_for_compare, load_scene
@@ -132,6 +132,8 @@ def _built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Ex
         executor=arguments.executor,
         callback=partial(_print_section, unsteady=unsteady),
     )
+    if not unsteady and any(section.claims for section in sections):
+        print(total_of(sections))
     print(printable(f"report: {out / 'index.html'}"))
     if unsteady or any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED

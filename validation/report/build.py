@@ -8,6 +8,7 @@ from pathlib import Path
 from validation.analysis.case import Profile
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
+from validation.report.chapter import chapter_results
 from validation.report.contents import CASES, TIMED
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
@@ -71,7 +72,8 @@ def _files(
             files[f"data/{section.name}-{table.name}.csv"] = as_csv(table)
     files["provenance.json"] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
-    results = results_of([s for s in sections if s.name not in TIMED], profile)
+    lasting = [section for section in sections if section.name not in TIMED]
+    results = results_of(lasting, profile) | {"chapter 14": chapter_results(lasting)}
     files[RESULTS] = as_json(results if scene is None else {**results, "scene": scene_summary(scene)})
     timed = [section for section in sections if section.name in TIMED]
     for section in timed:

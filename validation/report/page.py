@@ -10,7 +10,8 @@ import jinja2
 from markupsafe import Markup, escape
 
 from validation.analysis.case import Chapter, Profile
-from validation.analysis.evidence import Verdict, VerdictCell
+from validation.analysis.evidence import ClaimStatus, JudgedClaim, Verdict, VerdictCell
+from validation.report.chapter import ERRATA, chapter_of
 from validation.report.section import Section
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
@@ -18,6 +19,9 @@ from validation.scenes.dynamic_wheel import WheelScene
 SAFE = " !$'()*+,-./;=?@[]_~{}<>|^`"
 """What an address in quotation marks may hold as it is."""
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
+STATUS_SYMBOL = {"holds": "✓", "holds within limits": "(✓)", "contradicted": "✗", "open": "?"}
+"""Each status also has a border of its own, so that it is known without colour."""
+NO_STEADY_ANSWER = Markup('<span class="verdict undecided">? no steady answer</span>')
 
 
 def format_value(value: float, tolerance: float) -> str:
@@ -41,8 +45,25 @@ def scene_summary(scene: WheelScene) -> dict[str, object]:
 def format_verdict(verdict: str, count: str = "", *, unsteady: bool = False) -> Markup:
     """A verdict with its symbol; a scene without a steady answer has none."""
     if unsteady:
-        return Markup('<span class="verdict undecided">? no steady answer</span>')
+        return NO_STEADY_ANSWER
     return Markup('<span class="verdict {0}">{1} {2}{0}</span>').format(verdict, SYMBOL[verdict], count)
+
+
+def format_status(status: ClaimStatus | None, *, unsteady: bool = False) -> Markup:
+    """The status of a claim with its symbol and colour."""
+    if unsteady:
+        return NO_STEADY_ANSWER
+    name = status or "no result"
+    return Markup('<span class="verdict {}">{} {}</span>').format(
+        name.replace(" ", "-"), STATUS_SYMBOL.get(name, "–"), name
+    )
+
+
+def format_counts(claim: JudgedClaim) -> str:
+    """How many of the numbers that test a claim agree, differ, are undecided, without colour: that is the claim's."""
+    counts = ((verdict, claim.count(verdict)) for verdict in Verdict)
+    counted = ", ".join(f"{count} {verdict}" for verdict, count in counts if count)
+    return counted + ("; the claim is that they differ" if claim.confirmed_by is Verdict.DIFFER else "")
 
 
 def format_cell(cell: object, *, unsteady: bool = False) -> Markup:
@@ -78,15 +99,18 @@ def page(
     unsteady = scene is not None and bool(scene.no_steady_answer())
     environment.filters["format_cell"] = partial(format_cell, unsteady=unsteady)
     environment.filters["format_verdict"] = partial(format_verdict, unsteady=unsteady)
+    environment.filters["format_status"] = partial(format_status, unsteady=unsteady)
+    environment.filters["format_counts"] = format_counts
     environment.filters["duration"] = lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s"
     environment.filters["small"] = lambda value: f"{value:.2g}"
     text = environment.get_template("page.html").render(
         sections=sections,
+        book=[] if unsteady else chapter_of(sections),
+        errata=ERRATA,
         chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in Chapter],
         profile=profile,
         pictures={name: _address(picture) for name, picture in pictures.items()},
         about=about,
-        verdicts=list(Verdict),
         zip=zip,
         scene=scene_summary(scene) if scene else None,
         unsteady=unsteady,

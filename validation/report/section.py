@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.evidence import Evidence, Number, Role, Verdict
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Verdict
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,11 @@ class Section:
         return self.evidence.numbers if self.evidence else ()
 
     @property
+    def claims(self) -> tuple[JudgedClaim, ...]:
+        """With their numbers, none where the case failed."""
+        return self.evidence.claims if self.evidence else ()
+
+    @property
     def unconverged(self) -> tuple[str, ...]:
         return self.evidence.unconverged if self.evidence else self.failure
 
@@ -39,9 +44,6 @@ class Section:
     def criteria(self) -> int:
         return sum(number.role is Role.CRITERION for number in self.numbers)
 
-    def findings(self, verdict: Verdict) -> int:
-        return sum(number.role is Role.FINDING and number.verdict is verdict for number in self.numbers)
-
 
 def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, object]:
     """What results.json holds."""
@@ -52,6 +54,17 @@ def case_results(section: Section) -> dict[str, object]:
     """Everything that the page says of a case, as plain values."""
     return {
         "claim": section.entry.claim,
+        "claims": [
+            {
+                "claim": claim.claim,
+                "status": claim.status,
+                "answer": claim.answer,
+                "limits": claim.limits,
+                "verdicts": {verdict: claim.count(verdict) for verdict in Verdict},
+                "numbers": [number.label for number in claim.numbers],
+            }
+            for claim in section.claims
+        ],
         "answers": section.answers,
         "model needed": section.needed,
         "settings": section.settings,

@@ -1,0 +1,287 @@
+"""A claim has the colour, words and counts of the numbers that test it; a statement of the book has an answer of a run."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.report.test_printed import evidence_with, html_of, number
+from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
+from validation.report import page
+from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
+from validation.report.contents import CASES, TIMED
+from validation.report.section import Section, case_results
+from validation.report.terminal import lines_of, total_of
+
+AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+OFF = {AGREE: (0.0, 0.0), DIFFER: (9.0, 0.0), UNDECIDED: (0.1, 1.0)}
+"""Difference and half-width of a number with each verdict."""
+found = st.lists(st.sampled_from(Verdict), min_size=1, max_size=5)
+
+
+def numbers_with(verdicts, **changes):
+    return tuple(
+        number(1.0 + OFF[verdict][0], sample=OFF[verdict][1], quantity=f"y{i}", role=Role.FINDING, **changes)
+        for i, verdict in enumerate(verdicts)
+    )
+
+
+def claim(verdicts, **changes):
+    numbers = numbers_with(verdicts)
+    return JudgedClaim(claim="It is so.", answer="It is 1 to 9.", numbers=numbers, **changes)
+
+
+def section_of(*claims, name="geike"):
+    numbers = tuple({n.label: n for claim in claims for n in claim.numbers}.values())
+    return Section(name, CASES[name], "none", {}, evidence_with(numbers, claims=claims))
+
+
+def badges(text):
+    """Class and words of all badges."""
+    return re.findall(r'<span class="verdict ([^"]*)">(.*?)</span>', text)
+
+
+def summary(section):
+    """The part of the page with the summary, and the head of the case, up to its numbers."""
+    text = html_of(section)
+    return text[text.index('id="asked"') : text.index("<details", text.index('id="asked"'))]
+
+
+# --- no green badge above a refutation ---
+
+
+@settings(max_examples=15)
+@given(found)
+def test_a_claim_whose_numbers_differ_stands_under_no_green_badge(verdicts):
+    """Neither in the summary nor above the case; and only where all agree is it green."""
+    seen = {name for name, _ in badges(summary(section_of(claim(verdicts))))}
+    if DIFFER in verdicts:
+        assert seen == {"contradicted"}
+    assert ("holds" in seen) == (set(verdicts) == {AGREE})
+    assert "agree" not in seen
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "changes", "words"),
+    [
+        ([AGREE, AGREE], {}, "✓ holds"),
+        ([DIFFER], {"confirmed_by": DIFFER}, "✓ holds"),
+        ([AGREE, DIFFER], {}, "✗ contradicted"),
+        ([AGREE], {"confirmed_by": DIFFER}, "✗ contradicted"),
+        ([AGREE, UNDECIDED], {}, "? open"),
+    ],
+)
+def test_a_status_has_its_word_and_sign(verdicts, changes, words):
+    some = claim(verdicts, **changes)
+    text = summary(section_of(some))
+    assert set(badges(text)) == {(some.status.replace(" ", "-"), words)}
+    assert text.count("It is 1 to 9.") == text.count(page.format_counts(some)) == 2
+
+
+def test_a_limit_is_printed_with_its_status():
+    some = claim([AGREE, DIFFER], limits="below 1", inside=numbers_with([AGREE]))
+    text = summary(section_of(some))
+    assert set(badges(text)) == {("holds-within-limits", "(✓) holds within limits")}
+    assert "Limits: below 1." in text
+    assert lines_of(section_of(some))[1].startswith("    holds within limits (below 1): It is so.")
+
+
+def test_every_status_is_known_without_colour():
+    """A sign and a border of its own in the style of the page."""
+    assert set(page.STATUS_SYMBOL) == set(ClaimStatus) and len(set(page.STATUS_SYMBOL.values())) == len(ClaimStatus)
+    style = html_of(section_of(claim([AGREE]))).partition("</style>")[0]
+    borders = {
+        status: re.search(rf"\.{status.replace(' ', '-')} {{[^}}]*border-style: (\w+)", style) for status in ClaimStatus
+    }
+    drawn = [border[1] if border else "solid" for border in borders.values()]
+    assert len(set(drawn)) == len(drawn)
+
+
+def test_only_the_numbers_of_the_claim_are_counted():
+    """However many others of the case agree."""
+    some, others = claim([DIFFER, UNDECIDED, DIFFER]), tuple(number(quantity=f"other {i}") for i in range(5))
+    section = Section("geike", CASES["geike"], "none", {}, evidence_with([*some.numbers, *others], claims=[some]))
+    assert page.format_counts(some) == "2 differ, 1 undecided"
+    assert "5 agree" not in html_of(section)
+    (line,) = (line for line in lines_of(section) if "It is so" in line)
+    assert line == "    contradicted: It is so. It is 1 to 9. (2 differ, 1 undecided)"
+
+
+def test_each_claim_of_a_case_has_a_row_of_its_own():
+    first, second = (
+        claim([AGREE]),
+        replace(claim([DIFFER]), claim="It is otherwise.", numbers=numbers_with([DIFFER], model="m")),
+    )
+    section = section_of(first, second)
+    table = summary(section).partition("</table>")[0]
+    assert [name for name, _ in badges(table)] == ["holds", "contradicted"]
+    assert total_of([section, section]) == "claims: holds 2, contradicted 2"
+
+
+def test_results_hold_every_claim():
+    some = claim([AGREE, DIFFER], limits="below 1", inside=numbers_with([AGREE]))
+    (row,) = case_results(section_of(some))["claims"]
+    assert row == {
+        "claim": "It is so.",
+        "status": "holds within limits",
+        "answer": "It is 1 to 9.",
+        "limits": "below 1",
+        "verdicts": {"agree": 1, "differ": 1, "undecided": 0},
+        "numbers": ["y0", "y1"],
+    }
+
+
+def test_a_case_without_a_result_has_no_status():
+    failed = Section("geike", CASES["geike"], "none", {}, None, ("why",))
+    assert {name for name, _ in badges(html_of(failed))} == {"no-result"}
+
+
+# --- the book ---
+
+
+def test_every_equation_figure_and_table_of_the_chapter_has_an_entry():
+    places = " ".join(entry.place for entry in ENTRIES)
+    for place in (*(f"(14.{i})" for i in range(1, 21)), *(f"Fig. 14.{i}" for i in range(1, 6)), "Table 14.1"):
+        assert place in places, place
+
+
+def test_every_case_that_is_named_exists():
+    named = {test.case for entry in ENTRIES for test in entry.tests}
+    assert named <= {*CASES, *TIMED}
+
+
+@pytest.mark.parametrize("wrong", [{}, {"tests": (ChapterTest(case="geike"),), "untested": "why"}])
+def test_an_entry_is_tested_or_says_why_not(wrong):
+    with pytest.raises(ValueError, match="must have tests, or say why"):
+        ChapterEntry(place="(14.1)", statement="It is so.", **wrong)
+
+
+def test_a_test_names_numbers_or_a_claim():
+    with pytest.raises(ValueError, match="must name a quantity or a claim, got both"):
+        ChapterTest(case="geike", quantity="y0", claim="It is")
+
+
+def entry(**test):
+    return ChapterEntry(place="(14.1)", statement="So it is written.", tests=(ChapterTest(case="geike", **test),))
+
+
+@given(found)
+def test_a_statement_has_the_status_of_its_numbers(verdicts):
+    """One by one: of the first alone, which nothing else moves."""
+    section = section_of(claim(verdicts))
+    (answer,) = answers(entry(quantity="y0"), [section])
+    expected = {AGREE: ClaimStatus.HOLDS, DIFFER: ClaimStatus.CONTRADICTED, UNDECIDED: ClaimStatus.OPEN}
+    assert answer.status is expected[verdicts[0]]
+    assert str(verdicts[0]) in answer.answer
+    (other,) = answers(entry(quantity="y0", confirmed_by=DIFFER), [section])
+    assert (other.status is ClaimStatus.HOLDS) == (verdicts[0] is DIFFER)
+    (whole,) = answers(entry(), [section])
+    assert whole.status is section.claims[0].status
+    assert whole.answer == "Tested as “It is so.” It is 1 to 9."
+
+
+def test_of_many_numbers_the_farthest_is_printed():
+    values = (1.0, 1.05, 8.5, 0.9)
+    numbers = tuple(number(v, where={"H": float(i)}, role=Role.FINDING) for i, v in enumerate(values))
+    section = section_of(JudgedClaim(claim="It is so.", answer="It is.", numbers=numbers))
+    (answer,) = answers(entry(quantity="x"), [section])
+    assert answer.answer.startswith("4 numbers: 3 agree, 1 differ; farthest from its reference: x, H = 2: 8.5 beside")
+    (some,) = answers(entry(quantity="x", where={"H": 1.0}), [section])
+    assert (some.status, some.answer) == (ClaimStatus.HOLDS, "x, H = 1: 1.05 beside 1 dB (agree within 0.1).")
+
+
+@pytest.mark.parametrize(
+    "test", [{"quantity": "y9"}, {"claim": "no such words"}, {"quantity": "identity"}, {"quantity": "y0", "model": "m"}]
+)
+def test_a_key_that_no_number_has_leaves_no_status(test):
+    some = claim([AGREE])
+    identity = number(quantity="identity", role=Role.IDENTITY)
+    section = Section("geike", CASES["geike"], "none", {}, evidence_with([*some.numbers, identity], claims=[some]))
+    (answer,) = answers(entry(**test), [section])
+    assert (answer.status, answer.answer) == (None, "This run has no number for it.")
+    assert "no result" in page.format_status(answer.status)
+
+
+def test_the_page_and_the_results_answer_the_book():
+    """With links; a case that is not in the report has no answer."""
+    section = section_of(claim([AGREE]))
+    rows = chapter_results([section])
+    assert {a["case"] for row in rows for a in row["answers"]} == {"geike"}
+    assert all(row["answers"] or row["untested"] for row in rows)
+    text = html_of(section)
+    book = text[text.index('id="book"') :]
+    assert book.count('<a href="#geike">geike</a>') == sum(len(row["answers"]) for row in rows)
+    assert all(erratum.place in book for erratum in ERRATA)
+    assert chapter_results([section_of(claim([AGREE]), name="westergaard")]) == []
+
+
+# --- errata, each by a derivation of its own ---
+
+A, R, E, V = 2e-3, 0.5, 2e11, 20.0
+X = np.linspace(-A, A, 20_001)
+
+
+def erratum(place):
+    (row,) = (row for row in ERRATA if row.place.startswith(place))
+    return row
+
+
+def test_14_5_pulls_without_the_approach():
+    d = A**2 / R
+    hertz = 4 / 3 * E * math.sqrt(R) * d**1.5
+    assert E * np.trapezoid(-(X**2) / R, X) == pytest.approx(-2 / 3 * E * A * d, rel=1e-6)
+    assert E * np.trapezoid(d - X**2 / R, X) == pytest.approx(hertz, rel=1e-6)
+    assert "-2/3 E* a d" in erratum("(14.5)").why and "(d + h - Z0)" in erratum("(14.5)").correct
+
+
+def test_14_9_has_the_spectrum_under_the_root():
+    """The sum of B^2 over the waves of both signs is the integral of the spectrum, whatever the length."""
+    q_min, q_max = 2 * np.pi / 0.01, 2 * np.pi / 2e-4
+
+    def c1d(q):
+        return np.where((q >= q_min) & (q <= q_max), q**-2.4, 0.0)
+
+    sums = []
+    for length in (1.0, 2.0):
+        q = 2 * np.pi / length * np.arange(1, int(1.01 * q_max * length / (2 * np.pi)))
+        sums.append((2 * np.sum(2 * np.pi * c1d(q) / length), 2 * np.sum(2 * np.pi / length * c1d(q) ** 2)))
+    exact = 2 * (q_min**-1.4 - q_max**-1.4) / 1.4
+    assert [corrected for corrected, _ in sums] == pytest.approx([exact, exact], rel=0.01)
+    # as printed, a profile has another height by far, in another unit
+    assert sums[0][1] < 1e-3 * exact
+    assert erratum("(14.9)").correct == "B_1D = sqrt(2π C_1D / L)"
+
+
+def test_14_10_has_a_wavenumber_q():
+    q = 1.3 / A
+    assert np.exp(1j * q * (X + A)) - np.exp(1j * q * (X - A)) == pytest.approx(2j * np.sin(q * A) * np.exp(1j * q * X))
+    assert "2i sin(qa)" in erratum("(14.10)").why
+
+
+def test_14_7_leaves_the_mean_force_open():
+    """Its integrand is the same for any constant force; (14.11) is its change by a wave."""
+    q = 1.3 / A
+    change = 2 / q * np.sin(q * A) * np.cos(q * X)
+    assert np.gradient(change + 7.0, X)[1:-1] == pytest.approx(
+        (np.cos(q * (X + A)) - np.cos(q * (X - A)))[1:-1], abs=1e-5
+    )
+    assert "F_0" in erratum("(14.7)").correct
+
+
+def test_14_15_has_the_other_sign_of_h():
+    """A bump under the wheel raises the force of (14.5), and lowers that of springs under (14.15) as printed."""
+    d = A**2 / R
+    bump = 0.1 * d * np.exp(-((X / A) ** 2))
+    smooth, with_bump, as_printed = (np.trapezoid(np.maximum(d - X**2 / R + s * bump, 0), X) for s in (0, 1, -1))
+    assert as_printed < smooth < with_bump
+    assert "- h(x)" in erratum("(14.15)").correct
+
+
+def test_the_period_of_region_3_is_a_frequency():
+    omega = np.linspace(0, 6 * np.pi * V / A, 1001)
+    assert np.sin((omega + np.pi * V / A) / V * A) ** 2 == pytest.approx(np.sin(omega / V * A) ** 2, abs=1e-9)
+    assert erratum("After (14.19)").correct == "Δω3 = π v0/a"
