@@ -1,11 +1,17 @@
 """Faults planted in what `tests/report` looks at: where, what is wrong there, and the test that must catch it."""
 
-from tests.report import test_figure_lines, test_printed
+import functools
+
+from markupsafe import Markup
+
+from tests.report import test_claims, test_figure_lines, test_printed
 from validation.analysis import statistics
-from validation.analysis.evidence import Verdict, if_confirmed
+from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.cases.punch import fractal_punch_text
-from validation.report import page
+from validation.report import chapter, page
 from validation.report.figures import rolling as rolling_figure
+
+AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
 
 
 def unless_it_differs(sentence, numbers):
@@ -13,7 +19,19 @@ def unless_it_differs(sentence, numbers):
     return if_confirmed(sentence, [n for n in numbers if n.verdict is not Verdict.UNDECIDED])
 
 
+def green_by_its_criteria(status, *, unsteady=False):
+    return Markup('<span class="verdict holds">✓ holds</span>')
+
+
 FAULTS = {
+    "a contradicted claim under a green badge": (
+        (page, "format_status", green_by_its_criteria),
+        functools.partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),
+    ),
+    "a statement of the book answered by numbers of another model": (
+        (chapter, "numbers_with", lambda numbers, quantity, model: numbers_with(numbers, quantity)),
+        functools.partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "model": "m"}),
+    ),
     "another model's line under a label": (
         (rolling_figure, "SPRINGS", "linear 1D"),
         test_figure_lines.test_lines_of_rolling,

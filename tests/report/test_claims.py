@@ -1,4 +1,4 @@
-"""A claim has the colour, words and counts of the numbers that test it; a statement of the book has an answer of a run."""
+"""A claim has the colour, words and counts of the numbers that test it; a run answers the statements of the book."""
 
 import math
 import re
@@ -86,19 +86,21 @@ def test_a_limit_is_printed_with_its_status():
     some = claim([AGREE, DIFFER], limits="below 1", inside=numbers_with([AGREE]))
     text = summary(section_of(some))
     assert set(badges(text)) == {("holds-within-limits", "(✓) holds within limits")}
-    assert "Limits: below 1." in text
-    assert lines_of(section_of(some))[1].startswith("    holds within limits (below 1): It is so.")
+    assert text.count("It is 1 to 9. Limits: below 1.") == 2
+    assert lines_of(section_of(some))[1].endswith("It is so. It is 1 to 9. Limits: below 1. (1 agree, 1 differ)")
+    # within which it does not hold, or which the answer names, are not named once more
+    undecided = numbers_with([UNDECIDED])
+    assert "Limits" not in summary(section_of(claim([UNDECIDED, DIFFER], limits="below 1", inside=undecided)))
+    assert "Limits" not in summary(section_of(replace(some, answer="Below 1: yes, below 1.", limits="below 1")))
 
 
 def test_every_status_is_known_without_colour():
     """A sign and a border of its own in the style of the page."""
     assert set(page.STATUS_SYMBOL) == set(ClaimStatus) and len(set(page.STATUS_SYMBOL.values())) == len(ClaimStatus)
     style = html_of(section_of(claim([AGREE]))).partition("</style>")[0]
-    borders = {
-        status: re.search(rf"\.{status.replace(' ', '-')} {{[^}}]*border-style: (\w+)", style) for status in ClaimStatus
-    }
-    drawn = [border[1] if border else "solid" for border in borders.values()]
-    assert len(set(drawn)) == len(drawn)
+    names = [status.replace(" ", "-") for status in ClaimStatus]
+    borders = [re.search(rf"\.{name} {{[^}}]*border-style: (\w+)", style) for name in names]
+    assert len({border[1] if border else "solid" for border in borders}) == len(names)
 
 
 def test_only_the_numbers_of_the_claim_are_counted():
@@ -112,11 +114,8 @@ def test_only_the_numbers_of_the_claim_are_counted():
 
 
 def test_each_claim_of_a_case_has_a_row_of_its_own():
-    first, second = (
-        claim([AGREE]),
-        replace(claim([DIFFER]), claim="It is otherwise.", numbers=numbers_with([DIFFER], model="m")),
-    )
-    section = section_of(first, second)
+    other = replace(claim([DIFFER]), claim="It is otherwise.", numbers=numbers_with([DIFFER], model="m"))
+    section = section_of(claim([AGREE]), other)
     table = summary(section).partition("</table>")[0]
     assert [name for name, _ in badges(table)] == ["holds", "contradicted"]
     assert total_of([section, section]) == "claims: holds 2, contradicted 2"

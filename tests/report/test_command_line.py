@@ -30,6 +30,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.engine import SERIAL, Engine
+from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES
 from validation.report.figures import drawing
 from validation.report.figures import hertz as hertz_figure
@@ -169,6 +170,7 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
         assert report("--only", name, "--out", str(one), "--workers", "1") in (0, 1)
     assert set(contents(one, *NUMBERS, *FIGURES)) == files_of(name, evidences[0])
     whole_page(one, [name])
+    in_the_book(name, evidences[0])
     by_one, drawn = contents(one, *NUMBERS), contents(one, *FIGURES)
     if name not in REDRAWN:
         request.getfixturevalue("without_figures")
@@ -212,6 +214,13 @@ def whole_page(folder, names):
     for external in ("http://", "https://", "<script", "@import", 'rel="stylesheet"'):
         assert external not in page
     assert "profile: quick" in page
+
+
+def in_the_book(name, evidence):
+    """Assert that each number and claim of the case by which the chapter is answered is there."""
+    for entry in ENTRIES:
+        for test in entry.tests:
+            assert test.case != name or test.judged(entry.statement, evidence) is not None, (entry.place, test)
 
 
 @pytest.mark.slow

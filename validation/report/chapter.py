@@ -19,7 +19,7 @@ from validation.analysis.evidence import (
     numbers_with,
     with_reference,
 )
-from validation.report.section import Section
+from validation.report.section import Section, answer_of
 
 BOOK = Path(__file__).with_suffix(".toml")
 FEW = 3
@@ -119,8 +119,7 @@ def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Chapt
     if judged is None:
         return ChapterAnswer(section.name, None, "This run has no number for it.")
     tested = "" if judged.claim == entry.statement else f"Tested as “{judged.claim}” "
-    limits = f" Limits: {judged.limits}." if judged.limits else ""
-    return ChapterAnswer(section.name, judged.status, f"{tested}{judged.answer}{limits}")
+    return ChapterAnswer(section.name, judged.status, tested + answer_of(judged))
 
 
 def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[ChapterAnswer]]]:

@@ -12,7 +12,7 @@ from markupsafe import Markup, escape
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Verdict, VerdictCell
 from validation.report.chapter import ERRATA, chapter_of
-from validation.report.section import Section
+from validation.report.section import Section, answer_of
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -101,6 +101,7 @@ def page(
     environment.filters["format_verdict"] = partial(format_verdict, unsteady=unsteady)
     environment.filters["format_status"] = partial(format_status, unsteady=unsteady)
     environment.filters["format_counts"] = format_counts
+    environment.filters["answer_of"] = answer_of
     environment.filters["duration"] = lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s"
     environment.filters["small"] = lambda value: f"{value:.2g}"
     text = environment.get_template("page.html").render(

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Verdict
+from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,12 @@ class Section:
     @property
     def criteria(self) -> int:
         return sum(number.role is Role.CRITERION for number in self.numbers)
+
+
+def answer_of(claim: JudgedClaim) -> str:
+    """Its answer, with its limits where it holds within these alone and the answer does not name them."""
+    silent = claim.status is ClaimStatus.LIMITED and claim.limits not in claim.answer
+    return f"{claim.answer} Limits: {claim.limits}." if silent else claim.answer
 
 
 def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, object]:

@@ -6,7 +6,7 @@ from validation.analysis.evidence import ClaimStatus
 from validation.benchmarks.solvers.rows import rows_of
 from validation.report.contents import TIMED
 from validation.report.page import format_counts
-from validation.report.section import Section
+from validation.report.section import Section, answer_of
 
 
 def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
@@ -15,8 +15,7 @@ def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
     if unsteady:
         met = "no steady answer, the results hold for this distance alone"
     details = [
-        f"{claim.status}{f' ({claim.limits})' if claim.limits else ''}: {claim.claim} {claim.answer} "
-        f"({format_counts(claim)})"
+        f"{claim.status}: {claim.claim} {answer_of(claim)} ({format_counts(claim)})"
         for claim in section.claims
         if not unsteady
     ]
