@@ -1,5 +1,6 @@
 """Convolution with a real, even kernel by planned FFTs, on buffers that are made once and reused."""
 
+import math
 import threading
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -15,9 +16,10 @@ Planning = Literal["estimate", "measure"]
 ComplexArray = NDArray[np.complex128]
 PLANNER = threading.Lock()
 """FFTW has one planner, and one memory of what it has measured, in a process."""
-COLUMNS_AT_ONCE = 16
-"""Columns transformed at a time: few enough to stay in the cache, forwards, times the symbol, and back."""
-CACHED_NUMBERS = 2**15
+COLUMNS_AT_ONCE = 28
+"""Columns transformed at a time, at the most: few enough to stay in the cache, forwards, times the symbol, and back.
+Rows of 16 or 32 numbers, a power of two apart, would displace each other from the cache; measured."""
+CACHED_NUMBERS = 2**16
 """A spectrum of no more numbers stays in the cache as a whole: `CachedConvolution`."""
 
 
@@ -87,7 +89,7 @@ class PlainConvolution(Convolution):
 
     def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], planning: Planning):
         super().__init__(shape, shape, planning)
-        self._symbol = np.concatenate([symbol, symbol[(shape[0] - 1) // 2 : 0 : -1]]) / (shape[0] * shape[1])
+        self._symbol = _halfplane(symbol, shape)
         self._spectrum = pyfftw.empty_aligned(self._symbol.shape, dtype=np.complex128)
         self._forward, self._inverse = self._plan(self._rows, self._spectrum, (0, 1))
 
@@ -108,26 +110,26 @@ class PaddedConvolution(Convolution):
 
     def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
         super().__init__(shape, padded, planning)
-        # one row a column of the spectrum, each even: the second half mirrors the first, without both ends
-        half = symbol.T / (padded[0] * padded[1])
-        self._symbol = np.concatenate([half, half[:, (padded[0] - 1) // 2 : 0 : -1]], axis=1)
-        self._spectrum = pyfftw.empty_aligned((shape[0], padded[1] // 2 + 1), dtype=np.complex128)
-        self._columns = pyfftw.empty_aligned((COLUMNS_AT_ONCE, padded[0]), dtype=np.complex128)
+        whole, columns = _halfplane(symbol, padded), symbol.shape[1]
+        at_once = math.ceil(columns / math.ceil(columns / COLUMNS_AT_ONCE))
+        blocks = (slice(first, first + at_once) for first in range(0, columns, at_once))
+        self._symbols = [(block, np.ascontiguousarray(whole[:, block])) for block in blocks]
+        self._spectrum = pyfftw.empty_aligned((shape[0], columns), dtype=np.complex128)
+        self._columns = pyfftw.empty_aligned((padded[0], at_once), dtype=np.complex128)
         self._forward, self._inverse = self._plan(self._rows, self._spectrum, (1,))
-        self._down, self._up = self._plan(self._columns, self._columns, (1,))
+        self._down, self._up = self._plan(self._columns, self._columns, (0,))
 
     def _convolve(self) -> None:
         self._forward()
         filled = self.shape[0]
-        for first in range(0, self._spectrum.shape[1], COLUMNS_AT_ONCE):
-            some = self._spectrum[:, first : first + COLUMNS_AT_ONCE]
-            columns = self._columns[: some.shape[1]]
-            columns[:, :filled] = some.T
-            columns[:, filled:] = 0.0
+        for block, symbol in self._symbols:
+            spectrum, columns = self._spectrum[:, block], self._columns[:, : symbol.shape[1]]
+            columns[:filled] = spectrum
+            columns[filled:] = 0.0
             self._down()
-            columns *= self._symbol[first : first + COLUMNS_AT_ONCE]
+            columns *= symbol
             self._up()
-            some[:] = columns[:, :filled].T
+            spectrum[:] = columns[:filled]
         self._inverse()
 
 
@@ -139,7 +141,7 @@ class CachedConvolution(Convolution):
 
     def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
         super().__init__(shape, padded, planning)
-        self._symbol = np.concatenate([symbol, symbol[(padded[0] - 1) // 2 : 0 : -1]]) / (padded[0] * padded[1])
+        self._symbol = _halfplane(symbol, padded)
         self._spectrum = pyfftw.empty_aligned(self._symbol.shape, dtype=np.complex128)
         filled = self._spectrum[: shape[0]]
         self._forward, self._inverse = self._plan(self._rows, filled, (1,))
@@ -152,6 +154,11 @@ class CachedConvolution(Convolution):
         np.multiply(self._spectrum, self._symbol, out=self._spectrum)
         self._up()
         self._inverse()
+
+
+def _halfplane(quadrant: FloatArray, padded: tuple[int, int]) -> FloatArray:
+    """The symbol of all rows, since it is even, over the points: FFTW's transforms there and back multiply by them."""
+    return np.concatenate([quadrant, quadrant[(padded[0] - 1) // 2 : 0 : -1]]) / (padded[0] * padded[1])
 
 
 def padded_convolution(

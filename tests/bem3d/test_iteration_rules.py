@@ -223,15 +223,15 @@ def test_rounds_end_where_a_fresh_residual_is_not_half_of_the_last(rounds, monke
 @pytest.mark.parametrize(
     ("padded", "small"),
     [
-        ((256, 254), True),
-        ((256, 256), False),
-        ((64, 1022), True),
-        ((66, 1022), False),
-        ((512, 126), True),
-        ((1024, 64), False),
+        ((512, 254), True),
+        ((512, 256), False),
+        ((64, 2046), True),
+        ((66, 2046), False),
+        ((1024, 126), True),
+        ((2048, 64), False),
     ],
 )
-def test_a_spectrum_of_32768_numbers_is_kept_as_a_whole(padded, small):
+def test_a_spectrum_of_65536_numbers_is_kept_as_a_whole(padded, small):
     """Half of the waves along the second axis, and the one at the middle."""
     symbol = np.ones((padded[0] // 2 + 1, padded[1] // 2 + 1))
     found = convolution.padded_convolution(symbol, shape=(2, 2), padded=padded, planning="estimate")

@@ -11,7 +11,7 @@ from hypothesis.extra.numpy import arrays
 from scipy import integrate
 
 import bem3d
-from bem3d import kernel
+from bem3d import convolution, kernel
 from tests.oracles import dense_operator, love_by_logarithms
 from tests.strategies import half_spaces
 
@@ -20,13 +20,36 @@ def random_pressure(half_space, seed):
     return np.random.default_rng(seed).standard_normal(half_space.shape)
 
 
-@pytest.mark.slow
-@given(half_space=half_spaces(most=8), seed=st.integers(0, 1000))
-def test_displacement(half_space, seed):
+def assert_dense(half_space, seed):
     pressure = random_pressure(half_space, seed)
     dense = dense_operator(half_space) @ pressure.ravel()
     fast = half_space.displacement(pressure)
     np.testing.assert_allclose(fast.ravel(), dense, atol=1e-12 * np.abs(dense).max(initial=1e-300))
+
+
+@pytest.mark.slow
+@given(half_space=half_spaces(most=8), seed=st.integers(0, 1000))
+def test_displacement(half_space, seed):
+    assert_dense(half_space, seed)
+
+
+@pytest.mark.slow
+@given(half_space=half_spaces(most=8, periodic=False), seed=st.integers(0, 1000), at_once=st.integers(1, 5))
+def test_displacement_by_some_columns_at_a_time(half_space, seed, at_once):
+    """However many; the last block has fewer."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(convolution, "CACHED_NUMBERS", 0)
+        patch.setattr(convolution, "COLUMNS_AT_ONCE", at_once)
+        assert_dense(half_space, seed)
+
+
+@pytest.mark.parametrize("n", [256, 512, 1024])
+def test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart(n):
+    """Or they would share a few places of the cache, and displace each other."""
+    symbol, padded = np.ones((n + 1, n + 1)), (2 * n, 2 * n)
+    columns = convolution.padded_convolution(symbol, shape=(2, n), padded=padded, planning="estimate")._columns
+    apart = columns.strides[0] // columns.itemsize
+    assert apart & (apart - 1), f"{apart} numbers"
 
 
 @given(half_space=half_spaces(most=12), seed=st.integers(0, 1000))

@@ -7,7 +7,17 @@ import math
 import numpy as np
 
 import bem3d
-from bem3d import contact, halfspace, kernel, projected_cg, rolling_frame, tangent_stiffness, window, window_solve
+from bem3d import (
+    contact,
+    convolution,
+    halfspace,
+    kernel,
+    projected_cg,
+    rolling_frame,
+    tangent_stiffness,
+    window,
+    window_solve,
+)
 from bem3d import rolling_solve as wheel_on_strip
 from bem3d.rolling_frame import Frame, Track
 from bem3d.smooth_wheel import smooth_contact
@@ -30,6 +40,11 @@ from validation.theory import rolling as rolling_theory
 def shifted_table(cells, aspect):
     x, y = np.arange(cells[0])[:, np.newaxis], aspect * np.arange(cells[1])
     return kernel.love(x + 0.5, y, 1.0, aspect)
+
+
+def repeated(quadrant, padded):
+    rest = quadrant[1 : (padded[0] + 1) // 2]
+    return np.concatenate([quadrant, rest]) / (padded[0] * padded[1])
 
 
 def one_sided_corner(x, y):
@@ -112,6 +127,16 @@ FAULTS = {
     "no padding": (
         (halfspace, "_doubled", lambda points: points + points % 2),
         test_operator_against_dense_twin.test_displacement,
+    ),
+    "a symbol that repeats instead of mirroring": (
+        (convolution, "_halfplane", repeated),
+        test_operator_against_dense_twin.test_displacement_by_some_columns_at_a_time,
+    ),
+    "columns a power of two apart": (
+        (convolution, "COLUMNS_AT_ONCE", 32),
+        functools.partial(
+            test_operator_against_dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024
+        ),
     ),
     # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
     "padding two points short": (
