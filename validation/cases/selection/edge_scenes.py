@@ -1,0 +1,166 @@
+"""Scenes at the edges of every range in which models claim errors, and beyond: where a claim is most easily false."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.engine.engine import random_generator
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.load import Scene
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.simulation.surface import draw_surface
+from validation.theory.closed_forms import hertz_force
+
+FloatArray = NDArray[np.float64]
+Generator = np.random.Generator
+
+PUNCH, SPHERE, ROLLING, WHEEL = "punch", "sphere", "rolling", "wheel"
+MEASURED = "measured "
+"""Before the name of a body: one surface of points, no two of the same texture after each other."""
+EDGE_KINDS = tuple(start + body for start in ("", MEASURED) for body in (PUNCH, SPHERE, ROLLING, WHEEL))
+QUANTITIES = {
+    PUNCH: ("stiffness",),
+    SPHERE: ("stiffness",),
+    ROLLING: ("force-spectrum", "force-rms"),
+    WHEEL: ("acceleration", "acceleration-rms"),
+}
+LOADS = (-6.0, 2.0)
+"""lg of F / (E* h L) of punches."""
+SPHERE_HEIGHTS, ROLLING_HEIGHTS, WHEEL_HEIGHTS = (-2.5, 1.0), (-2.5, 0.3), (-2.5, -0.3)
+"""lg of h / d."""
+HURSTS = (0.2, 1.2)
+WAVES_ON_A_SIDE = (1, 2, 4, 8, 16, 32)
+LONGEST = (0.5, 20.0)
+"""Longest wave over the contact radius."""
+BANDS = (2.0, 12.0)
+"""Longest over shortest wave."""
+RESONANCES = (0.6, 6.0)
+"""Frequency of the longest wave over the resonance; below one there is no steady answer."""
+POINTS, TRACK, RADIUS = 128, (256, 64), 8
+"""Points along the sides of a measured face, of a measured track, and to a contact radius under a sphere or wheel."""
+
+
+def edge_scene(kind: str, number: int, seed: int) -> tuple[Scene, str]:
+    """A scene of one of `EDGE_KINDS` and a quantity of it; the same for the same numbers."""
+    rng = random_generator(seed, EDGE_KINDS.index(kind), number)
+    body, name = kind.removeprefix(MEASURED), f"{kind} {number}"
+    draw_face = _texture(number) if kind.startswith(MEASURED) else None
+    quantity = QUANTITIES[body][number // 2 % len(QUANTITIES[body])]
+    make = _punch if body == PUNCH else _round
+    return make(rng, body, name, draw_face), quantity
+
+
+def _punch(rng: Generator, body: str, name: str, draw_face: "Face | None") -> IndentationScene:
+    modulus, side = 10 ** rng.uniform(6, 11.5), 10 ** rng.uniform(-4, -1)
+    first, height = int(rng.choice(WAVES_ON_A_SIDE)), side * 10 ** rng.uniform(-5, -3)
+    # a measured face is pressed where more than a few of its points touch
+    load = 10 ** rng.uniform(-3.0 if draw_face else LOADS[0], LOADS[1])
+    band = _band(rng, height, side / (min(first, 8) if draw_face else first))
+    ground = _measured(rng, draw_face, band, (POINTS, POINTS), side / POINTS) if draw_face else band
+    return IndentationScene(
+        name=name,
+        shape="punch",
+        size=side,
+        load=load * modulus * ground.rms * side,
+        modulus=modulus,
+        ground=ground,
+    )
+
+
+def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Scene:
+    modulus, radius = 10 ** rng.uniform(6, 11.5), 10 ** rng.uniform(-3, 0)
+    approach = radius * 10 ** rng.uniform(-5, -3.5)
+    a = math.sqrt(radius * approach)
+    heights = {SPHERE: SPHERE_HEIGHTS, ROLLING: ROLLING_HEIGHTS, WHEEL: WHEEL_HEIGHTS}[body]
+    longest = a * float(np.exp(rng.uniform(*np.log(LONGEST))))
+    band = _band(rng, approach * 10 ** rng.uniform(*heights), longest)
+    settings: dict[str, Any] = {"name": name, "modulus": modulus, "ground": band}
+    settings["load"] = hertz_force(radius=radius, modulus=modulus, approach=approach)
+    if draw_face:
+        points = (POINTS, POINTS) if body == SPHERE else TRACK
+        settings["ground"] = _measured(rng, draw_face, band, points, a / RADIUS)
+    if body == SPHERE:
+        return IndentationScene(shape="sphere", size=radius, **settings)
+    if body == WHEEL:
+        mass = 10 ** rng.uniform(0, 3)
+        resonance = math.sqrt(2 * a * modulus / mass)
+        above = float(np.exp(rng.uniform(*np.log(RESONANCES))))
+        settings |= {"mass": mass, "speed": above * resonance / settings["ground"].q_min}
+    return RollingScene(radius=radius, **settings)
+
+
+def _band(rng: Generator, height: float, longest: float) -> Roughness:
+    ratio = float(np.exp(rng.uniform(*np.log(BANDS))))
+    return Roughness(rms=height, hurst=rng.uniform(*HURSTS), longest=longest, shortest=longest / ratio)
+
+
+# --- measured faces, made from Gaussian heights ---
+
+Face = Callable[[FloatArray, Generator], FloatArray]
+"""From Gaussian heights of unit rms to others."""
+
+
+def _measured(
+    rng: Generator, draw_face: Face, band: Roughness, points: tuple[int, int], spacing: float
+) -> MeasuredHeights:
+    """Waves of the band that the points resolve, in a texture, with the height of the band."""
+    side, first = min(points) * spacing, 2 * math.pi / (min(points) * spacing)
+    low = max(2 * math.pi / min(band.longest, side), first)
+    high = min(max(band.q_max, 2 * low), math.pi / (2 * spacing))
+    exponent = -2 * band.hurst - 2
+
+    def c2d(q: FloatArray) -> FloatArray:
+        inside = (np.abs(q) >= low * (1 - 1e-9)) & (np.abs(q) <= high)
+        return np.where(inside, (np.where(inside, np.abs(q), low) / low) ** exponent, 0.0)
+
+    gaussian = draw_surface(c2d, shape=points, spacing=spacing, rng=rng)
+    height = draw_face(gaussian / gaussian.std(), rng)
+    return MeasuredHeights(height=band.rms * height / height.std(), spacing=(spacing, spacing))
+
+
+def gaussian_face(height: FloatArray, rng: Generator) -> FloatArray:
+    return height
+
+
+def ridges(height: FloatArray, rng: Generator) -> FloatArray:
+    """Across the track, and a little of all other waves."""
+    return np.asarray(height.mean(axis=1, keepdims=True) / height.mean(axis=1).std() + 0.1 * height)
+
+
+def honed(height: FloatArray, rng: Generator) -> FloatArray:
+    """Plateaus between deep grooves along both diagonals."""
+    rows, columns = (np.arange(n) for n in height.shape)
+    profile, count = height[:, 0] / height[:, 0].std(), len(height)
+    grooves = [profile[(rows[:, np.newaxis] + sign * columns) % count] for sign in (1, -1)]
+    return np.asarray(np.minimum(np.minimum(*grooves), 0.3) + 0.05 * height)
+
+
+def log_normal(height: FloatArray, rng: Generator) -> FloatArray:
+    return np.asarray(np.exp(0.8 * height))
+
+
+def outliers(height: FloatArray, rng: Generator) -> FloatArray:
+    """Single points that stand out by five to twenty heights, as dust or errors of a profilometer do."""
+    found = height.copy()
+    found.flat[rng.integers(0, height.size, 6)] += rng.uniform(5, 20, 6)
+    return found
+
+
+def pits(height: FloatArray, rng: Generator) -> FloatArray:
+    """Of four points a side, five to twenty heights deep."""
+    found = height.copy()
+    for i, j in rng.integers(0, np.array(height.shape) - 4, (12, 2)).tolist():
+        found[i : i + 4, j : j + 4] -= rng.uniform(5, 20)
+    return found
+
+
+TEXTURES: tuple[Face, ...] = (gaussian_face, ridges, honed, log_normal, outliers, pits)
+
+
+def _texture(number: int) -> Face:
+    return TEXTURES[number % len(TEXTURES)]
