@@ -224,6 +224,19 @@ def test_leaving_out_one_is_the_standard_error_of_a_mean():
     np.testing.assert_allclose(jackknife_error(without), x.std(axis=0, ddof=1) / math.sqrt(7), rtol=1e-12)
 
 
+@pytest.mark.parametrize(("size", "own"), [(3, 0.1), (6, 0.3)])
+def test_the_interval_of_a_logarithm_of_a_ratio_covers_its_truth(size, own):
+    """Of strips in pairs, over two bands: what both share drops out, the rest is jackknifed; skew costs a little."""
+    rng, weights = np.random.default_rng(size), np.array([0.5, 0.0, 0.5])
+
+    def drawn():
+        linear = rng.lognormal(0, 0.5, (size, 3))
+        values = 1.3 * linear * rng.lognormal(-(own**2) / 2, own, (size, 3))
+        return ends(log_ratio_of_means(values, linear, weights))
+
+    assert holds(covered(drawn, math.log(1.3)), short=0.03)
+
+
 # --- pairs of grids ---
 
 
@@ -233,6 +246,7 @@ def test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_a
     value, left = extrapolated(coarse, finer)
     assert value == Estimate(0.8, 0.2, 20)
     assert left == pytest.approx(0.1 + 2 * t(4) * 0.03)
+    assert extrapolated(coarse, finer, among=5)[1] == pytest.approx(0.1 + 2 * stats.t.ppf(0.995, 3) * 0.03)
 
 
 def on_grids(rng, surfaces, slope=0.1, scatter=0.02):

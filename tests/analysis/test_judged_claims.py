@@ -110,6 +110,21 @@ def test_the_worst_point_says_where_it_is_and_in_which_range():
     assert (found.value, found.where) == (-0.6, {"q a": (1.0, 4.0), "worst at": 2.0})
 
 
+WORST = [
+    # of two that differ the one that is surest to, of two that do not the one that may yet
+    ([point(5.0, 0.1, at=1.0), point(6.0, 4.0, at=2.0)], 1.0),
+    ([point(0.8, 0.1, at=1.0), point(0.5, 0.45, at=2.0)], 2.0),
+    # beside the tolerance of each
+    ([point(0.5, at=1.0), point(1.2, at=2.0, tolerance=3.0)], 1.0),
+    ([point(5.0, at=1.0), point(6.0, at=2.0, tolerance=3.0)], 1.0),
+]
+
+
+@pytest.mark.parametrize(("points", "at"), WORST)
+def test_the_worst_point_is_the_farthest_beyond_its_tolerance_with_its_interval(points, at):
+    assert worst(points, "q a").where["worst at"] == worst(points[::-1], "q a").where["worst at"] == at
+
+
 def test_a_mean_of_both_signs_agrees_where_the_range_does_not():
     points = [point(8.0, 0.1, at=1.0), point(-8.0, 0.1, at=2.0)]
     assert signed_mean(points) == 0.0

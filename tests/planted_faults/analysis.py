@@ -10,10 +10,11 @@ from scipy import stats
 from tests.analysis import test_error_bars, test_evidence, test_judged_claims, test_rules_by_loops
 from tests.analysis import test_spectra as test_wheel_spectra
 from validation.analysis import difference as difference_module
-from validation.analysis import spectra, statistics
+from validation.analysis import over_range, spectra, statistics
 from validation.analysis import spectral_features as regions
 from validation.analysis.difference import difference
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
+from validation.analysis.features import JudgedFeature
 from validation.analysis.over_range import signed_mean, worst
 from validation.cases.punch import fractal_punch_decades
 from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
@@ -74,6 +75,49 @@ def each_alone(estimate, points):
     return statistics.student(estimate.samples - 1) * estimate.error
 
 
+def farthest(points, parameter):
+    """The point that is farthest off, whatever its interval and its tolerance."""
+    off = max(points, key=lambda p: abs(p.difference))
+    return dataclasses.replace(worst(points, parameter), where={"worst at": off.where[parameter]})
+
+
+def about_its_mean(points, parameter, tolerance, reason):
+    """The scatter over a range, of which a constant difference is no part."""
+    found = over_range.root_mean_square(points, parameter, tolerance, reason)
+    return dataclasses.replace(found, value=float(np.std([point.difference for point in points])))
+
+
+def of_the_mean_alone(points, parameter, tolerance, reason):
+    """The half-width of a mean of independent points."""
+    found = over_range.root_mean_square(points, parameter, tolerance, reason)
+    return dataclasses.replace(found, sample=found.sample / math.sqrt(len(points)))
+
+
+def wherever_limits_are_named(claim):
+    """Limits taken at their word."""
+    return ClaimStatus.LIMITED if claim.inside else claim_status(claim)
+
+
+def in_its_unit(feature, value, reference, source, **settings):
+    """A relative tolerance taken for one in the unit."""
+    return judged(dataclasses.replace(feature, relative=False), value, reference, source, **settings)
+
+
+def normal_quantile(degrees, confidence=0.95):
+    return float(stats.norm.ppf((1 + confidence) / 2))
+
+
+def scatter_of_the_others(without):
+    """Of a jackknife, the standard error of its values as if they were independent."""
+    return np.std(without, axis=0, ddof=1) / math.sqrt(len(without))
+
+
+def unpaired(values, references, weights):
+    """The ratio of two means as if each were of realisations of its own."""
+    mine, other = (statistics.log_ratio_of_means(x, np.ones(x.shape[1]), weights) for x in (values, references))
+    return mine.minus(other)
+
+
 def of_one_tail(estimate):
     """The quantile of 90 %."""
     return float(stats.t.ppf(0.95, estimate.samples - 1)) * estimate.error
@@ -119,6 +163,8 @@ def both_edges(bands, q, values):
     return values @ inside.astype(complex)
 
 
+claim_status = JudgedClaim.status.fget
+judged = JudgedFeature.number
 half_of_the_interval = statistics.Estimate.half_width.fget
 estimated = statistics.Sample.estimate
 spectra_of_records = spectra.record_spectra
@@ -209,6 +255,45 @@ FAULTS = {
     "the mean of a range for its worst point": (
         (test_judged_claims, "worst", mean_of_the_range),
         test_judged_claims.test_a_mean_of_both_signs_agrees_where_the_range_does_not,
+    ),
+    "the farthest point for the worst": (
+        (test_judged_claims, "worst", farthest),
+        functools.partial(
+            test_judged_claims.test_the_worst_point_is_the_farthest_beyond_its_tolerance_with_its_interval,
+            *test_judged_claims.WORST[0],
+        ),
+    ),
+    "a root mean square about the mean": (
+        (test_judged_claims, "root_mean_square", about_its_mean),
+        test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
+    ),
+    "the interval of a mean for that of a root mean square": (
+        (test_judged_claims, "root_mean_square", of_the_mean_alone),
+        test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
+    ),
+    "limits taken at their word": (
+        (JudgedClaim, "status", property(wherever_limits_are_named)),
+        functools.partial(
+            test_judged_claims.test_limits_hold_only_where_all_inside_agrees,
+            Verdict.UNDECIDED,
+            ClaimStatus.CONTRADICTED,
+        ),
+    ),
+    "a relative tolerance in the unit": (
+        (JudgedFeature, "number", in_its_unit),
+        test_judged_claims.test_a_feature_has_one_tolerance_of_its_unit_or_of_its_reference,
+    ),
+    "the normal quantile for Student's": (
+        (statistics, "student", normal_quantile),
+        functools.partial(test_error_bars.test_the_interval_of_a_mean_is_students, 5),
+    ),
+    "a jackknife without its n - 1": (
+        (test_error_bars, "jackknife_error", scatter_of_the_others),
+        test_error_bars.test_leaving_out_one_is_the_standard_error_of_a_mean,
+    ),
+    "pairs of strips taken for independent ones": (
+        (test_error_bars, "log_ratio_of_means", unpaired),
+        functools.partial(test_error_bars.test_the_interval_of_a_logarithm_of_a_ratio_covers_its_truth, 3, 0.1),
     ),
     "the interval of one point for all of a range": (
         (statistics.Estimate, "half_width_among", each_alone),
