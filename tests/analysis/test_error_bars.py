@@ -30,6 +30,7 @@ from validation.analysis.statistics import (
     paired_samples,
     ratio_of_means,
     sample,
+    student,
 )
 from validation.benchmarks.work_precision.errors import MethodValues, error
 from validation.benchmarks.work_precision.problem import Quantity, logarithm
@@ -586,15 +587,16 @@ def test_the_law_of_the_break_covers_its_truth():
 
 
 def test_the_rms_jump_covers_its_truth():
-    """A mean square of Gaussian jumps over five distances."""
+    """A mean square of Gaussian jumps at one of five distances."""
     rng = np.random.default_rng(1)
     wheels = np.array([60, 40, 20, 20, 20])
 
     def drawn():
         rms = np.array([math.sqrt(np.mean(rng.standard_normal(n) ** 2)) for n in wheels])
         breaks = {"rms jump [m/s2]": rms, "of linear theory [m/s2]": np.ones(5), "wheels": wheels}
-        number = distance_numbers.rms_jump(breaks)
-        return number.value, number.sample
+        number, *others = distance_numbers.jumps({**breaks, "distance [m]": np.arange(5.0)})
+        # of one distance alone, whose interval holds together with those of the others
+        return number.value, number.sample * student(59) / student(59, 1 - 0.05 / (1 + len(others)))
 
     assert holds(covered(drawn, 1.0), wide=0.01)
 
@@ -621,10 +623,9 @@ def test_the_level_over_linear_theory_covers_its_truth():
 
     def drawn():
         hann = 1.3 * linear * rng.gamma(100, 1 / 100, (6, 1))
-        (number,) = spectrum_numbers.level_over_linear(
-            Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05)
-        )
-        return number.value, number.sample
+        numbers = spectrum_numbers.levels_over_linear(Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05))
+        # all bands of a group share its factor
+        return numbers[0].value, numbers[0].sample * student(5) / student(5, 1 - 0.05 / len(numbers))
 
     assert holds(covered(drawn, 10 * math.log10(1.3), trials=300), trials=300, short=0.01)
 

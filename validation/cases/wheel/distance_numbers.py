@@ -5,22 +5,31 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Role, Table
+from validation.analysis.features import FEATURES
+from validation.analysis.over_range import worst
 from validation.analysis.statistics import Estimate, ratio_of_means
 from validation.cases.wheel.distance import LINEAR_OPEN, LINEAR_STEADY, OPEN, PERIODIC, STEADY, WheelDistance
 from validation.cases.wheel.distance import DistanceResult as Result
-from validation.cases.wheel.features import FOURTH, PLATEAU, THIRD, Spectrum, hurst, level, measured, ratio, regions_of
-from validation.cases.wheel.features import PEAK as PEAK_OF
+from validation.cases.wheel.features import (
+    FIRST,
+    FOURTH,
+    PEAK,
+    PLATEAU,
+    THIRD,
+    Spectrum,
+    hurst,
+    level,
+    level_number,
+    measured,
+    ratio,
+    regions_of,
+)
 from validation.theory import wheel as wheel_theory
 
-BREAK_LAW, FLOOR, JUMP, LEVEL = (
-    "d ln ω_break / d ln T",
-    "floor over J² / (ω² T)",
-    "rms jump over linear theory",
-    "level",
-)
-ORDER, SQUARE, PEAK = "d ln A / d ln h₀", "mean square acceleration", "peak over ω_eigen"
+BREAK_LAW, JUMP, LEVEL = "d ln ω_break / d ln T", "rms jump over linear theory", FEATURES["level"].quantity
+ORDER, SQUARE, PEAK_QUANTITY = "d ln A / d ln h₀", "mean square acceleration", FEATURES[PEAK].quantity
+DISTANCE = "distance [m]"
 HANN = f"{OPEN}, Hann's window"
 QUARTER, WHOLE = 0.25, 1.0
 """Heights over h_0 between which the order of growth is measured."""
@@ -32,8 +41,7 @@ def numbers_of(result: Result, breaks: Table) -> list[Number]:
     return [
         *outside_the_roughness(result),
         break_law(result.case, breaks),
-        *floors(breaks),
-        rms_jump(breaks),
+        worst(jumps(breaks), DISTANCE),
         *levels_over_open(result),
         order_in_height(result),
         mean_square(result),
@@ -55,6 +63,7 @@ def outside_the_roughness(result: Result) -> list[Number]:
             source="zero: the track has waves from q_min to q_max alone",
             tolerance=1e-18,
             reason="square of the rounding of the acceleration, 1e-16 of its size, spread over all frequencies",
+            role=Role.IDENTITY,
         )
         for region in (PLATEAU, FOURTH)
     ]
@@ -79,61 +88,41 @@ def break_law(case: WheelDistance, breaks: Table) -> Number:
     )
 
 
-def floors(breaks: Table) -> list[Number]:
-    """The level of region 4 over that which the jumps of the same records make, by distance."""
-    rows = zip(breaks["distance [m]"], breaks["floor over predicted"], breaks["± sample"], strict=True)
+def jumps(breaks: Table) -> list[Number]:
+    """The rms jump beside linear theory, by distance; the errors of mean squares of so many Gaussian values."""
+    rms = breaks["rms jump [m/s2]"] / breaks["of linear theory [m/s2]"]
+    rows = list(zip(breaks["distance [m]"], rms, breaks["wheels"], strict=True))
     return [
         finding(
-            quantity=FLOOR,
+            quantity=JUMP,
             model=OPEN,
-            where={"distance [m]": float(distance)},
-            value=value,
+            where={DISTANCE: float(distance)},
+            value=float(value),
             reference=1.0,
-            source="the jump of a(t) from the end of each record to its beginning",
+            source="(1 + cos²(ω_eigen T)) int A df of (14.12) through the resonator, from static equilibrium",
             tolerance=0.1,
-            reason="10 %: 0.4 dB of a level",
-            sample=half,
+            reason="10 %: 0.8 dB; nonlinearity adds a part of order h₀/d",
+            sample=Estimate(0.0, value / math.sqrt(2 * count), count).half_width_among(len(rows)),
         )
-        for distance, value, half in rows
+        for distance, value, count in rows
     ]
 
 
-def rms_jump(breaks: Table) -> Number:
-    """The jump beside linear theory, over all distances; the error of a mean square of so many Gaussian values."""
-    squares, wheels = (breaks["rms jump [m/s2]"] / breaks["of linear theory [m/s2]"]) ** 2, breaks["wheels"]
-    return finding(
-        quantity=JUMP,
-        model=OPEN,
-        where={"distances": "all distances"},
-        value=math.sqrt(float(np.average(squares, weights=wheels))),
-        reference=1.0,
-        source="(1 + cos²(ω_eigen T)) int A df of (14.12) through the resonator, from static equilibrium",
-        tolerance=0.1,
-        reason="10 %: 0.8 dB; nonlinearity adds a part of order h₀/d",
-        sample=2 / math.sqrt(2 * float(wheels.sum())),
-    )
-
-
 def levels_over_open(result: Result) -> list[Number]:
-    """Regions 4 and 2 over springs on open tracks: without a jump at the end, of leakage or nonlinearity alone."""
+    """Regions over springs on open tracks: without a jump at the end, of leakage or nonlinearity alone."""
     ends, bands = result.ends, regions_of(result.case.scene)
 
-    def over(
-        model: str, kind: str, region: str, source: str, reason: str, window: str = "plain", **where: str
-    ) -> Number:
-        return difference(
+    def over(model: str, kind: str, region: str, source: str, window: str = "plain", **cause: str) -> Number:
+        return level_number(
             ratio(ends[kind], ends[OPEN], bands[region], window),
-            quantity=LEVEL,
             model=f"{model}, over {OPEN}",
-            where={"region": region, **where},
+            where={"region": region, **cause},
             source=source,
-            tolerance=1.0,
-            reason=reason,
         )
 
-    fourth = FOURTH, "no change: what a region 4 without leakage would show", "1 dB: the scatter of a few wheels"
-    plateau = PLATEAU, "all of the plateau", "1 dB: a fifth of the power of the plateau"
+    fourth, plateau = (FOURTH, "no change: what a region 4 without leakage would show"), (PLATEAU, "all of the plateau")
     return [
+        over(LINEAR_OPEN, LINEAR_OPEN, FIRST, "all of the peak"),
         over(HANN, OPEN, *fourth, window="hann"),
         *(over(kind, kind, *fourth) for kind in (PERIODIC, STEADY, LINEAR_OPEN)),
         over(LINEAR_OPEN, LINEAR_OPEN, *plateau, cause="leakage alone"),
@@ -175,17 +164,15 @@ def mean_square(result: Result) -> Number:
 
 def peak_frequencies(result: Result) -> list[Number]:
     """The peak by the amplitude of free vibration, beside that on a Hertz contact."""
+    frequency = result.case.scene.eigenfrequency
     return [
-        finding(
-            quantity=PEAK,
+        FEATURES[PEAK].number(
+            frequency * estimate.value,
+            frequency * (1 / wheel_theory.hertz_period(1 + release) if release else 1.0),
+            "period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)",
             model=OPEN,
             where={"release / d": release},
-            value=estimate.value,
-            reference=1 / wheel_theory.hertz_period(1 + release) if release else 1.0,
-            source="period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)",
-            tolerance=0.005,
-            reason="0.5 %: roughness adds to the amplitude and carries part of the load",
-            sample=estimate.half_width,
+            sample=frequency * estimate.half_width,
         )
         for release, estimate in peaks(result).items()
     ]
@@ -195,7 +182,7 @@ def peaks(result: Result) -> dict[float, Estimate]:
     """The frequency of the peak over omega_eigen, by release."""
     frequencies = {}
     for release, ensemble in result.case.vibrations().items():
-        value = measured(Spectrum.of(ensemble.scene, [result.vibrations[release]]))[PEAK_OF]
+        value = measured(Spectrum.of(ensemble.scene, [result.vibrations[release]]))[PEAK]
         frequency = ensemble.scene.eigenfrequency
         frequencies[release] = Estimate(value.value / frequency, value.error / frequency, value.samples)
     return frequencies

@@ -132,7 +132,7 @@ def shown_breaks(breaks: Table) -> Table:
             "wheels": breaks["wheels"].tolist(),
             "break [rad/s]": [plus_minus(value, half) for value, half in measured],
             "predicted by its jumps [rad/s]": [f"{b:.4g}" for b in breaks["break by its jumps [rad/s]"]],
-            "floor over J² / (ω² T)": [f"{value:.3f} ± {half:.3f}" for value, half in floors],
+            "floor over J² / (ω² T), an identity": [f"{value:.3f} ± {half:.3f}" for value, half in floors],
         },
     )
 

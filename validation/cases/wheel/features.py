@@ -1,15 +1,17 @@
 """What an ensemble of wheels shows: each feature of its mean spectrum with its error, and what theory expects of it."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
+from validation.analysis.evidence import Number, Place
+from validation.analysis.features import FEATURES
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import Estimate, jackknife_error
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, log_ratio_of_means
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
@@ -198,19 +200,20 @@ def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: Fl
 
 # --- levels of the regions ---
 
-PLATEAU, THIRD, FOURTH = "region 2", "region 3", "region 4"
+FIRST, PLATEAU, THIRD, FOURTH = "region 1", "region 2", "region 3", "region 4"
 
 
 def regions_of(scene: WheelScene) -> dict[str, tuple[float, float]]:
     """The band in which each region is measured [rad/s]."""
     return {
+        FIRST: (0.5 * scene.eigenfrequency, 2 * scene.eigenfrequency),
         PLATEAU: (2 * scene.eigenfrequency, 0.8 * scene.jump),
         THIRD: (1.1 * scene.jump, 1.1 * scene.jump + scene.oscillation_period / 2),
         FOURTH: (1.3 * scene.cutoff, 2.6 * scene.cutoff),
     }
 
 
-def _of_groups(outcome: Outcome, band: tuple[float, float], window: str) -> np.ndarray:
+def _of_groups(outcome: Outcome, band: tuple[float, float], window: str) -> FloatArray:
     """The mean of A in a band, group by group."""
     inside = (outcome["omega"] >= band[0]) & (outcome["omega"] <= band[1])
     return np.asarray(outcome[window][:, inside].mean(axis=1))
@@ -225,10 +228,21 @@ def level(outcome: Outcome, band: tuple[float, float], window: str = "plain") ->
 
 
 def ratio(mine: Outcome, other: Outcome, band: tuple[float, float], window: str = "plain") -> Estimate:
-    """ln of a level over that of another ensemble without window; with its standard error over groups of wheels, which
-    may share their tracks.
-    """
-    value = level(mine, band, window).value - level(other, band).value
-    groups, others = _of_groups(mine, band, window), _of_groups(other, band, "plain")
-    spread = np.std(groups / groups.mean() - others / others.mean(), ddof=1)
-    return Estimate(value, float(spread) / math.sqrt(groups.size), groups.size)
+    """ln of a level over that of another ensemble without window, group by group."""
+    above, below = _of_groups(mine, band, window), _of_groups(other, band, "plain")
+    return log_ratio_of_means(above[:, np.newaxis], below[:, np.newaxis], weights=np.ones(1))
+
+
+def level_number(
+    estimate: Estimate, *, model: str, where: Mapping[str, Place], source: str, grid: float = 0.0, among: int = 1
+) -> Number:
+    """A level over a reference in decibels, from natural logarithms; among: points whose intervals hold at once."""
+    return FEATURES["level"].number(
+        POWER_DECIBEL * estimate.value,
+        0.0,
+        source,
+        model=model,
+        where=where,
+        grid=POWER_DECIBEL * grid,
+        sample=POWER_DECIBEL * estimate.half_width_among(among),
+    )

@@ -65,6 +65,11 @@ class WheelLevels:
         bands = self.edges if edges is None else edges
         return np.array([band_levels(record.omega, record.density, bands)[:, 0] for record in records])
 
+    def spectra(self, contact: str) -> tuple[FloatArray, FloatArray]:
+        """omega, and A with Hann's window, (strips, frequencies), of the strips that converged."""
+        record = hann_spectra(self.converged, contact)
+        return record.omega, record.density.T
+
     @cached_property
     def ratio(self) -> list[Estimate]:
         """ln of boundary elements over the linear contact on the same strips, band by band."""

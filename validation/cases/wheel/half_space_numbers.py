@@ -1,23 +1,52 @@
-"""Numbers of the wheel in three dimensions: each model over boundary elements, and the slope of region 3."""
+"""Numbers of the wheel in three dimensions: models over boundary elements, slope and contrast of region 3."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from validation.analysis import spectral_features
-from validation.analysis.difference import difference
-from validation.analysis.evidence import Number, Role
+from validation.analysis.evidence import Number, numbers_with
+from validation.analysis.features import FEATURES
+from validation.analysis.over_range import signed_mean, worst
 from validation.analysis.statistics import Estimate, jackknife_error
+from validation.cases.wheel.contrast import ZERO, contrast_numbers, linear_contrasts, log_contrasts, zeros_of
+from validation.cases.wheel.features import SLOPE, FloatArray, hurst, level_number
 from validation.cases.wheel.half_space import FINEST
-from validation.cases.wheel.half_space_levels import MODELS, FloatArray, WheelLevels, hann_spectra
+from validation.cases.wheel.half_space_levels import LINEAR_3D, MODELS, WheelLevels
 
-LEVEL, SLOPE = "level", "slope"
+LEVEL, OMEGA = FEATURES["level"].quantity, "ω [rad/s]"
 OVER_BEM = {model: f"{model}, over bem3d" for model in MODELS}
-ONE_DECIBEL = 1.0
+CONTACTS = {"bem3d": "bem", LINEAR_3D: "linear"}
 
 
-def numbers_of(levels: WheelLevels) -> list[Number]:
-    return [mean_of_steady_state(levels), *levels_over_bem(levels), *slope(levels)]
+def numbers_of(levels: WheelLevels, bands: Sequence[Number]) -> list[Number]:
+    """bands: of `levels_over_bem`; a range of them is judged by its worst."""
+    contrasts = contrasts_beside_linear(levels)
+    return [
+        mean_of_steady_state(levels),
+        *(worst(of_range(bands, name, model), OMEGA) for name, model in judged_ranges(levels, bands)),
+        *slopes(levels),
+        *([worst(contrasts, ZERO)] if contrasts else []),
+    ]
+
+
+def judged_ranges(levels: WheelLevels, bands: Sequence[Number]) -> list[tuple[str, str]]:
+    """Range and model, where the model has a level in all bands of the range."""
+    return [
+        (name, model)
+        for name, inside in levels.ranges.items()
+        for model in MODELS
+        if 0 < inside.sum() == len(of_range(bands, name, model))
+    ]
+
+
+def of_range(bands: Sequence[Number], name: str, model: str) -> list[Number]:
+    return numbers_with(bands, LEVEL, OVER_BEM[model], range=name)
+
+
+def mean_over_range(bands: Sequence[Number], name: str, model: str) -> float:
+    """Signed: what is judged is the worst band."""
+    return signed_mean(of_range(bands, name, model))
 
 
 def mean_of_steady_state(levels: WheelLevels) -> Number:
@@ -35,50 +64,56 @@ def mean_of_steady_state(levels: WheelLevels) -> Number:
     )
 
 
-def levels_over_bem(levels: WheelLevels) -> Iterator[Number]:
-    """The mean over bands of each range; not of a model that has nothing there."""
-    for name, bands in levels.ranges.items():
-        for model in MODELS:
-            if not bands.any() or not np.isfinite(levels.over_bem(model)[bands]).all():
-                continue
-            value, grid = levels.mean_over_bem(model, bands)
-            yield difference(
-                value,
-                quantity=LEVEL,
-                model=OVER_BEM[model],
-                where={"range": name},
-                source="boundary elements in the time loop",
-                tolerance=ONE_DECIBEL,
-                reason="1 dB: a third of the 3 dB accepted for one-third octaves of rolling noise",
-                grid=grid,
-            )
+def levels_over_bem(levels: WheelLevels) -> list[Number]:
+    """Each one-third octave of each range, whose intervals hold at once; not of a model that has nothing there."""
+    return [
+        _over_bem(levels, model, name, int(band), among=int(inside.sum()))
+        for name, inside in levels.ranges.items()
+        for model in MODELS
+        for band in np.flatnonzero(inside & np.isfinite(levels.over_bem(model)))
+    ]
 
 
-def slope(levels: WheelLevels) -> Iterator[Number]:
-    """The power law of region 3 by boundary elements, where it has four periods of the oscillation."""
-    case, scene = levels.result.case, levels.result.case.scene
-    assert scene.rail is not None  # strips refuse a smooth rail
-    period = scene.oscillation_period
-    first, last = 1.1 * scene.jump, 0.7 * scene.cutoff
+def _over_bem(levels: WheelLevels, model: str, name: str, band: int, among: int) -> Number:
+    estimate, grid = levels.mean_over_bem(model, np.arange(levels.centres.size) == band)
+    return level_number(
+        estimate,
+        model=OVER_BEM[model],
+        where={"range": name, OMEGA: float(levels.centres[band])},
+        source="boundary elements in the time loop",
+        grid=grid,
+        among=among,
+    )
+
+
+def slopes(levels: WheelLevels) -> Iterator[Number]:
+    """The power law of region 3, where it has four periods of the oscillation, on the same strips for both."""
+    scene = levels.result.case.scene
+    first, last, period = 1.1 * scene.jump, 0.7 * scene.cutoff, scene.oscillation_period
     if last - first < 4 * period:
         return
-    records = [hann_spectra([strip], "bem") for strip in levels.converged]
-    omega, density = records[0].omega, np.array([record.density[:, 0] for record in records])
+    for model, contact in CONTACTS.items():
+        omega, density = levels.spectra(contact)
 
-    def of(some: FloatArray) -> float:
-        return spectral_features.slope(omega, some.mean(axis=0), first, last, period)
+        def of(some: FloatArray, omega: FloatArray = omega) -> float:
+            return spectral_features.slope(omega, some.mean(axis=0), first, last, period)
 
-    without = [of(np.delete(density, i, axis=0)) for i in range(len(density))]
-    value = Estimate(of(density), float(jackknife_error(without)), len(density))
-    yield Number(
-        quantity=SLOPE,
-        model="bem3d",
-        where={"region": "region 3"},
-        value=value.value,
-        reference=-2 * scene.rail.hurst - 3,
-        source="-2 H - 3, (14.13); the same in linear theory in 3D",
-        tolerance=0.2,
-        reason=f"0.2: 5 %, {case.strips} strips and the end of the band",
-        sample=value.half_width,
-        role=Role.FINDING,
-    )
+        without = [of(np.delete(density, i, axis=0)) for i in range(len(density))]
+        value = Estimate(of(density), float(jackknife_error(without)), len(density))
+        yield FEATURES[SLOPE].number(
+            value.value,
+            -2 * hurst(scene) - 3,
+            "-2 H - 3, (14.13); the same in linear theory in 3D",
+            model=model,
+            where={"region": "region 3"},
+            sample=value.half_width,
+        )
+
+
+def contrasts_beside_linear(levels: WheelLevels) -> list[Number]:
+    """Of boundary elements beside sin²(q a); none where region 3 has no whole period."""
+    scene = levels.result.case.scene
+    if not zeros_of(scene).size:
+        return []
+    omega, density = levels.spectra("bem")
+    return contrast_numbers("bem3d", log_contrasts(omega, density, scene), linear_contrasts(omega, scene), scene)

@@ -5,13 +5,15 @@ import math
 import numpy as np
 
 from validation.analysis.evidence import Number, Table, columns, numbers_with, table_of, with_reference
+from validation.analysis.features import FEATURES
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.wheel.features import linear_force_3d
-from validation.cases.wheel.half_space_levels import GEIKE, LINEAR_3D, MODELS, WheelLevels, hann_spectra
-from validation.cases.wheel.half_space_numbers import LEVEL, ONE_DECIBEL, OVER_BEM, SLOPE
+from validation.cases.wheel.contrast import contrast_table, linear_contrasts, log_contrasts, zeros_of
+from validation.cases.wheel.features import SLOPE, linear_force_3d
+from validation.cases.wheel.half_space_levels import GEIKE, LINEAR_1D, LINEAR_3D, MODELS, FloatArray, WheelLevels
+from validation.cases.wheel.half_space_numbers import CONTACTS, LEVEL, OVER_BEM
 
-THREE_DECIBELS = 3.0
+ONE_DECIBEL, THREE_DECIBELS = FEATURES["level"].tolerance, 3.0
 
 
 def levels_of(levels: WheelLevels) -> Table:
@@ -33,24 +35,34 @@ def oscillation_of(levels: WheelLevels) -> Table:
     """Spectra in bands of a twelfth of the period of the oscillation."""
     scene = levels.result.case.scene
     period = scene.oscillation_period
-    bem, linear = (hann_spectra(levels.converged, contact) for contact in ("bem", "linear"))
-    edges = np.arange(0.7 * scene.jump, min(scene.cutoff, 12 * period), max(period / 12, 2 * float(bem.omega[0])))
+    spectra = _spectra(levels)
+    line = float(spectra["bem3d"][0][0])
+    edges = np.arange(0.7 * scene.jump, min(scene.cutoff, 12 * period), max(period / 12, 2 * line))
+    means = {model: band_means(omega, density.mean(axis=0), edges) for model, (omega, density) in spectra.items()}
+    return Table("oscillation", columns(**{"omega [rad/s]": (edges[1:] + edges[:-1]) / 2, **means}))
+
+
+def _spectra(levels: WheelLevels) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """omega and A, (strips or groups, frequencies), of boundary elements, the linear contact and springs."""
     springs = levels.result.springs["geike"]
-    on_springs = np.concatenate([batch["hann"] for batch in springs]).mean(axis=0)
-    values = {
-        "omega [rad/s]": (edges[1:] + edges[:-1]) / 2,
-        "bem3d": band_means(bem.omega, bem.density.mean(axis=1), edges),
-        LINEAR_3D: band_means(linear.omega, linear.density.mean(axis=1), edges),
-        GEIKE: band_means(springs[0]["omega"], on_springs, edges),
-    }
-    return Table("oscillation", columns(**values))
+    on_springs = springs[0]["omega"], np.concatenate([batch["hann"] for batch in springs])
+    return {**{model: levels.spectra(contact) for model, contact in CONTACTS.items()}, GEIKE: on_springs}
+
+
+def contrast_of(levels: WheelLevels) -> list[Table]:
+    """Of boundary elements, of the linear contact on the same strips, of springs, and of sin²(q a)."""
+    scene, spectra = levels.result.case.scene, _spectra(levels)
+    if not zeros_of(scene).size:
+        return []
+    curves = {model: log_contrasts(omega, density, scene) for model, (omega, density) in spectra.items()}
+    return [contrast_table(scene, {**curves, LINEAR_1D: linear_contrasts(spectra["bem3d"][0], scene)})]
 
 
 def shown_regions(levels: WheelLevels, numbers: list[Number]) -> Table:
     """The chapter's regions in three dimensions."""
     scene = levels.result.case.scene
     plateau = numbers_with(numbers, LEVEL, OVER_BEM[LINEAR_3D], range="region 2")
-    slope = numbers_with(numbers, SLOPE)
+    slope = numbers_with(numbers, FEATURES[SLOPE].quantity, "bem3d")
     resonance = f"excited by the roughness: its force there over that at q_min v₀ is {_at_resonance(levels):+.1f} dB"
     beyond = f"beyond 1.3 q_max v₀ {_beyond(levels):.0f} dB below the last tenth of the roughness, with Hann's window"
     on_springs = [

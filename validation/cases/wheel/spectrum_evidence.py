@@ -1,44 +1,136 @@
 """Fig. 14.4: the regions of the spectrum and what moves them, in words."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Verdict, if_confirmed, with_reference
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Verdict, if_confirmed, with_reference
+from validation.analysis.over_range import root_mean_square, signed_mean, worst
 from validation.cases.wheel import spectrum_tables as tables
+from validation.cases.wheel.contrast import ZERO, period_range, worst_contrast
 from validation.cases.wheel.features import BREAK, FLOOR, JUMP, PEAK, PEAK_LAST, PERIOD, PREDICTED, SLOPE, Spectrum
 from validation.cases.wheel.spectrum import WheelResult, WheelSpectrum, run
-from validation.cases.wheel.spectrum_numbers import FEATURES, exact_numbers, feature_numbers, level_over_linear
+from validation.cases.wheel.spectrum_numbers import (
+    FEATURES,
+    IDENTITIES,
+    OMEGA,
+    contrasts_beside_linear,
+    feature_numbers,
+    identities,
+    levels_over_linear,
+    worst_scene,
+)
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
+CLAIM = "The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4)."
 FEW = 3
 """Names that a sentence lists."""
+Features = dict[str, Number]
 
 
 def evidence(result: WheelResult) -> Evidence:
-    """Features beside theory for the scene and for each variation; balance of forces and Parseval as criteria."""
+    """Features beside theory for the scene and for each variation; balance of forces and Parseval as identities."""
     case = result.case
     spectra = {name: Spectrum.of(varied, result.batches[name]) for name, varied in case.variations().items()}
-    features = {name: feature_numbers(name, spectrum) for name, spectrum in spectra.items()}
     base = case.scene.name
-    level = list(level_over_linear(spectra[base]))
+    mine = feature_numbers(base, spectra[base])
+    varied = {n: feature_numbers(n, s, among=len(spectra) - 1) for n, s in spectra.items() if n != base}
+    levels, contrasts = levels_over_linear(spectra[base]), contrasts_beside_linear(spectra[base])
+    ranges = _over_ranges(levels, contrasts)
+    moved = _over_scenes(varied)
+    found = {key: number for key, number in mine.items() if number.role is not Role.IDENTITY}
     batches = [batch for group in result.batches.values() for batch in group]
-    shown = (tables.shown_scene(case.scene), tables.shown_regions(features[base]))
+    shown = (
+        tables.shown_scene(case.scene),
+        tables.shown_regions(mine),
+        *([tables.shown_contrasts(case.scene, contrasts)] if contrasts else []),
+        *([tables.shown_parameters({base: mine, **varied})] if varied else []),
+    )
     return Evidence(
         title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
         method=_method(case.scene, spectra[base]),
-        numbers=(*exact_numbers(batches), *features[base].values(), *level),
+        numbers=(*identities(batches), *found.values(), *ranges.values(), *moved.values()),
         tables=tables.tables_of(result, spectra),
-        page_tables=(*shown, tables.shown_parameters(features)) if len(features) > 1 else shown,
+        page_tables=shown,
+        claims=_claims(found, ranges, moved, levels, case.scene),
         conclusions=(
             *_hidden(case.scene),
-            *conclusions(features, base, level[0] if level else None),
+            *conclusions(mine, ranges),
+            *([_moves(varied)] if varied else []),
             _flight(result.batches[base]),
             *filter(None, (case.scene.no_steady_answer(), *case.scene.diagnose())),
         ),
         captions=_captions(case),
+    )
+
+
+def _over_ranges(levels: Sequence[Number], contrasts: list[Number]) -> Features:
+    """The worst band, and the root mean square over bands, of the level of region 3; the worst contrast."""
+    found = {}
+    if levels:
+        found["worst level"] = worst(levels, OMEGA)
+        found["level"] = root_mean_square(levels, OMEGA, levels[0].tolerance, levels[0].reason)
+    return found | ({"contrast": worst_contrast(contrasts)} if contrasts else {})
+
+
+def _over_scenes(varied: Mapping[str, Features]) -> Features:
+    """Of each feature the scene, with one parameter changed, whose verdict is that of all."""
+    numbers = {key: [one[key] for one in varied.values() if key in one] for key in FEATURES if key not in IDENTITIES}
+    return {key: worst_scene(some) for key, some in numbers.items() if some}
+
+
+def _claims(
+    mine: Features, ranges: Features, moved: Features, levels: Sequence[Number], scene: WheelScene
+) -> tuple[JudgedClaim, ...]:
+    """The claim of the figure, and what the chapter says of the oscillation and of the parameters."""
+
+    def beside(number: Number) -> str:
+        return f"{number.value:.5g} beside {number.reference:.5g}"
+
+    names = {
+        PEAK: "the peak lies at {} rad/s",
+        JUMP: "region 3 begins at {} rad/s",
+        SLOPE: "its slope is {}",
+        BREAK + PREDICTED: "the break over predicted is {}",
+    }
+    parts = [text.format(beside(mine[key])) for key, text in names.items() if key in mine]
+    if levels:
+        parts.append(
+            f"the level of region 3 is {ranges['worst level'].value:+.1f} dB off linear theory in the worst one-third "
+            f"octave, {signed_mean(levels):+.1f} dB in the mean"
+        )
+    of_figure = [mine[key] for key in names if key in mine] + [ranges[key] for key in ("worst level",) if key in ranges]
+    claims = [answered(CLAIM, of_figure, f"on springs {', '.join(parts)}.")]
+    if "contrast" in ranges:
+        worst_one, period = ranges["contrast"], [mine[key] for key in (PERIOD,) if key in mine]
+        claims.append(
+            answered(
+                "Region 3 oscillates as sin²(q a), with the constant period π v₀ / a.",
+                [*period, worst_one],
+                (f"the period is {beside(period[0])} rad/s {period_range(scene)}, but " if period else "")
+                + f"at zero {worst_one.where['worst at']:g} the maxima are {worst_one.value:.1f} dB above the zero, "
+                f"{worst_one.reference:.1f} dB in linear theory.",
+                limits="the period alone" if period else "",
+                inside=period,
+            )
+        )
+    sayings = {
+        PEAK: "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
+        JUMP: "Region 3 begins at q_min v₀, whatever the speed and the cut-off.",
+        SLOPE: "The slope of region 3 is -2 H - 3, whatever the parameters.",
+    }
+    return (
+        *claims,
+        *(
+            answered(saying, [moved[key]], f"{moved[key].conditions}: {with_reference(moved[key])}.")
+            for key, saying in sayings.items()
+            if key in moved
+        ),
     )
 
 
@@ -76,40 +168,44 @@ def _flight(batches: list[Outcome]) -> str:
     )
 
 
-def conclusions(features: dict[str, dict[str, Number]], base: str, level: Number | None) -> list[str]:
+def conclusions(mine: Features, ranges: Features) -> list[str]:
     """One sentence for each feature; a region that a scene has no room for is left out."""
-    mine = features[base]
     sentences = [
         ("Region 1: the peak is the wheel on its contact spring", mine.get(PEAK), True),
         ("Region 3 begins at q_min v₀", mine.get(JUMP), True),
         ("Its slope is that of linear theory", mine.get(SLOPE), False),
-        ("Its oscillation is sin²(q a)", mine.get(PERIOD), True),
-        ("Its level is that of linear theory", level, True),
-        (
-            "Region 4 is a floor of ω⁻² which the jump at the end of the records makes, and not the contact",
-            mine.get(FLOOR + PREDICTED),
-            False,
-        ),
-        ("The break is where that floor meets region 3", mine.get(BREAK + PREDICTED), False),
+        ("The period of its oscillation is that of sin²(q a)", mine.get(PERIOD), True),
+        ("The contrast of its oscillation is that of sin²(q a)", ranges.get("contrast"), False),
+        ("Its level in every one-third octave is that of linear theory", ranges.get("worst level"), True),
+        ("The break is where the floor of region 4 meets region 3", mine.get(BREAK + PREDICTED), False),
     ]
     found = [_confirmed(sentence, number) for sentence, number, always in sentences if number or always]
-    return [*found, _moves(features)] if len(features) > 1 else found
+    if floor := mine.get(FLOOR + PREDICTED):
+        found.append(
+            f"Region 4 is {floor.value:.3f} ± {floor.sample:.3f} times the floor J² / (ω² T) of the jump at the end of "
+            "the records. A record without waves beyond q_max v₀ has this floor by construction, so it is counted as "
+            "no evidence."
+        )
+    return found
 
 
 def _confirmed(sentence: str, number: Number | None) -> str:
     if number is None:
         return f"None stands out in this run: {sentence[0].lower()}{sentence[1:]}."
-    return if_confirmed(f"{sentence}: {with_reference(number)}.", [number])
+    at = f", {ZERO} {number.where['worst at']:g}" if ZERO in number.where else ""
+    return if_confirmed(f"{sentence}{at}: {with_reference(number)}.", [number])
 
 
-def _moves(features: dict[str, dict[str, Number]]) -> str:
+def _moves(varied: Mapping[str, Features]) -> str:
     """Which features follow theory through all variations."""
     parts = []
     for key, feature in FEATURES.items():
-        numbers = {name: mine[key] for name, mine in features.items() if key in mine}
+        if key in IDENTITIES:
+            continue
+        numbers = {name: mine[key] for name, mine in varied.items() if key in mine}
         agree = sum(n.verdict is Verdict.AGREE for n in numbers.values())
         differ = [name for name, n in numbers.items() if n.verdict is Verdict.DIFFER]
-        missing = [name for name in features if name not in numbers]
+        missing = [name for name in varied if name not in numbers]
         text = f"{feature.name}: {agree} of {len(numbers)}"
         text += f", differs for {_listed(differ)}" if differ else ""
         text += f", none stands out for {_listed(missing)}" if missing else ""
@@ -137,7 +233,10 @@ def _captions(case: WheelSpectrum) -> dict[str, str]:
             f"{case.realisations} wheels without window, as in the book; band, tenth to ninetieth percentile of "
             "wheels; dashed: with Hann's window; thick grey: linear theory, (14.12) through the resonator; dotted: the "
             "floor that the jumps at the end of the records predict. Vertical lines: ω_eigen, q_min v₀, predicted "
-            "break, q_max v₀. (b) Region 3 over ω^(-2H-3), over a linear ω: the oscillation of period π v₀ / a."
+            "break, q_max v₀. (b) Region 3 over ω^(-2H-3), over a linear ω: the oscillation of period π v₀ / a. (c) "
+            "Contrast of the oscillation: mean of (b) about the maxima beside each zero of sin²(q a), over that about "
+            "the zero; circles: Hann's window, 95 % intervals; grey: linear theory. "
+            f"The period is sought {period_range(case.scene)}."
         ),
     }
     if case.parameters:
@@ -152,7 +251,7 @@ CASE = Case(
     name="wheel",
     chapter=Chapter.WHEEL,
     place=1,
-    claim="The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4).",
+    claim=CLAIM,
     answers=(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),

@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
-from validation.analysis.evidence import Number, Table, VerdictCell, columns, plus_minus, table_of
+from validation.analysis.evidence import Number, Role, Table, VerdictCell, columns, plus_minus, table_of
 from validation.analysis.spectra import band_means
+from validation.cases.wheel.contrast import ZERO, contrast_table, linear_contrasts, log_contrasts, zeros_of
 from validation.cases.wheel.features import BREAK, PERIOD, SLOPE, Spectrum, expected, spectrum_rows
 from validation.cases.wheel.spectrum import TABLE, WheelResult
 from validation.cases.wheel.spectrum_numbers import FEATURES
@@ -16,7 +17,7 @@ from validation.theory import wheel as wheel_theory
 SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
 BANDS_PER_PERIOD = 12
 """Of the oscillation."""
-ABSENT = "none stands out"
+ABSENT, IDENTITY = "none stands out", "identity, no evidence"
 BOOK, OURS, FOLLOWS = "printed in the book, Table 14.1", "chosen here", "computed from the above"
 
 
@@ -26,6 +27,7 @@ def tables_of(result: WheelResult, spectra: dict[str, Spectrum]) -> tuple[Table,
     return (
         bands_of(spectrum, result.batches[name]),
         oscillation_of(spectrum),
+        *contrast_of(spectrum),
         variations_of(spectra),
         Table("springs", columns(**dict(zip(SPRING_COLUMNS, result.snapshot["springs"], strict=True)))),
         pressure_of(result.snapshot),
@@ -63,6 +65,15 @@ def oscillation_of(spectrum: Spectrum) -> Table:
     values = {"springs": spectrum.plain.mean(axis=0), "springs, Hann": spectrum.hann.mean(axis=0), "linear": linear}
     means = {name: band_means(omega, a / law, edges) / scale for name, a in values.items()}
     return Table("oscillation", columns(**{"omega [rad/s]": (edges[1:] + edges[:-1]) / 2, **means}))
+
+
+def contrast_of(spectrum: Spectrum) -> list[Table]:
+    """On springs with either window, and of linear theory; none where region 3 has no whole period."""
+    scene, omega = spectrum.scene, spectrum.omega
+    if not zeros_of(scene).size:
+        return []
+    linear = linear_contrasts(omega, scene)
+    return [contrast_table(scene, {"springs, Hann": log_contrasts(omega, spectrum.hann, scene), "linear": linear})]
 
 
 def _linear_from(part: float, spectrum: Spectrum) -> np.ndarray:
@@ -150,11 +161,26 @@ def shown_regions(numbers: dict[str, Number]) -> Table:
         if number := numbers.get(key):
             row["found"] = plus_minus(number.value, number.uncertainty)
             row["theory"] = f"{number.reference:.5g} = {feature.source}"
-            row["verdict"] = VerdictCell(f"within {number.tolerance:.3g}", number.verdict)
+            identity = number.role is Role.IDENTITY
+            row["verdict"] = IDENTITY if identity else VerdictCell(f"within {number.tolerance:.3g}", number.verdict)
         else:
             row |= {"found": ABSENT, "theory": feature.source, "verdict": ""}
         rows.append(row)
     return table_of("the regions of the spectrum", rows)
+
+
+def shown_contrasts(scene: WheelScene, numbers: list[Number]) -> Table:
+    """How the oscillation of region 3 dies."""
+    return Table(
+        "contrast of the oscillation of region 3, maxima over zeros",
+        {
+            "zero": [f"{number.where[ZERO]:g}" for number in numbers],
+            "ω [rad/s]": [f"{omega:.4g}" for omega in zeros_of(scene) * scene.oscillation_period],
+            "springs [dB]": [plus_minus(number.value, number.sample) for number in numbers],
+            "linear theory [dB]": [f"{number.reference:.1f}" for number in numbers],
+            "verdict": [VerdictCell(f"within {n.tolerance:g}", n.verdict) for n in numbers],
+        },
+    )
 
 
 def shown_parameters(numbers: dict[str, dict[str, Number]]) -> Table:
@@ -164,7 +190,7 @@ def shown_parameters(numbers: dict[str, dict[str, Number]]) -> Table:
         if number is None:
             return ABSENT
         text = f"{plus_minus(number.value, number.uncertainty)} ({number.reference:.5g})"
-        return VerdictCell(text, number.verdict)
+        return text if number.role is Role.IDENTITY else VerdictCell(text, number.verdict)
 
     rows: list[dict[str, object]] = [
         {"scene": name, **{feature.name: cell(mine.get(key)) for key, feature in FEATURES.items()}}

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import GUIDE, Style, graded, panels, positive
+from validation.report.style import GUIDE, MDR, Style, graded, panels, positive
 
 GREY: Style = {"color": "#aaaaaa", "linewidth": 3.0}
 INK: Style = {"color": "#D55E00", "linewidth": 1.2}
@@ -47,7 +47,7 @@ def _springs(axis: Axes, evidence: Evidence) -> None:
 
 def draw(evidence: Evidence) -> Figure:
     table = evidence.table("spectrum")
-    figure, (whole, region) = panels(1, 2, width=11.0, height=4.2)
+    figure, (whole, region, contrast) = panels(1, 3, width=13.5, height=4.2)
     omega, mean = table["omega [rad/s]"], table["A [(m/s2)2 s]"]
     floor, linear, hann = table["floor"], table["linear"], table["Hann"]
     whole.plot(omega, positive(linear), label="linear theory", **GREY)
@@ -67,7 +67,21 @@ def draw(evidence: Evidence) -> Figure:
     region.plot(omega / 1e3, near["springs, Hann"], color="#000000", linestyle="--", linewidth=1.0, label="Hann")
     region.set(yscale="log", ylim=(0.01, 30), xlabel="ω [1000 rad/s]", ylabel="A over its mean law ω^(-2H-3)")
     region.legend(loc="upper left", ncols=3)
+    _contrast(contrast, evidence)
     return figure
+
+
+def _contrast(axis: Axes, evidence: Evidence) -> None:
+    """None where region 3 has no whole period."""
+    for table in (table for table in evidence.tables if table.name == "contrast"):
+        omega, found = table["omega [rad/s]"] / 1e3, table["springs, Hann"]
+        bars = np.abs([table["springs, Hann, from"], table["springs, Hann, to"]] - found)
+        axis.plot(omega, table["linear"], label="linear theory", **GREY)
+        axis.errorbar(omega, found, yerr=bars, capsize=2, label="springs, Hann", **{**MDR, "marker": "o"})
+        axis.axhline(1.0, **GUIDE)
+    axis.set(yscale="log", xlabel="ω [1000 rad/s]", ylabel="maxima over zeros of sin²(q a)")
+    axis.set_ylim(top=1000)
+    axis.legend(loc="upper right")
 
 
 def _marks(axis: Axes, evidence: Evidence) -> None:

@@ -1,6 +1,7 @@
 """The acceleration of the wheel in three dimensions, beside everything cheaper."""
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
@@ -17,7 +18,7 @@ LOWEST = -45.0
 
 
 def draw(evidence: Evidence) -> Figure:
-    figure, (levels, differences, oscillation) = panels(1, 3, width=13.0, height=4.2)
+    figure, (levels, differences, oscillation, contrast) = panels(2, 2, width=11.0, height=7.4)
     table = evidence.table("levels")
     omega, bem = table["omega [rad/s]"], table["bem3d [dB]"]
     open_ = table["± sample [dB]"] + table["± grid [dB]"] + np.nan_to_num(table["± solver [dB]"])
@@ -52,4 +53,20 @@ def draw(evidence: Evidence) -> Figure:
     )
     oscillation.set(yscale="log", xlabel="ω [1000 rad/s]", ylabel="A [(m/s²)² s]")
     oscillation.legend(loc="upper right", fontsize=7)
+    _contrast(contrast, evidence)
     return figure
+
+
+def _contrast(axis: Axes, evidence: Evidence) -> None:
+    """None where region 3 has no whole period."""
+    for table in (table for table in evidence.tables if table.name == "contrast"):
+        omega = table["omega [rad/s]"] / 1e3
+        axis.plot(omega, table["linear, 1D (14.12)"], label="sin²(q a), (14.12)", **STYLES["linear, 1D (14.12)"])
+        for name, style in (("linear, 3D", {**GUIDE, "marker": "x"}), ("springs, Geike spectrum", MDR), ("bem3d", BEM)):
+            ends = np.array([table[f"{name}, from"], table[f"{name}, to"]])
+            bars = np.abs(ends - table[name])
+            axis.errorbar(omega, table[name], yerr=bars, capsize=2, label=name, **style)
+        axis.axhline(1.0, **GUIDE)
+    axis.set(yscale="log", xlabel="ω [1000 rad/s]", ylabel="maxima over zeros of sin²(q a)")
+    axis.set_ylim(top=3000)
+    axis.legend(loc="upper center", fontsize=7, ncols=2)
