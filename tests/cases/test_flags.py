@@ -20,7 +20,7 @@ from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONS
 from validation.cases.limits import limits
 from validation.cases.limits.solver import Grid, press_grid
 from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import fractal_punch, fractal_punch_decades, normalisation
+from validation.cases.punch import bandwidth, fractal_punch, fractal_punch_decades, normalisation
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges
@@ -192,6 +192,12 @@ LOST = {
         mdr_limits.MdrLimits(roll_offs=(1,), cells=16, surfaces=4, refined=3),
         one_surface(1, cells=32),
         "surface 1, H = 0.7, 32² cells",
+    ),
+    "bandwidth, wider": (
+        bandwidth.run,
+        bandwidth.Bandwidth(cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3),
+        one_surface(5, cells=32),
+        "surface 5, H = 0.7, 32² cells",
     ),
     "normalisation": (
         normalisation.run,

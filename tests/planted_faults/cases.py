@@ -10,6 +10,7 @@ import bem3d
 import mdr
 from bem3d import kernel
 from tests.cases import (
+    test_bandwidth,
     test_exact_cases,
     test_flags,
     test_fractal_punch,
@@ -23,7 +24,7 @@ from validation.analysis.evidence import Verdict
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
-from validation.cases.punch import ensembles, fractal_punch_decades
+from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_decades
 from validation.cases.selection import model_selection as calibration
 from validation.engine import engine as ensemble
 from validation.scenes import dynamic_wheel as wheel_scene
@@ -105,6 +106,18 @@ linear_response = rough_springs.linear_response
 
 
 FAULTS = {
+    "no plateau below the roll-off": (
+        (bandwidth.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
+        test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,
+    ),
+    "a wide band without the change from the narrow one": (
+        (bandwidth_levels, "plus", lambda one, other: one),
+        test_bandwidth.test_a_planted_change_of_boundary_elements_adds_up,
+    ),
+    "half of the jackknife's error in a change": (
+        (statistics, "jackknife_error", scaled(statistics.jackknife_error, 0.5)),
+        functools.partial(test_bandwidth.test_intervals_of_a_change_hold_it_as_often_as_they_say, "mean stiffness"),
+    ),
     "the stiffness of the square is that of the finest grid": (
         (square_punch, "first_order_limit", lambda values: values[-1]),
         test_exact_cases.test_the_square_the_model_of_its_length_and_the_quoted_factor,

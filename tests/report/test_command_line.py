@@ -19,7 +19,7 @@ from validation import __main__ as command
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import normalisation
+from validation.cases.punch import bandwidth, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
@@ -51,6 +51,9 @@ SMALL = {
     ),
     "normalisation": normalisation.Normalisation(
         hursts=(0.7,), cells=16, surfaces=8, profiles=40, points=64, decades=(-1, 0)
+    ),
+    "bandwidth": bandwidth.Bandwidth(
+        cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3, profiles=5, points=64, per_decade=1, seed=1
     ),
     "mdr_limits": mdr_limits.MdrLimits(
         roll_offs=(1, 2), cells=16, surfaces=6, refined=3, profiles=40, points=64, decades=(-1, 0)

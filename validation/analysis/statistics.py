@@ -21,6 +21,7 @@ THREE_PER_CENT, FIVE_PER_CENT = DECIBEL * math.log(1.03), DECIBEL * math.log(1.0
 
 RESAMPLES = 999
 BATCH = 100
+JACKKNIFE_GROUPS = 100
 ROUNDING = 1e-12
 LOG10_TOLERANCE = 1e-9
 
@@ -56,6 +57,10 @@ class Estimate:
         """The difference to an independent estimate; degrees of freedom by Welch and Satterthwaite."""
         return _sum_of_independent(self.value - other.value, (self, other))
 
+    def plus(self, other: "Estimate") -> "Estimate":
+        """The sum with an independent estimate."""
+        return _sum_of_independent(self.value + other.value, (self, other))
+
 
 def _sum_of_independent(value: float, estimates: Sequence[Estimate]) -> Estimate:
     """A sum or difference of independent estimates; degrees of freedom by Welch and Satterthwaite."""
@@ -74,6 +79,20 @@ def jackknife_error(without: NDArray[np.floating] | Sequence[float]) -> FloatArr
     sqrt((n - 1) / n sum (x_i - mean)^2), the jackknife.
     """
     return np.asarray(np.sqrt((len(without) - 1) * np.var(without, axis=0)))
+
+
+def jackknifed(value: Callable[[FloatArray], FloatArray], rows: FloatArray) -> list[Estimate]:
+    """Each element of value(rows), with its error by the jackknife over realisations, for few of them too.
+
+    rows: realisations along axis 0, pairs of them perhaps; those with a value that is not finite are left out, and more
+    than a hundred are taken in as many groups.
+    """
+    known = rows[np.isfinite(rows).all(axis=tuple(range(1, rows.ndim)))]
+    groups = np.array_split(np.arange(len(known)), min(len(known), JACKKNIFE_GROUPS))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = np.atleast_1d(value(known))
+        errors = jackknife_error(np.array([np.atleast_1d(value(np.delete(known, group, 0))) for group in groups]))
+    return [Estimate(float(v), float(e), len(groups)) for v, e in zip(found, errors, strict=True)]
 
 
 def mean_of(estimates: Sequence[Estimate]) -> Estimate:

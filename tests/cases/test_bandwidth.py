@@ -1,0 +1,178 @@
+"""The bands of one punch: common long waves, a plateau, changes from band to band, and claims on planted answers."""
+
+import numpy as np
+import pytest
+
+from validation.analysis.evidence import ClaimStatus, number_with, numbers_with
+from validation.analysis.statistics import student
+from validation.cases.punch import bandwidth
+from validation.cases.punch.bandwidth import Bandwidth, BandwidthResult
+from validation.cases.punch.bandwidth_evidence import evidence
+from validation.cases.punch.bandwidth_levels import STATISTICS, change, levels
+from validation.cases.punch.bandwidth_numbers import BANDWIDTH, CHANGE, FIT, MDR, ROLL_OFF, STIFFNESS
+from validation.engine.engine import Engine
+from validation.simulation.rough_punch import FEW_CELLS
+from validation.theory import closed_forms
+
+CASE = Bandwidth(cells=16, surfaces=12, pairs=(4, 3), refined=3, rolled_off=4, profiles=20, points=256)
+
+
+def modes(height):
+    return np.fft.fft2(height, norm="forward")
+
+
+def test_a_wider_band_has_the_long_waves_of_the_one_before():
+    """The same phases; amplitudes are smaller by one factor, since each surface has the same rms height."""
+    narrow, wide = (modes(CASE.roughness(band).surface(4 * band, 7)) for band in (4, 8))
+    waves = np.rint(np.fft.fftfreq(16) * 16).astype(int)
+    inside = (np.hypot(waves[:, np.newaxis], waves) < 4.01) & (np.hypot(waves[:, np.newaxis], waves) > 0)
+    # half of a cell moves a wave: heights stand in the middle of cells
+    half = np.exp(1j * np.pi * (waves[:, np.newaxis] + waves) * (1 / 16 - 1 / 32))
+    ratio = (wide[np.ix_(waves, waves)] * half / np.where(inside, narrow, 1.0))[inside]
+    np.testing.assert_allclose(ratio, ratio[0].real, rtol=1e-9)
+    assert 0.9 < ratio[0].real < 1
+
+
+def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
+    """Four waves on a side at the roll-off: equal power in each below, (q_r / q)^(2 H + 2) above, none beyond."""
+    power = np.abs(modes(CASE.rolled_off_roughness.surface(64, 0))) ** 2
+    waves = np.rint(np.fft.fftfreq(64) * 64)
+    q = np.hypot(waves[:, np.newaxis], waves)
+    level = power[0, 1]
+    np.testing.assert_allclose(power[(q > 0.99) & (q < 4.01)], level, rtol=1e-9)
+    beyond = (q > 4.01) & (q < 15.99)
+    np.testing.assert_allclose(power[beyond], level * (4 / q[beyond]) ** 3.4, rtol=1e-9)
+    assert power[q > 16.01].max() < 1e-20 * level
+    assert power.sum() == pytest.approx(CASE.height**2, rel=1e-12)
+
+
+def test_every_pair_has_realisations_of_its_own_and_finer_cells_the_first_ones():
+    """Else the changes would not be independent of the narrowest band."""
+    drawn = {}
+
+    class Recorder(Engine):
+        def map_groups(self, solve, groups):
+            drawn.update({key: [(s.realisation, s.cells) for s in group] for key, group in groups.items()})
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        bandwidth.run(CASE, Recorder())
+    numbers = {key: [realisation for realisation, _ in group] for key, group in drawn.items()}
+    assert numbers["before", 0] == numbers["wider", 0] and numbers["before", 1] == numbers["wider", 1]
+    independent = [set(numbers[key]) for key in (("narrow", 0), ("wider", 0), ("wider", 1))]
+    assert len(set.union(*independent)) == sum(map(len, independent))
+    assert numbers["refined", 0] == numbers["narrow", 0][:3]
+    cells = [drawn[key][0][1] for key in (("narrow", 0), ("refined", 0), ("wider", 0), ("wider", 1))]
+    assert cells == [16, 32, 32, 64]
+
+
+def lognormal(rng, count, *, mean, deviation, common=None):
+    """Of these statistics at each of the levels of force; common: normal draws that share nine tenths with these."""
+    own = rng.standard_normal((count, mean.size))
+    drawn = own if common is None else 0.9 * common + np.sqrt(0.19) * own
+    s = np.sqrt(np.log1p(deviation**2))
+    return mean * np.exp(s * drawn - s**2 / 2), drawn
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("quantity", STATISTICS)
+def test_intervals_of_a_change_hold_it_as_often_as_they_say(quantity):
+    """Pairs of twelve with a correlation of 0.9: 95 % of 400 intervals, within four standard errors of that share."""
+    rng = np.random.default_rng(2)
+    one, held = np.ones(1), []
+    truth = {"mean stiffness": np.log(1.1), "relative deviation": np.log(0.8)}[quantity]
+    for _ in range(400):
+        before, common = lognormal(rng, 12, mean=one, deviation=0.25 * one)
+        after, _ = lognormal(rng, 12, mean=1.1 * one, deviation=0.2 * one, common=common)
+        (found,) = change(STATISTICS[quantity], before, after)
+        assert found.half_width == pytest.approx(student(11) * found.error)
+        held.append(abs(found.value - truth) <= found.half_width)
+    assert np.mean(held) == pytest.approx(0.95, abs=4 * np.sqrt(0.95 * 0.05 / 400))
+
+
+def planted(*, wide=1.0, rolled_off=1.0, size=0.5, mdr=1.0, surfaces=4000):
+    """Boundary elements with the stiffness of the fit and MDR `mdr` times as stiff; in the widest band MDR `wide` times
+    more, with a roll-off `rolled_off` times more, and there with `size` times the deviation."""
+    case = Bandwidth(surfaces=surfaces, pairs=(40, 40), refined=surfaces, rolled_off=surfaces, profiles=surfaces)
+    rng = np.random.default_rng(3)
+    forces, h = np.array(case.forces), case.height
+    mean = np.array([closed_forms.rough_punch_stiffness(side=1.0, modulus=1.0, force=f * h, height=h) for f in forces])
+
+    def outcome(factor=1.0, deviation=0.1, count=surfaces):
+        found, _ = lognormal(rng, count, mean=factor * mean, deviation=np.full(forces.size, deviation))
+        work = np.ones((count, forces.size))
+        return {"stiffness": found, "applications": work, "frozen applications": work}
+
+    narrow, pair, springs = outcome(), outcome(count=40), outcome(mdr)
+    wider = springs | {"stiffness": wide * springs["stiffness"]}
+    result = BandwidthResult(
+        case=case,
+        narrow=narrow,
+        refined=narrow,
+        pairs=[(pair, pair), (pair, pair)],
+        rolled_off=outcome(deviation=0.1 * size),
+        springs=[springs, springs, wider],
+        springs_rolled_off=outcome(mdr * rolled_off, 0.1 * size),
+        unconverged=(),
+    )
+    return evidence(result)
+
+
+HOLDS, LIMITED, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.LIMITED, ClaimStatus.CONTRADICTED
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("planting", "expected"),
+    [
+        ({"size": 1.0}, [HOLDS, HOLDS, HOLDS, HOLDS, HOLDS]),
+        ({}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, HOLDS]),
+        ({"wide": 1.2}, [CONTRADICTED, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED]),
+        ({"rolled_off": 0.85}, [HOLDS, CONTRADICTED, CONTRADICTED, HOLDS, CONTRADICTED]),
+        ({"mdr": 1.2}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED]),
+    ],
+)
+def test_claims_follow_a_planted_answer(planting, expected):
+    assert [claim.status for claim in planted(**planting).claims] == expected
+
+
+@pytest.mark.slow
+def test_a_planted_change_is_found_and_so_is_the_fit():
+    found = planted(wide=1.2)
+    for n in numbers_with(found.numbers, f"{CHANGE}, mean stiffness", **{BANDWIDTH: (16, 32)}):
+        assert n.value == pytest.approx(20 * np.log10(1.2), abs=1e-6)
+    assert "+20 % (+20 to +20)" in found.claims[0].answer
+    (rolled_off,) = numbers_with(planted().numbers, STIFFNESS, FIT, **{ROLL_OFF: 4.0})
+    assert rolled_off.value == pytest.approx(0, abs=0.1)
+    assert number_with(planted(mdr=1.2).numbers, STIFFNESS, MDR, **{BANDWIDTH: 32.0}).value > 1.5
+
+
+def test_a_planted_change_of_boundary_elements_adds_up():
+    """Pairs that are 10 % stiffer in each wider band: the widest is 1.1^2 times as stiff as the narrowest."""
+    one = np.random.default_rng(0).uniform(1, 2, (8, 7))
+    pair = {"stiffness": one}, {"stiffness": 1.1 * one}
+    springs = [{"stiffness": one}] * 3
+    result = BandwidthResult(CASE, pair[0], pair[0], [pair, pair], pair[0], springs, springs[0], ())
+    found = levels(result, "mean stiffness")
+    for narrow, wide in zip(found.bem[0], found.bem[2], strict=True):
+        assert wide.value - narrow.value == pytest.approx(2 * np.log(1.1), rel=1e-9)
+
+
+@pytest.mark.slow
+def test_a_wide_band_is_the_narrow_one_and_the_changes():
+    """On the surfaces themselves: what was pressed in the widest band, had it been on as many surfaces."""
+    case = Bandwidth(cells=16, surfaces=60, pairs=(30, 30), refined=3, rolled_off=3, profiles=20, points=256)
+    result = bandwidth.run(case)
+    for quantity, statistic in STATISTICS.items():
+        for band in (1, 2):
+            direct = statistic(result.pairs[band - 1][1]["stiffness"])
+            for one, other in zip(levels(result, quantity).bem[band], direct, strict=True):
+                assert one.value == pytest.approx(other, abs=2 * one.half_width)
+    contacts = result.pairs[1][1]["area"].mean(axis=0) * 64**2
+    assert contacts[-1] > FEW_CELLS
+
+
+@pytest.mark.parametrize("wrong", [{"pairs": (4,)}, {"pairs": (4, 2)}, {"refined": 2}, {"surfaces": 1}])
+def test_too_few_surfaces_are_refused(wrong):
+    with pytest.raises(ValueError, match="three at least"):
+        Bandwidth(**wrong)
