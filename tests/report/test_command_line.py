@@ -68,6 +68,7 @@ SMALL = {
         cells=4,
         strips=3,
         rough_strips=3,
+        refined=3,
         tracks=5,
         springs=8,
     ),
