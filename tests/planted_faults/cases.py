@@ -14,6 +14,7 @@ from tests.cases import (
     test_exact_cases,
     test_flags,
     test_fractal_punch,
+    test_from_force_to_roughness_and_stiffness,
     test_limits,
     test_wheel_cases,
     test_wheel_stability,
@@ -25,6 +26,7 @@ from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_decades
+from validation.cases.rolling import roughness_from_force, track_stiffness, validity
 from validation.cases.selection import model_selection as calibration
 from validation.engine import engine as ensemble
 from validation.scenes import dynamic_wheel as wheel_scene
@@ -54,6 +56,17 @@ def upside_down(half_space, gap, **settings):
 
 def twice_the_same(entropy, *key):
     return ensemble.random_generator(entropy, *key[:-1], key[-1] // 2)
+
+
+def area_whatever_the_force(strips):
+    return statistics.mean_estimate(np.array([strip["area"].mean() for strip in strips]))
+
+
+def whole_frame_in_contact(wheel, position):
+    wheel.carry(position, 4 / 3)
+    pressure = wheel.pressure()[2]
+    body = bem3d.HalfSpace(shape=pressure.shape, spacing=wheel.track.spacing, modulus=1.0)
+    return bem3d.solve_fixed_area(body, np.ones(pressure.shape, dtype=bool)).stiffness
 
 
 def half_of_the_limit(scheme, x):
@@ -177,6 +190,25 @@ FAULTS = {
             "steady-state",
             0.5,
             0.16,
+        ),
+    ),
+    "factor 4 lost in the filter of one dimension, read backwards": (
+        (roughness_from_force, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
+        test_from_force_to_roughness_and_stiffness.test_the_filter_in_one_dimension_finds_the_roughness_of_ridges,
+    ),
+    "half of the height in the filter of three dimensions, read backwards": (
+        (roughness_from_force, "level_3d", scaled(roughness_from_force.level_3d, 0.5)),
+        test_from_force_to_roughness_and_stiffness.test_the_filter_in_three_dimensions_finds_isotropic_roughness,
+    ),
+    "contact kept beside a wheel of another force": (
+        (validity, "contact_kept", area_whatever_the_force),
+        test_from_force_to_roughness_and_stiffness.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
+    ),
+    "stiffness of the frame for that of the contact": (
+        (track_stiffness, "tangent_stiffness", whole_frame_in_contact),
+        functools.partial(
+            test_from_force_to_roughness_and_stiffness.test_the_stiffness_along_a_track_is_the_change_of_force_with_approach,
+            0.3,
         ),
     ),
     "Geike's spectrum for the rolling-equivalent one": (

@@ -121,12 +121,12 @@ def ratio_of_means(values: FloatArray, references: FloatArray) -> Estimate:
 
 
 def log_ratio_of_means(values: FloatArray, references: FloatArray, weights: FloatArray) -> Estimate:
-    """ln of the mean of x over the mean of y in each column, in the mean over columns, with its jackknife error.
+    """Sum over columns of a weight times ln of the mean of x over the mean of y, with its jackknife error.
 
     values, references: x, y, one row a realisation, two at least, NaN in rows of x that are lost; or y one row, which
-    is exact; weights: of the columns, which add to one.
+    is exact; columns without weight need not be positive.
     """
-    used, known = weights > 0, np.isfinite(values).all(axis=1)
+    used, known = weights != 0, np.isfinite(values).all(axis=1)
     pairs = np.stack([values, np.broadcast_to(references, values.shape)])[:, known][:, :, used]
     count = pairs.shape[1]
     total = pairs.sum(axis=1, keepdims=True)

@@ -69,7 +69,8 @@ class Strip:
 def roll_strip(strip: Strip) -> Outcome:
     """Force over that of Hertz at each cell: boundary elements, and linear theory on the same surface.
 
-    applications: of the operator; failed: positions that did not converge, whose force is NaN.
+    area: of contact, over that of the smooth wheel; applications: of the operator; failed: positions that did not
+    converge, whose force is NaN.
     """
     surface, spacing = strip.surface(), 1 / strip.cells
     linear = linear_force(surface, spacing=spacing, **SMOOTH)
@@ -79,6 +80,7 @@ def roll_strip(strip: Strip) -> Outcome:
     return {
         "force": np.where(found.converged, found.force, np.nan) / HERTZ,
         "linear": linear / HERTZ,
+        "area": np.where(found.converged, found.area, np.nan) / math.pi,
         "applications": found.operator_applications.astype(np.float64),
         "failed": np.array(float(np.count_nonzero(~found.converged))),
     }

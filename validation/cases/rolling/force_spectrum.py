@@ -88,7 +88,7 @@ class ForceSpectrum(RollingSettings):
     def strips_of(self, height: float, cells: int) -> list[Strip]:
         """On one grid. The lower the roughness, the less the force fluctuates and the smaller the tolerance."""
         strips = self.rough_strips if height >= ROUGH else self.strips
-        count = strips if cells == self.cells else self.refined
+        count = strips if cells == self.cells else min(self.refined, strips)
         return [self.strip(self.spectrum, height, i, cells, 1e-4 * height) for i in range(count)]
 
 

@@ -118,20 +118,21 @@ def correlation(outcome: Outcome) -> tuple[float, float]:
 def level_1d(spectrum: PiecewisePowerLaw, rule: InputSpectrum, bands: Bands) -> FloatArray:
     """int C_F dq / F_Hertz^2 over each band of springs with that input spectrum, (14.12), for h_rms = 1."""
     c1d = TrackSpectrum(spectrum, rule)
-    return _over_bands(lambda q: force_spectrum_1d(q, c1d, contact_radius=1.0, modulus=1.0), bands)
+    return over_bands(lambda q: force_spectrum_1d(q, c1d, contact_radius=1.0, modulus=1.0), bands) / HERTZ**2
 
 
 @cache
 def level_3d(spectrum: PiecewisePowerLaw, bands: Bands) -> FloatArray:
     """The same of the half-space."""
-    return _over_bands(lambda q: force_3d(q, spectrum), bands)
+    return over_bands(lambda q: force_3d(q, spectrum), bands) / HERTZ**2
 
 
 def force_3d(q: FloatArray, spectrum: PiecewisePowerLaw) -> FloatArray:
     return force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0)
 
 
-def _over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
+def over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
+    """int C dq over each band, by the midpoint rule."""
     edges = np.array(bands.edges)
     q = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS)
-    return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges) / HERTZ**2)
+    return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges))

@@ -1,0 +1,179 @@
+"""Cases about rolling that end a claim: where linear theory ends, roughness from force, stiffness along a track."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import bem3d
+from validation.analysis.evidence import ClaimStatus, numbers_with
+from validation.analysis.statistics import Estimate
+from validation.cases.rolling import roughness_from_force, roughness_from_force_evidence, track_stiffness, validity
+from validation.cases.rolling.force_spectrum_levels import level_1d, level_3d
+from validation.cases.rolling.roughness_from_force import FILTER_1D, FILTER_3D, MEAN_FILTER, RoughnessFromForce
+from validation.cases.rolling.track_stiffness_evidence import DEVIATION, MEAN, evidence, of_punches, over, statistic
+from validation.cases.rolling.validity import HEIGHT, REFERENCE, SLOPE, SPECTRA, Validity, ValidityResult
+from validation.simulation.track_spectrum import INPUT_SPECTRA
+
+RNG = np.random.default_rng(0)
+HOLDS, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.CONTRADICTED
+
+
+def off(found):
+    """Found over true roughness in bands without a zero of the filter [dB]."""
+    return 10 * np.log10(found[BETWEEN] / TRUE[BETWEEN])
+
+
+# --- roughness from force ---
+
+CASE = RoughnessFromForce()
+TRUE = roughness_from_force.true_roughness(CASE)
+BETWEEN = CASE.inside & ~CASE.zeros
+
+
+def test_the_true_roughness_is_half_of_the_mean_square_height():
+    """Over positive wavenumbers, in the bands from q a = 1.1 on of a spectrum that begins at 1."""
+    edges = np.array(CASE.bands.edges)
+    first, last = edges[:-1][CASE.inside][0], edges[-1]
+    power = -2 * CASE.hurst
+    share = (first**power - last**power) / (CASE.first**power - CASE.last**power)
+    assert TRUE[CASE.inside].sum() == pytest.approx(share / 2, rel=1e-3)
+
+
+def test_the_filter_in_one_dimension_finds_the_roughness_of_ridges():
+    """Levels of (14.12) with Geike's spectrum: of ridges across the track, where it is exact; to the bend in a band."""
+    levels = level_1d(CASE.spectrum, "geike", CASE.bands)
+    found = roughness_from_force.roughness(CASE.bands, levels, FILTER_1D)
+    assert np.abs(off(found)).max() < 0.25
+
+
+def test_the_filter_in_three_dimensions_finds_isotropic_roughness():
+    """And next to nothing below it, where filters in one dimension find a tenth of it."""
+    roughness_from_force.filter_3d.cache_clear()
+    levels = level_3d(CASE.spectrum, CASE.bands)
+    found = {by: roughness_from_force.roughness(CASE.bands, levels, by) for by in roughness_from_force.FILTERS}
+    roughness_from_force.filter_3d.cache_clear()
+    assert np.abs(off(found[FILTER_3D])).max() < 0.3
+    below = np.array(CASE.bands.edges[1:]) < 1
+    assert found[FILTER_3D][below].sum() < 0.01 * TRUE.sum()
+    assert found[FILTER_1D][below].sum() > 0.1 * TRUE.sum()
+    assert (off(found[FILTER_1D]) < -2).all()
+    assert off(found[MEAN_FILTER]).mean() < -2
+
+
+def on_linear_theory(factor=1.0):
+    """A result whose boundary elements are linear theory, times a factor."""
+    linear = RNG.lognormal(0, 0.2, (6, len(TRUE)))
+    level = factor * linear * (1 + 1e-3 * RNG.standard_normal(linear.shape))
+    levels = {height: {"level": level, "linear level": linear} for height in CASE.heights}
+    return roughness_from_force.RoughnessFromForceResult(CASE, levels, ())
+
+
+def test_claims_of_roughness_from_force_follow_their_numbers():
+    book, one, between, *_ = roughness_from_force_evidence.evidence(on_linear_theory()).claims
+    assert book.claim == roughness_from_force_evidence.CASE.claim
+    assert [book.status, one.status, between.status] == [CONTRADICTED, CONTRADICTED, HOLDS]
+    assert roughness_from_force_evidence.evidence(on_linear_theory(4.0)).claims[2].status is CONTRADICTED
+
+
+# --- where linear theory ends ---
+
+
+def test_a_smooth_wheel_keeps_its_contact_whatever_its_force():
+    force = RNG.uniform(0.5, 2.0, (4, 50))
+    strips = [{"area": 0.8 * one ** (2 / 3), "force": one} for one in force]
+    kept = validity.contact_kept(strips)
+    assert kept.value == pytest.approx(0.8)
+    assert kept.half_width == pytest.approx(0, abs=1e-9)
+
+
+def test_the_level_off_linear_theory_is_a_root_mean_square_in_decibels():
+    linear = RNG.lognormal(0, 0.2, (5, 2))
+    found = validity.off_linear({"level": linear * [10**0.3, 10**-0.4], "linear level": linear})
+    assert found.value == pytest.approx(math.sqrt((3**2 + 4**2) / 2))
+    assert found.half_width == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize("parameter", [SLOPE, HEIGHT])
+def test_the_parameter_that_counts_is_found(parameter):
+    """A loss of contact, and of level, that depends on one parameter alone."""
+    case = Validity(slopes=(0.5, 1.0), heights=(0.1, 0.3))
+    kept, levels = {}, {}
+    for name, spectrum in SPECTRA.items():
+        for given, value in case.levels:
+            height = value / spectrum.slope if given == SLOPE else value
+            x = height * (spectrum.slope if parameter == SLOPE else 1.0)
+            linear = RNG.lognormal(0, 0.2, (4, 3))
+            kept[name, given, value] = Estimate(1 - 0.3 * x, 0.001, 4)
+            cross = np.stack([linear, 0 * linear])
+            levels[name, given, value] = {"level": linear * 10 ** (-0.8 * x), "linear level": linear, "cross": cross}
+    slope, height, slope_level, height_level = validity.evidence(ValidityResult(case, levels, kept, ())).claims
+    right, wrong = (slope, height) if parameter == SLOPE else (height, slope)
+    assert [right.status, wrong.status] == [HOLDS, CONTRADICTED]
+    right, wrong = (slope_level, height_level) if parameter == SLOPE else (height_level, slope_level)
+    assert [right.status, wrong.status] == [HOLDS, CONTRADICTED]
+
+
+def test_the_spectrum_of_reference_is_not_judged_beside_itself():
+    assert all(name == REFERENCE or SPECTRA[name] != SPECTRA[REFERENCE] for name in SPECTRA)
+
+
+# --- stiffness along a track ---
+
+SMALL = track_stiffness.TrackStiffness(forces=(1.0,), length=16, strips=3, refined=3, tracks=5, surfaces=4, profiles=10)
+
+
+@pytest.mark.parametrize("height", [0.0, 0.3])
+def test_the_stiffness_along_a_track_is_the_change_of_force_with_approach(height):
+    """Beside a finite difference; on a smooth track 2 E* a, to an edge some tenths of a cell out of place."""
+    strip = replace(SMALL.strips_of(1.0, 8)[0].strip, height=height)
+    track = bem3d.Track(height=np.ascontiguousarray(strip.surface()), spacing=1 / 8, radius=1.0, modulus=1.0)
+    wheel = bem3d.RollingContact(track, tolerance=1e-9)
+    stiffness = track_stiffness.tangent_stiffness(wheel, 5)
+    approach, step = wheel.carry(5, 4 / 3).approach, 1e-4
+    more, less = (wheel.press(5, approach + sign * step).force for sign in (1, -1))
+    assert stiffness == pytest.approx((more - less) / (2 * step), rel=0.01)
+    if height == 0:
+        assert stiffness == pytest.approx(2, rel=0.05)
+
+
+def test_low_tracks_have_the_stiffness_of_the_smooth_wheel():
+    tracks = replace(SMALL.tracks_of(1.0, "geike"), height=1e-6)
+    along = track_stiffness.roll_loaded_tracks(tracks)
+    assert along["mean"] == pytest.approx(1, abs=2 / tracks.springs)
+    assert np.sqrt(along["variance"]).max() < 1 / tracks.springs
+
+
+def along(mean=1.0, deviation=0.1, rows=8):
+    """Moments of tracks with little scatter."""
+    scatter = 1 + 1e-4 * RNG.standard_normal(rows)
+    level = 1e-3 * deviation**2 * np.ones((rows, len(SMALL.bands.centres))) * scatter[:, np.newaxis]
+    return {"mean": mean * scatter, "variance": (mean * deviation) ** 2 * scatter, "level": mean**2 * level}
+
+
+def test_the_deviation_is_that_of_the_mean_variance():
+    assert math.exp(statistic(DEVIATION, along(2.0, 0.1)).value) == pytest.approx(0.1, rel=1e-3)
+    assert math.exp(statistic(MEAN, along(2.0, 0.1)).value) == pytest.approx(2.0, rel=1e-3)
+    punches = 2 + 0.2 * RNG.standard_normal(4000)
+    assert math.exp(of_punches(punches, DEVIATION).value) == pytest.approx(0.1, rel=0.05)
+    assert of_punches(punches, DEVIATION).half_width == pytest.approx(1.96 / math.sqrt(2 * 4000), rel=0.1)
+
+
+@pytest.mark.parametrize(("springs", "status"), [(0.1, HOLDS), (0.15, CONTRADICTED)])
+def test_claims_of_the_stiffness_follow_their_numbers(springs, status):
+    bem = along()
+    result = track_stiffness.TrackStiffnessResult(
+        SMALL,
+        {1.0: bem},
+        {1.0: bem},
+        {(1.0, rule): along(deviation=springs) for rule in INPUT_SPECTRA},
+        {1.0: 1 + 0.1 * RNG.standard_normal(4000)},
+        {1.0: 1 + springs * RNG.standard_normal(4000)},
+        (),
+    )
+    found = evidence(result)
+    fluctuation, mean, *_, punch = found.claims
+    assert [fluctuation.status, mean.status, punch.status] == [status, HOLDS, HOLDS]
+    (number,) = numbers_with(found.numbers, DEVIATION, over("geike"))
+    assert number.value == pytest.approx(springs / 0.1 - 1, abs=0.01)

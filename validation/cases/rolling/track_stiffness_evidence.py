@@ -1,0 +1,296 @@
+"""What the stiffness along a track shows: numbers, tables, sentences, and the case of the report."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.difference import difference
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
+from validation.analysis.over_range import root_mean_square, worst
+from validation.analysis.statistics import (
+    POWER_DECIBEL,
+    Estimate,
+    extrapolated,
+    jackknife_error,
+    log_ratio_of_means,
+)
+from validation.cases.rolling.claims import answered, from_to
+from validation.cases.rolling.force_spectrum_numbers import (
+    FORD_THOMPSON,
+    ONE_DECIBEL,
+    REPEATABLE,
+    RMS,
+    THREE_DECIBELS,
+)
+from validation.cases.rolling.input_spectrum_numbers import NAMES
+from validation.cases.rolling.track_stiffness import FloatArray, TrackStiffness, TrackStiffnessResult, run
+from validation.engine.engine import Outcome
+from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum
+
+MEAN, DEVIATION = "mean stiffness", "relative deviation of stiffness"
+LEVEL = "level of stiffness in a one-third octave"
+PUNCH, PROFILE, WHEEL = "punch, bem3d", "punch, springs", "wheel, bem3d"
+PUNCH_OVER_WHEEL = "punch over wheel, bem3d"
+ROWS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
+"""Weights of ln of the mean variance and of ln of the mean."""
+ROUNDING = 1e-9
+"""A relative deviation below is none: all springs touch."""
+CLAIM = (
+    "Along a track under constant load, springs with Geike's spectrum have the fluctuation of stiffness of boundary "
+    "elements."
+)
+
+
+def over(rule: InputSpectrum) -> str:
+    return f"springs with {NAMES[rule]} over bem3d"
+
+
+def statistic(quantity: str, outcome: Outcome, other: Outcome | None = None) -> Estimate:
+    """ln of the mean stiffness, or of its relative deviation, along tracks; or of what it is over another's."""
+    mine, reference = (np.stack([one["variance"], one["mean"]], axis=1) for one in (outcome, other or outcome))
+    return log_ratio_of_means(mine, reference if other else np.ones(2), ROWS[quantity])
+
+
+def of_bem(result: TrackStiffnessResult, quantity: str, force: float) -> tuple[Estimate, float]:
+    """The same of boundary elements on cells of no size, and the half-width that the grid leaves."""
+    coarse, fine = result.bem[force], result.refined[force]
+    same = {name: values[: len(fine["mean"])] for name, values in coarse.items()}
+    return extrapolated(statistic(quantity, coarse), statistic(quantity, fine, same))
+
+
+def of_punches(stiffness: FloatArray, quantity: str) -> Estimate:
+    """The same over punches, with its jackknife error."""
+    known = stiffness[np.isfinite(stiffness)]
+    without = np.array([np.delete(known, i) for i in range(known.size)])
+
+    def log(values: FloatArray) -> FloatArray:
+        mean = values.mean(axis=-1)
+        value = mean if quantity == MEAN else np.maximum(values.std(axis=-1, ddof=1) / mean, ROUNDING)
+        return np.asarray(np.log(value))
+
+    return Estimate(float(log(known)), float(jackknife_error(log(without))), known.size)
+
+
+def evidence(result: TrackStiffnessResult) -> Evidence:
+    """Springs beside boundary elements along tracks; the punches of Fig. 14.1 beside both."""
+    case = result.case
+    numbers = [number for force in case.forces for number in _at_force(result, force)]
+    moments, bands = _moments(result), _bands(result)
+    return Evidence(
+        title="Stiffness along a track at constant load: from Fig. 14.1 to rolling",
+        method=(
+            f"A wheel rolls under a constant force over {case.strips} isotropic surfaces, H = {case.hurst:g}, whose "
+            f"longest wave is the diameter L = 2 a of the smooth contact and whose shortest is L / {case.waves}, as on "
+            "the punches of Fig. 14.1. At each position the stiffness is dF/dd of boundary elements at a constant "
+            f"contact area, {case.cells} cells to a radius, {case.refined} surfaces again with {2 * case.cells}; and "
+            f"that of the springs in contact, {case.tracks} tracks with each of three input spectra. Beside them: "
+            f"{case.surfaces} punches of side L with the same roughness on {8 * case.waves}² cells, and "
+            f"{case.profiles} profiles, at the same Fbar = F / (E* h L)."
+        ),
+        numbers=tuple(numbers),
+        tables=(moments, bands),
+        conclusions=(_punch_and_wheel(numbers),),
+        claims=_claims(case, numbers),
+        captions={
+            "track_stiffness": (
+                "(a) Mean stiffness over 2 E* a of a wheel under constant load, and over E* L of the punches of Fig. "
+                "14.1, over Fbar. (b) Relative deviation, along the track and from punch to punch. Filled: boundary "
+                "elements; open: springs. Bars: 95 % intervals. (c) Level of the stiffness in one-third octaves, "
+                "springs over boundary elements, with Geike's spectrum, dark to light: Fbar; shaded: within 3 dB."
+            )
+        },
+        unconverged=result.unconverged,
+        page_tables=(moments,),
+    )
+
+
+def _at_force(result: TrackStiffnessResult, force: float) -> list[Number]:
+    numbers = []
+    for rule in INPUT_SPECTRA:
+        springs = result.springs[force, rule]
+        for quantity in (MEAN, DEVIATION):
+            bem, grid = of_bem(result, quantity, force)
+            numbers.append(_relative(quantity, over(rule), force, statistic(quantity, springs).minus(bem), grid))
+        numbers += _levels(result, force, rule)
+    bem, grid = of_bem(result, DEVIATION, force)
+    punch = of_punches(result.punches[force], DEVIATION)
+    return [*numbers, _relative(DEVIATION, PUNCH_OVER_WHEEL, force, punch.minus(bem), grid)]
+
+
+def _relative(quantity: str, model: str, force: float, apart: Estimate, grid: float) -> Number:
+    """exp(x) - 1 of the difference x of two logarithms."""
+    ratio = math.exp(apart.value)
+    return Number(
+        quantity=quantity,
+        model=model,
+        where={"Fbar": force},
+        value=ratio - 1,
+        reference=0.0,
+        source="bem3d along the track, extrapolated",
+        tolerance=0.1,
+        reason="10 %: the margin of Fig. 14.1",
+        grid=ratio * grid,
+        sample=ratio * apart.half_width,
+        role=Role.FINDING,
+    )
+
+
+def _levels(result: TrackStiffnessResult, force: float, rule: InputSpectrum) -> list[Number]:
+    """Worst one-third octave, and root mean square over all."""
+    centres = result.case.bands.centres
+
+    def points(among: int) -> list[Number]:
+        return [
+            difference(
+                level_of(result.springs[force, rule], weights),
+                bem,
+                quantity=LEVEL,
+                model=over(rule),
+                where={"Fbar": force, "q a": float(q)},
+                source="bem3d along the track, extrapolated",
+                tolerance=THREE_DECIBELS,
+                reason=FORD_THOMPSON,
+                grid=grid,
+                among=among,
+            )
+            for q, weights in zip(centres, np.eye(centres.size), strict=True)
+            for bem, grid in [bem_level(result, force, weights, among)]
+        ]
+
+    return [
+        worst(points(centres.size), "q a"),
+        root_mean_square(points(1), "q a", ONE_DECIBEL, REPEATABLE),
+    ]
+
+
+def level_of(outcome: Outcome, weights: FloatArray) -> Estimate:
+    return log_ratio_of_means(outcome["level"], np.ones(weights.size), weights)
+
+
+def bem_level(result: TrackStiffnessResult, force: float, weights: FloatArray, among: int) -> tuple[Estimate, float]:
+    coarse, fine = result.bem[force]["level"], result.refined[force]["level"]
+    return extrapolated(
+        level_of(result.bem[force], weights), log_ratio_of_means(fine, coarse[: len(fine)], weights), among
+    )
+
+
+def _claims(case: TrackStiffness, numbers: list[Number]) -> tuple[JudgedClaim, ...]:
+    def of(model: str, *quantities: str) -> list[Number]:
+        return [n for n in numbers if n.model == model and n.quantity in quantities]
+
+    geike = over("geike")
+    levels = of(geike, LEVEL, RMS + LEVEL)
+    others = [n for rule in INPUT_SPECTRA if rule != "geike" for n in of(over(rule), DEVIATION)]
+    return (
+        answered(CLAIM, of(geike, DEVIATION), f"the relative deviation is {_percent(of(geike, DEVIATION))}."),
+        answered(
+            "Along a track under constant load, springs with Geike's spectrum have the mean stiffness of boundary "
+            "elements.",
+            of(geike, MEAN),
+            f"the mean is {_percent(of(geike, MEAN))}.",
+        ),
+        answered(
+            "Springs with Geike's spectrum have the level of the stiffness in each one-third octave.",
+            levels,
+            "; ".join(
+                f"at Fbar = {n.where['Fbar']:g} the rms over bands is {n.value:.1f} dB"
+                for n in numbers_with(levels, RMS + LEVEL)
+            )
+            + f", the worst bands are {from_to([n.value for n in numbers_with(levels, LEVEL)])} dB off.",
+        ),
+        answered(
+            "The line trace or the rolling-equivalent spectrum mends the fluctuation of stiffness.",
+            others,
+            "; ".join(
+                f"with the {NAMES[rule]} the relative deviation is {_percent(of(over(rule), DEVIATION))}"
+                for rule in INPUT_SPECTRA
+                if rule != "geike"
+            )
+            + ".",
+        ),
+        answered(
+            "The fluctuation of stiffness along a track is that from punch to punch of Fig. 14.1 at the same Fbar.",
+            of(PUNCH_OVER_WHEEL, DEVIATION),
+            f"from punch to punch it is {_percent(of(PUNCH_OVER_WHEEL, DEVIATION))}, for Fbar up to "
+            f"{case.forces[-1]:g}.",
+        ),
+    )
+
+
+def _percent(numbers: Sequence[Number]) -> str:
+    return ", ".join(
+        f"{100 * n.value:+.0f} ± {100 * n.uncertainty:.0f} % off at Fbar = {n.where['Fbar']:g} ({n.verdict})"
+        for n in numbers
+    )
+
+
+def _punch_and_wheel(numbers: list[Number]) -> str:
+    last = numbers_with(numbers, DEVIATION, PUNCH_OVER_WHEEL)[-1]
+    return (
+        "A punch touches everywhere once its load is high, and its stiffness then no longer fluctuates. The edge of a "
+        "wheel's contact is always partly open, so that waves still move it: at Fbar = "
+        f"{last.where['Fbar']:g} the deviation from punch to punch is {100 * last.value:+.0f} % off that along the "
+        f"track ({last.verdict})."
+    )
+
+
+def _moments(result: TrackStiffnessResult) -> Table:
+    """A row a force and model: mean and relative deviation, with their half-widths."""
+    rows: list[dict[str, object]] = []
+    for force in result.case.forces:
+        bem = {quantity: of_bem(result, quantity, force) for quantity in ROWS}
+        found: dict[str, dict[str, tuple[Estimate, float]]] = {WHEEL: bem}
+        for rule in INPUT_SPECTRA:
+            found[f"wheel, springs with {NAMES[rule]}"] = {
+                quantity: (statistic(quantity, result.springs[force, rule]), 0.0) for quantity in ROWS
+            }
+        for model, stiffness in ((PUNCH, result.punches[force]), (PROFILE, result.profiles[force])):
+            found[model] = {quantity: (of_punches(stiffness, quantity), 0.0) for quantity in ROWS}
+        for model, estimates in found.items():
+            row: dict[str, object] = {"Fbar": force, "h/d": round(result.case.height(force), 4), "model": model}
+            for quantity, (estimate, grid) in estimates.items():
+                value = math.exp(estimate.value)
+                row[quantity] = round(value, 5)
+                row[f"± {quantity}"] = round(value * (grid + estimate.half_width), 5)
+            rows.append(row)
+    return table_of("moments", rows)
+
+
+def _bands(result: TrackStiffnessResult) -> Table:
+    """A row a force and band: springs over boundary elements [dB]."""
+    rows: list[dict[str, object]] = []
+    centres = result.case.bands.centres
+    for force in result.case.forces:
+        for q, weights in zip(centres, np.eye(centres.size), strict=True):
+            bem, grid = bem_level(result, force, weights, 1)
+            row: dict[str, object] = {"Fbar": force, "q a": float(q), "bem3d [dB]": POWER_DECIBEL * bem.value}
+            for rule in INPUT_SPECTRA:
+                apart = level_of(result.springs[force, rule], weights).minus(bem)
+                row[f"{NAMES[rule]} [dB]"] = POWER_DECIBEL * apart.value
+                row[f"{NAMES[rule]} ± [dB]"] = POWER_DECIBEL * (grid + apart.half_width)
+            rows.append(row)
+    return table_of("bands", rows)
+
+
+CASE = Case(
+    name="track_stiffness",
+    chapter=Chapter.ROLLING,
+    place=6,
+    claim=CLAIM,
+    answers="Fluctuation of stiffness along a track: the link from Fig. 14.1 to rolling",
+    quick=TrackStiffness(),
+    full=TrackStiffness(
+        forces=(0.1, 0.3, 1.0, 3.0, 10.0),
+        length=32,
+        strips=8,
+        refined=6,
+        tracks=200,
+        surfaces=100,
+        profiles=2000,
+    ),
+    run=run,
+    evidence=evidence,
+    needs="boundary elements",
+)

@@ -1,0 +1,276 @@
+"""Which of h/d and h' a/d says where linear theory ends: other bands and other Hurst exponents at equal values."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.difference import difference
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, Table, numbers_with, table_of
+from validation.analysis.spectra import Bands
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
+from validation.cases.rolling.claims import answered
+from validation.cases.rolling.force_spectrum_levels import correlation
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.simulation.rolling_strip import Strip, roll_strips, strip_levels
+from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
+
+SLOPE, HEIGHT = "h' a/d", "h/d"
+KEPT, OFF = "share of contact kept", "rms level over linear theory"
+REFERENCE = "H = 0.7, q a = 1 to 10"
+SPECTRA = {
+    REFERENCE: self_affine(0.7, 1.0, 10.0),
+    "H = 0.7, q a = 0.3 to 5": self_affine(0.7, 0.3, 5.0),
+    "H = 0.7, q a = 2 to 20": self_affine(0.7, 2.0, 20.0),
+    "H = 0.4, q a = 1 to 10": self_affine(0.4, 1.0, 10.0),
+    "H = 1, q a = 1 to 10": self_affine(1.0, 1.0, 10.0),
+}
+CLAIM = "Contact is lost at the same h' a/d, whatever the band of the roughness and its Hurst exponent."
+
+
+@dataclass(frozen=True, kw_only=True)
+class Validity:
+    """A wheel at the approach d, contact radius a, over surfaces of all spectra, at equal h' a/d and at equal h/d.
+
+    slopes, heights: values of both, ascending; strips: realisations; waves: of the longest on the length of a surface;
+    width: over a; cells: to a contact radius and, by four, to the shortest wave at least; seed: zero or positive.
+    """
+
+    slopes: tuple[float, ...] = (1.0,)
+    heights: tuple[float, ...] = (0.3,)
+    strips: int = 4
+    waves: int = 4
+    width: int = 12
+    cells: int = 8
+    seed: int = 151
+
+    @property
+    def levels(self) -> list[tuple[str, float]]:
+        """Values of both parameters."""
+        return [*((SLOPE, value) for value in self.slopes), *((HEIGHT, value) for value in self.heights)]
+
+    def cells_for(self, spectrum: PiecewisePowerLaw) -> int:
+        return max(self.cells, math.ceil(4 * spectrum.edges[-1] / (2 * math.pi)))
+
+    def length_for(self, spectrum: PiecewisePowerLaw) -> int:
+        return math.ceil(self.waves * 2 * math.pi / spectrum.edges[0])
+
+    def bands_for(self, spectrum: PiecewisePowerLaw) -> Bands:
+        """One-third octaves in the band of a spectrum, one of them around the first zero of sin(q a)."""
+        return Bands.around(math.pi, spectrum.edges[0], spectrum.edges[-1]).on(self.length_for(spectrum))
+
+    def strips_of(self, name: str, parameter: str, value: float) -> list[Strip]:
+        spectrum = SPECTRA[name]
+        height = value / spectrum.slope if parameter == SLOPE else value
+        return [
+            Strip(
+                spectrum=spectrum,
+                height=height,
+                realisation=i,
+                length=self.length_for(spectrum),
+                width=self.width,
+                cells=self.cells_for(spectrum),
+                tolerance=1e-4 * height,
+                seed=self.seed,
+            )
+            for i in range(self.strips)
+        ]
+
+
+Key = tuple[str, str, float]
+"""Spectrum; h' a/d or h/d; its value."""
+
+
+@dataclass(frozen=True)
+class ValidityResult:
+    """Levels beside linear theory; and of each strip the mean area of contact, and that of smooth wheels alike."""
+
+    case: Validity
+    levels: dict[Key, Outcome]
+    kept: dict[Key, Estimate]
+    unconverged: tuple[str, ...]
+
+
+def run(case: Validity, engine: Engine = SERIAL) -> ValidityResult:
+    """Roll over all spectra. Raises NotConvergedError where fewer than three strips of one converge."""
+    groups = {(name, *level): case.strips_of(name, *level) for name in SPECTRA for level in case.levels}
+    strips, unconverged = roll_strips(groups, engine)
+    levels = {
+        key: strip_levels(found, 1 / case.cells_for(SPECTRA[key[0]]), case.bands_for(SPECTRA[key[0]]))
+        for key, found in strips.items()
+    }
+    return ValidityResult(case, levels, {key: contact_kept(found) for key, found in strips.items()}, unconverged)
+
+
+def contact_kept(strips: list[Outcome]) -> Estimate:
+    """Mean area of contact over that of a smooth wheel under the same force, which is as its power 2/3."""
+    area, force = (np.array([strip[name] for strip in strips]) for name in ("area", "force"))
+    return ratio_of_means(area.mean(axis=1), (np.maximum(force, 0.0) ** (2 / 3)).mean(axis=1))
+
+
+def off_linear(outcome: Outcome) -> Estimate:
+    """Root mean square over bands of the level over linear theory on the same surfaces [dB], with its jackknife."""
+    known = np.isfinite(outcome["level"]).all(axis=1)
+    level, linear = outcome["level"][known], outcome["linear level"][known]
+    count = len(level)
+
+    def rms(mine: np.ndarray, other: np.ndarray) -> np.ndarray:
+        return np.asarray(POWER_DECIBEL * np.sqrt(np.mean(np.log(mine / other) ** 2, axis=-1)))
+
+    without = rms(*((one.sum(axis=0) - one) / (count - 1) for one in (level, linear)))
+    return Estimate(float(rms(level.mean(axis=0), linear.mean(axis=0))), float(jackknife_error(without)), count)
+
+
+def evidence(result: ValidityResult) -> Evidence:
+    """Each spectrum beside that of reference, at equal h' a/d and at equal h/d."""
+    case = result.case
+    numbers = [
+        number
+        for parameter, value in case.levels
+        for name in SPECTRA
+        if name != REFERENCE
+        for number in _numbers(result, name, parameter, value)
+    ]
+    table = _table(result)
+    return Evidence(
+        title="Where linear theory ends: h' a/d against h/d, over bands and Hurst exponents",
+        method=(
+            f"A wheel rolls at a fixed approach over surfaces of {len(SPECTRA)} spectra, once with equal h' a/d and "
+            f"once with equal h/d. h' is the rms gradient. Boundary elements: {case.strips} surfaces each, "
+            f"{case.waves} of their longest waves long, at least {case.cells} cells to a radius and four to the "
+            "shortest wave. The share of contact kept is the mean area over that of a smooth wheel under the same "
+            "force. The level over linear theory on the same surfaces is taken in one-third octaves of the band; its "
+            f"root mean square over bands counts. Each spectrum is judged beside {REFERENCE}."
+        ),
+        numbers=tuple(numbers),
+        tables=(table,),
+        conclusions=_conclusions(case, table),
+        claims=_claims(case, numbers, table),
+        captions={
+            "rolling_validity": (
+                "(a), (b) Share of contact kept on boundary elements, over h/d and over h' a/d, by spectrum. (c), (d) "
+                "Root mean square over one-third octaves of the level over linear theory; dotted: 1 dB. Bars: 95 % "
+                "intervals. The curves that lie on each other show the parameter that counts."
+            )
+        },
+        unconverged=result.unconverged,
+        page_tables=(table,),
+    )
+
+
+def _numbers(result: ValidityResult, name: str, parameter: str, value: float) -> list[Number]:
+    """A spectrum beside the reference at an equal value of one parameter."""
+    mine, other = (name, parameter, value), (REFERENCE, parameter, value)
+    where: dict[str, Place] = {parameter: value, "spectrum": name}
+    return [
+        difference(
+            result.kept[mine],
+            result.kept[other],
+            quantity=KEPT,
+            model="bem3d",
+            where=where,
+            source=REFERENCE,
+            tolerance=0.1,
+            reason="0.1: a tenth of the contact",
+            unit="-",
+            scale=1.0,
+            absolute=True,
+        ),
+        difference(
+            off_linear(result.levels[mine]),
+            off_linear(result.levels[other]),
+            quantity=OFF,
+            model="bem3d",
+            where=where,
+            source=REFERENCE,
+            tolerance=1.0,
+            reason="1 dB: repeatability of measured one-third octave levels",
+            scale=1.0,
+            absolute=True,
+        ),
+    ]
+
+
+def _table(result: ValidityResult) -> Table:
+    rows: list[dict[str, object]] = []
+    for (name, parameter, value), levels in result.levels.items():
+        spectrum, kept, off = SPECTRA[name], result.kept[name, parameter, value], off_linear(levels)
+        height = value / spectrum.slope if parameter == SLOPE else value
+        rows.append(
+            {
+                "spectrum": name,
+                "at equal": parameter,
+                HEIGHT: _rounded(height),
+                SLOPE: _rounded(height * spectrum.slope),
+                "contact kept": round(kept.value, 4),
+                "± contact": round(kept.half_width, 4),
+                "rms over linear [dB]": round(off.value, 3),
+                "± rms [dB]": round(off.half_width, 3),
+                "correlation with linear": round(correlation(levels)[0], 4),
+            }
+        )
+    return table_of("validity", rows)
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.3g}")
+
+
+def _claims(case: Validity, numbers: list[Number], table: Table) -> tuple[JudgedClaim, ...]:
+    def claim(text: str, quantity: str, column: str, parameter: str) -> JudgedClaim:
+        values = _of(case, parameter)
+        parts = [f"{spread(table, column, parameter, value)} at {parameter} = {value:g}" for value in values]
+        mine = [number for number in numbers_with(numbers, quantity) if parameter in number.where]
+        return answered(text, mine, f"over the spectra {'; '.join(parts)}.")
+
+    kept, off = "contact kept", "rms over linear [dB]"
+    other = CLAIM.replace(SLOPE, HEIGHT)
+    level = "The level leaves linear theory at the same {}, whatever the band of the roughness and its Hurst exponent."
+    return (
+        claim(CLAIM, KEPT, kept, SLOPE),
+        claim(other, KEPT, kept, HEIGHT),
+        claim(level.format(SLOPE), OFF, off, SLOPE),
+        claim(level.format(HEIGHT), OFF, off, HEIGHT),
+    )
+
+
+def _of(case: Validity, parameter: str) -> tuple[float, ...]:
+    return case.slopes if parameter == SLOPE else case.heights
+
+
+def spread(table: Table, column: str, parameter: str, value: float) -> str:
+    """The smallest and the largest over the spectra at one value of a parameter."""
+    found = table.where(**{"at equal": parameter, parameter: value})[column]
+    what = "dB of rms" if "dB" in column else "of the contact kept"
+    return f"{found.min():.2f} to {found.max():.2f} {what}"
+
+
+def _conclusions(case: Validity, table: Table) -> tuple[str, ...]:
+    """By how much each parameter leaves the loss of contact, and the level, to the spectrum."""
+    found = []
+    for parameter in (SLOPE, HEIGHT):
+        value = _of(case, parameter)[-1]
+        mine = table.where(**{"at equal": parameter, parameter: value})
+        lost, off = 1 - mine["contact kept"], mine["rms over linear [dB]"]
+        ratio = lost.max() / lost.min() if lost.min() > 0 else math.inf
+        found.append(
+            f"at {parameter} = {value:g} the share of contact lost differs by a factor of {ratio:.3g} over the "
+            f"spectra, and the rms over linear theory by {off.max() / off.min():.3g}"
+        )
+    sentence = "; ".join(found)
+    return (f"{sentence[0].upper()}{sentence[1:]}.",)
+
+
+CASE = Case(
+    name="rolling_validity",
+    chapter=Chapter.ROLLING,
+    place=4,
+    claim=CLAIM,
+    answers="Where linear theory of rolling ends: h' a/d or h/d, over bands and Hurst exponents",
+    quick=Validity(),
+    full=Validity(slopes=(0.1, 0.3, 1.0), heights=(0.03, 0.1, 0.3), strips=6, waves=6, width=16),
+    run=run,
+    evidence=evidence,
+    needs="boundary elements",
+)
