@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from scipy import integrate
 
+from validation.analysis.answers import SHORT
 from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
 from validation.analysis.spectra import Bands
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges, ridges_evidence
-from validation.cases.rolling.claims import SHORT
 from validation.cases.rolling.force_spectrum_evidence import CASE, evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, LevelsAtHeight, coherence, correlation
 from validation.cases.rolling.force_spectrum_numbers import LEVEL
