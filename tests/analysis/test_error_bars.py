@@ -13,6 +13,7 @@ from scipy import stats
 
 from tests.cases.test_limits import STEEP
 from validation.analysis.evidence import table_of
+from validation.analysis.multilevel import Linearised
 from validation.analysis.statistics import (
     DECIBEL,
     POWER_DECIBEL,
@@ -36,7 +37,7 @@ from validation.benchmarks.work_precision.errors import MethodValues, error
 from validation.benchmarks.work_precision.problem import Quantity, logarithm
 from validation.cases.limits.numbers import exponent_number, threshold_number
 from validation.cases.limits.sweep import Sweep, swept
-from validation.cases.punch import fractal_punch, fractal_punch_decades
+from validation.cases.punch import fractal_punch_decades
 from validation.cases.punch.area_gap_rolloff_numbers import RollOffSamples
 from validation.cases.punch.ensembles import interval_columns
 from validation.cases.rolling import force_spectrum as rolling
@@ -290,62 +291,41 @@ def test_what_a_grid_leaves_open_shrinks_with_the_cells_and_with_the_surfaces():
     assert few / many == pytest.approx(2 * t(4) / t(16), rel=0.2)
 
 
-def comparison(**changes):
-    settings = {
-        "springs": Estimate(0.5, 0.04, 200),
-        "bem": Estimate(0.3, 0.03, 20),
-        "coarser": Estimate(0.05, 0.5, 6),
-        "finer": Estimate(0.02, 0.001, 6),
-        "refined_springs": Estimate(-0.004, 0.9, 200),
-    }
-    name = changes.pop("name", "mean stiffness")
-    return fractal_punch_decades.DecadeComparison(name, 0.7, 0.1, **{**settings, **changes})
+def steps(*values, error=0.01, n=50):
+    """A statistic on grids, coarse to fine, from the same realisations; the steps between grids have no error."""
+    influence = np.zeros(n)
+    influence[:2] = error / math.sqrt(2)
+    return {8 * 2**i: Linearised(value, influence) for i, value in enumerate(values)}
+
+
+def compared(bem, springs, *, name="mean stiffness", among=4):
+    resolved = fractal_punch_decades.on_finest(springs), fractal_punch_decades.extrapolated(bem)
+    return fractal_punch_decades.PointComparison(name, 0.7, 0.1, *resolved, among=among).number
 
 
 def test_the_grid_interval_of_fig_14_1():
-    """Cells of no size lie 2 f away by the finer pair, c beyond the middle grid by the coarser: what both differ by,
-    the interval of 2 f, and what halving the springs changes; the scatter of the others is the sample's."""
-    left = abs(2 * 0.02 - 0.05) + 2 * t(6) * 0.001 + 0.004
-    number = comparison().number
-    assert number.grid == pytest.approx(DECIBEL * left)
-    assert number.value == pytest.approx(DECIBEL * (0.5 - 0.3 - 2 * 0.02))
-    assert number.sample == pytest.approx(DECIBEL * Estimate(0.5, 0.04, 200).minus(Estimate(0.3, 0.03, 20)).half_width)
-    exponent = comparison(name="exponent").number
-    assert (exponent.grid, exponent.value) == pytest.approx((left, 0.16))
+    """Cells of no size lie f beyond the finest grid by the two finest, and c beyond the middle one by the next two:
+    what both differ by, and what doubling the springs changes. Nothing of that is the sample's."""
+    number = compared(steps(0.2, 0.25, 0.27), steps(0.504, 0.5))
+    assert number.grid == pytest.approx(DECIBEL * (abs(2 * 0.02 - 0.05) + 0.004))
+    assert number.value == pytest.approx(DECIBEL * (0.5 - 0.27 - 0.02))
     for worse in (
-        {"finer": Estimate(0.02, 0.003, 6)},
-        {"finer": Estimate(0.02, 0.001, 3)},
-        {"coarser": Estimate(0.2, 0.5, 6)},
-        {"refined_springs": Estimate(0.01, 0.9, 200)},
+        compared(steps(0.2, 0.24, 0.27), steps(0.504, 0.5)),
+        compared(steps(0.1, 0.25, 0.27), steps(0.504, 0.5)),
+        compared(steps(0.2, 0.25, 0.27), steps(0.51, 0.5)),
     ):
-        assert comparison(**worse).number.grid > number.grid
-        assert comparison(**worse).number.sample == number.sample
+        assert worse.grid > number.grid
+        assert worse.sample == number.sample
+    exponent = compared(steps(0.2, 0.25, 0.27), steps(0.504, 0.5), name="exponent")
+    assert (exponent.grid, exponent.value) == pytest.approx((0.014, 0.21))
 
 
-def test_grids_are_paired_with_their_neighbours():
-    """Fig. 14.1 from realisations: twice the cells a side are 1 % softer, half of them 5 % stiffer than the middle."""
-    case = fractal_punch.FractalPunch(
-        hursts=(0.7,), cells=8, surfaces=12, profiles=12, refined=4, decades=(-1, 0), per_decade=1
-    )
-    k = np.exp(0.1 * np.random.default_rng(0).standard_normal((12, 2)))
-    lacking = np.where(np.arange(12)[:, np.newaxis] < 4, 1.0, np.nan)
-    outcome = {name: {"stiffness": values} for name, values in (("middle", k), ("coarser", 1.05 * k * lacking))}
-    ensemble = fractal_punch.Ensemble(
-        0.7,
-        bem=outcome["middle"],
-        coarser=outcome["coarser"],
-        finer={"stiffness": 0.99 * k * lacking},
-        mdr={"stiffness": 2.0 * k},
-        coarse={"stiffness": 2.02 * k},
-        long=outcome["middle"],
-    )
-    samples = fractal_punch_decades.resampled(case, 0, ensemble)
-    one = fractal_punch_decades.compare(case, 0.7, samples, "mean stiffness", 0.1)
-    assert (one.coarser.value, one.finer.value) == pytest.approx((-math.log(1.05), math.log(0.99)))
-    assert one.refined_springs.value == pytest.approx(-math.log(1.01))
-    assert one.springs.value - one.bem.value == pytest.approx(math.log(2))
-    assert (one.coarser.samples, one.finer.samples, one.bem.samples) == (4, 4, 12)
-    assert one.grid == pytest.approx(abs(2 * math.log(0.99) + math.log(1.05)) + math.log(1.01), abs=1e-9)
+def test_the_sample_interval_of_fig_14_1():
+    """Root of the sum of squares of surfaces and profiles, at once for all forces of the decade."""
+    one, four = (compared(steps(0.2, 0.25, 0.27), steps(0.5, 0.5, error=0.02), among=n) for n in (1, 4))
+    freedom = Linearised(0.0, np.array([0.02, 0.02, 0.01, 0.01])).freedom
+    assert one.sample == pytest.approx(DECIBEL * student(freedom) * math.hypot(0.01, 0.02))
+    assert four.sample / one.sample == pytest.approx(student(freedom, 1 - 0.05 / 4) / student(freedom))
 
 
 def test_intervals_of_where_mdr_must_fail():

@@ -20,7 +20,7 @@ from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONS
 from validation.cases.limits import limits
 from validation.cases.limits.solver import Grid, press_grid
 from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import bandwidth, fractal_punch, fractal_punch_decades, normalisation
+from validation.cases.punch import bandwidth, fractal_punch, normalisation
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges
@@ -51,7 +51,7 @@ def cut(function, lost):
 
 def test_a_load_that_does_not_converge_has_no_value_at_all(monkeypatch):
     """Neither stiffness nor area, approach or gap; the others have all of them."""
-    problem = fractal_punch.FractalPunch(cells=16, surfaces=3, refined=3, decades=(-1, 0)).surface(0.7, 0, 16)
+    problem = PUNCH.surface(0.7, 0, 8)
     whole = rough_punch.press_surface(problem)
     assert whole["failed"] == 0
     indent = bem3d.indent
@@ -67,11 +67,11 @@ def test_a_load_that_does_not_converge_has_no_value_at_all(monkeypatch):
         assert np.flatnonzero(np.isnan(found[name])).tolist() == [2]
     assert found["residual"][2] > problem.tolerance
     line = rough_punch.describe_failures([problem], [found])
-    assert len(line) == 1 and line[0].startswith("surface 0, H = 0.7, 16² cells, Fbar = 0.464: residual")
+    assert len(line) == 1 and line[0].startswith("surface 0, H = 0.7, 8² cells, Fbar = 0.464: residual")
 
 
 def test_a_stiffness_that_does_not_converge_loses_its_load(monkeypatch):
-    problem = fractal_punch.FractalPunch(cells=16, surfaces=3, refined=3, decades=(-1, 0)).surface(0.7, 0, 16)
+    problem = PUNCH.surface(0.7, 0, 8)
     indent = bem3d.indent
 
     def unfrozen(*args, **settings):
@@ -182,7 +182,9 @@ def one_strip(realisation, height, cells):
     )
 
 
-PUNCH = fractal_punch.FractalPunch(hursts=(0.7,), cells=8, surfaces=4, profiles=3, refined=3, decades=(-1, 0), light=9)
+PUNCH = fractal_punch.FractalPunch(
+    hursts=(0.7,), cells=8, surfaces=((0, 4, 4, 4, 0),), profiles=3, fine_profiles=2, decades=(-1, 0)
+)
 LOST = {
     "fractal punch, middle grid": (fractal_punch.run, PUNCH, one_surface(2, cells=8), "surface 2, H = 0.7, 8² cells"),
     "fractal punch, finer grid": (fractal_punch.run, PUNCH, one_surface(1, cells=16), "surface 1, H = 0.7, 16² cells"),
@@ -495,20 +497,14 @@ def test_surfaces_are_the_same_on_all_grids_and_at_all_heights(monkeypatch):
     assert len(set(seen)) == 1
 
 
-def test_springs_and_surfaces_and_resampling_draw_apart(monkeypatch):
+def test_springs_and_surfaces_draw_apart(monkeypatch):
     """No address of random numbers is used for two things."""
     seen = drawn_by(monkeypatch, rough_punch)
     roughness = PUNCH.roughness(0.7)
     for i in range(3):
         roughness.surface(8, i)
         roughness.profile(64, i)
-    resampled = drawn_by(monkeypatch, fractal_punch_decades)
-    k = {"stiffness": 1 + 0.1 * np.random.default_rng(0).random((4, len(PUNCH.forces)))}
-    few = {"stiffness": k["stiffness"][:, np.isin(PUNCH.forces, PUNCH.refined_forces)]}
-    for h in range(2):
-        fractal_punch_decades.resampled(PUNCH, h, fractal_punch.Ensemble(0.7, k, few, few, k, k, k))
-    everything = [*seen, *resampled]
-    assert len(everything) == 6 + 12 == len(set(everything))
+    assert len(seen) == 6 == len(set(seen))
 
 
 def test_every_problem_of_a_case_is_its_own():

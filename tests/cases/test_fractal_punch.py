@@ -11,13 +11,21 @@ import mdr
 from tests.oracles import approach_by_least_squares, dense_operator, spring_sum
 from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.cases.punch import fractal_punch, fractal_punch_evidence
-from validation.cases.punch.fractal_punch import Ensemble, FractalPunch, FractalPunchResult
+from validation.cases.punch.fractal_punch import LONG, Ensemble, FractalPunch, FractalPunchResult
 from validation.cases.punch.fractal_punch_numbers import CONVEX
 from validation.engine.engine import random_generator
-from validation.simulation.rough_punch import press_profiles, press_surface
+from validation.simulation.rough_punch import BEM, MDR, press_profiles, press_surface
 
 CASE = FractalPunch(
-    hursts=(0.7,), cells=8, surfaces=8, profiles=40, points=64, refined=4, decades=(-1, 0), per_decade=1, tolerance=1e-5
+    hursts=(0.7,),
+    cells=8,
+    surfaces=((0, 0, 8, 6, 4),),
+    profiles=40,
+    fine_profiles=20,
+    points=64,
+    decades=(-1, 0),
+    per_decade=1,
+    tolerance=1e-5,
 )
 # the band that the case should draw from, written out: 2 pi / L to four cells a wave, L = 1
 SPECTRUM = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * 2 * np.pi, rms=CASE.height)
@@ -28,7 +36,7 @@ def test_surfaces_are_pressed_as_they_stand():
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1 / 8, modulus=1.0)
     found = press_surface(CASE.surface(0.7, 3, 8))
     height = bem3d.rough_surface(
-        SPECTRUM.c2d, shape=(8, 8), spacing=1 / 8, rng=random_generator(CASE.seed, 2, 700, 3), rms=CASE.height
+        SPECTRUM.c2d, shape=(8, 8), spacing=1 / 8, rng=random_generator(CASE.seed, 2, 0, 3), rms=CASE.height
     )
     assert height.std() == pytest.approx(1e-3, rel=1e-12)
     dense = dense_operator(half_space)
@@ -62,13 +70,13 @@ def bem3d_periodic(height):
 @pytest.mark.parametrize("length", [1.0, 1.1523])
 def test_profiles_are_those_of_geikes_spectrum(length):
     """Every one of them pressed spring by spring at the approach found: force, stiffness and gap as asked for."""
-    found = press_profiles(CASE.springs(0.7, 64, length))
+    found = press_profiles(CASE.springs(0.7, 64, length, 40))
     for i in range(CASE.profiles):
         height = mdr.rough_profile(
             lambda q: mdr.geike(q, SPECTRUM.c2d),
             length=1.0,
             points=64,
-            rng=random_generator(CASE.seed, 1, 700, i),
+            rng=random_generator(CASE.seed, 1, 0, i),
             rms=CASE.height,
         )
         for j, force in enumerate(CASE.forces):
@@ -80,11 +88,12 @@ def test_profiles_are_those_of_geikes_spectrum(length):
 
 def test_no_realisation_is_counted_twice():
     result = fractal_punch.run(CASE)
-    for outcome in (result.ensembles[0].bem, result.ensembles[0].mdr):
+    outcomes = result.ensembles[0].outcomes
+    for outcome in (outcomes[BEM][8], outcomes[MDR][64]):
         assert np.unique(outcome["approach"][:, 0]).size == outcome["approach"].shape[0]
 
 
-LEVELS = replace(CASE, decades=(-1, 1), per_decade=2, refined_per_decade=1, light=10.0)
+LEVELS = replace(CASE, decades=(-1, 1), surfaces=((0, 0, 500, 500, 500),) * 2, per_decade=2)
 
 
 def drawn(rng, size, deviation):
@@ -93,24 +102,29 @@ def drawn(rng, size, deviation):
     return 1 + deviation * (noise - noise.mean()) / noise.std(ddof=1)
 
 
-def synthetic(*, fine=1.0, coarse=1.0, apart=1.0, surfaces=500, spread=0.1, case=LEVELS):
-    """Ensembles with known statistics: springs `apart` times as wide; cells half, twice as wide `fine`, `coarse`."""
-    case = replace(case, surfaces=surfaces, profiles=surfaces, refined=min(surfaces, case.refined))
+def synthetic(*, fine=1.0, coarse=1.0, apart=1.0, surfaces=500, spread=0.1, forces_apart=(), case=LEVELS):
+    """Ensembles with known statistics: springs `apart` times as wide; cells half, twice as wide `fine`, `coarse`.
+
+    forces_apart: a factor of the springs' stiffness at each force.
+    """
+    counts = ((0, 0, surfaces, surfaces, surfaces),) * 2
+    case = replace(case, surfaces=counts, profiles=surfaces, fine_profiles=surfaces)
     rng = np.random.default_rng(0)
 
-    def outcome(deviation):
+    def outcome(deviation, factors=1.0):
         force = case.height * np.array(case.forces)
-        stiffness = drawn(rng, surfaces, deviation)[:, np.newaxis] * np.sqrt(force)
-        return {"stiffness": stiffness, "approach": 2 * force / stiffness, "area": stiffness}
+        stiffness = drawn(rng, surfaces, deviation)[:, np.newaxis] * np.sqrt(force) * factors
+        ones = np.ones_like(stiffness)
+        counted = {"applications": ones, "frozen applications": ones}
+        return {"stiffness": stiffness, "approach": 2 * force / stiffness, "area": stiffness, **counted}
 
-    def refined(factor):
-        levels = np.isin(case.forces, case.refined_forces)
-        return {name: factor * values[:, levels] for name, values in bem.items()}
+    def scaled(factor):
+        return bem | {"stiffness": factor * bem["stiffness"]}
 
-    bem, springs = outcome(spread), outcome(apart * spread)
-    counts = {"applications": np.ones(1), "frozen applications": np.ones(1)}
-    bem |= {name: np.ones_like(bem["area"]) for name in counts}
-    ensemble = Ensemble(0.7, bem, refined(coarse), refined(fine), springs, springs, springs)
+    bem, springs = outcome(spread), outcome(apart * spread, np.array(forces_apart) if len(forces_apart) else 1.0)
+    grids = dict(zip(case.grids[2:], (scaled(coarse), bem, scaled(fine)), strict=True))
+    models = dict.fromkeys((case.points, 2 * case.points), springs)
+    ensemble = Ensemble(0.7, {BEM: grids, MDR: models, LONG: models})
     return fractal_punch_evidence.evidence(FractalPunchResult(case, [ensemble], ()))
 
 
@@ -118,14 +132,13 @@ def numbers(evidence, name):
     return numbers_with(evidence.numbers, name, "mdr over bem3d")
 
 
-@pytest.mark.slow
 def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
-    """First order: 5 % stiffer on cells half as wide and 10 % softer on cells twice as wide is 10 % at cells of no
-    size, either way: only what the two logarithms differ by is left. No change of the deviation."""
+    """First order: 5 % stiffer on cells half as wide is 10 % at cells of no size. Cells twice as wide that are 10 %
+    softer say the same but for what the logarithms differ by, and that is left. No change of the deviation."""
     evidence = synthetic(fine=1.05, coarse=1 / 1.1)
     left = 20 * abs(2 * np.log10(1.05) - np.log10(1.1))
     for n in numbers(evidence, "mean stiffness"):
-        assert n.value == pytest.approx(-20 * 2 * np.log10(1.05), abs=1e-6)
+        assert n.value == pytest.approx(-20 * 2 * np.log10(1.05), abs=1e-3)
         assert n.grid == pytest.approx(left, abs=1e-6)
     for n in numbers(evidence, "relative deviation"):
         assert n.grid == pytest.approx(0, abs=1e-6)
@@ -133,36 +146,61 @@ def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
         assert n.grid == pytest.approx(20 * 2 * np.log10(1.05), abs=1e-6)
 
 
-@pytest.mark.slow
+def test_a_decade_is_judged_by_its_worst_force():
+    """+20 % at one force and -20 % at the next: differ, though the mean is near zero; and no other decade."""
+    evidence = synthetic(surfaces=4000, spread=0.01, forces_apart=(1.2, 1 / 1.2, 1.0, 1.0, 1.0))
+    low, high = numbers(evidence, "mean stiffness")
+    assert (low.verdict, high.verdict) == (Verdict.DIFFER, Verdict.AGREE)
+    assert low.value == pytest.approx(20 * np.log10(1.2), abs=0.01) or low.value == pytest.approx(
+        -20 * np.log10(1.2), abs=0.01
+    )
+    assert low.where["worst at"] == pytest.approx(0.1) or low.where["worst at"] == pytest.approx(10**-0.5)
+    rows = evidence.table("decades").where(quantity="mean stiffness")
+    assert rows["signed mean of MDR / bem3d - 1"][0] == pytest.approx((0.2 - 1 / 6) / 3, abs=1e-3)
+
+
 @pytest.mark.parametrize(
     ("apart", "surfaces", "verdict"),
     [
-        (1.0, 8000, Verdict.AGREE),
-        (1.15, 500, Verdict.DIFFER),
-        (1.15, 10, Verdict.UNDECIDED),
+        (1.0, 2000, Verdict.AGREE),
+        (1.25, 1000, Verdict.DIFFER),
+        (1.25, 10, Verdict.UNDECIDED),
         (1.0, 10, Verdict.UNDECIDED),
-        (1.15, 60, Verdict.UNDECIDED),
+        (1.25, 60, Verdict.UNDECIDED),
         (2.0, 60, Verdict.DIFFER),
+        (0.0, 60, Verdict.DIFFER),
     ],
 )
 def test_verdicts_on_known_deviations(apart, surfaces, verdict):
-    """A change of 15 % is found with 500 realisations and not with 10; agreement within 3 % takes some thousands."""
+    """25 % is found beyond 10 % with 1000 realisations and not with 60; springs without any deviation differ."""
     evidence = synthetic(apart=apart, surfaces=surfaces)
     found = numbers(evidence, "relative deviation")
     assert len(found) == 2
     for n in found:
         assert n.verdict is verdict
-        assert n.value == pytest.approx(20 * np.log10(apart), abs=1e-6)
+        if apart:
+            assert n.value == pytest.approx(20 * np.log10(apart), abs=0.3)
 
 
-@pytest.mark.slow
+def test_verdicts_at_all_margins_stand_side_by_side():
+    """7 % off, with little scatter: differ within 3 and 5 %, agree within 10 % and 3 dB."""
+    evidence = synthetic(surfaces=4000, spread=0.01, forces_apart=(1.07,) * 5)
+    for table in ("points", "decades"):
+        rows = evidence.table(table).where(quantity="mean stiffness")
+        found = (
+            {rows[f"within {name}"][0] for name in ("3 %", "5 %")},
+            {rows[f"within {name}"][0] for name in ("10 %", "3 dB")},
+        )
+        assert found == ({"differ"}, {"agree"})
+
+
 def test_so_many_realisations_would_decide():
-    """Where 10 leave 15 % undecided, the number that is named decides, and a third of it does not."""
-    few = numbers(synthetic(apart=1.15, surfaces=10), "relative deviation")[0]
-    named = math.ceil(10 * few.sample_needed)
-    # the interval of ten is known to some 20 %, and so is the number to some 40 %
-    assert numbers(synthetic(apart=1.15, surfaces=2 * named), "relative deviation")[0].verdict is Verdict.DIFFER
-    assert numbers(synthetic(apart=1.15, surfaces=named // 3), "relative deviation")[0].verdict is Verdict.UNDECIDED
+    """Where 60 leave 25 % undecided, the number that is named decides, and a third of it does not."""
+    few = numbers(synthetic(apart=1.25, surfaces=60), "relative deviation")[0]
+    named = math.ceil(60 * few.sample_needed)
+    # the interval of sixty is known to some 10 %, and so is the number to some 20 %
+    assert numbers(synthetic(apart=1.25, surfaces=2 * named), "relative deviation")[0].verdict is Verdict.DIFFER
+    assert numbers(synthetic(apart=1.25, surfaces=named // 3), "relative deviation")[0].verdict is Verdict.UNDECIDED
 
 
 def test_exponents_of_a_power_law():
@@ -175,39 +213,42 @@ def test_exponents_of_a_power_law():
 
 
 @pytest.mark.slow
-def test_means_over_hurst_exponents():
-    """Seven equal ensembles: the same difference, 1/sqrt(7) of the interval of the sample."""
-    case = replace(CASE, hursts=(0.4, 0.7, 1.0), surfaces=40, refined=40)
+def test_hurst_exponents_have_common_phases():
+    """Stiffnesses of one realisation go together for all H, so means over H keep the error of one; seeds of the bands
+    are one; the trend of the deviation with H is found where single curves leave it open."""
+    case = replace(CASE, hursts=(0.5, 0.7, 1.0), surfaces=((0, 40, 20, 10, 0),))
     result = fractal_punch.run(case)
-    evidence = fractal_punch_evidence.evidence(result)
-    for quantity in ("mean stiffness", "relative deviation"):
-        rows = evidence.table("decades").where(quantity=quantity)
-        single, mean = np.isfinite(rows["H"]), np.isnan(rows["H"])
-        assert rows["difference"][mean][0] == pytest.approx(rows["difference"][single].mean())
-        assert rows["± sample"][mean][0] == pytest.approx(np.sqrt((rows["± sample"][single] ** 2).sum()) / 3, rel=0.05)
+    low, high = (
+        ensemble.outcomes[BEM][8]["stiffness"][:, 1] for ensemble in (result.ensembles[0], result.ensembles[2])
+    )
+    assert np.corrcoef(low, high)[0, 1] > 0.7
+    rows = fractal_punch_evidence.evidence(result).table("decades").where(quantity="mean stiffness")
+    single = np.isfinite(rows["H"])
+    assert rows["difference"][~single][0] == pytest.approx(rows["difference"][single].mean(), abs=0.3)
+    assert rows["± sample"][~single][0] > 0.7 * rows["± sample"][single].mean()
 
 
 @pytest.mark.slow
-def test_surfaces_without_a_heavy_load_on_other_grids():
-    """Up to the light force all of them, beyond it the first few; what was not pressed is missing, and no failure."""
-    case = replace(CASE, decades=(-2, 0), light=0.1)
+def test_grids_share_their_surfaces_and_are_pressed_as_planned():
+    """So many on each grid at each force; one realisation is nearly the same on all grids with its whole band."""
+    case = replace(CASE, cells=16, decades=(-2, 0), surfaces=((0, 0, 8, 6, 4), (12, 10, 6, 4, 0)))
     result = fractal_punch.run(case)
-    for outcome in (result.ensembles[0].coarser, result.ensembles[0].finer):
-        pressed = np.isfinite(outcome["stiffness"])
-        assert pressed[:, :2].all()
-        assert pressed[: case.refined].all() and not pressed[case.refined :, 2].any()
-    assert result.unconverged == ()
-    none = fractal_punch.run(replace(case, light=0.0))
-    assert none.ensembles[0].finer["stiffness"].shape == (case.refined, 3)
-    np.testing.assert_array_equal(
-        none.ensembles[0].finer["stiffness"], result.ensembles[0].finer["stiffness"][: case.refined]
+    outcomes = result.ensembles[0].outcomes[BEM]
+    for cells, outcome in outcomes.items():
+        counts = np.isfinite(outcome["stiffness"]).sum(axis=0)
+        assert counts.tolist() == [case.count(force, cells) for force in case.forces]
+    last = [outcomes[cells]["stiffness"][:4, -1] for cells in (8, 16, 32)]
+    np.testing.assert_allclose(last[1], last[2], rtol=0.05)
+    assert (
+        case.roughness(0.7, 4).waves == (1, 2) and case.roughness(0.7, 8).waves == (1, 4) == case.roughness(0.7).waves
     )
+    assert result.unconverged == ()
 
 
 @pytest.mark.slow
 def test_a_factor_lost_in_the_force_is_a_missed_criterion(monkeypatch):
     """Boundary elements pressed with half, or a hundredth, of the force: stiffness and load curve no longer fit."""
-    case = replace(CASE, decades=(-1, 1), cells=16)
+    case = replace(CASE, decades=(-1, 1), cells=16, surfaces=((0, 8, 8, 4, 0),) * 2)
     indent = bem3d.indent
     for factor in (1.0, 0.5, 0.01):
         monkeypatch.setattr(
@@ -220,13 +261,16 @@ def test_a_factor_lost_in_the_force_is_a_missed_criterion(monkeypatch):
 @pytest.mark.parametrize(
     ("wrong", "named"),
     [
-        ({"cells": 9}, "cells"),
+        ({"cells": 12}, "cells"),
         ({"cells": 4}, "cells"),
         ({"decades": (1, 1)}, "decades"),
-        ({"per_decade": 3, "refined_per_decade": 2}, "refined_per_decade"),
-        ({"refined_per_decade": 0}, "refined_per_decade"),
-        ({"refined": 2}, "refined"),
-        ({"refined": 9, "surfaces": 8}, "refined"),
+        ({"decades": (-1, 1)}, "surfaces"),
+        ({"surfaces": ((0, 0, 8, 4, 0),)}, "surfaces"),
+        ({"surfaces": ((9, 0, 8, 4, 0),)}, "surfaces"),
+        ({"surfaces": ((0, 8, 6, 3, 0),)}, "surfaces"),
+        ({"surfaces": ((0, 6, 8, 4, 0),)}, "surfaces"),
+        ({"fine_profiles": 1}, "fine_profiles"),
+        ({"fine_profiles": 999}, "fine_profiles"),
     ],
 )
 def test_a_case_that_contradicts_itself_is_refused(wrong, named):

@@ -3,14 +3,15 @@
 import dataclasses
 import functools
 import math
+from types import SimpleNamespace
 
 import numpy as np
 from scipy import stats
 
-from tests.analysis import test_error_bars, test_evidence, test_judged_claims, test_rules_by_loops
+from tests.analysis import test_error_bars, test_evidence, test_judged_claims, test_multilevel, test_rules_by_loops
 from tests.analysis import test_spectra as test_wheel_spectra
 from validation.analysis import difference as difference_module
-from validation.analysis import over_range, spectra, statistics
+from validation.analysis import multilevel, over_range, spectra, statistics
 from validation.analysis import spectral_features as regions
 from validation.analysis.difference import difference
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
@@ -150,8 +151,33 @@ def half_of_the_way(coarse, finer):
     return dataclasses.replace(value, value=coarse.value + finer.value), left
 
 
-def fine_before_coarse(coarse, fine, rng):
-    return statistics.paired_samples(fine, coarse, rng)
+moments_with_step = multilevel.Moments.with_step
+
+
+def with_n(values, used):
+    """Variances of samples that are too small by 1 / n."""
+    found = multilevel_moments_of(values, used)
+    return dataclasses.replace(found, variance=(1 - 1 / used.sum()) * found.variance)
+
+
+multilevel_moments_of = multilevel.moments
+
+
+def shuffled(other):
+    """The same error, of other realisations."""
+    return dataclasses.replace(other, influence=other.influence[::-1])
+
+
+def without_the_second_order(rng, sizes, correlations):
+    found = finest(rng, sizes, correlations)
+    mean, variance = (dataclasses.replace(x, influence=0 * x.influence) for x in (found.mean, found.variance))
+    bare = multilevel.Moments(mean, variance).log_relative_deviation
+    return SimpleNamespace(
+        log_relative_deviation=dataclasses.replace(bare, influence=found.log_relative_deviation.influence)
+    )
+
+
+finest = test_multilevel.finest
 
 
 def sample_for_grid(*, grid, sample, **settings):
@@ -228,12 +254,40 @@ FAULTS = {
         (test_error_bars, "extrapolated", half_of_the_way),
         test_error_bars.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
     ),
-    "the finer grid taken for the coarser": (
-        (fractal_punch_decades, "paired_samples", fine_before_coarse),
-        test_error_bars.test_grids_are_paired_with_their_neighbours,
+    "steps between grids taken the wrong way": (
+        (multilevel.Moments, "with_step", lambda mine, fine, coarse: moments_with_step(mine, coarse, fine)),
+        functools.partial(test_multilevel.test_mean_and_variance_have_no_bias, (8, 4), (0.9,)),
+    ),
+    "variances with n": (
+        (multilevel, "moments", with_n),
+        functools.partial(test_multilevel.test_mean_and_variance_have_no_bias, (8, 4), (0.9,)),
+    ),
+    "the covariance of two grids lost": (
+        (multilevel.Linearised, "__sub__", lambda mine, other: mine + -1.0 * shuffled(other)),
+        test_multilevel.test_correlated_grids_take_less_work,
+    ),
+    "the quantile of 90 % for that of 95": (
+        (multilevel, "student", lambda freedom, confidence=0.95: 1.6),
+        functools.partial(test_multilevel.test_intervals_hold_as_often_as_they_say, (300, 60), (0.95,), 0.93),
+    ),
+    "intervals of single points for those of a range": (
+        (multilevel, "student", lambda freedom, confidence=0.95: statistics.student(freedom)),
+        test_multilevel.test_intervals_of_a_range_hold_at_once,
+    ),
+    "no bias of the logarithm taken off": (
+        (test_multilevel, "finest", without_the_second_order),
+        test_multilevel.test_the_logarithm_of_a_deviation_has_little_bias,
+    ),
+    "profiles and surfaces taken for the same realisations": (
+        (multilevel.Linearised, "beside", lambda mine, other: mine - other),
+        test_error_bars.test_the_sample_interval_of_fig_14_1,
     ),
     "sample and grid exchanged": (
         (difference_module, "Number", sample_for_grid),
+        test_error_bars.test_intervals_of_where_mdr_must_fail,
+    ),
+    "sample and grid of Fig. 14.1 exchanged": (
+        (fractal_punch_decades, "Number", sample_for_grid),
         test_error_bars.test_the_grid_interval_of_fig_14_1,
     ),
     "decibels of an amplitude for those of a power, in rolling": (

@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import types
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,8 +21,9 @@ from tests.cases import (
     test_wheel_stability,
 )
 from tests.planted_faults.wrong import scaled
-from validation.analysis import statistics
+from validation.analysis import multilevel, statistics
 from validation.analysis.evidence import Verdict
+from validation.analysis.over_range import signed_mean
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
@@ -29,6 +31,7 @@ from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fract
 from validation.cases.rolling import roughness_from_force, track_stiffness, validity
 from validation.cases.selection import model_selection as calibration
 from validation.engine import engine as ensemble
+from validation.engine.engine import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import free_vibration, integrators, rough_punch
 from validation.simulation import spring_tracks as rough_springs
@@ -44,6 +47,10 @@ def in_the_case(attribute, wrong):
     for name, value in wrong.items():
         setattr(view, name, value)
     return view
+
+
+def of_each_hurst_exponent(mine, kind, realisation):
+    return random_generator(mine.seed, kind, round(1000 * mine.hurst), realisation)
 
 
 def half_of_the_force(half_space, gap, *, forces, **settings):
@@ -156,16 +163,24 @@ FAULTS = {
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
-        (fractal_punch_decades.DecadeComparison, "grid", 0.0),
+        (fractal_punch_decades.PointComparison, "grid", 0.0),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "no extrapolation": (
-        (fractal_punch_decades.DecadeComparison, "correction", 0.0),
+        (fractal_punch_decades, "extrapolated", fractal_punch_decades.on_finest),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "a third of the interval": (
-        (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
-        functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.15, 60, Verdict.UNDECIDED),
+        (multilevel, "student", lambda freedom, confidence=0.95: 2 / 3),
+        functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
+    ),
+    "the mean of a decade for its worst force": (
+        (fractal_punch_decades, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
+        test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
+    ),
+    "other phases for every Hurst exponent": (
+        (PunchRoughness, "_generator", of_each_hurst_exponent),
+        test_fractal_punch.test_hurst_exponents_have_common_phases,
     ),
     "mean gap of a half-space that does not yield": (
         (test_fractal_punch, "press_surface", gap_of_the_rigid_surface),

@@ -43,10 +43,10 @@ SMALL = {
     "fractal_punch": FractalPunch(
         hursts=(0.4, 1.0),
         cells=16,
-        surfaces=20,
+        surfaces=((0, 40, 20, 8, 0),) * 2,
         profiles=60,
+        fine_profiles=20,
         points=64,
-        refined=8,
         decades=(-1, 1),
     ),
     "normalisation": normalisation.Normalisation(
@@ -284,21 +284,21 @@ def limited(monkeypatch, is_lost):
 
 @pytest.mark.slow
 def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch):
-    """One surface of forty fails at its largest force: named, counted, and the report still stands."""
+    """One surface of eighty fails at its largest force: named, counted, and the report still stands."""
     seen = []
 
     def is_lost(half_space, gap, force):
-        seen.append(gap.shape == (16, 16))
+        seen.append(gap.shape == (8, 8))
         return sum(seen) == len(SMALL["fractal_punch"].forces)
 
     limited(monkeypatch, is_lost)
     assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
     results = json.loads((tmp_path / "results.json").read_text())["cases"]["fractal_punch"]
     assert len(results["unconverged"]) == 1
-    assert results["unconverged"][0].startswith("surface 0, H = 0.4, 16² cells, Fbar = 10: residual")
+    assert results["unconverged"][0].startswith("surface 0, H = 0.4, 8² cells, Fbar = 10: residual")
     assert len(results["numbers"]) > 10
     curves = (tmp_path / "data" / "fractal_punch-curves.csv").read_text().splitlines()
-    assert [line.rpartition(",")[2] for line in curves[1:]] == ["20"] * 6 + ["19"] + ["20"] * 7
+    assert [line.rpartition(",")[2] for line in curves[1:]] == ["40"] * 6 + ["39"] + ["40"] * 7
     assert "surface 0, H = 0.4" in (tmp_path / "index.html").read_text()
 
 
@@ -402,7 +402,7 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     assert [file.name for file in tmp_path.glob("*.json")] == ["manifest.json"]
     assert not list(store.glob(".*.part"))
     case = CASES["fractal_punch"].quick
-    Engine(store=store).map(press_surface, [case.surface(case.hursts[0], 0, case.cells // 2)])
+    Engine(store=store).map(press_surface, [case.surface(case.hursts[0], 0, case.cells // 4)])
     assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept
 
 

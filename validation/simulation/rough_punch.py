@@ -40,8 +40,8 @@ class PunchRoughness:
 
     hurst: H; waves: the first and the last of the band, as many on a side: q = 2 pi waves / L; height: rms, over L;
     amplitudes: "fixed" by the spectrum, or "gaussian" around it; normalised: "each" draw has its rms height exactly,
-    or the "ensemble" has it in the mean; seed: zero or positive.
-    Fixed amplitudes are normalised alike either way.
+    or the "ensemble" has it in the mean; common: a realisation has the same phases for every Hurst exponent; seed: zero
+    or positive. Fixed amplitudes are normalised alike either way.
     """
 
     hurst: float
@@ -50,6 +50,7 @@ class PunchRoughness:
     height: float = 1e-3
     amplitudes: Literal["fixed", "gaussian"] = "fixed"
     normalised: Literal["each", "ensemble"] = "each"
+    common: bool = False
 
     @property
     def spectrum(self) -> mdr.SelfAffine:
@@ -89,8 +90,9 @@ class PunchRoughness:
         return IndentationScene(name="punch", shape="punch", size=1.0, load=load, modulus=1.0, ground=ground)
 
     def _generator(self, kind: int, realisation: int) -> np.random.Generator:
-        """The address of a Hurst exponent is its own, so that adding one leaves the others their numbers."""
-        return random_generator(self.seed, kind, round(1000 * self.hurst), realisation)
+        """The address of a Hurst exponent is its own, unless they have common random numbers."""
+        address = 0 if self.common else round(1000 * self.hurst)
+        return random_generator(self.seed, kind, address, realisation)
 
     def _normalised(self, height: FloatArray) -> FloatArray:
         if self.amplitudes == "fixed" or self.normalised == "ensemble":

@@ -4,6 +4,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
+from validation.analysis.multilevel import Linearised
 from validation.analysis.statistics import Estimate
 from validation.engine.engine import Engine, Outcome
 from validation.simulation.rough_punch import (
@@ -29,13 +30,12 @@ class PunchEnsembles:
 
     Both are normalised alike, in units of L = E* = 1: Fbar = F / (E* h L), kbar = k / (E* L), h the rms height.
 
-    cells: on a side; surfaces, profiles: realisations; decades: powers of ten of the first and the last Fbar;
+    cells: on a side; profiles: realisations; decades: powers of ten of the first and the last Fbar;
     per_decade: steps of force in one; points: springs of a profile; height: h / L; tolerance: residual of the solver;
     seed: zero or positive.
     """
 
     cells: int = 128
-    surfaces: int
     profiles: int = 200
     decades: tuple[int, int] = (-2, 0)
     per_decade: int = 3
@@ -80,7 +80,7 @@ def press(
     return {key: stacked(rows) for key, rows in pressed.items()}, dict(springs), tuple(unconverged)
 
 
-def interval_columns(name: str, found: Estimate, value: Callable[[float], float]) -> Row:
+def interval_columns(name: str, found: Estimate | Linearised, value: Callable[[float], float]) -> Row:
     """A statistic and both ends of its 95 % interval, in columns of a table."""
     return {f"{name}{end}": float(value(v)) for end, v in zip(("", " low", " high"), found.interval, strict=True)}
 

@@ -1,6 +1,9 @@
 """Fig. 14.1: rough square punches under equal forces, by both methods; `fractal_punch_evidence.py` reads the result."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -9,79 +12,92 @@ from validation.theory import closed_forms
 
 LONG = "mdr 1.1523 L"
 """The 1D model whose stiffness in full contact is that of the square punch."""
+PAIRS = 4
+"""Fewer surfaces on a grid have no error bar worth its name."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FractalPunch(PunchEnsembles):
-    """Self-affine punches from q_min = 2 pi / L to four cells a wave, no roll-off; each has its rms height exactly.
+    """Self-affine punches from q_min = 2 pi / L, no roll-off; each has its rms height exactly.
 
-    hursts; refined: surfaces pressed again on half and on twice as many cells a side, from three to all; light: up to
-    this Fbar, where a solve is cheap and the scatter large, all of them are; refined_per_decade: steps of force in a
-    decade there, a divisor of per_decade. cells: even.
+    A realisation has the same phases on every grid and for every Hurst exponent. Grids have 1/4, 1/2, 1, 2 and 4 times
+    `cells` a side, which are four to the shortest wave; the coarsest has no waves beyond two of its cells.
+
+    hursts; surfaces: how many on each of these grids, coarse to fine, one row a decade of force; zero where a grid is
+    not used, else descending, with the three finest not among the coarsest grid; fine_profiles: of the profiles, as
+    many are pressed with twice the springs. cells: a multiple of 8.
     """
 
     hursts: tuple[float, ...] = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
-    surfaces: int = 20
+    surfaces: tuple[tuple[int, int, int, int, int], ...] = (
+        (0, 0, 60, 24, 8),
+        (0, 100, 32, 10, 0),
+        (160, 40, 12, 6, 0),
+        (60, 16, 6, 4, 0),
+    )
+    profiles: int = 1000
+    fine_profiles: int = 100
     decades: tuple[int, int] = (-3, 1)
-    refined: int = 6
-    light: float = 0.1
-    refined_per_decade: int = 1
     seed: int = 14
 
     def __post_init__(self) -> None:
-        if self.cells % 2 or self.cells < 8:
-            raise ValueError(f"cells must be even and at least 8, got {self.cells}")
+        if self.cells % 8 or self.cells < 8:
+            raise ValueError(f"cells must be a multiple of 8, got {self.cells}")
         if not self.decades[0] < self.decades[1]:
             raise ValueError(f"decades must be two powers of ten, ascending, got {self.decades}")
-        if self.refined_per_decade < 1 or self.per_decade % self.refined_per_decade:
-            raise ValueError(f"refined_per_decade must divide {self.per_decade}, got {self.refined_per_decade}")
-        if not 3 <= self.refined <= self.surfaces:
-            raise ValueError(f"refined must be from 3 to the {self.surfaces} surfaces, got {self.refined}")
+        if not 2 <= self.fine_profiles <= self.profiles:
+            raise ValueError(f"fine_profiles must be from 2 to the {self.profiles} profiles, got {self.fine_profiles}")
+        if len(self.surfaces) != self.decades[1] - self.decades[0]:
+            raise ValueError(f"surfaces must have a row a decade, got {self.surfaces}")
+        for row in self.surfaces:
+            used = [count for count in row if count]
+            if sum(map(bool, row[1:])) < 3 or used != sorted(used, reverse=True) or used[-1] < PAIRS:
+                raise ValueError(
+                    f"surfaces of a decade must descend to {PAIRS} or more on three grids of one band, got {row}"
+                )
 
     @property
-    def refined_forces(self) -> tuple[float, ...]:
-        """Those of them at which grids are compared."""
-        return self.forces[:: self.per_decade // self.refined_per_decade]
+    def grids(self) -> tuple[int, ...]:
+        """Cells on a side, coarse to fine."""
+        return self.cells // 4, self.cells // 2, self.cells, 2 * self.cells, 4 * self.cells
 
-    @property
-    def grids(self) -> tuple[int, int, int]:
-        """Cells on a side, coarse to fine; the middle one is that of all surfaces."""
-        return self.cells // 2, self.cells, 2 * self.cells
+    def decade_of(self, force: float) -> int:
+        """Which row of `surfaces` a force belongs to: each but the last decade lacks its end."""
+        return sum(force >= first * (1 - 1e-9) for first in self.first_forces) - 1
 
-    def roughness(self, hurst: float) -> PunchRoughness:
-        return self.band(hurst)
+    def count(self, force: float, cells: int) -> int:
+        """How many surfaces are pressed with a force on a grid."""
+        return self.surfaces[self.decade_of(force)][self.grids.index(cells)]
+
+    def grids_at(self, force: float) -> list[int]:
+        """The grids on which surfaces are pressed with a force, coarse to fine."""
+        return [cells for cells in self.grids if self.count(force, cells)]
+
+    def roughness(self, hurst: float, cells: int | None = None) -> PunchRoughness:
+        """Of surfaces on a grid, which has no wave shorter than two cells; without one, the whole band."""
+        whole = replace(self.band(hurst), common=True)
+        first, last = whole.waves
+        return whole if cells is None else replace(whole, waves=(first, min(last, cells // 2)))
 
     def surface(self, hurst: float, realisation: int, cells: int) -> Surface:
-        """One of the solves: at all forces on the middle grid, at fewer on the others."""
-        forces = self.forces if cells == self.cells else self.refined_forces
-        if cells != self.cells and realisation >= self.refined:
-            forces = tuple(force for force in forces if force <= self.light * (1 + 1e-9))
-        return self.surface_of(self.roughness(hurst), realisation, cells, forces)
+        """One of the solves: one realisation on one grid, at all forces that have so many surfaces there."""
+        forces = tuple(force for force in self.forces if realisation < self.count(force, cells))
+        return self.surface_of(self.roughness(hurst, cells), realisation, cells, forces)
 
-    def springs(self, hurst: float, points: int, length: float) -> Profiles:
-        """All profiles of one Hurst exponent, in a 1D model of length L_1D."""
-        return self.profiles_of(self.roughness(hurst), points, length)
+    def springs(self, hurst: float, points: int, length: float, profiles: int) -> Profiles:
+        """The first profiles of one Hurst exponent, in a 1D model of length L_1D."""
+        return replace(self.profiles_of(self.roughness(hurst), points, length), realisations=profiles)
 
 
 @dataclass(frozen=True)
 class Ensemble:
-    """Outcomes for one Hurst exponent: rows of their arrays are realisations, columns are forces.
+    """Outcomes for one Hurst exponent, by method and by grid, coarse to fine: cells on a side, or springs.
 
-    bem, mdr: at all forces; coarser, finer: on half and on twice the cells a side, at fewer forces, NaN where they were
-    not pressed; coarse, long: springs twice as wide, and a 1D model of length 1.1523 L.
+    Rows of their arrays are realisations, columns are forces; NaN where a realisation was not pressed.
     """
 
     hurst: float
-    bem: Outcome
-    coarser: Outcome
-    finer: Outcome
-    mdr: Outcome
-    coarse: Outcome
-    long: Outcome
-
-    @property
-    def by_method(self) -> dict[str, Outcome]:
-        return {BEM: self.bem, MDR: self.mdr, LONG: self.long}
+    outcomes: dict[str, dict[int, Outcome]]
 
 
 @dataclass(frozen=True)
@@ -95,20 +111,34 @@ class FractalPunchResult:
 
 def run(case: FractalPunch, engine: Engine = SERIAL) -> FractalPunchResult:
     """Press all surfaces and all profiles with equal forces."""
-    grids = dict(zip(("coarser", "bem", "finer"), case.grids, strict=True))
-    models = {
-        "mdr": (case.points, 1.0),
-        "coarse": (case.points // 2, 1.0),
-        "long": (case.points, closed_forms.SQUARE_PUNCH),
-    }
-    # surfaces without a force on a grid are not pressed there
     surfaces = {
-        (hurst, grid): [s for i in range(case.surfaces) if (s := case.surface(hurst, i, cells)).forces]
+        (hurst, BEM, cells): [case.surface(hurst, i, cells) for i in range(most)]
         for hurst in case.hursts
-        for grid, cells in grids.items()
+        for cells, most in zip(case.grids, np.max(case.surfaces, axis=0).tolist(), strict=True)
+        if most
     }
-    profiles = {(hurst, name): case.springs(hurst, *model) for hurst in case.hursts for name, model in models.items()}
-    bem, mdr, unconverged = press(engine, surfaces, profiles)
-    found = bem | mdr
-    ensembles = [Ensemble(hurst, **{name: found[hurst, name] for name in (*grids, *models)}) for hurst in case.hursts]
+    profiles = {
+        (hurst, method, points): case.springs(hurst, points, length, count)
+        for hurst in case.hursts
+        for method, length in ((MDR, 1.0), (LONG, closed_forms.SQUARE_PUNCH))
+        for points, count in ((case.points, case.profiles), (2 * case.points, case.fine_profiles))
+    }
+    bem, springs, unconverged = press(engine, surfaces, profiles)
+    found = {key: at_all_forces(case, surfaces[key], outcome) for key, outcome in bem.items()} | springs
+    ensembles = [Ensemble(hurst, {method: {} for method in (BEM, MDR, LONG)}) for hurst in case.hursts]
+    for (hurst, method, size), outcome in found.items():
+        ensembles[case.hursts.index(hurst)].outcomes[method][size] = outcome
     return FractalPunchResult(case, ensembles, unconverged)
+
+
+def at_all_forces(case: FractalPunch, surfaces: Sequence[Surface], found: Outcome) -> Outcome:
+    """What was found at the forces of each surface, put under those of the case; NaN elsewhere."""
+    level = {force: i for i, force in enumerate(case.forces)}
+
+    def spread(values: np.ndarray) -> np.ndarray:
+        placed = np.full((len(surfaces), len(level)), np.nan)
+        for row, surface, mine in zip(placed, surfaces, values, strict=True):
+            row[[level[force] for force in surface.forces]] = mine[: len(surface.forces)]
+        return placed
+
+    return {name: spread(values) if values.ndim > 1 else values for name, values in found.items()}

@@ -4,11 +4,20 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, table_of
 from validation.cases.punch import fractal_punch_text as text
 from validation.cases.punch.fractal_punch import FractalPunch, FractalPunchResult, run
-from validation.cases.punch.fractal_punch_curves import curve, grids, marks
-from validation.cases.punch.fractal_punch_decades import QUANTITIES, comparisons_of, data_row, numbers_of, resampled
+from validation.cases.punch.fractal_punch_claims import CLAIM, claims
+from validation.cases.punch.fractal_punch_cost import estimator
+from validation.cases.punch.fractal_punch_curves import curve, decades, grids, marks, order, points
+from validation.cases.punch.fractal_punch_decades import (
+    DEVIATION,
+    MEAN,
+    QUANTITIES,
+    PunchStatistics,
+    comparisons_of,
+    numbers_of,
+)
 from validation.cases.punch.fractal_punch_numbers import claimed, criteria, laws
 from validation.selection import model_needed
-from validation.simulation.rough_punch import require_converged
+from validation.simulation.rough_punch import BEM, require_converged
 
 
 def evidence(result: FractalPunchResult) -> Evidence:
@@ -16,17 +25,20 @@ def evidence(result: FractalPunchResult) -> Evidence:
 
     Raises NotConvergedError where too few surfaces have converged at one of the forces.
     """
-    case = result.case
+    case, found = result.case, PunchStatistics(result)
     for ensemble in result.ensembles:
-        require_converged((ensemble.bem, ensemble.coarser, ensemble.finer), result.unconverged)
-    samples = [resampled(case, h, ensemble) for h, ensemble in enumerate(result.ensembles)]
-    comparisons = comparisons_of(case, samples)
+        for cells, outcome in ensemble.outcomes[BEM].items():
+            pressed = [level for level, force in enumerate(case.forces) if case.count(force, cells)]
+            require_converged([{"stiffness": outcome["stiffness"][:, pressed]}], result.unconverged)
+    comparisons = comparisons_of(found)
     exponents = laws(case, comparisons)
-    pairs = list(zip(result.ensembles, samples, strict=True))
-    curves = [row for pair in pairs for row in curve(case, *pair)]
+    curves = [row for ensemble in result.ensembles for row in curve(found, ensemble)]
+    by_force = order(found) if len(case.hursts) > 1 else []
+    costs = estimator(found)
     return Evidence(
         title="Fractal punch (Fig. 14.1)",
         method=text.method(case),
+        claims=claims(comparisons, exponents),
         numbers=(
             *criteria(result, comparisons),
             *claimed(comparisons),
@@ -35,15 +47,23 @@ def evidence(result: FractalPunchResult) -> Evidence:
         ),
         tables=(
             table_of("curves", curves),
-            table_of("decades", list(map(data_row, comparisons))),
-            table_of("grids", [row for pair in pairs for row in grids(case, *pair)]),
+            table_of("points", points(comparisons)),
+            table_of("decades", decades(comparisons)),
+            table_of("grids", [row for ensemble in result.ensembles for row in grids(found, ensemble)]),
+            table_of("estimator", costs),
+            *([table_of("order", by_force)] if by_force else []),
             marks(),
         ),
-        page_tables=(*(text.matrix(case, name, comparisons) for name in QUANTITIES), text.law_table(case, exponents)),
+        page_tables=(
+            *(text.matrix(name, comparisons) for name in QUANTITIES),
+            *(text.margins(name, comparisons) for name in (DEVIATION, MEAN)),
+            text.law_table(case, exponents),
+        ),
         conclusions=(
             *(text.summary(name, comparisons) for name in QUANTITIES),
             *text.saturation(curves),
-            text.cost(result),
+            *text.order(by_force),
+            *text.cost(result, costs),
         ),
         captions=text.captions(case),
         unconverged=result.unconverged,
@@ -54,10 +74,15 @@ CASE = Case(
     name="fractal_punch",
     chapter=Chapter.PRESSED,
     place=1,
-    claim="MDR has the mean stiffness of rough punches and its fluctuation (Fig. 14.1).",
+    claim=CLAIM,
     answers="Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
     quick=FractalPunch(),
-    full=FractalPunch(cells=256, surfaces=60, profiles=500, per_decade=6, refined=6, refined_per_decade=2),
+    full=FractalPunch(
+        cells=256,
+        surfaces=((0, 0, 2400, 500, 100), (0, 2000, 500, 120, 0), (5000, 800, 160, 40, 0), (1000, 150, 40, 12, 0)),
+        profiles=20000,
+        fine_profiles=1000,
+    ),
     run=run,
     evidence=evidence,
     needs=model_needed.punches,

@@ -9,36 +9,43 @@ import numpy as np
 from validation.analysis.evidence import Number, Role
 from validation.analysis.statistics import nearest
 from validation.cases.punch.fractal_punch import FractalPunch, FractalPunchResult
-from validation.cases.punch.fractal_punch_decades import QUANTITIES, DecadeComparison, numbers_of
+from validation.cases.punch.fractal_punch_decades import (
+    DEVIATION,
+    EXPONENT,
+    MARGINS,
+    MEAN,
+    QUANTITIES,
+    DecadeComparison,
+    PointComparison,
+    numbers_of,
+)
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
 from validation.theory import closed_forms
 
 CONVEX = "largest excess of the slope of the load curve over the stiffnesses at its two ends"
 PUBLISHED = (0.51, 0.77)
 """Exponents of fractal dimensions 2 to 3; Pohrt and Popov, Phys. Rev. Lett. 108, 104301 (2012), abstract."""
-CLAIMED = 3.0
-"""Decibels within which 1D springs follow a 3D analysis of rolling; Ford and Thompson, J. Sound Vib. 293 (2006)."""
 
 
 def criteria(result: FractalPunchResult, comparisons: Sequence[DecadeComparison]) -> tuple[Number, ...]:
     """Conditions that a correct computation must meet."""
-    resolved = numbers_of(c for c in comparisons if c.name == "mean stiffness" and _resolved(result, c.first))
+    resolved = numbers_of(c for c in comparisons if c.name == MEAN and _resolved(result, c.first))
     return (_convex(result, BEM), _convex(result, MDR), _bounded(result), _no_factor_lost(resolved))
 
 
 def _convex(result: FractalPunchResult, method: str) -> Number:
     """F(d) is convex: between two forces its slope lies between the stiffnesses at both."""
     force = result.case.height * np.array(result.case.forces)
-    excess = [0.0]
-    for ensemble in result.ensembles:
-        outcome = ensemble.by_method[method]
+    excess = 1.0
+    for outcome in (outcome for ensemble in result.ensembles for outcome in ensemble.outcomes[method].values()):
         slope = np.diff(force) / np.diff(outcome["approach"], axis=1)
         stiffness = outcome["stiffness"]
-        excess += [float(np.nanmax(stiffness[:, :-1] / slope)) - 1, float(np.nanmax(slope / stiffness[:, 1:])) - 1]
+        for ratio in (stiffness[:, :-1] / slope, slope / stiffness[:, 1:]):
+            excess = float(np.fmax.reduce(ratio, axis=None, initial=excess))
     return Number(
         quantity=CONVEX,
         model=method,
-        value=max(excess),
+        value=excess - 1,
         reference=0.0,
         source="F(d) is convex",
         tolerance=100 * result.case.tolerance,
@@ -49,8 +56,9 @@ def _convex(result: FractalPunchResult, method: str) -> Number:
 
 def _bounded(result: FractalPunchResult) -> Number:
     """No rough punch is stiffer than the flat one, and at the largest force it is nearly as stiff."""
-    largest = max(float(np.nanmax(ensemble.bem["stiffness"])) for ensemble in result.ensembles)
-    deficit = 2 / result.case.cells
+    cells = result.case.grids_at(result.case.forces[-1])[-1]
+    largest = max(float(np.nanmax(ensemble.outcomes[BEM][cells]["stiffness"])) for ensemble in result.ensembles)
+    deficit = 2 / cells
     return Number(
         quantity="largest stiffness of any surface over that of the flat punch",
         model=BEM,
@@ -67,7 +75,8 @@ def _resolved(result: FractalPunchResult, first: float) -> bool:
     """Whether the lightest contacts of a decade have cells enough at every Hurst exponent; the last decade counts."""
     case = result.case
     level = nearest(case.forces, first)
-    cells = [float(np.nanmean(e.bem["area"][:, level])) * case.cells**2 for e in result.ensembles]
+    finest = case.grids_at(case.forces[level])[-1]
+    cells = [float(np.nanmean(e.outcomes[BEM][finest]["area"][:, level])) * finest**2 for e in result.ensembles]
     return min(cells) >= FEW_CELLS or first == case.first_forces[-1]
 
 
@@ -81,7 +90,7 @@ def _no_factor_lost(numbers: Sequence[Number]) -> Number:
     return replace(
         _farthest(numbers),
         quantity="mean stiffness where the models may differ most, within 3 dB",
-        tolerance=3.0,
+        tolerance=MARGINS["3 dB"],
         reason=(
             "3 dB: since k ~ F^(1/(1+H)), a wrong factor 2 in the force or the length changes k by 3 dB or more, H <= 1"
         ),
@@ -91,13 +100,13 @@ def _no_factor_lost(numbers: Sequence[Number]) -> Number:
 
 def claimed(comparisons: Sequence[DecadeComparison]) -> list[Number]:
     """The fluctuations where they may differ most, beside the agreement that is claimed for rolling."""
-    deviations = numbers_of(c for c in comparisons if c.name == "relative deviation")
+    deviations = numbers_of(c for c in comparisons if c.name == DEVIATION)
     if not deviations:
         return []
     farthest = replace(
         _farthest(deviations),
-        quantity=f"relative deviation where it may differ most, within {CLAIMED:g} dB",
-        tolerance=CLAIMED,
+        quantity="relative deviation where it may differ most, within 3 dB",
+        tolerance=MARGINS["3 dB"],
         reason="accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)",
     )
     return [farthest]
@@ -110,24 +119,23 @@ def law_decade(case: FractalPunch) -> float:
 
 def laws(case: FractalPunch, comparisons: Sequence[DecadeComparison]) -> list[Number]:
     """Exponents beside 1 / (1 + H)."""
-    single = [c for c in comparisons if c.name == "exponent" and c.hurst is not None]
-    mine = [c for c in single if c.first == law_decade(case)]
-    return [number for c in mine for number in (_law(c, BEM), _law(c, MDR))]
+    mine = [c for c in comparisons if c.name == EXPONENT and c.hurst is not None and c.first == law_decade(case)]
+    return [_law(c.points[0], method) for c in mine for method in (BEM, MDR)]
 
 
-def _law(comparison: DecadeComparison, method: str) -> Number:
-    of_bem = method == BEM
-    found = comparison.extrapolated if of_bem else comparison.springs
+def _law(point: PointComparison, method: str) -> Number:
+    found = point.bem if method == BEM else point.springs
+    assert point.hurst is not None
     return Number(
-        quantity="exponent",
+        quantity=EXPONENT,
         model=method,
-        where=comparison.where,
-        value=found.value,
-        reference=1 / (1 + (comparison.hurst or 0.0)),
+        where={"H": point.hurst, "Fbar": point.force},
+        value=found.value.value,
+        reference=1 / (1 + point.hurst),
         source="1 / (1 + H)",
-        tolerance=QUANTITIES["exponent"].tolerance,
-        reason=QUANTITIES["exponent"].reason,
-        grid=comparison.grid if of_bem else abs(comparison.refined_springs.value),
-        sample=found.half_width,
+        tolerance=QUANTITIES[EXPONENT].tolerance,
+        reason=QUANTITIES[EXPONENT].reason,
+        grid=found.grid,
+        sample=found.value.half_width,
         role=Role.FINDING,
     )

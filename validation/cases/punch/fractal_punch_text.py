@@ -9,7 +9,12 @@ from validation.analysis.evidence import Number, Table, Verdict, VerdictCell, nu
 from validation.analysis.statistics import DECIBEL
 from validation.cases.punch.ensembles import Row
 from validation.cases.punch.fractal_punch import FractalPunch, FractalPunchResult
-from validation.cases.punch.fractal_punch_decades import QUANTITIES, DecadeComparison, numbers_of
+from validation.cases.punch.fractal_punch_decades import (
+    MARGINS,
+    QUANTITIES,
+    DecadeComparison,
+    numbers_of,
+)
 from validation.cases.punch.fractal_punch_numbers import PUBLISHED, law_decade
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
 
@@ -19,41 +24,48 @@ MAX_SAMPLE = 100.0
 
 def method(case: FractalPunch) -> str:
     """How the numbers were found, with the three errors apart."""
-    coarser, cells, finer = case.grids
+    plan = "; ".join(
+        f"Fbar = {_decade(first)}: "
+        + ", ".join(f"{count} on {cells}²" for cells, count in zip(case.grids, row, strict=True) if count)
+        for first, row in zip(case.first_forces, case.surfaces, strict=True)
+    )
     return (
-        f"A rigid square punch of side L, rough from q_min = 2π/L to {cells // 4} q_min, no roll-off, amplitudes fixed "
-        f"by the spectrum as in (14.8), so that every draw has its rms height h exactly. {case.surfaces} surfaces of "
-        f"{cells}² cells for boundary elements, {case.profiles} profiles of {case.points} springs of Geike's "
-        "spectrum, at equal forces; Fbar = F / (E* h L), kbar = k / (E* L). The stiffness is that of the fixed contact "
-        "area (3D) and of the springs in contact (1D). Statistics are means over a decade of force (of the deviation: "
-        "root mean square). There are three errors. Sample: 95 % interval, bootstrap over realisations. Grid: "
-        f"{case.refined} of the surfaces, and up to Fbar = {case.light:g} all of them, with the same band, were "
-        f"pressed on {coarser}² and {finer}² cells too. The difference is to boundary elements extrapolated to first "
-        "order from the finer two. ± grid is the distance of that to the extrapolation from the coarser two, with the "
-        "interval of the change, and the change from half as many springs. The rest is the error of the model. An "
-        "undecided verdict names the sample size that would decide it at the same value and grid error. With "
-        '"grid error too large" no sample size would: more refined surfaces or finer cells lower that error.'
+        f"A rigid square punch of side L, rough from q_min = 2π/L to {case.cells // 4} q_min, no roll-off, amplitudes "
+        "fixed by the spectrum as in (14.8), so that every draw has its rms height h exactly. Surfaces and profiles "
+        "have the same phases for every H, so that sampling noise does not hide the order of the curves. Both are "
+        "pressed with equal forces; Fbar = F / (E* h L), kbar = k / (E* L). "
+        f"{case.profiles} profiles of Geike's spectrum on {case.points} springs, {case.fine_profiles} of them on twice "
+        f"as many. Surfaces, boundary elements: {plan}. "
+        f"A grid of {case.cells // 4}² cells lacks the waves shorter than two of its cells; all others have the whole "
+        "band. Mean and variance are sums over grids: of all surfaces on the coarsest, and of the changes to the next "
+        "finer grid on the surfaces that both have (multilevel Monte Carlo). Both sums are unbiased. The stiffness is "
+        "that of the fixed contact area (3D) and of the springs in contact (1D). There are three errors. Sample: "
+        "intervals that hold at 95 % for all forces of a decade at once. Grid: boundary elements are extrapolated to "
+        "cells of no size, to first order from the two finest grids; ± grid is the distance to the extrapolation from "
+        "the next two, with the change from twice the springs. The rest is the error of the model. The verdict of a "
+        "decade is that of its worst force. An undecided verdict says how many times the sample would decide it at the "
+        'same value and grid error. With "grid error too large" no sample size would: finer cells lower that error.'
     )
 
 
 def captions(case: FractalPunch) -> dict[str, str]:
     interval, few = "95 % interval of the sample", f"open where the mean contact has fewer than {FEW_CELLS} cells"
-    circles = f"Circles: boundary elements, {interval}; {few}."
+    circles = f"Circles: boundary elements on cells of no size, {interval}; {few}."
     lines = "Line in a band: MDR with L_1D = L and its interval; dashed: L_1D = 1.1523 L."
+    most = [max(column) for column in zip(*case.surfaces, strict=True)]
     return {
         "fractal_punch": (
-            f"Relative standard deviation of the stiffness against force, Fbar = F / (E* h L). (a) {case.surfaces} "
-            f"surfaces, three-dimensional boundary elements, {case.cells}² cells; {few}. (b) {case.profiles} "
-            "profiles of springs, L_1D = L; lines end where all springs of all profiles are in contact. Intervals: in "
-            "the next figure."
+            "Relative standard deviation of the stiffness against force, Fbar = F / (E* h L), with the 95 % interval "
+            f"of the sample as a band. (a) Up to {max(most)} surfaces, boundary elements, extrapolated to cells of "
+            f"no size; {few}. (b) {case.profiles} profiles of springs, L_1D = L; lines end where all "
+            "springs of all profiles are in contact. All H have the same phases."
         ),
         "fractal_punch-overlay": f"The relative standard deviation, both methods in one panel. {circles} {lines}",
         "fractal_punch-difference": (
-            f"Relative deviation of MDR over that of boundary elements. Circles: at each force on {case.cells}² cells, "
-            f"{interval}; {few}; ratios below the axis, and ratios to a deviation of zero, are not drawn. Thick: "
-            "root mean square over each decade, boundary elements extrapolated to cells of zero size; in the last "
-            "decade the lightest forces dominate it. The thin box is the interval of sample and grid. Grey: the "
-            "tolerance of 3 %; dotted: 3 dB. = agree, ≠ differ, ? undecided."
+            f"Relative deviation of MDR over that of boundary elements. Circles: at each force, {interval}; {few}; "
+            "ratios below the axis are not drawn. Thick: the worst force of each decade, drawn over the decade. The "
+            "thin box is its interval of sample and grid, which holds for all forces of the decade at once. Grey: the "
+            "tolerance of 10 %; dotted: 3 dB. = agree, ≠ differ, ? undecided."
         ),
         "fractal_punch-mean": (
             f"Mean stiffness kbar = k / (E* L). {circles} {lines} Dotted: slope 1 / (1 + H), through the boundary "
@@ -67,33 +79,56 @@ def captions(case: FractalPunch) -> dict[str, str]:
     }
 
 
-def matrix(case: FractalPunch, name: str, comparisons: Sequence[DecadeComparison]) -> Table:
+def matrix(name: str, comparisons: Sequence[DecadeComparison]) -> Table:
     """On the page: a row a Hurst exponent, a column a decade."""
     mine = [c for c in comparisons if c.name == name]
     hursts = list(dict.fromkeys("all" if c.hurst is None else f"{c.hurst:g}" for c in mine))
     decades: dict[str, list[object]] = {}
     for c in mine:
-        decades.setdefault(f"Fbar {_decade(c.first)}", []).append(verdict(case, c.number))
+        decades.setdefault(f"Fbar {_decade(c.first)}", []).append(verdict(c.number))
     what = "MDR over boundary elements" if QUANTITIES[name].unit == "dB" else "MDR less boundary elements"
     return Table(f"{name}: {what}, with the 95 % interval of sample and grid", {"H": hursts, **decades})
 
 
-def verdict(case: FractalPunch, number: Number | None) -> str | VerdictCell:
+def margins(name: str, comparisons: Sequence[DecadeComparison]) -> Table:
+    """On the page: verdicts of all Hurst exponents by their worst force, a row a margin, a column a decade."""
+    mine = [c for c in comparisons if c.name == name and c.hurst is not None]
+    firsts = list(dict.fromkeys(c.first for c in mine))
+    return Table(
+        f"{name}: verdicts of single H by the worst force of a decade, at four margins",
+        {"within": list(MARGINS)}
+        | {
+            f"Fbar {_decade(first)}": [
+                counts([n for c in mine if c.first == first and (n := c.within(margin)) is not None])
+                for margin in MARGINS.values()
+            ]
+            for first in firsts
+        },
+    )
+
+
+def counts(numbers: Sequence[Number]) -> str:
+    """Of each verdict: "2 agree, 5 differ"."""
+    verdicts = [number.verdict for number in numbers]
+    return ", ".join(f"{verdicts.count(v)} {v}" for v in Verdict if v in verdicts) or "no value"
+
+
+def verdict(number: Number | None) -> str | VerdictCell:
     """The difference in per cent, or as it stands, with its whole interval; the sample that would decide it."""
     if number is None:
         return "no value"
-    after = decided_by(case, number) if number.verdict is Verdict.UNDECIDED else ""
+    after = decided_by(number) if number.verdict is Verdict.UNDECIDED else ""
     return VerdictCell(_interval(number), number.verdict, after)
 
 
-def decided_by(case: FractalPunch, number: Number) -> str:
-    """How many realisations would decide if value and grid error stayed."""
+def decided_by(number: Number) -> str:
+    """How large a sample would decide if value and grid error stayed."""
     needed = number.sample_needed
     if math.isinf(needed):
         return "grid error too large"
     if needed > MAX_SAMPLE:
         return f"needs over {MAX_SAMPLE:.0f} times the sample"
-    return f"needs {math.ceil(needed * case.surfaces)} surfaces, {math.ceil(needed * case.profiles)} profiles"
+    return f"needs {math.ceil(10 * needed) / 10:.1f} times the sample"
 
 
 def law_table(case: FractalPunch, laws: Sequence[Number]) -> Table:
@@ -123,12 +158,12 @@ def summary(name: str, comparisons: Sequence[DecadeComparison]) -> str:
         if c.hurst is None and (n := c.number) is not None
     )
     singles = numbers_of(c for c in mine if c.hurst is not None)
-    verdicts, values = [n.verdict for n in singles], [n.value for n in singles]
-    counts = ", ".join(f"{verdicts.count(v)} {v}" for v in Verdict if v in verdicts)
+    values = [n.value for n in singles]
     return (
         f"{name[0].upper()}{name[1:]}, MDR beside boundary elements within "
-        f"{_text(quantity.tolerance, quantity.unit).lstrip('+')}. Mean over H: {means}. For single H: "
-        f"{counts}; they range from {_text(min(values), quantity.unit)} to {_text(max(values), quantity.unit)}."
+        f"{_text(quantity.tolerance, quantity.unit).lstrip('+')}, by the worst force of a decade. Mean over H: "
+        f"{means}. For single H: {counts(singles)}; they range from {_text(min(values), quantity.unit)} to "
+        f"{_text(max(values), quantity.unit)}."
     )
 
 
@@ -147,22 +182,55 @@ def saturation(rows: Sequence[Row]) -> tuple[str, ...]:
     )
 
 
-def cost(result: FractalPunchResult) -> str:
-    contacts = np.concatenate([e.bem["applications"].ravel() for e in result.ensembles])
-    fixed = np.concatenate([e.bem["frozen applications"].ravel() for e in result.ensembles])
+def order(rows: Sequence[Row]) -> tuple[str, ...]:
+    """Whether the deviation rises or falls with H, force by force."""
+    if len(rows) == 0 or not all(math.isfinite(row[f"{BEM} d ln deviation / d H"]) for row in rows):
+        return ()
+    return tuple(
+        f"Order of the curves, {name}: with H the deviation {_order_of(rows, model)}."
+        for model, name in ((BEM, "boundary elements"), (MDR, "MDR"))
+    )
+
+
+def _order_of(rows: Sequence[Row], model: str) -> str:
+    slope, grid = f"{model} d ln deviation / d H", f"{model} ± grid"
+    rising = [row["Fbar"] for row in rows if row[f"{slope} low"] - row[grid] > 0]
+    falling = [row["Fbar"] for row in rows if row[f"{slope} high"] + row[grid] < 0]
+    known = [row["Fbar"] for row in rows if math.isfinite(row[slope])]
+    open_ = [force for force in known if force not in rising and force not in falling]
+    groups = (("rises", rising), ("falls", falling), ("has no order that the sample shows", open_))
+    return "; ".join(f"{word} at Fbar = {', '.join(f'{f:.2g}' for f in forces)}" for word, forces in groups if forces)
+
+
+def cost(result: FractalPunchResult, rows: Sequence[Row]) -> tuple[str, str]:
+    """Operator applications of a contact; the work beside that of plain sampling."""
+    outcomes = [outcome for e in result.ensembles for outcome in e.outcomes[BEM].values()]
+    contacts, fixed = (
+        np.concatenate([values[np.isfinite(values)] for values in (outcome[name] for outcome in outcomes)])
+        for name in ("applications", "frozen applications")
+    )
+    gains = "; ".join(
+        f"{gain['plain over multilevel, relative deviation']:.2g} and "
+        f"{gain['plain over multilevel, mean stiffness']:.2g} for Fbar = {_decade(first)}"
+        for first, gain in {row["Fbar from"]: row for row in rows}.items()
+    )
     return (
-        f"{contacts.size} contacts with their stiffness on {result.case.cells}² cells took "
-        f"{np.mean(contacts + fixed):.1f} operator applications each in the mean, {contacts.mean():.1f} for the "
-        f"contact (at most {contacts.max():.0f}) and {fixed.mean():.1f} for the stiffness (at most "
-        f"{fixed.max():.0f}), on the smallest window that holds the contact."
+        f"{contacts.size} contacts with their stiffness took {np.mean(contacts + fixed):.1f} operator applications "
+        f"each in the mean, {contacts.mean():.1f} for the contact (at most {contacts.max():.0f}) and "
+        f"{fixed.mean():.1f} for the stiffness (at most {fixed.max():.0f}), on the smallest window that "
+        "holds the contact.",
+        "Plain sampling on the two finest grids would take so many times the work (cells times operator applications) "
+        f"for the same error of the deviation and of the mean: {gains}.",
     )
 
 
 def _interval(number: Number) -> str:
-    """Value and ends of the whole interval, decibels as per cent."""
+    """Value and ends of the whole interval, decibels as per cent, and where in the decade."""
     half = number.uncertainty
     middle, low, high = (_text(number.value + end, number.unit) for end in (0.0, -half, half))
-    return f"{middle} ({low.removesuffix(' %')} to {high.removesuffix(' %')})"
+    worst = number.where.get("worst at")
+    where = "" if worst is None else f" at Fbar = {worst:.2g}"
+    return f"{middle} ({low.removesuffix(' %')} to {high.removesuffix(' %')}){where}"
 
 
 def _text(value: float, unit: str) -> str:

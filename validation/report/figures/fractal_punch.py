@@ -25,6 +25,8 @@ def draw(evidence: Evidence) -> Figure:
             few = mine["bem3d few cells"] & (method == "bem3d")
             style = graded(i, hursts.size)
             axis.plot(mine["Fbar"], value, label=f"H = {hurst:g}", **style)
+            low, high = (positive(mine[f"{method} relative deviation {end}"]) for end in ("low", "high"))
+            axis.fill_between(mine["Fbar"], low, high, color=style["color"], alpha=0.15, linewidth=0)
             axis.plot(mine["Fbar"][few], value[few], **{**style, "linestyle": "none", "markerfacecolor": "white"})
         axis.set(xscale="log", xlabel=FORCE, title=title, ylim=(0, None))
         axis.legend(loc="lower left")
@@ -42,7 +44,7 @@ def _overlay(axis: Axes, evidence: Evidence, hurst: float) -> None:
 
 
 def draw_difference(evidence: Evidence) -> Figure:
-    """MDR over boundary elements: level by level, and decade by decade with the verdict."""
+    """MDR over boundary elements: force by force, and the worst force of each decade with its verdict."""
     return _by_hurst(evidence, _difference, "deviation, MDR over boundary elements")
 
 
@@ -65,7 +67,7 @@ def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
         )
         ends = row["Fbar from"], row["Fbar to"]
         axis.fill_between(ends, [low] * 2, [high] * 2, facecolor="none", edgecolor="#000000", linewidth=0.8)
-        label = "over a decade" if ends[0] == evidence.table("decades")["Fbar from"].min() else None
+        label = "worst of a decade" if ends[0] == evidence.table("decades")["Fbar from"].min() else None
         axis.plot(ends, [middle] * 2, color="#000000", linewidth=2, label=label)
         centre = np.sqrt(ends[0] * ends[1])
         axis.annotate(SIGN[row["verdict"]], (centre, 0.31), ha="center", va="bottom", fontsize=11, annotation_clip=True)

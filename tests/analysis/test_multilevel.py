@@ -1,0 +1,131 @@
+"""Multilevel estimates on populations whose answer is known: no bias, and intervals that hold as often as they say."""
+
+import math
+
+import numpy as np
+import pytest
+
+from validation.analysis.multilevel import Linearised, log, moments, multilevel_moments, weighted_sum
+from validation.analysis.statistics import student
+
+SPREAD = 0.25
+MEAN = math.exp(SPREAD**2 / 2)
+RELATIVE = math.sqrt(math.expm1(SPREAD**2))
+"""Of the logarithmic normal distribution exp(0.25 z), like the stiffness of a rough punch under a light force."""
+
+
+def population(rng, sizes, correlations, coarse=0.1):
+    """Nested realisations, coarse to fine: exp(s z) on the finest grid; coarser ones are correlated and off by 10 %."""
+    z = rng.standard_normal(sizes[0])
+    grids = [np.exp(SPREAD * z)]
+    for correlation in correlations:
+        z = correlation * z + math.sqrt(1 - correlation**2) * rng.standard_normal(sizes[0])
+        grids.insert(0, np.exp((1 + coarse) * SPREAD * z + coarse))
+    for grid, size in zip(grids, sizes, strict=True):
+        grid[size:] = np.nan
+    return grids
+
+
+def finest(rng, sizes, correlations):
+    return multilevel_moments(population(rng, sizes, correlations))[-1]
+
+
+@pytest.mark.parametrize(
+    ("sizes", "correlations", "at_least"),
+    [
+        ((30,), (), 0.9),
+        ((400,), (), 0.93),
+        ((300, 60), (0.95,), 0.93),
+        ((1500, 300, 60), (0.99, 0.95), 0.93),
+        ((200, 100, 50), (0.5, 0.2), 0.93),
+    ],
+)
+def test_intervals_hold_as_often_as_they_say(sizes, correlations, at_least):
+    """95 %, within the noise of 400 trials, of the mean and of the deviation; a plain sample of 30 is too small."""
+    rng = np.random.default_rng(1)
+    trials = [finest(rng, sizes, correlations) for _ in range(400)]
+    for found, true in (
+        ([trial.log_mean for trial in trials], math.log(MEAN)),
+        ([trial.log_relative_deviation for trial in trials], math.log(RELATIVE)),
+    ):
+        known = [x for x in found if math.isfinite(x.value)]
+        assert len(known) >= 0.98 * len(found)
+        held = np.mean([abs(x.value - true) < x.half_width for x in known])
+        assert at_least <= held <= 0.98, (held, len(known))
+        assert np.median([x.error for x in known]) == pytest.approx(np.std([x.value for x in known]), rel=0.3)
+
+
+def test_intervals_of_a_range_hold_at_once():
+    """Ten independent points: all ten in 95 % of trials; the intervals of single points miss one in 40 %."""
+    rng = np.random.default_rng(2)
+    sets = [[finest(rng, (200, 40), (0.95,)).log_mean for _ in range(10)] for _ in range(400)]
+    for points, low, high in ((10, 0.92, 0.98), (1, 0.5, 0.72)):
+        held = [all(abs(x.value - math.log(MEAN)) < x.half_width_among(points) for x in found) for found in sets]
+        assert low <= np.mean(held) <= high
+
+
+@pytest.mark.parametrize(("sizes", "correlations"), [((8, 4), (0.9,)), ((20, 10, 5), (0.5, 0.2))])
+def test_mean_and_variance_have_no_bias(sizes, correlations):
+    """However few realisations, and however little the grids have in common: within 3.5 standard errors."""
+    rng = np.random.default_rng(3)
+    trials = [finest(rng, sizes, correlations) for _ in range(4000)]
+    for found, true in (
+        ([t.mean.value for t in trials], MEAN),
+        ([t.variance.value for t in trials], (MEAN * RELATIVE) ** 2),
+    ):
+        assert abs(np.mean(found) - true) < 3.5 * np.std(found) / math.sqrt(len(found))
+
+
+def test_the_logarithm_of_a_deviation_has_little_bias():
+    """A fifth of its standard error at 60 realisations without the second-order term; here a fiftieth or so."""
+    rng = np.random.default_rng(4)
+    found = [finest(rng, (60,), ()).log_relative_deviation for _ in range(2000)]
+    assert abs(np.mean([x.value for x in found]) - math.log(RELATIVE)) < 0.1 * np.median([x.error for x in found])
+
+
+def test_correlated_grids_take_less_work():
+    """Forty fine realisations and a thousand coarse ones have nearly the error of a thousand."""
+    rng = np.random.default_rng(5)
+    grids = population(rng, (1000, 40), (0.999,), coarse=0.0)
+    both, plain = multilevel_moments(grids)[-1], multilevel_moments(grids[1:])[-1]
+    for name in ("log_mean", "log_relative_deviation"):
+        assert getattr(both, name).error < 0.4 * getattr(plain, name).error
+
+
+def test_one_grid_is_plain_sampling():
+    values = np.random.default_rng(6).standard_normal(50) + 5
+    (found,) = multilevel_moments([values])
+    assert found.mean.value == pytest.approx(values.mean())
+    assert found.variance.value == pytest.approx(values.var(ddof=1))
+    assert found.mean.error == pytest.approx(values.std(ddof=1) / math.sqrt(50))
+
+
+def test_what_is_lost_on_one_grid_counts_in_no_step():
+    """A realisation without a coarse value is no part of the step; the others give it."""
+    coarse, fine = np.array([1.0, 2.0, 4.0, np.nan, 3.0]), np.array([1.5, 2.5, 4.5, 9.0, np.nan])
+    assert multilevel_moments([coarse, fine])[-1].mean.value == pytest.approx(2.5 + 0.5)
+
+
+def test_values_from_the_same_realisations_share_their_errors():
+    rng = np.random.default_rng(7)
+    x = multilevel_moments([rng.standard_normal(100) + 3])[0].mean
+    assert (x - x).error == 0
+    assert (x + x).error == pytest.approx(2 * x.error)
+    assert x.beside(x).error == pytest.approx(math.sqrt(2) * x.error)
+    assert weighted_sum([0.25, 0.75], [x, x]).error == pytest.approx(x.error)
+    assert x.beside(2.0 * x).value == pytest.approx(-x.value)
+
+
+def test_degrees_of_freedom_are_of_those_that_contribute():
+    """Normal contributions: as many as realisations; three that outweigh all others: few of them."""
+    even = np.random.default_rng(8).standard_normal(4000)
+    assert Linearised(0.0, even).freedom == pytest.approx(4000, rel=0.15)
+    uneven = np.concatenate([np.full(3, 10.0), 0.01 * even])
+    assert Linearised(0.0, uneven).freedom < 10
+    assert Linearised(0.0, uneven).half_width > 1.1 * student(4000) * Linearised(0.0, uneven).error
+
+
+def test_no_deviation_is_minus_infinity_and_a_negative_variance_is_none():
+    equal = moments(np.full(9, 1 / 3), np.ones(9, dtype=bool)).log_relative_deviation
+    assert equal.value == -math.inf and equal.half_width == 0
+    assert math.isnan(log(Linearised(-1.0, np.ones(3))).value)

@@ -1,0 +1,78 @@
+"""The claims of Fig. 14.1, the numbers that test them, and the answers."""
+
+import math
+from collections.abc import Sequence
+
+from validation.analysis.answers import answered
+from validation.analysis.evidence import JudgedClaim, Number, Verdict
+from validation.analysis.statistics import DECIBEL
+from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGIN, MEAN, DecadeComparison, numbers_of
+from validation.cases.punch.fractal_punch_numbers import PUBLISHED
+from validation.cases.punch.fractal_punch_text import counts
+from validation.simulation.rough_punch import BEM
+
+CLAIM = "MDR has the mean stiffness of rough punches and its fluctuation (Fig. 14.1)."
+OF_MEAN = "MDR has the mean stiffness of rough punches."
+OF_DEVIATION = "MDR has the fluctuation of the stiffness of rough punches."
+OF_LAW = "The stiffness of a rough punch grows with the force as F^(1 / (1 + H))."
+
+
+def claims(comparisons: Sequence[DecadeComparison], laws: Sequence[Number]) -> tuple[JudgedClaim, ...]:
+    """The claim of the case, then each of its parts, then the exponent; only those that have numbers."""
+    mean, deviation = (
+        [c for c in comparisons if c.name == name and c.hurst is not None and c.number] for name in (MEAN, DEVIATION)
+    )
+    of_mean, of_deviation = (
+        f"at its worst force of a decade, MDR is off the {what} by {_by_decade(mine)}, judged within {MARGIN}"
+        for what, mine in (("mean stiffness", mean), ("relative deviation", deviation))
+    )
+    parts = [
+        (CLAIM, [*mean, *deviation], f"{of_mean}; {of_deviation}."),
+        (OF_MEAN, mean, f"{of_mean}."),
+        (OF_DEVIATION, deviation, f"{of_deviation}."),
+    ]
+    return (*(_judged(*part) for part in parts if part[1]), *_law(laws))
+
+
+def _judged(claim: str, mine: Sequence[DecadeComparison], answer: str) -> JudgedClaim:
+    """Within the decades of force in which all Hurst exponents agree, if there are any."""
+    agreed = [first for first in _firsts(mine) if _agree(numbers_of(c for c in mine if c.first == first))]
+    limits = ", ".join(f"Fbar = {first:g} to {10 * first:g}" for first in agreed)
+    inside = numbers_of(c for c in mine if c.first in agreed)
+    return answered(claim, numbers_of(mine), answer, limits=limits, inside=inside)
+
+
+def _agree(numbers: Sequence[Number]) -> bool:
+    return all(number.verdict is Verdict.AGREE for number in numbers)
+
+
+def _firsts(mine: Sequence[DecadeComparison]) -> list[float]:
+    return list(dict.fromkeys(c.first for c in mine))
+
+
+def _by_decade(mine: Sequence[DecadeComparison]) -> str:
+    """From the least to the largest of all Hurst exponents, with the verdicts."""
+    found = []
+    for first in _firsts(mine):
+        numbers = numbers_of(c for c in mine if c.first == first)
+        ends = (min(n.value for n in numbers), max(n.value for n in numbers))
+        low, high = (f"{100 * math.expm1(end / DECIBEL):+.0f}" for end in ends)
+        span = f"{low} %" if low == high else f"{low} to {high} %"
+        found.append(f"{span} from Fbar = {first:g} to {10 * first:g} ({counts(numbers)})")
+    return ", ".join(found)
+
+
+def _law(laws: Sequence[Number]) -> list[JudgedClaim]:
+    of_bem = [n for n in laws if n.model == BEM]
+    if not of_bem:
+        return []
+    off = [n.value - n.reference for n in of_bem]
+    return [
+        answered(
+            OF_LAW,
+            of_bem,
+            f"boundary elements have exponents from {min(n.value for n in of_bem):.3f} to "
+            f"{max(n.value for n in of_bem):.3f}, off by {min(off):+.3f} to {max(off):+.3f}: {counts(of_bem)} within "
+            f"{of_bem[0].tolerance:g}; published are {PUBLISHED[0]} to {PUBLISHED[1]}.",
+        )
+    ]
