@@ -29,7 +29,7 @@ from validation.cases.stability import stability as wheel_stability
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
-from validation.engine.engine import SERIAL, Engine
+from validation.engine.engine import Engine
 from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES
 from validation.report.figures import drawing
@@ -342,15 +342,6 @@ def test_an_executor_that_is_none_is_exit_2(executor, tmp_path, capsys):
     assert not out.exists()
 
 
-def test_a_folder_with_something_else_in_it_is_refused(tmp_path, capsys):
-    (tmp_path / "thesis.tex").write_text("years of work")
-    assert report("--only", "hertz", "--out", str(tmp_path)) == command.Exit.BAD_INPUT
-    assert "--out" in capsys.readouterr().err
-    assert report("--only", "hertz", "--out", str(tmp_path / "thesis.tex")) == command.Exit.BAD_INPUT
-    assert report("--only", "hertz", "--out", str(tmp_path / "thesis.tex" / "below")) == command.Exit.BAD_INPUT
-    assert [f.name for f in tmp_path.iterdir()] == ["thesis.tex"]
-
-
 @pytest.mark.parametrize("figure", ["hertz", "hertz-part"])
 def test_a_figure_that_nothing_draws_is_named(figure, monkeypatch):
     monkeypatch.delattr(hertz_figure, "draw")
@@ -366,16 +357,6 @@ def test_a_case_without_its_figure_file_ends_before_the_first_solve(tmp_path, mo
     assert report("--only", "moon", "--out", str(tmp_path / "out")) == command.Exit.BAD_INPUT
     assert "validation/report/figures/moon.py" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.slow
-def test_old_figures_do_not_stay(small, tmp_path):
-    report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1")
-    (tmp_path / "realisations" / ".mdr-validation-killed__.part").write_bytes(b"half of")
-    report("--only", "geike", "--out", str(tmp_path), "--workers", "1")
-    assert not list(tmp_path.rglob("*.part"))
-    assert [f.name for f in sorted((tmp_path / "figures").iterdir())] == ["geike.pdf", "geike.svg"]
-    assert all(f.name.startswith("geike") for f in (tmp_path / "data").iterdir())
 
 
 def test_cases_are_listed(capsys):
@@ -404,11 +385,3 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     case = CASES["fractal_punch"].quick
     Engine(store=store).map(press_surface, [case.surface(case.hursts[0], 0, case.cells // 4)])
     assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept
-
-
-@pytest.mark.parametrize("name", ["hertz", "geike"])
-def test_cases_of_the_quick_report_deal_with_every_warning(name):
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", bem3d.ContactWarning)
-        warnings.simplefilter("error", mdr.SpringContactWarning)
-        CASES[name].run(CASES[name].quick, SERIAL)

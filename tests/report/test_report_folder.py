@@ -15,24 +15,19 @@ from pathlib import Path
 import pytest
 
 from tests.engine.test_engine import ENVIRONMENT, ROOT
+from tests.report.test_command_line import SMALL
 from validation import __main__ as command
-from validation.cases.exact import geike, hertz
 from validation.engine import files
 from validation.report.contents import CASES
 from validation.report.folder import Folder
 from validation.report.lock import LOCK, locked
 from validation.report.manifest import MANIFEST, as_manifest, digest_of, listed_in
 
-SMALL = {
-    "hertz": hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2),
-    "geike": geike.Geike(cells=128, surfaces=2, longest=4),
-}
-
 
 @pytest.fixture(autouse=True)
 def _small(monkeypatch, without_figures):
-    for name, case in SMALL.items():
-        monkeypatch.setitem(CASES, name, replace(CASES[name], quick=case))
+    for name in ("hertz", "geike"):
+        monkeypatch.setitem(CASES, name, replace(CASES[name], quick=SMALL[name]))
 
 
 def report(out, *names):
@@ -118,13 +113,15 @@ def test_an_earlier_report_is_replaced_and_files_of_others_stay(tmp_path):
         "tmpabcdefgh.part": "mine",
     }
     fill(tmp_path, others)
-    begun = ["figures/.mdr-validation-abcdefgh.part", ".mdr-validation-a1_cdefg.part"]
+    rooms = ("figures/", "data/", "realisations/", "")
+    begun = [f"{room}.mdr-validation-a1_cdefg.part" for room in rooms]
     fill(tmp_path, dict.fromkeys(begun, "half of"))
     assert report(tmp_path, "geike") == command.Exit.MET
     assert {name: (tmp_path / name).read_text() for name in others} == others
     left = {n for n, text in tree(tmp_path).items() if text} - {MANIFEST} - realisations(tmp_path)
     assert left - others.keys() == set(listed_in(tmp_path))
     assert not any("hertz" in name for name in left - others.keys())
+    assert not any((tmp_path / name).exists() for name in begun)
 
 
 def realisations(folder):
