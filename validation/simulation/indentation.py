@@ -28,6 +28,8 @@ CONTACT = 16
 """Cells in the contact of a rough punch, on the finest grid."""
 DEEPEST = 4.0
 """Heights of roughness, in rms, that a rough sphere may carry outside of its smooth contact."""
+MARGIN = 16
+"""Points beyond what a sphere may touch: two cells of a grid of an eighth as many a side."""
 LATTICE = 512
 """Waves on a side up to which their mean square is summed one by one; shorter ones are an integral."""
 
@@ -55,7 +57,8 @@ def side_of(scene: IndentationScene) -> float:
 def _reach(scene: IndentationScene, heights: MeasuredHeights) -> float:
     """Side of the square of all points that a sphere may touch, x^2 / 2R <= d - min h + h, min within r <= a [m].
 
-    No deeper than that goes a sphere that would press a plane at the lowest point of its smooth contact.
+    No deeper than that goes a sphere that would press a plane at the lowest point of its smooth contact. About it,
+    cells of the coarsest grid on which its error is estimated.
     """
     x, y = (np.abs(end) for end in heights.places)
     squared = x[:, np.newaxis] ** 2 + y**2
@@ -63,7 +66,7 @@ def _reach(scene: IndentationScene, heights: MeasuredHeights) -> float:
     deepest = scene.approach - float(heights.height[under].min())
     touched = squared <= 2 * scene.size * (deepest + heights.height)
     farthest = max(float(x[touched.any(axis=1)].max()), float(y[touched.any(axis=0)].max()))
-    return 2 * farthest + 4 * max(heights.spacing)
+    return 2 * (farthest + MARGIN * max(heights.spacing))
 
 
 def cells_wanted(scene: IndentationScene) -> int:
