@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Table, table_of
 from validation.cases.rolling.input_spectrum_numbers import NAMES
+from validation.cases.rolling.roughness_from_force import FILTERS
 from validation.report.figures import (
     fractal_punch,
     geike,
@@ -23,7 +24,10 @@ from validation.report.figures import (
     normalisation,
     precision,
     rolling_input,
+    rolling_validity,
+    roughness_from_force,
     square_punch,
+    track_stiffness,
     wheel,
     wheel_3d,
     wheel_distance,
@@ -288,6 +292,51 @@ def test_coherence_has_its_lines():
         np.testing.assert_allclose(
             departure.get_lines()[2 * i + 1].get_ydata(), (mine["springs [dB]"] - mine["linear 1D [dB]"])[2:]
         )
+
+
+def test_lines_of_where_linear_theory_ends():
+    """Over h/d and over h' a/d, each spectrum in the order of that parameter."""
+    table = Made({"spectrum": np.repeat(["one", "two"], 3)})
+    kept, kept_too, off, off_too = rolling_validity.draw(made(validity=table)).axes
+    for axes, value, bar in (
+        ((kept, kept_too), "contact kept", "± contact"),
+        ((off, off_too), "rms over linear [dB]", "± rms [dB]"),
+    ):
+        for axis, parameter in zip(axes, ("h/d", "h' a/d"), strict=True):
+            expected = {}
+            for name in ("one", "two"):
+                mine = table.where(spectrum=name)
+                order = np.argsort(mine[parameter])
+                expected[name] = mine[value][order], (mine[bar][order],) * 2
+            drawn(axis, expected)
+
+
+def test_lines_of_roughness_from_force():
+    table = Made({"h/d": np.repeat([0.1, 0.3], 6), "filter": np.tile(np.repeat(FILTERS, 2), 2), "q a": [1.0, 2.0] * 6})
+    for axis, height in zip(roughness_from_force.draw(made(roughness=table)).axes, (0.1, 0.3), strict=True):
+        expected = {}
+        for name in FILTERS:
+            mine = table.where(**{"h/d": height, "filter": name})
+            expected[name] = mine["found over true [dB]"], (mine["± [dB]"],) * 2
+        drawn(axis, expected)
+
+
+def test_lines_of_stiffness_along_a_track():
+    models = ("wheel, bem3d", "punch, springs")
+    moments = Made({"Fbar": [1.0, 1.0, 3.0, 3.0], "model": models * 2})
+    bands = Made({"Fbar": np.repeat([1.0, 3.0], 3), "q a": [2.0, 4.0, 8.0] * 2})
+    mean, deviation, level = track_stiffness.draw(made(moments=moments, bands=bands)).axes
+    for axis, quantity in ((mean, "mean stiffness"), (deviation, "relative deviation of stiffness")):
+        expected = {}
+        for name in models:
+            mine = moments.where(model=name)
+            expected[name] = mine[quantity], (mine[f"± {quantity}"],) * 2
+        drawn(axis, expected)
+    expected = {}
+    for force in (1.0, 3.0):
+        mine = bands.where(Fbar=force)
+        expected[f"Fbar = {force:g}"] = mine["Geike's spectrum [dB]"], (mine["Geike's spectrum ± [dB]"],) * 2
+    drawn(level, expected)
 
 
 def test_lines_of_input_spectra():

@@ -58,58 +58,9 @@ def _method(case: ForceSpectrum) -> str:
 def _claims(case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: list[Number]) -> tuple[JudgedClaim, ...]:
     """Of the book and of what follows from it, each with the numbers that test it."""
     slope = case.spectrum.slope
-    below, *_, band = measured.regions(case)
-    lowest = found[0]
-
-    def of(model: str) -> list[Number]:
-        over = numbers_with(numbers, model=f"{model} over bem3d")
-        return [number for number in over if number.quantity != measured.EXCESS]
-
-    def mean(model: str, region: levels.Region, among: Sequence[levels.LevelsAtHeight]) -> str:
-        return from_to([mine.decibels_over_bem(model, mine.weights(region)) for mine in among])
-
-    def at(model: str, region: levels.Region, mine: levels.LevelsAtHeight) -> str:
-        where, over = measured.place(mine.height, region), f"{model} over bem3d"
-        worst, rms = (number_with(numbers, name, over, **where) for name in (measured.LEVEL, measured.IN_RMS))
-        return f"rms {rms.value:.1f} dB, worst {worst.value:+.1f} dB at q a = {worst.where['worst at']:.2g}"
-
-    geike, equivalent, linear = levels.SPRINGS, levels.ROLLING_SPRINGS, levels.LINEAR_3D
-    nonlinear = [n for n in numbers if n.model == measured.BOTH and n.quantity != measured.MEAN]
     means, variances = (numbers_with(numbers, quantity) for quantity in (measured.MEAN, measured.VARIANCE))
     return (
-        answered(
-            CLAIM,
-            [*of(levels.LINEAR_1D), *of(geike)],
-            f"springs with Geike's spectrum are {mean(geike, band, found)} dB off boundary elements in the mean over "
-            f"the bands of q a = {_named(band)}, at h/d = {lowest.height:g} with {at(geike, band, lowest)}, and "
-            f"{mean(geike, below, found)} dB below the band.",
-            slope=slope,
-        ),
-        answered(
-            "With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third "
-            "octave.",
-            of(equivalent),
-            f"the mean over the bands of q a = {_named(band)} is {mean(equivalent, band, found)} dB off, but at h/d = "
-            f"{lowest.height:g} the {at(equivalent, band, lowest)}.",
-            slope=slope,
-        ),
-        answered(
-            "Linear theory in 3D has the level of boundary elements in each one-third octave.",
-            of(linear),
-            "; ".join(f"at h' a/d = {mine.slope:.2g} {at(linear, band, mine)}" for mine in found) + ".",
-            slope=slope,
-        ),
-        answered(
-            "Nonlinearity changes the level of springs as it changes that of boundary elements.",
-            nonlinear,
-            "; ".join(
-                f"at h' a/d = {slope * height_of(n):.2g} the changes differ by {n.value:.1f} dB in the rms"
-                for n in nonlinear
-                if n.quantity == measured.RMS + measured.NONLINEAR
-            )
-            + ".",
-            slope=slope,
-        ),
+        *_claims_of_levels(case, found, numbers),
         answered(
             "The force at one position has the variance of linear theory, which Geike's rule keeps.",
             variances,
@@ -118,6 +69,52 @@ def _claims(case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: li
         ),
         answered("Springs have the mean force of boundary elements.", means, f"{_means(means)}.", slope=slope),
     )
+
+
+def _claims_of_levels(
+    case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: list[Number]
+) -> list[JudgedClaim]:
+    """By the worst one-third octave and by the root mean square; the signed mean is only told."""
+    below, *_, band = measured.regions(case)
+    lowest = found[0]
+
+    def of(*models: str) -> list[Number]:
+        over = [number for model in models for number in numbers_with(numbers, model=f"{model} over bem3d")]
+        return [number for number in over if number.quantity != measured.EXCESS]
+
+    def mean(model: str, region: levels.Region) -> str:
+        return f"{from_to([mine.decibels_over_bem(model, mine.weights(region)) for mine in found])} dB"
+
+    def at(model: str, mine: levels.LevelsAtHeight) -> str:
+        where, over = measured.place(mine.height, band), f"{model} over bem3d"
+        worst, rms = (number_with(numbers, name, over, **where) for name in (measured.LEVEL, measured.IN_RMS))
+        worst_at = f"{worst.value:+.1f} dB in the worst, at q a = {worst.where['worst at']:.2g}"
+        return f"at h' a/d = {mine.slope:.2g} {rms.value:.1f} dB in the rms over bands and {worst_at}"
+
+    geike, equivalent, linear = levels.SPRINGS, levels.ROLLING_SPRINGS, levels.LINEAR_3D
+    nonlinear = [number for number in numbers if number.quantity in (measured.NONLINEAR, measured.RMS_NONLINEAR)]
+    changes = "; ".join(
+        f"at h/d = {height_of(n):g} the changes differ by {n.value:.1f} dB in the rms over bands"
+        for n in numbers_with(nonlinear, measured.RMS_NONLINEAR)
+    )
+    tested = {
+        CLAIM: (
+            of(levels.LINEAR_1D, geike),
+            f"springs are {mean(geike, band)} off boundary elements in the mean over the bands of q a = "
+            f"{_named(band)} and {mean(geike, below)} below them; {at(geike, lowest)}",
+        ),
+        "With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third octave.": (
+            of(equivalent),
+            f"the mean over the bands of q a = {_named(band)} is {mean(equivalent, band)} off, but they are off "
+            f"{at(equivalent, lowest)}",
+        ),
+        "Linear theory in 3D has the level of boundary elements in each one-third octave.": (
+            of(linear),
+            f"it is off {'; '.join(at(linear, mine) for mine in found)}",
+        ),
+        "Nonlinearity changes the level of springs as it changes that of boundary elements.": (nonlinear, changes),
+    }
+    return [answered(claim, mine, f"{answer}.", slope=case.spectrum.slope) for claim, (mine, answer) in tested.items()]
 
 
 def _conclusions(found: list[levels.LevelsAtHeight], numbers: list[Number]) -> list[str]:
@@ -190,8 +187,9 @@ def _captions(case: ForceSpectrum) -> dict[str, str]:
             "theory."
         ),
         "rolling-map": (
-            "Validity: level of each model over that of boundary elements, in dB, over h/d and q a. Solid lines: ± 1 "
-            "dB; dashed: ± 3 dB; hatched: more than 3 dB too low. Left of the vertical line, below the band, springs "
+            "Validity: level of each model over that of boundary elements, in dB, over q a and h/d. The right axis has "
+            "h' a/d of this band, which carries over to other bands (case rolling_validity). Solid lines: ± 1 dB; "
+            "dashed: ± 3 dB; hatched: more than 3 dB too low. Left of the vertical line, below the band, springs "
             "with Geike's spectrum have almost no power."
         ),
     }

@@ -24,7 +24,7 @@ from validation.theory.rolling import level_ratio
 LEVEL, NONLINEAR = "level of a one-third octave", "nonlinear over linear level of a one-third octave"
 RMS = "rms of "
 """Before the name of what the root mean square over a range is taken of."""
-IN_RMS = RMS + LEVEL
+IN_RMS, RMS_NONLINEAR = RMS + LEVEL, RMS + NONLINEAR
 VARIANCE, MEAN = "variance of the force over that of linear theory", "mean force over that of Hertz"
 EXCESS = "mean level over its limit for q a >> 1"
 BOTH = "springs beside bem3d"

@@ -92,7 +92,7 @@ def draw_coherence(evidence: Evidence) -> Figure:
 
 def draw_map(evidence: Evidence) -> Figure:
     levels = evidence.table("levels")
-    place = {"left": 0.08, "right": 0.86, "bottom": 0.08, "top": 0.95, "wspace": 0.06, "hspace": 0.14}
+    place = {"left": 0.08, "right": 0.8, "bottom": 0.08, "top": 0.95, "wspace": 0.06, "hspace": 0.14}
     figure, axes = panels(2, 2, height=6.6, sharex=True, sharey="all", within=place)
     heights, q = np.unique(levels["h/d"]), np.unique(levels["q a"])
     across = np.unique(np.append(levels["from"], levels["to"][-1]))
@@ -114,11 +114,18 @@ def draw_map(evidence: Evidence) -> Figure:
         axis.yaxis.minorticks_off()
         axis.grid(visible=False)
         _ticks(axis, q)
-    for axis in axes[::2]:
-        axis.set_ylabel("h / d")
+    slopes = [levels.where(**{"h/d": height})["h' a/d"][0] for height in heights]
+    for left, right in zip(axes[::2], axes[1::2], strict=True):
+        left.set_ylabel("h / d")
+        # the same levels, named by the other parameter
+        second = right.twinx()
+        second.set(yscale="log", ylim=right.get_ylim(), ylabel="h' a / d")
+        second.set_yticks(heights, [f"{slope:.2g}" for slope in slopes])
+        second.yaxis.minorticks_off()
+        second.grid(visible=False)
     for axis in axes[2:]:
         axis.set_xlabel("q a")
-    beside = figure.add_axes((0.885, 0.25, 0.02, 0.55))
+    beside = figure.add_axes((0.9, 0.25, 0.02, 0.55))
     figure.colorbar(image, cax=beside, label="level over boundary elements [dB]", extend="both")
     return figure
 
