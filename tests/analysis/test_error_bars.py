@@ -336,14 +336,15 @@ def test_intervals_of_where_mdr_must_fail():
     mine = RollOffSamples(
         1,
         {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
-        {"gap": paired_samples(coarse[:4], fine[:4], rng)},
+        {"gap": np.stack([coarse[:4], fine[:4]], axis=1)},
     )
     statistic = at_level(0, log_mean)
-    number = mine.over_bem("mean gap", "gap", statistic, 0.1)
-    finer = mine.grids["gap"].estimate(difference_of_halves(statistic))
+    number = mine.over_bem("mean gap", "gap", statistic, 0.1, among=3)
+    change = np.log([np.delete(fine[:4], i).mean() / np.delete(coarse[:4], i).mean() for i in range(4)])
+    finer = Estimate(float(np.log(fine[:4].mean() / coarse[:4].mean())), float(jackknife_error(change)), 4)
     bem, springs = (mine.by_method[method, "gap"].estimate(statistic) for method in (BEM, MDR))
     assert number.grid == pytest.approx(DECIBEL * (abs(finer.value) + 2 * finer.half_width))
-    assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width)
+    assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width_among(3))
     assert number.value == pytest.approx(DECIBEL * (springs.value - bem.value - 2 * finer.value))
     row = interval_columns("gap", bem, lambda log: math.exp(log) / 1e-3)
     assert row["gap"] == pytest.approx(1e3 * coarse.mean())

@@ -9,6 +9,8 @@ import numpy as np
 import mdr
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import test_rough_punches, test_wheel_motion
+from validation.analysis.over_range import worst
+from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
 from validation.simulation import contact_laws, integrators
 from validation.simulation import motion as wheel_in_motion
@@ -76,6 +78,10 @@ other_turning_point = wheel_theory._other_turning_point
 
 
 FAULTS = {
+    "the first force of a decade for the worst": (
+        (normalisation, "worst", lambda points, parameter: worst(points[:1], parameter)),
+        test_rough_punches.test_a_way_to_draw_is_judged_by_its_worst_force,
+    ),
     "rms of the ensemble for that of each": (
         (PunchRoughness, "_normalised", lambda roughness, height: height),
         functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),

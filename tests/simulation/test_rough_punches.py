@@ -9,11 +9,11 @@ import pytest
 
 import bem3d
 from tests.oracles import dense_operator, rms_scatter_of_gaussian_draws
-from validation.analysis.evidence import Verdict, numbers_with
+from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
 from validation.cases.punch import area_gap_rolloff_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, EXPONENT, ROLL_OFF
-from validation.cases.punch.normalisation import EACH, ENSEMBLE, FIXED, Normalisation
+from validation.cases.punch.normalisation import EACH, ENSEMBLE, FIXED, Normalisation, NormalisationResult
 from validation.simulation.rough_punch import METHODS, Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.theory import closed_forms
 
@@ -146,3 +146,31 @@ def test_a_lost_surface_is_named():
         roughness=case.roughness(1), realisation=0, cells=16, forces=case.forces[-1:], tolerance=case.tolerance
     )
     assert np.isnan(press_surface(surface)["gap"]).all()
+
+
+@pytest.mark.slow
+def test_a_way_to_draw_is_judged_by_its_worst_force():
+    """The same stiffness with either rms; Gaussian amplitudes twice the deviation at one force, which decides."""
+    case = Normalisation(hursts=(0.7,), surfaces=400, profiles=400, decades=(-1, 0), per_decade=2)
+    noise = np.random.default_rng(0).standard_normal((3, 400, 3))
+    wide = np.array([1.0, 2.0, 1.0])
+    variants = {FIXED: 1 + 0.1 * noise[0], EACH: 1 + 0.1 * wide * noise[1], ENSEMBLE: 1 + 0.1 * wide * noise[1]}
+    outcomes = {
+        (0.7, variant, method): {"stiffness": stiffness, "height": np.ones(400)}
+        for variant, stiffness in variants.items()
+        for method in METHODS
+    }
+    gaussian, ensemble = normalisation.evidence(NormalisationResult(case, outcomes, ())).claims
+    assert gaussian.status is ClaimStatus.CONTRADICTED and ensemble.status is ClaimStatus.HOLDS
+    assert {n.where["worst at"] for n in gaussian.numbers} == {case.forces[1]}
+    assert "Fbar = 0.32" in gaussian.answer
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("exponent", "area"), [(1.0, 1.0), (0.8, 3.0)])
+def test_claims_of_area_and_exponent_follow_planted_ones(exponent, area):
+    """Springs with the true area are not what the claim says; an interface that is proportional to the load is."""
+    claims = {claim.claim: claim for claim in synthetic(exponent, area=area).claims}
+    proportional = [c.status for text, c in claims.items() if "proportional" in text]
+    assert proportional == 2 * [ClaimStatus.HOLDS if exponent == 1 else ClaimStatus.CONTRADICTED]
+    assert claims[area_gap_rolloff_evidence.CLAIM].status is ClaimStatus.CONTRADICTED

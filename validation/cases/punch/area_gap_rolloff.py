@@ -18,7 +18,7 @@ class MdrLimits(PunchEnsembles):
     hurst: float = 0.7
     roll_offs: tuple[int, ...] = (1, 8)
     surfaces: int = 12
-    refined: int = 4
+    refined: int = 8
     seed: int = 142
 
     def roughness(self, roll_off: int) -> PunchRoughness:

@@ -1,13 +1,14 @@
-"""Contact area, mean gap, stiffness and its fluctuation at each roll-off, resampled: MDR over boundary elements."""
+"""Contact area, mean gap, stiffness and its fluctuation at each roll-off: MDR over boundary elements."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Role
+from validation.analysis.over_range import worst
 from validation.analysis.statistics import (
     DECIBEL,
     FIVE_PER_CENT,
@@ -16,16 +17,14 @@ from validation.analysis.statistics import (
     Sample,
     Statistic,
     at_level,
-    decade_weights,
-    difference_of_halves,
     extrapolated,
+    jackknifed,
     log_mean,
     log_relative_deviation,
-    paired_samples,
     sample,
 )
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
-from validation.cases.punch.decade_statistics import deviation_over, exponent_over, local_exponent, mean_over
+from validation.cases.punch.decade_statistics import exponent_over, local_exponent
 from validation.cases.punch.ensembles import Row, cells_in_contact, interval_columns
 from validation.cases.punch.rough_interface import Layer
 from validation.engine.engine import random_generator
@@ -36,7 +35,9 @@ STIFFNESS, AREA, GAP, DEVIATION = "stiffness", "contact fraction", "mean gap", "
 EXPONENT = "exponent of the stiffness of the interface"
 MEASURED = {"stiffness": STIFFNESS, "area": AREA, "gap": GAP}
 """Names of what an outcome holds."""
-ROLL_OFF = "q_r L / 2π"
+ROLL_OFF, FORCE = "q_r L / 2π", "Fbar"
+EDGE = 1e-9
+"""By which a force may miss the ends of its decade."""
 MIN_ROLL_OFF = 4
 """From here on the stiffness of the interface is proportional to the load in theory."""
 ZERO_GAP = 1e-12
@@ -45,40 +46,43 @@ ZERO_GAP = 1e-12
 
 @dataclass(frozen=True)
 class RollOffSamples:
-    """What was measured at one roll-off, resampled: by method and quantity; and by quantity, pairs of grids."""
+    """What was measured at one roll-off, resampled, by method and quantity.
+
+    grids: by quantity, on cells and on cells half as wide, shape (surfaces, 2, levels).
+    """
 
     roll_off: int
     by_method: dict[tuple[str, str], Sample]
-    grids: dict[str, Sample]
+    grids: dict[str, FloatArray]
 
-    def has_gap(self, weights: FloatArray) -> bool:
-        """Whether MDR has a gap at all of these levels: none is left in full contact."""
-        mean, _ = self.by_method[MDR, "gap"].moments
-        return bool((mean[weights > 0] > ZERO_GAP).all())
+    def finer(self, measured: str, statistic: Statistic) -> Estimate:
+        """The change to cells half as wide; by the jackknife, since the surfaces are few."""
+
+        def of_grid(pairs: FloatArray, grid: int) -> FloatArray:
+            return statistic(pairs[:, grid].mean(axis=0), pairs[:, grid].std(axis=0, ddof=1))
+
+        (found,) = jackknifed(lambda pairs: of_grid(pairs, 1) - of_grid(pairs, 0), self.grids[measured])
+        return found
 
     def extrapolated(self, measured: str, statistic: Statistic) -> tuple[Estimate, float]:
         """Boundary elements on cells of zero size, and what that leaves open."""
-        bem = self.by_method[BEM, measured].estimate(statistic)
-        return extrapolated(bem, self.grids[measured].estimate(difference_of_halves(statistic)))
+        return extrapolated(self.by_method[BEM, measured].estimate(statistic), self.finer(measured, statistic))
 
-    def where(self, first: float) -> dict[str, float | tuple[float, float]]:
-        """Conditions of a number over the decade of force from `first`."""
-        return {ROLL_OFF: self.roll_off, "Fbar": (first, 10 * first)}
-
-    def over_bem(self, quantity: str, measured: str, statistic: Statistic, first: float) -> Number:
-        """MDR over boundary elements in decibels, over the decade of force from `first`."""
+    def over_bem(self, quantity: str, measured: str, statistic: Statistic, force: float, among: int) -> Number:
+        """MDR over boundary elements in decibels, at a force, which is one `among` so many of a range."""
         bem, grid = self.extrapolated(measured, statistic)
         return difference(
             self.by_method[MDR, measured].estimate(statistic),
             bem,
             quantity=quantity,
             model="mdr over bem3d",
-            where=self.where(first),
+            where={ROLL_OFF: self.roll_off, FORCE: force},
             source="bem3d, extrapolated",
             tolerance=FIVE_PER_CENT,
             reason="5 %: 0.4 dB, finer than one-third octave levels are measured",
             scale=DECIBEL,
             grid=grid,
+            among=among,
         )
 
 
@@ -92,21 +96,31 @@ def resampled(result: MdrLimitsResult, roll_off: int) -> RollOffSamples:
             values = np.maximum(outcome[measured], ZERO_GAP)
             by_method[method, measured] = sample(values, random_generator(case.seed, BOOTSTRAP, roll_off, i, j))
         coarse, fine = outcomes[BEM][measured][: case.refined], result.refined[roll_off][measured]
-        grids[measured] = paired_samples(coarse, fine, random_generator(case.seed, BOOTSTRAP, roll_off, i, 2))
+        grids[measured] = np.stack([np.maximum(coarse, ZERO_GAP), np.maximum(fine, ZERO_GAP)], axis=1)
     return RollOffSamples(roll_off, by_method, grids)
 
 
 def numbers_over(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer], first: float) -> list[Number]:
-    numbers = [
-        mine.over_bem(name, measured, mean_over(case.forces, first), first)
-        for measured, name in MEASURED.items()
-        if name != GAP or mine.has_gap(decade_weights(case.forces, first))
-    ]
-    numbers.append(mine.over_bem(DEVIATION, "stiffness", deviation_over(case.forces, first), first))
+    """At the worst force of a decade, and exponents over it."""
+    levels = [i for i, force in enumerate(case.forces) if first * (1 - EDGE) <= force <= 10 * first * (1 + EDGE)]
+    judged = [(name, measured, log_mean) for measured, name in MEASURED.items()]
+    judged.append((DEVIATION, "stiffness", log_relative_deviation))
+    numbers = [n for one in judged for n in _worst(case, mine, levels, *one)]
     if mine.roll_off < MIN_ROLL_OFF:
         return numbers
     exponents = (_exponent(case, mine, layers[method], method, first) for method in METHODS)
     return numbers + [number for number in exponents if number is not None]
+
+
+def _worst(
+    case: MdrLimits, mine: RollOffSamples, levels: Sequence[int], quantity: str, measured: str, statistic: Statistic
+) -> list[Number]:
+    """Of the forces at which springs have it: in full contact they have neither gap nor fluctuation."""
+    mean, _ = mine.by_method[MDR, measured].moments
+    springs = {i: mine.by_method[MDR, measured].estimate(at_level(i, statistic)) for i in levels}
+    kept = [i for i in levels if mean[i] > ZERO_GAP and math.isfinite(springs[i].value + springs[i].error)]
+    points = [mine.over_bem(quantity, measured, at_level(i, statistic), case.forces[i], len(kept)) for i in kept]
+    return [worst(points, FORCE)] if len(points) > 1 else []
 
 
 def _exponent(case: MdrLimits, mine: RollOffSamples, layer: Layer, method: str, first: float) -> Number | None:
@@ -120,7 +134,7 @@ def _exponent(case: MdrLimits, mine: RollOffSamples, layer: Layer, method: str, 
     return Number(
         quantity=EXPONENT,
         model=method,
-        where=mine.where(first),
+        where={ROLL_OFF: mine.roll_off, FORCE: (first, 10 * first)},
         value=found.value,
         reference=1.0,
         source="stiffness proportional to load: Pastewka et al. (2013), for q_r L / 2π >> 1",

@@ -1,23 +1,31 @@
 """Fixed or Gaussian amplitudes, the rms height of each draw or of the ensemble: three ways to draw rough punches."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
 from typing import Literal
 
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
-from validation.analysis.evidence import Evidence, Number, Table, table_of
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, numbers_with, table_of
+from validation.analysis.over_range import worst
 from validation.analysis.statistics import (
     DECIBEL,
     THREE_PER_CENT,
     Estimate,
+    FloatArray,
     Sample,
+    Statistic,
     at_level,
+    decade_weights,
     difference_of_halves,
     log_relative_deviation,
     mean_of,
+    paired_samples,
     sample,
 )
 from validation.cases.punch.decade_statistics import deviation_over
@@ -101,31 +109,53 @@ class Fluctuations:
     result: NormalisationResult
     samples: dict[tuple[float, str, str], Sample]
 
-    def of(self, hurst: float, variant: str, method: str, first: float) -> Estimate:
-        """Over a decade, with the error of the sample."""
-        return self.samples[hurst, variant, method].estimate(deviation_over(self.result.case.forces, first))
+    def over(self, first: float) -> Statistic:
+        """Of a decade of force, its root mean square."""
+        return deviation_over(self.result.case.forces, first)
 
-    def gaussian_over_fixed(self, hurst: float, method: str, first: float) -> Estimate:
+    def of(self, hurst: float, variant: str, method: str, statistic: Statistic) -> Estimate:
+        return self.samples[hurst, variant, method].estimate(statistic)
+
+    def gaussian_over_fixed(self, hurst: float, method: str, statistic: Statistic) -> Estimate:
         """The change from fixed amplitudes to Gaussian ones with the rms of each draw; the samples are independent."""
-        return self.of(hurst, EACH, method, first).minus(self.of(hurst, FIXED, method, first))
+        return self.of(hurst, EACH, method, statistic).minus(self.of(hurst, FIXED, method, statistic))
 
-    def ensemble_over_each(self, hurst: float, method: str, first: float) -> Estimate:
+    def ensemble_over_each(self, hurst: float, method: str, statistic: Statistic) -> Estimate:
         """The change to the rms of the ensemble, on the same draws: resampled as pairs."""
-        pair = [self.result.outcomes[hurst, variant, method]["stiffness"] for variant in (EACH, ENSEMBLE)]
-        both = np.concatenate(pair, axis=1)
-        one_missing = np.isnan(both).any(axis=1, keepdims=True)
-        key = (self.result.case.hursts.index(hurst), METHODS.index(method))
-        drawn = sample(np.where(one_missing, np.nan, both), random_generator(self.result.case.seed, PAIRS, *key))
-        return drawn.estimate(difference_of_halves(deviation_over(self.result.case.forces, first)))
+        return self.pairs[hurst, method].estimate(difference_of_halves(statistic))
 
-    def mdr_over_bem(self, hurst: float, variant: str, first: float) -> Estimate:
+    @cached_property
+    def pairs(self) -> dict[tuple[float, str], Sample]:
+        """The levels of both Gaussian ways side by side; what one of them lacks counts in neither."""
+        case, outcomes = self.result.case, self.result.outcomes
+        keys = product(enumerate(case.hursts), enumerate(METHODS))
+
+        def drawn(hurst: float, variant: str, method: str) -> FloatArray:
+            return outcomes[hurst, variant, method]["stiffness"]
+
+        return {
+            (hurst, method): paired_samples(
+                drawn(hurst, EACH, method),
+                drawn(hurst, ENSEMBLE, method),
+                random_generator(case.seed, PAIRS, h, m),
+            )
+            for (h, hurst), (m, method) in keys
+        }
+
+    def mdr_over_bem(self, hurst: float, variant: str, statistic: Statistic) -> Estimate:
         """The difference of the methods, of one way to draw."""
-        return self.of(hurst, variant, MDR, first).minus(self.of(hurst, variant, BEM, first))
+        return self.of(hurst, variant, MDR, statistic).minus(self.of(hurst, variant, BEM, statistic))
 
 
 CHANGES = {
     f"{EACH} over {FIXED}": Fluctuations.gaussian_over_fixed,
     f"{ENSEMBLE} over {EACH}": Fluctuations.ensemble_over_each,
+}
+CLAIM = "Gaussian amplitudes in place of fixed ones leave the relative deviation of the stiffness as it is."
+CLAIMS = {
+    f"{EACH} over {FIXED}": CLAIM,
+    f"{ENSEMBLE} over {EACH}": "The rms height of the ensemble in place of that of each draw leaves the relative "
+    "deviation as it is.",
 }
 
 
@@ -141,6 +171,7 @@ def evidence(result: NormalisationResult) -> Evidence:
         for i, (key, outcome) in enumerate(result.outcomes.items())
     }
     found = Fluctuations(result, samples)
+    numbers = _numbers(found)
     return Evidence(
         title="Normalisation: how fluctuations depend on the way heights are drawn",
         method=(
@@ -149,17 +180,21 @@ def evidence(result: NormalisationResult) -> Evidence:
             "Gaussian amplitudes with h as the rms of the ensemble. "
             f"{case.surfaces} surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs; "
             "Fbar = F / (E* h L) with the h of the ensemble. The two Gaussian ways are compared on the same draws. "
-            "Each method is compared with itself on one grid. MDR over boundary elements is given without a "
-            "verdict, since the grid error is known for Fig. 14.1 alone."
+            "Each method is compared with itself on one grid, and judged by the worst force of each decade. MDR over "
+            "boundary elements is given without a verdict, since the grid error is known for Fig. 14.1 alone."
         ),
-        numbers=tuple(_numbers(found)),
+        numbers=tuple(numbers),
+        claims=tuple(
+            _judged(claim, numbers_with(numbers, f"relative deviation, {name}")) for name, claim in CLAIMS.items()
+        ),
         tables=(_curves(found), _heights(result)),
         page_tables=(_methods(found),),
         conclusions=(*(_in_decade(found, first) for first in case.first_forces), *_why_fixed(case)),
         captions={
             "normalisation": (
                 "Relative standard deviation of the stiffness, a column for each way to draw; 95 % intervals. "
-                "Circles: boundary elements; line in a band: MDR. The first column is Fig. 14.1."
+                "Circles: boundary elements; line in a band: MDR. The first column is drawn like Fig. 14.1, with "
+                f"{case.cells // 4} waves on a side."
             )
         },
         unconverged=result.unconverged,
@@ -167,22 +202,57 @@ def evidence(result: NormalisationResult) -> Evidence:
 
 
 def _numbers(found: Fluctuations) -> list[Number]:
+    """Of each change, at the worst force of a decade."""
+    case = found.result.case
+    return [
+        worst(points, "Fbar")
+        for first in case.first_forces
+        for hurst in case.hursts
+        for method in METHODS
+        for name in CHANGES
+        if (points := _points(found, name, hurst, method, first))
+    ]
+
+
+def _points(found: Fluctuations, name: str, hurst: float, method: str, first: float) -> list[Number]:
+    """At the forces of a decade, where there is a fluctuation; all intervals hold at once."""
+    forces = found.result.case.forces
+    inside = decade_weights(forces, first) > 0
+    changes = [
+        (force, CHANGES[name](found, hurst, method, at_level(level, log_relative_deviation)))
+        for level, force in enumerate(forces)
+        if inside[level]
+    ]
+    kept = [(force, change) for force, change in changes if math.isfinite(change.value + change.error)]
     return [
         difference(
-            change(found, hurst, method, first),
+            change,
             quantity=f"relative deviation, {name}",
             model=method,
-            where={"H": hurst, "Fbar": (first, 10 * first)},
+            where={"H": hurst, "Fbar": force},
             source="no change",
             tolerance=THREE_PER_CENT,
             reason="3 %, as in Fig. 14.1",
             scale=DECIBEL,
+            among=len(kept),
         )
-        for first in found.result.case.first_forces
-        for hurst in found.result.case.hursts
-        for method in METHODS
-        for name, change in CHANGES.items()
+        for force, change in kept
     ]
+
+
+def _judged(claim: str, numbers: Sequence[Number]) -> JudgedClaim:
+    """The change that stands out most beside its interval, of each method."""
+    found = []
+    for method in METHODS:
+        n = max((n for n in numbers if n.model == method), key=lambda n: abs(n.value) - n.sample)
+        middle, low, high = (100 * math.expm1(v / DECIBEL) for v in (n.value, n.value - n.sample, n.value + n.sample))
+        where = f"H = {n.where['H']:g}, Fbar = {n.where['worst at']:.2g}"
+        found.append(f"in {method} by {middle:+.0f} % ({low:+.0f} to {high:+.0f}) at {where}")
+    return JudgedClaim(
+        claim=claim,
+        answer=f"What stands out most beside its interval: it changes {' and '.join(found)}.",
+        numbers=tuple(numbers),
+    )
 
 
 def _curves(found: Fluctuations) -> Table:
@@ -217,8 +287,8 @@ def _methods(found: Fluctuations) -> Table:
     """On the page: MDR over boundary elements, a row a Hurst exponent and a decade, a column a way to draw."""
 
     def cell(hurst: float, variant: str, first: float) -> str:
-        bem, mdr = (math.exp(found.of(hurst, variant, method, first).value) for method in METHODS)
-        return f"{bem:.3f}, {mdr:.3f}: {_percent(found.mdr_over_bem(hurst, variant, first))}"
+        bem, mdr = (math.exp(found.of(hurst, variant, method, found.over(first)).value) for method in METHODS)
+        return f"{bem:.3f}, {mdr:.3f}: {_percent(found.mdr_over_bem(hurst, variant, found.over(first)))}"
 
     rows = [
         {"H": hurst, "Fbar": _decade(first), **{variant: cell(hurst, variant, first) for variant in VARIANTS}}
@@ -230,13 +300,13 @@ def _methods(found: Fluctuations) -> Table:
 
 def _in_decade(found: Fluctuations, first: float) -> str:
     """Means over the Hurst exponents, whose samples are independent, with their intervals."""
-    hursts = found.result.case.hursts
+    hursts, statistic = found.result.case.hursts, found.over(first)
 
     def changed(change: str) -> str:
-        means = {m: mean_of([CHANGES[change](found, hurst, m, first) for hurst in hursts]) for m in METHODS}
+        means = {m: mean_of([CHANGES[change](found, hurst, m, statistic) for hurst in hursts]) for m in METHODS}
         return ", ".join(f"{_percent(mean)} ({method})" for method, mean in means.items())
 
-    methods = {v: mean_of([found.mdr_over_bem(hurst, v, first) for hurst in hursts]) for v in VARIANTS}
+    methods = {v: mean_of([found.mdr_over_bem(hurst, v, statistic) for hurst in hursts]) for v in VARIANTS}
     gaussian, ensemble = map(changed, CHANGES)
     return (
         f"Fbar = {_decade(first)}, mean over H: Gaussian amplitudes in place of fixed ones change the deviation by "
@@ -269,7 +339,7 @@ CASE = Case(
     name="normalisation",
     chapter=Chapter.PRESSED,
     place=2,
-    claim="The fluctuation depends on how heights are normalised.",
+    claim=CLAIM,
     answers="Fixed or Gaussian amplitudes, height of each draw or of the ensemble: how the fluctuations depend on it",
     quick=Normalisation(),
     full=Normalisation(cells=128, surfaces=120, profiles=1000, points=2048, per_decade=3),
