@@ -40,7 +40,7 @@ SMALL = case.WheelStability(
 )
 
 
-GROWTH = "largest error of ln(growth in one step), on both sides of the limit"
+GROWTH = linear_vibration.GROWTH
 
 
 @pytest.fixture(scope="module")
@@ -213,4 +213,4 @@ def test_very_rough_tracks_leave_room_for_their_sums(result):
 @pytest.mark.slow
 def test_findings_and_criteria_are_told_apart(result):
     roles = {number.role for number in wheel_stability_evidence.evidence(result).numbers}
-    assert roles == {Role.CRITERION, Role.FINDING}
+    assert roles == {Role.CRITERION, Role.FINDING, Role.IDENTITY}

@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, if_confirmed, table_of
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, if_confirmed, table_of
 from validation.cases.limits.limits import Limits, LimitsResult, run
 from validation.cases.limits.numbers import (
     errors_over_residuals,
@@ -23,6 +24,8 @@ from validation.cases.limits.tables import (
     sweeps_table,
 )
 
+CLAIM = "Each limit of each method is predicted, and the software warns past it."
+
 
 def evidence(result: LimitsResult) -> Evidence:
     """Each threshold against its condition, warnings, iterations on finer grids, the residual against the truth."""
@@ -39,6 +42,7 @@ def evidence(result: LimitsResult) -> Evidence:
         method=_method(result),
         numbers=(*thresholds, *warned, momentum, *exponents, *estimates),
         tables=(limits_table(result), sweeps_table(result), iterations, residuals),
+        claims=_claims(result, thresholds, warned),
         conclusions=(
             _on_thresholds(result, [n for n in thresholds if n.role is Role.CRITERION]),
             _on_warnings(result, [n for n in warned if n.role is Role.CRITERION]),
@@ -63,6 +67,29 @@ def _method(result: LimitsResult) -> str:
         f"Rough punches have {case.cells}² cells, {case.surfaces} surfaces and {case.profiles} profiles. The case "
         "wheel_stability shows time stepping and the spacing of springs at length, rolling shows rolling in three "
         "dimensions, mdr_limits shows contact area and gap."
+    )
+
+
+def _claims(
+    result: LimitsResult, thresholds: Sequence[Number], warned: Sequence[Number]
+) -> tuple[JudgedClaim, JudgedClaim, JudgedClaim]:
+    """Of the case, and of either half of it."""
+
+    def of_all(numbers: Sequence[Number]) -> str:
+        return f"{sum(number.verdict is Verdict.AGREE for number in numbers)} of {len(numbers)}"
+
+    where = f"{of_all(thresholds)} thresholds lie where their condition says, within the factor stated for each"
+    silent = sum(sweep.verdict == "not warned" for sweep in result.sweeps)
+    message = f"the software warns past {of_all(warned)} limits and never before; past {silent} no call warns"
+    elsewhere = [f"{n.where['limit']} {2**n.value:.2g}" for n in thresholds if n.verdict is Verdict.DIFFER]
+    return (
+        answered(CLAIM, [*thresholds, *warned], f"{where}; {message}."),
+        answered(
+            "Each method fails where its condition says.",
+            thresholds,
+            f"{where}; found over predicted elsewhere: {', '.join(elsewhere) or 'none'}.",
+        ),
+        answered("The software warns past each limit, and never before it.", warned, f"{message}."),
     )
 
 
@@ -151,7 +178,7 @@ CASE = Case(
     name="limits",
     chapter=Chapter.LIMITS,
     place=2,
-    claim="Each limit of each method is predicted, and the software warns past it.",
+    claim=CLAIM,
     answers="Where each method fails: a sweep through every limit, its predicted threshold, the software's warnings",
     quick=Limits(),
     full=Limits(

@@ -66,6 +66,7 @@ def momentum_number(result: LimitsResult) -> Number:
         source="momentum: F T - F_N T = M (v_0 - v_end), in contact and in the air",
         tolerance=1e-10,
         reason="rounding: one unit in the last place of the highest force in each step",
+        role=Role.IDENTITY,
     )
 
 

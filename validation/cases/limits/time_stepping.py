@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from validation.analysis.features import FEATURES
 from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome
 from validation.simulation.contact_laws import HertzLaw
@@ -64,7 +65,7 @@ LIFT = Limit(
     condition="the largest tension of (14.11) reaches the load, on one of the tracks",
     failing_side="above",
     tolerance=1e-4,
-    factor=2.5,
+    factor=1 + FEATURES["lift-off"].tolerance,
 )
 
 

@@ -4,6 +4,7 @@ import numpy as np
 from scipy import stats
 
 from validation.analysis.evidence import Number, Role, Table, table_of
+from validation.analysis.features import FEATURES
 from validation.cases.stability.stability import Row, WheelStabilityResult
 from validation.engine.engine import Outcome
 from validation.simulation.spring_tracks import HEIGHT, LiftOff, RoughTrack
@@ -48,6 +49,7 @@ def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
             source="springs carry no tension",
             tolerance=4 * rounding,
             reason="rounding of g - F / M",
+            role=Role.IDENTITY,
         ),
         Number(
             quantity="imbalance of impulse and momentum over F_N T, largest of all loads and heights",
@@ -57,6 +59,7 @@ def lift_numbers(result: WheelStabilityResult, table: Table) -> list[Number]:
             source="momentum: F T - F_N T = M (v_0 - v_end); Verlet counts the first and the last acceleration half",
             tolerance=rounding * highest * steps,
             reason="rounding: one unit in the last place of the highest force in each step",
+            role=Role.IDENTITY,
         ),
         *(
             _threshold_number(rows, sweep, seen)
@@ -70,17 +73,13 @@ def _threshold_number(rows: Table, sweep: str, seen: float) -> Number:
     """From which h / d linear theory pulls and a wheel is first airborne."""
     below = rows["height [d_N]"][rows["height [d_N]"] < seen]
     pull = pulls_from(rows)
-    return Number(
-        quantity="h / d of the first lift-off",
+    return FEATURES["lift-off"].number(
+        seen,
+        pull,
+        "(14.11): the largest tension exceeds F_N, on the same tracks",
         model="springs",
         where={"sweep": f"sweep of the {sweep}"},
-        value=seen,
-        reference=pull,
-        source="(14.11): the largest tension exceeds F_N, on the same tracks",
-        tolerance=0.2 * pull,
-        reason="20 % of h / d",
         grid=seen - float(below.max()) if below.size else 0.0,
-        role=Role.FINDING,
     )
 
 

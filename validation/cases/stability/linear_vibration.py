@@ -14,6 +14,7 @@ ROUNDING = 1e-9
 PERIOD_ORDERS = {EXPLICIT_EULER.name: 2.0, SYMPLECTIC_EULER.name: 2.0, VELOCITY_VERLET.name: 2.0, RUNGE_KUTTA.name: 4.0}
 ENERGY_ORDERS = {EXPLICIT_EULER.name: 1.0, SYMPLECTIC_EULER.name: 1.0, VELOCITY_VERLET.name: 2.0, RUNGE_KUTTA.name: 5.0}
 LINEAR = "linear contact"
+GROWTH = "largest error of ln(growth in one step), on both sides of the limit"
 
 
 def linear_table(result: WheelStabilityResult) -> Table:
@@ -51,7 +52,7 @@ def _numbers_of_scheme(name: str, table: Table) -> list[Number]:
     below = x < (SCHEMES[name].limit or x[-1])
     angle = np.abs(table["angle of a step [rad]"] / table["angle by theory [rad]"] - 1)[below].max()
     errors = {
-        "largest error of ln(growth in one step), on both sides of the limit": growth,
+        GROWTH: growth,
         "largest relative error of the phase angle of one step, below the limit": angle,
     }
     number = partial(Number, model=name)
