@@ -23,7 +23,7 @@ class FractalPunch(PunchEnsembles):
     A realisation has the same phases on every grid and for every Hurst exponent. Grids have 1/4, 1/2, 1, 2 and 4 times
     `cells` a side, which are four to the shortest wave; the coarsest has no waves beyond two of its cells.
 
-    hursts; surfaces: how many on each of these grids, coarse to fine, one row a decade of force; zero where a grid is
+    hursts; surfaces: how many on each of these grids, coarse to fine, one row a decade of force; zero if a grid is
     not used, else descending, with the three finest not among the coarsest grid; fine_profiles: of the profiles, as
     many are pressed with twice the springs. cells: a multiple of 8.
     """
@@ -31,7 +31,7 @@ class FractalPunch(PunchEnsembles):
     hursts: tuple[float, ...] = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
     surfaces: tuple[tuple[int, int, int, int, int], ...] = (
         (0, 0, 60, 24, 8),
-        (0, 100, 32, 10, 0),
+        (0, 100, 30, 10, 0),
         (160, 40, 12, 6, 0),
         (60, 16, 6, 4, 0),
     )
@@ -62,8 +62,8 @@ class FractalPunch(PunchEnsembles):
         return self.cells // 4, self.cells // 2, self.cells, 2 * self.cells, 4 * self.cells
 
     def decade_of(self, force: float) -> int:
-        """Which row of `surfaces` a force belongs to: each but the last decade lacks its end."""
-        return sum(force >= first * (1 - 1e-9) for first in self.first_forces) - 1
+        """Which row of `surfaces` a force belongs to: each decade has its end, and the first has its beginning."""
+        return max(sum(force > first * (1 + 1e-9) for first in self.first_forces) - 1, 0)
 
     def count(self, force: float, cells: int) -> int:
         """How many surfaces are pressed with a force on a grid."""
