@@ -62,7 +62,7 @@ def roll_surface(
 
     Examples
     --------
-    >>> strip = 1e-7 * np.cos(2 * np.pi * np.arange(256) / 64)[:, np.newaxis] * np.ones(64)
+    >>> strip = np.repeat(1e-7 * np.cos(2 * np.pi * np.arange(256) / 64)[:, np.newaxis], 64, axis=1)
     >>> rolled = mdr.roll_surface(strip, spacing=1e-4, radius=0.5, modulus=2e11, approach=2e-6)
     >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
     499.3 to 567.0 N
@@ -75,7 +75,6 @@ def roll_surface(
     load = {"force": force} if approach is None else {"approach": approach}
     with doubles(height=float(np.abs(heights).max()), spacing=steps[0], modulus=wheel.modulus, **load):
         rolled, diagnostics = _rolled(heights, steps, wheel, approach, force)
-        held(rolled.force, rolled.approach, rolled.stiffness)
     warn(diagnostics)
     return rolled
 
@@ -110,6 +109,7 @@ def _rolled(
         stiffness=spring * pressed,
         examined=np.full(points, float(offsets.size)),
     )
+    held(rolled.force, rolled.approach, rolled.stiffness)
     diagnostics = (*diagnose_wheel(2 * a / dx), *diagnose_units(approach=d, radius=wheel.radius))
     return rolled, diagnostics
 
