@@ -16,6 +16,7 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
+from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import area_gap_rolloff as mdr_limits
@@ -228,10 +229,12 @@ def whole_page(folder, names):
 
 
 def in_the_book(name, evidence):
-    """Assert that each number and claim of the case by which the chapter is answered is there."""
+    """Assert that each number and claim of the case that answers the chapter exists; a feature may not stand out."""
+    features = {feature.quantity for feature in FEATURES.values()}
     for entry in ENTRIES:
         for test in entry.tests:
-            assert test.case != name or test.judged(entry.statement, evidence) is not None, (entry.place, test)
+            exists = test.judged(entry.statement, evidence) is not None or test.quantity in features
+            assert test.case != name or exists, (entry.place, test)
 
 
 @pytest.mark.slow
