@@ -86,8 +86,7 @@ def roll(
     >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
     499.3 to 567.0 N
     """
-    wheel = spring_wheel(radius, modulus)
-    track = SpringTrack(height, spacing, wheel.radius, wheel.modulus)
+    track = _track(height, spacing, radius, modulus)
     rolled, diagnostics = _within_doubles(track, approach, force, contact)
     warn(diagnostics)
     return rolled
@@ -133,11 +132,15 @@ def rolling_force(
     >>> print(f"{force[0]:.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
     532 N, by Hertz 533 N
     """
-    wheel = spring_wheel(radius, modulus)
-    track = SpringTrack(height, spacing, wheel.radius, wheel.modulus)
+    track = _track(height, spacing, radius, modulus)
     rolled, diagnostics = _within_doubles(track, approach, None, "one-sided")
     warn(diagnostics)
     return rolled.force.copy()
+
+
+def _track(height: ArrayLike, spacing: float, radius: float | tuple[float, float], modulus: float) -> SpringTrack:
+    wheel = spring_wheel(radius, modulus)
+    return SpringTrack(height, spacing, wheel.radius, wheel.modulus)
 
 
 def _within_doubles(
