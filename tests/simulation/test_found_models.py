@@ -94,7 +94,7 @@ def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1, 1e-6)
     outcome = comparison.time_problem(TimedProblem(problem, RunLimits(slow=1.0, enough=1.0)))
     methods = outcome["method"].tolist()
-    assert {"bem3d", "bem3d, Polonsky-Keer", "closed form", "toy"} <= set(methods)
+    assert {"bem3d", "bem3d, Polonsky-Keer", "fit", "toy"} <= set(methods)
     assert set(outcome["status"].tolist()) == {timing.FINISHED}
     # of the pressures a model has none, so its stiffness alone is compared
     *pressures, stiffness = outcome["difference"][methods.index("toy")]
@@ -102,8 +102,8 @@ def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     assert "toy" in all_methods()
 
 
-def test_the_closed_form_of_a_rough_punch_is_one_of_them():
-    (model,) = (one for one in models_serving(PUNCH, "stiffness") if one.name == "closed form")
+def test_the_fit_of_a_rough_punch_is_one_of_them():
+    (model,) = (one for one in models_serving(PUNCH, "stiffness") if one.name == "fit")
     result = model.prepare(Target(PUNCH), Resolution())(0)()
     ground = PUNCH.ground
     expected = rough_punch_stiffness(side=1.0, modulus=1.0, force=PUNCH.load, height=ground.rms)

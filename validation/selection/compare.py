@@ -176,10 +176,10 @@ def compare(
 
     Notes
     -----
-    Models are tried from the cheapest on: closed form, linear filter, springs, boundary elements on finer and finer
-    grids. Each has an a-priori estimate of its error, calibrated against boundary elements on random scenes. A model
-    is skipped where the estimate exceeds the tolerance, and accepted where model, grid and sample error of its solve
-    add up to no more than the tolerance.
+    Models are tried from the cheapest on: closed form or fit, linear filter, springs, boundary elements on finer and
+    finer grids. Each has an a-priori estimate of its error, calibrated against boundary elements on random scenes. A
+    model is skipped where the estimate exceeds the tolerance, and accepted where model, grid and sample error of its
+    solve add up to no more than the tolerance.
 
     Examples
     --------

@@ -10,6 +10,7 @@ from validation.report.style import Style, panels
 
 STYLES: dict[str, Style] = {
     "closed form": {"color": "#000000", "marker": "*", "linestyle": "none", "markersize": 8},
+    "fit": {"color": "#000000", "marker": "x", "linestyle": "none", "markersize": 6},
     "linear filter, 1D": {"color": "#E69F00", "marker": "P", "linestyle": "-."},
     "linear filter, 3D": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
     "MDR": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},

@@ -1,4 +1,4 @@
-"""A rough square punch in closed form: the flat punch in series with its rough face."""
+"""A fit for a rough square punch: the flat punch in series with its rough face, 0.48 h a measured length."""
 
 import math
 from functools import partial
@@ -33,10 +33,10 @@ ROLL_OFF = 0.015
 RANGES: Ranges = {LOAD: (0.2, math.inf), **FACE}
 
 
-class RoughPunchClosedForm(Model):
+class FittedRoughPunch(Model):
     """1 / k = 1 / (1.1523 E* L) + 0.48 h / F."""
 
-    name: ClassVar = "closed form"
+    name: ClassVar = "fit"
     setting: ClassVar = "flat punch on its rough face"
 
     def serves(self, scene: object, quantity: str) -> bool:
@@ -66,4 +66,4 @@ class RoughPunchClosedForm(Model):
         return lambda _: Solve(formula, lambda stiffness: Result({"stiffness": np.array(stiffness)}, 1.0))
 
 
-MODEL = RoughPunchClosedForm()
+MODEL = FittedRoughPunch()
