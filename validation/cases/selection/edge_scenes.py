@@ -41,7 +41,7 @@ BANDS = (2.0, 12.0)
 """Longest over shortest wave."""
 RESONANCES = (0.6, 6.0)
 """Frequency of the longest wave over the resonance; below one there is no steady answer."""
-POINTS, TRACK, RADIUS = 128, (256, 64), 8
+POINTS, TRACK, TO_A_RADIUS = (40, 128), (256, 64), (4, 5, 6, 8, 12)
 """Points along the sides of a measured face, of a measured track, and to a contact radius under a sphere or wheel."""
 
 
@@ -61,7 +61,8 @@ def _punch(rng: Generator, body: str, name: str, draw_face: "Face | None") -> In
     # a measured face is pressed where more than a few of its points touch
     load = 10 ** rng.uniform(-3.0 if draw_face else LOADS[0], LOADS[1])
     band = _band(rng, height, side / (min(first, 8) if draw_face else first))
-    ground = _measured(rng, draw_face, band, (POINTS, POINTS), side / POINTS) if draw_face else band
+    points = int(rng.choice(POINTS))
+    ground = _measured(rng, draw_face, band, (points, points), side / points) if draw_face else band
     return IndentationScene(
         name=name,
         shape="punch",
@@ -82,15 +83,17 @@ def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Sc
     settings: dict[str, Any] = {"name": name, "modulus": modulus, "ground": band}
     settings["load"] = hertz_force(radius=radius, modulus=modulus, approach=approach)
     if draw_face:
-        points = (POINTS, POINTS) if body == SPHERE else TRACK
-        settings["ground"] = _measured(rng, draw_face, band, points, a / RADIUS)
+        points = (int(rng.choice(POINTS)),) * 2 if body == SPHERE else TRACK
+        settings["ground"] = _measured(rng, draw_face, band, points, a / int(rng.choice(TO_A_RADIUS)))
     if body == SPHERE:
         return IndentationScene(shape="sphere", size=radius, **settings)
     if body == WHEEL:
         mass = 10 ** rng.uniform(0, 3)
         resonance = math.sqrt(2 * a * modulus / mass)
-        above = float(np.exp(rng.uniform(*np.log(RESONANCES))))
-        settings |= {"mass": mass, "speed": above * resonance / settings["ground"].q_min}
+        ground = settings["ground"]
+        # so fast at least that a band of waves is left an octave above the resonance
+        fast = max(float(np.exp(rng.uniform(*np.log(RESONANCES)))), 3.5 * ground.q_min / ground.q_resolved)
+        settings |= {"mass": mass, "speed": fast * resonance / ground.q_min}
     return RollingScene(radius=radius, **settings)
 
 
@@ -109,9 +112,9 @@ def _measured(
     rng: Generator, draw_face: Face, band: Roughness, points: tuple[int, int], spacing: float
 ) -> MeasuredHeights:
     """Waves of the band that the points resolve, in a texture, with the height of the band."""
-    side, first = min(points) * spacing, 2 * math.pi / (min(points) * spacing)
-    low = max(2 * math.pi / min(band.longest, side), first)
-    high = min(max(band.q_max, 2 * low), math.pi / (2 * spacing))
+    first, last = 2 * math.pi / (min(points) * spacing), math.pi / (2 * spacing)
+    low = min(max(band.q_min, first), last / 2)
+    high = min(max(band.q_max, 2 * low), last)
     exponent = -2 * band.hurst - 2
 
     def c2d(q: FloatArray) -> FloatArray:
