@@ -13,11 +13,6 @@ from validation.analysis.statistics import (
 )
 
 
-def mean_over(forces: Sequence[float], first: float) -> Statistic:
-    """ln of the mean stiffness, averaged over the decade."""
-    return weighted_mean(decade_weights(forces, first), log_mean)
-
-
 def deviation_over(forces: Sequence[float], first: float) -> Statistic:
     """ln of the root mean square of the relative deviation."""
     return log_deviation_over(decade_weights(forces, first))

@@ -29,7 +29,7 @@ def draw(evidence: Evidence) -> Figure:
             axis.fill_between(mine["Fbar"], low, high, color=style["color"], alpha=0.15, linewidth=0)
             axis.plot(mine["Fbar"][few], value[few], **{**style, "linestyle": "none", "markerfacecolor": "white"})
         axis.set(xscale="log", xlabel=FORCE, title=title, ylim=(0, None))
-        axis.legend(loc="lower left")
+        axis.legend(loc="upper right")
     axes[0].set_ylabel("relative standard deviation of the stiffness")
     return figure
 
