@@ -141,7 +141,7 @@ def test_a_planted_change_is_found_and_so_is_the_fit():
     found = planted(wide=1.2)
     for n in numbers_with(found.numbers, f"{CHANGE}, mean stiffness", **{BANDWIDTH: (16, 32)}):
         assert n.value == pytest.approx(20 * np.log10(1.2), abs=1e-6)
-    assert "+20 % (+20 to +20)" in found.claims[0].answer
+    assert "+20.0 % (+20.0 to +20.0)" in found.claims[0].answer
     (rolled_off,) = numbers_with(planted().numbers, STIFFNESS, FIT, **{ROLL_OFF: 4.0})
     assert rolled_off.value == pytest.approx(0, abs=0.1)
     assert number_with(planted(mdr=1.2).numbers, STIFFNESS, MDR, **{BANDWIDTH: 32.0}).value > 1.5

@@ -7,7 +7,8 @@ from matplotlib.figure import Figure
 from validation.analysis.evidence import Evidence, Table
 from validation.report.style import GUIDE, Style, graded, panels
 
-LINES = ("-", "--", "-.", ":")
+LINES = ("-", "--", "-.", (0, (6, 1, 1, 1, 1, 1)))
+"""No dots, which are the fit."""
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -35,7 +36,7 @@ def draw(evidence: Evidence) -> Figure:
     over.set(yscale="log", ylim=(0.3, 3))
     over.set_yticks([0.3, 0.5, 0.7, 1, 1.5, 2, 3], ["0.3", "0.5", "0.7", "1", "1.5", "2", "3"])
     over.minorticks_off()
-    deviation.set(yscale="log", ylim=(1e-3, 1))
+    deviation.set(yscale="log", ylim=(5e-4, 1))
     for axis in (mean, over):
         axis.axhline(1.0, color="#000000", linewidth=0.8)
     figure.legend(*mean.get_legend_handles_labels(), loc="outside lower center", ncols=3)
