@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 
 import validation.__main__ as command
-from validation.analysis.evidence import Verdict
 from validation.benchmarks import isolation as alone
-from validation.benchmarks import peers
+from validation.benchmarks import peers, timing
 from validation.benchmarks.found_models import TimedProblem
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, PressureField
 from validation.benchmarks.solvers import case as comparison
@@ -152,7 +151,7 @@ def test_evidence(result):
     assert len(heats["problem"]) == 4 * len(SOLVERS) + 2
     assert len(scaling["cells"]) == 6
     assert not evidence.unconverged
-    assert all(number.verdict is Verdict.AGREE for number in evidence.numbers)
+    assert all(number.met for number in evidence.numbers)
     assert sum("too small for an exponent" in sentence for sentence in evidence.conclusions) == 3
     assert [len(table["problem"]) for table in evidence.page_tables[:2]] == [4, 3]
     assert (scaling["peak memory [MiB]"] > 1).all()
@@ -161,6 +160,49 @@ def test_evidence(result):
         assert (mine["median [s]"] > 0).all()
         assert (mine["residual"] <= 1e-8).all()
         assert (mine["pressure difference to ours, L2"] <= 1e-4).all()
+
+
+@pytest.mark.slow
+def test_fastest_is_claimed_of_times(result):
+    """Where another solver takes less time on one grid, the claim holds on larger ones alone; on all, it is refuted."""
+
+    def claim(*ratios):
+        solved = [
+            (dataclasses.replace(problem, cells=n), {**outcome, **times_of(ratio)})
+            for (problem, outcome), n, ratio in zip(result.problems, (64, 64, 128, 128), ratios, strict=True)
+        ]
+        return comparison_evidence.evidence(dataclasses.replace(result, problems=solved)).claims[0]
+
+    assert claim(0.5, 0.1, 0.5, 0.5).status == "holds"
+    limited = claim(0.5, 2.0, 0.5, 0.5)
+    assert limited.status == "holds within limits"
+    assert limited.answer.startswith("Within limits (from 128² cells on): it is faster on 3 of 4 problems, slower on 1")
+    assert claim(0.5, 2.0, 0.5, 1.5).answer.startswith("No: ")
+    # intervals that overlap decide nothing
+    assert claim(0.5, 0.5, 0.98, 0.5).answer.startswith("Not decided: it is faster on 3 of 4 problems, slower on 0")
+
+
+def times_of(ratio):
+    """Of our solver and the published iteration; others are not installed."""
+    status = np.array([timing.FINISHED, timing.FINISHED, *["not installed"] * (len(SOLVERS) - 2)])
+    median = np.array([ratio, 1.0, *[np.nan] * (len(SOLVERS) - 2)])
+    return {
+        "status": status,
+        "method": np.array([solver.name for solver in SOLVERS]),
+        "seconds": np.stack([median, 0.9 * median, 1.1 * median, 5 + 0 * median], axis=1),
+        "interval": np.stack([0.95 * median, 1.05 * median], axis=1),
+    }
+
+
+def test_the_median_lies_between_order_statistics():
+    """Of 1000 samples of 7 or 15 skew runs, at least 93 % have an interval that holds the median of all."""
+    rng = np.random.default_rng(6)
+    for runs in (5, 7, 15):
+        ends = np.array([timing.interval_of_median(list(row)) for row in rng.lognormal(0, 1, (1000, runs))])
+        assert np.mean((ends[:, 0] <= 1) & (ends[:, 1] >= 1)) > 0.92
+    assert timing.interval_of_median([2.0]) == (1.5, 2.5)
+    low, high = timing.interval_of_median(list(range(15)))
+    assert (low, high) == (3, 11)
 
 
 @pytest.mark.slow

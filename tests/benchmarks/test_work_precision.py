@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import validation.__main__ as command
-from validation.analysis.evidence import Verdict
+from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks import peers, timing
 from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.peers import SOLVERS
@@ -19,6 +19,7 @@ from validation.benchmarks.timing import FINISHED, Configuration, RunLimits
 from validation.benchmarks.work_precision import pareto as precision_front
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.case import Precision, run
+from validation.benchmarks.work_precision.claims import claims_of, time_numbers
 from validation.benchmarks.work_precision.dynamic_wheel import (
     WheelProblem,
     linear_strip,
@@ -28,6 +29,7 @@ from validation.benchmarks.work_precision.dynamic_wheel import (
 from validation.benchmarks.work_precision.errors import MethodValues, error, points
 from validation.benchmarks.work_precision.evidence import evidence
 from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.figure_cost import FigureCost
 from validation.benchmarks.work_precision.pareto import (
     Point,
     break_even,
@@ -142,6 +144,38 @@ def test_levels_are_asked_for_in_decibels():
     level = point("MDR", 2.0, 1.0, unit="dB", band=0.1)
     assert cheapest([level], 0.3) is level
     assert cheapest([level], 0.1) is None
+
+
+def timed_point(line, off, seconds):
+    return point(line, off, seconds, runs=100, unit="%")
+
+
+BESIDE_SPRINGS = [
+    timed_point(CLOSED, 0.5, 1e-6),
+    timed_point(MDR, 0.2, 1e-5),
+    timed_point(MDR_ROLLING, 0.1, 1e-4),
+    timed_point(BEM, 0.05, 1e-2),
+    timed_point(BEM, 0.01, 1e-1),
+]
+
+
+@pytest.mark.parametrize(
+    ("another", "statuses", "words"),
+    [
+        # cheaper, but not as close
+        (timed_point(FILTER_1D, 0.3, 1e-6), ("holds", "holds"), "Yes: they are the cheapest on 1 of 1 charts"),
+        # as close as the closest springs, and cheaper than these alone
+        (timed_point(FILTER_1D, 0.1, 5e-5), ("contradicted", "holds"), "2 times the time of linear filter, 1D"),
+        (timed_point(FILTER_3D, 0.05, 1e-3), ("holds", "contradicted"), "10 times the time of linear filter, 3D"),
+        # times whose intervals overlap
+        (timed_point(FILTER_1D, 0.1, 0.99e-4), ("open", "holds"), "Not decided: they are the cheapest on 0 of 1"),
+    ],
+)
+def test_the_cheapest_is_claimed_of_times(another, statuses, words):
+    """At every error that springs reach, and at every smaller one; one error decides."""
+    found = claims_of(time_numbers([[*BESIDE_SPRINGS, another]]), (), (), ())
+    assert tuple(claim.status for claim in found) == statuses
+    assert words in " ".join(claim.answer for claim in found)
 
 
 def test_break_even_in_words():
@@ -401,6 +435,7 @@ SMALL = Precision(
         filtered=(6,),
         springs=(12,),
     ),
+    cost=FigureCost(wheels=20, steps=20),
 )
 
 
@@ -518,6 +553,19 @@ def test_conclusions_and_summary_name_the_cheapest(found):
     assert all(" is the cheapest" in sentence for sentence in found.conclusions)
     assert len(found.table("summary")["tolerance"]) == 11 * len(precision_front.TOLERANCES)
     assert len(found.page_tables[0]["scene"]) == 11
+
+
+@pytest.mark.slow
+def test_three_dimensions_cost_hours_and_not_days(result, found):
+    """dx = a / cells, 20 wheels over 0.65 m; planted, two days."""
+    costly, table = found.claims[-1], found.table("cost")
+    a = result.case.cost.scene.contact_radius
+    np.testing.assert_allclose(table["one metre [s]"], table["one step [s]"] * table["a/dx"] / a)
+    np.testing.assert_allclose(table["Fig. 14.4 [h]"], table["one metre [s]"] * 0.65 * 20 / 3600)
+    assert costly.answer.startswith("No: a step takes ")
+    days = dict(table.columns, **{name: [1.0, 50.0] for name in ("Fig. 14.4 [h]", "from [h]", "to [h]")})
+    slow = evidence(dataclasses.replace(result, cost=Table("cost", days)))
+    assert slow.claims[-1].answer.startswith("Yes: a step takes ")
 
 
 @pytest.mark.slow

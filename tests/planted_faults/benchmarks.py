@@ -5,8 +5,11 @@ import functools
 
 import numpy as np
 
+from tests.benchmarks import test_peers
 from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
+from validation.benchmarks import timing
+from validation.benchmarks.work_precision import claims as precision_claims
 from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import problem as precision
@@ -31,10 +34,27 @@ def in_continuous_time(wheel, omega, time_step):
     return -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)
 
 
+def fastest_of_all(point, others):
+    return min(others, key=lambda other: other.seconds[1], default=None)
+
+
 log_of_answer = precision_error.MethodValues.log
 
 
 FAULTS = {
+    "a time beside that of a method that is not as close": (
+        (precision_claims, "_cheapest_as_close", fastest_of_all),
+        functools.partial(
+            test_precision.test_the_cheapest_is_claimed_of_times,
+            test_precision.timed_point(test_precision.FILTER_1D, 0.3, 1e-6),
+            ("holds", "holds"),
+            "Yes",
+        ),
+    ),
+    "a median without an interval": (
+        (timing, "interval_of_median", lambda times: (np.median(times), np.median(times))),
+        test_peers.test_the_median_lies_between_order_statistics,
+    ),
     "nothing left open by a reference": (
         (test_precision.Point, "rank", property(lambda point: point.error + point.half_width)),
         test_precision.test_the_front_is_what_nothing_beats_and_ends_in_the_band,

@@ -8,6 +8,8 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any
 
+from scipy.stats import binom
+
 from validation.benchmarks.isolation import isolated_process, one_thread, timed
 from validation.simulation.method import Method, Prepared, Resolution, Result
 
@@ -15,6 +17,8 @@ FINISHED, OUT_OF_RANGE, FAILED = "finished", "out of range", "failed"
 OURS = "ours"
 FEWEST_RUNS, MOST_RUNS = 5, 15
 NO_GRID = Resolution()
+ALONE = 0.25
+"""By which a single run may be off."""
 SHORTEST = 1e-3
 """Seconds that a run lasts at least: a shorter solve is repeated in it, or a waking processor is timed."""
 
@@ -42,6 +46,15 @@ class Configuration:
     def prepare(self) -> Prepared:
         """Set-up: operators, plans, all that is done once. Raises ValueError where the scene is out of range."""
         return self.method.prepare(self.scene, self.resolution)
+
+
+def interval_of_median(times: Sequence[float]) -> tuple[float, float]:
+    """Between order statistics, 93 % and more whatever the distribution; a single run is trusted to a quarter."""
+    ordered = sorted(times)
+    if len(ordered) == 1:
+        return (1 - ALONE) * ordered[0], (1 + ALONE) * ordered[0]
+    beyond = max(int(binom.ppf(0.025, len(ordered), 0.5)), 1)
+    return ordered[beyond - 1], ordered[-beyond]
 
 
 def along(

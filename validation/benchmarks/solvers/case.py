@@ -15,7 +15,7 @@ from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.solvers.problems import PUNCH, ROUGH, SPHERE, SPHERE_LOAD, SurfaceProblem, punch
 from validation.benchmarks.solvers.rolling import RollingThroughput, rolling_throughput
 from validation.benchmarks.solvers.wheel_steps import SteppingThroughput, stepping_throughput
-from validation.benchmarks.timing import FINISHED, RunLimits, Timing, time_in_turns
+from validation.benchmarks.timing import FINISHED, RunLimits, Timing, interval_of_median, time_in_turns
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.method import FloatArray, Values
 from validation.simulation.rough_punch import Surface, press_surface
@@ -143,8 +143,8 @@ def time_problem(timed: TimedProblem) -> Outcome:
     """All methods in processes of their own, with one thread, in turns.
 
     One row a method, solvers first, and models that are found: its name; status: "finished", or why not; seconds
-    (median, fastest, slowest, runs), set-up seconds, residual reached, applications, differences to our solver, see
-    `_differences`.
+    (median, fastest, slowest, runs), interval of the median, set-up seconds, residual reached, applications,
+    differences to our solver, see `_differences`.
     """
     problem = timed.problem
     configurations = configurations_of(problem)
@@ -158,6 +158,7 @@ def time_problem(timed: TimedProblem) -> Outcome:
         "method": np.array(list(by_name)),
         "status": np.array([row.status for row in rows]),
         "seconds": np.array([_spread(row) for row in rows]),
+        "interval": np.array([interval_of_median(_times(row)) for row in rows]),
         "setup": np.array([min(row.draws, default=np.nan) for row in rows]),
         "residual": np.array([_value(row, "residual") for row in rows]),
         "applications": np.array([row.results[0].work / problem.cells**2 if row.results else np.nan for row in rows]),
@@ -167,8 +168,12 @@ def time_problem(timed: TimedProblem) -> Outcome:
     }
 
 
+def _times(row: Timing) -> list[float]:
+    return row.seconds if row.status == FINISHED else [np.nan]
+
+
 def _spread(row: Timing) -> tuple[float, float, float, int]:
-    times = row.seconds if row.status == FINISHED else [np.nan]
+    times = _times(row)
     return float(np.median(times)), min(times), max(times), len(times)
 
 

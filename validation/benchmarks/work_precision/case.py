@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 
+from validation.analysis.evidence import Table
 from validation.benchmarks.found_models import TimedProblem, all_methods
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
@@ -13,6 +14,7 @@ from validation.benchmarks.work_precision.exact_problems import (
     SphereProblem,
     WaveProblem,
 )
+from validation.benchmarks.work_precision.figure_cost import FigureCost, figure_cost
 from validation.benchmarks.work_precision.problem import ChartProblem, Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
@@ -23,8 +25,9 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 class Precision:
     """Everything that is timed.
 
-    sphere, punch, wave, fractal, rolling, wheel: the problems; slow: a solve of the same problem that takes longer is
-    timed once [s]; enough: after so many seconds five runs are enough; seed: of all roughness, zero or positive.
+    sphere, punch, wave, fractal, rolling, wheel: the problems; cost: of Fig. 14.4; slow: a solve of the same problem
+    that takes longer is timed once [s]; enough: after so many seconds five runs are enough; seed: of all roughness,
+    zero or positive.
     """
 
     sphere: SphereProblem = field(default_factory=SphereProblem)
@@ -33,6 +36,7 @@ class Precision:
     fractal: RoughPunchProblem = field(default_factory=RoughPunchProblem)
     rolling: RollingProblem = field(default_factory=RollingProblem)
     wheel: WheelProblem = field(default_factory=WheelProblem)
+    cost: FigureCost = field(default_factory=FigureCost)
     slow: float = 0.2
     enough: float = 0.02
     seed: int = 150
@@ -77,6 +81,7 @@ FULL = Precision(
         grids=Grids(cells=(6, 9, 12, 15, 30), fixed=12, tolerances=(1e-2, 1e-3), per="to a radius"),
         springs=(12, 25, 50, 100),
     ),
+    cost=FigureCost(steps=900),
     slow=1.0,
     enough=0.2,
 )
@@ -84,10 +89,11 @@ FULL = Precision(
 
 @dataclass(frozen=True)
 class PrecisionResult:
-    """One outcome a problem."""
+    """One outcome a problem; what Fig. 14.4 costs."""
 
     case: Precision
     outcomes: list[Outcome]
+    cost: Table
 
 
 def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
@@ -95,5 +101,4 @@ def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
     limits = RunLimits(slow=case.slow, enough=case.enough)
     timed = [TimedProblem(problem, limits, all_methods()) for problem in case.problems()]
     with engine.timed() as alone:
-        outcomes = alone.map(measure, timed)
-    return PrecisionResult(case, outcomes)
+        return PrecisionResult(case, alone.map(measure, timed), figure_cost(case.cost, alone))
