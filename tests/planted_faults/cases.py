@@ -18,6 +18,7 @@ from tests.cases import (
     test_from_force_to_roughness_and_stiffness,
     test_limits,
     test_wheel_cases,
+    test_wheel_regions,
     test_wheel_stability,
 )
 from tests.planted_faults.wrong import scaled
@@ -30,6 +31,7 @@ from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_decades
 from validation.cases.rolling import roughness_from_force, track_stiffness, validity
 from validation.cases.selection import model_selection as calibration
+from validation.cases.wheel import contrast, regions_numbers
 from validation.engine import engine as ensemble
 from validation.engine.engine import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
@@ -119,6 +121,7 @@ def without_resonance(omega, *, eigenfrequency, mass):
     return np.full(np.shape(omega), mass**-2.0)
 
 
+zeros_of = contrast.zeros_of
 places_of = wheel_ensemble.WheelEnsemble.places.fget
 heights_of = wheel_ensemble.WheelEnsemble.heights
 amplification = free_vibration.amplification
@@ -237,6 +240,22 @@ FAULTS = {
     "factor 2 pi lost over frequency, seen in an ensemble": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
         test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+    ),
+    "factor 2 lost in the second-order force": (
+        (rolling_theory, "second_order_force_spectrum", scaled(rolling_theory.second_order_force_spectrum, 0.5)),
+        test_wheel_regions.test_the_second_order_force_is_that_of_drawn_profiles,
+    ),
+    "a contrast read at the maxima": (
+        (contrast, "zeros_of", lambda scene: zeros_of(scene) + 0.5),
+        functools.partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
+    ),
+    "the first zero for the worst": (
+        (contrast, "worst_contrast", lambda numbers: numbers[0]),
+        test_wheel_cases.test_an_oscillation_that_dies_is_noticed,
+    ),
+    "a valley behind the jump": (
+        (regions_numbers, "valley", lambda scene, omega, hann: 0.0),
+        test_wheel_regions.test_a_valley_is_as_deep_as_it_is_drawn,
     ),
     "a limit read on its good side": (
         (limits.Sweep, "past_threshold", limits.Sweep.before_threshold),

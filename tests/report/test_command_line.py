@@ -29,6 +29,7 @@ from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import stability as wheel_stability
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import regions as wheel_regions
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.engine import Engine
 from validation.report.chapter import ENTRIES
@@ -114,6 +115,9 @@ SMALL = {
         groups=4,
     ),
     "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=9, shared=3, coarse=6, coarser=2, wheels=6, groups=3),
+    "wheel_regions": wheel_regions.WheelRegions(
+        distance=0.1, springs=40, wheels=4, groups=4, ratios=(3.0, 2.0, 1.0), periods=10
+    ),
     "wheel_stability": wheel_stability.WheelStability(
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),

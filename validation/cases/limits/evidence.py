@@ -80,7 +80,9 @@ def _claims(
 
     where = f"{of_all(thresholds)} thresholds lie where their condition says, within the factor stated for each"
     silent = sum(sweep.verdict == "not warned" for sweep in result.sweeps)
-    message = f"the software warns past {of_all(warned)} limits and never before; past {silent} no call warns"
+    message = (
+        f"every call past the threshold warns, and none before it, at {of_all(warned)} limits; at {silent} none does"
+    )
     elsewhere = [f"{n.where['limit']} {2**n.value:.2g}" for n in thresholds if n.verdict is Verdict.DIFFER]
     return (
         answered(CLAIM, [*thresholds, *warned], f"{where}; {message}."),

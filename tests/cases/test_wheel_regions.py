@@ -1,0 +1,145 @@
+"""Region 2: the second-order force against drawn profiles and against springs, its zeros, and its end at low speed."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import mdr
+from validation.analysis.evidence import ClaimStatus, Verdict, number_with
+from validation.analysis.spectra import band_means, waves
+from validation.cases.wheel import regions, regions_evidence, regions_numbers
+from validation.cases.wheel.features import linear_spectrum
+from validation.theory import rolling as rolling_theory
+
+TABLE = regions.TABLE
+BAND = mdr.SelfAffine(hurst=0.7, q_min=12.0, q_max=40.0, rms=2e-3)
+"""Over a contact of radius 1 of a wheel of radius 1."""
+POINTS, LENGTH, COUNT = 8192, 40.0, 60
+
+
+def profiles():
+    draw = {"length": LENGTH, "points": POINTS, "rms": BAND.rms}
+    return np.array([mdr.rough_profile(BAND.c1d, rng=np.random.default_rng(i), **draw) for i in range(COUNT)])
+
+
+def below_the_band(forces):
+    """C_F in bands of a twelfth of pi, below q_min, each over a standard error; centres."""
+    found = waves(forces - forces.mean(axis=1, keepdims=True), spacing=LENGTH / POINTS)
+    edges = np.arange(0.5, 11.5, math.pi / 12)
+    means = band_means(found.q, found.spectrum.T, edges)
+    return found.q[found.q < 12], edges, means.mean(axis=1), means.std(axis=1, ddof=1) / math.sqrt(COUNT)
+
+
+def second_order(q):
+    return rolling_theory.second_order_force_spectrum(
+        q, BAND.c1d, q_max=BAND.q_max, contact_radius=1.0, radius=1.0, modulus=1.0
+    )
+
+
+def test_the_second_order_force_is_that_of_drawn_profiles():
+    """(h(x + 1)^2 + h(x - 1)^2) / 4 of Gaussian heights: each band within five standard errors, and the sum in 5 %."""
+    squares = profiles() ** 2 / 4
+    shift = round(POINTS / LENGTH)
+    q, edges, found, error = below_the_band(np.roll(squares, shift, axis=1) + np.roll(squares, -shift, axis=1))
+    # a shift of whole points
+    exact = band_means(q, second_order(q * shift * LENGTH / POINTS), edges)
+    assert (np.abs(found - exact) <= 5 * error + 0.02 * exact.max()).all()
+    assert found.sum() == pytest.approx(exact.sum(), rel=0.05)
+
+
+@pytest.mark.slow
+def test_springs_below_the_band_have_the_second_order_force():
+    """One-sided springs at a constant approach, where the linear force has no wave."""
+    roll = {"spacing": LENGTH / POINTS, "radius": 1.0, "modulus": 1.0, "approach": 1.0}
+    height = np.array([np.repeat(one, 4) for one in 10 * profiles()[:20]])
+    forces = np.array([mdr.rolling_force(one, **{**roll, "spacing": LENGTH / POINTS / 4}) for one in height])
+    found = waves(forces, spacing=LENGTH / POINTS / 4)
+    inside = (found.q > 0.5) & (found.q < 11.5)
+    level = found.spectrum[:, inside].sum(axis=1)
+    exact = 1e4 * second_order(found.q[inside]).sum()
+    # h / d = 0.02: the third order adds a part of its size
+    assert level.mean() == pytest.approx(exact, rel=0.05 + 4 * level.std(ddof=1) / math.sqrt(20) / level.mean())
+
+
+def test_the_second_order_force_has_its_zeros_where_the_first_has_its_maxima():
+    zeros = (np.arange(3) + 0.5) * math.pi
+    assert second_order(zeros).max() <= 1e-20 * second_order(2 * zeros[:1]).max()
+
+
+SMALL = regions.WheelRegions(
+    scene=replace(TABLE, rail=replace(TABLE.rail, shortest=0.4e-3)),
+    distance=0.15,
+    springs=32,
+    rms=0.3e-6,
+    wheels=8,
+    groups=8,
+    ratios=(3.0, 2.0, 1.6, 1.3, 1.1, 1.0),
+    periods=20,
+)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return regions.run(SMALL)
+
+
+@pytest.mark.slow
+def test_evidence_of_regions_is_whole(result):
+    found = regions_evidence.evidence(result)
+    assert all(number.met and math.isfinite(number.value) for number in found.numbers)
+    for number in found.numbers[:2]:
+        assert abs(number.difference) <= number.tolerance + number.uncertainty, number.sentence
+    # coarse springs fill the zeros
+    assert found.numbers[2].value > 10
+    merged = found.numbers[-1]
+    assert merged.verdict is Verdict.AGREE and 1.0 < merged.value < 1.3
+    assert found.claims[0].status is not ClaimStatus.CONTRADICTED
+    assert found.claims[2].status is not ClaimStatus.CONTRADICTED
+
+
+@pytest.mark.slow
+def test_a_plateau_without_zeros_has_no_substructure(result):
+    """The open record smoothed to a power law."""
+    flat = dict(result.plateaus[regions.SHORT_OPEN])
+    flat["plain"] = np.exp(np.random.default_rng(0).normal(0, 0.1, flat["plain"].shape)) / flat["omega"] ** 2
+    found = regions_evidence.evidence(replace(result, plateaus={**result.plateaus, regions.SHORT_OPEN: flat}))
+    assert found.claims[0].status is ClaimStatus.CONTRADICTED and found.claims[0].answer.startswith("No: ")
+
+
+@pytest.mark.slow
+def test_a_plateau_of_linear_theory_is_not_of_second_order(result):
+    """Region 2 a hundred times lower."""
+    lower = dict(result.plateaus[regions.SHORT_STEADY])
+    lower["plain"] = lower["plain"] / 100
+    found = regions_evidence.evidence(replace(result, plateaus={**result.plateaus, regions.SHORT_STEADY: lower}))
+    assert found.claims[1].status is ClaimStatus.CONTRADICTED
+    model = f"{regions.SHORT_STEADY}, over the second-order force"
+    assert number_with(found.numbers, "level", model).value == pytest.approx(-20, abs=5)
+
+
+@pytest.mark.slow
+def test_a_plateau_that_ends_too_early_is_noticed(result):
+    """Spectra filled up to the jump from q_min v0 = 1.6 omega_eigen on."""
+    filled = {}
+    for ratio, outcome in result.speeds.items():
+        filled[ratio] = {**outcome, "hann": outcome["hann"] + (outcome["hann"].max() if ratio < 1.7 else 0.0)}
+    found = regions_evidence.evidence(replace(result, speeds=filled))
+    assert found.numbers[-1].value == pytest.approx(1.8) and found.numbers[-1].verdict is Verdict.DIFFER
+    assert found.claims[2].status is ClaimStatus.CONTRADICTED
+
+
+def test_a_valley_is_as_deep_as_it_is_drawn():
+    scene = replace(TABLE, speed=3 * TABLE.eigenfrequency / TABLE.rail.q_min)
+    omega = TABLE.eigenfrequency / 20.3 * np.arange(1, 200)
+    linear = np.where(omega < 0.99 * scene.jump, 0.0, linear_spectrum(scene, omega))
+    drawn = linear + linear.max() / 100
+    assert regions_numbers.valley(scene, omega, drawn) == pytest.approx(10 * math.log10(101), abs=0.5)
+    assert regions_numbers.valley(replace(scene, speed=scene.speed / 3), omega, drawn) == 0.0
+
+
+def test_regions_are_those_of_a_rough_rail():
+    for scene in (replace(TABLE, rail=None), replace(TABLE, wheel=TABLE.rail)):
+        with pytest.raises(ValueError, match="scene must have a rough rail and a smooth wheel"):
+            regions.run(replace(SMALL, scene=scene))

@@ -1,0 +1,215 @@
+"""Region 2 and its neighbours: the second-order force, its zeros, and where the plateau ends at low speed."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from validation.analysis.answers import answered
+from validation.analysis.case import Case, Chapter
+from validation.analysis.evidence import (
+    Evidence,
+    JudgedClaim,
+    Number,
+    Table,
+    Verdict,
+    VerdictCell,
+    columns,
+    if_confirmed,
+    plus_minus,
+    table_of,
+    with_reference,
+)
+from validation.analysis.over_range import signed_mean, worst
+from validation.analysis.spectra import band_means
+from validation.cases.wheel.regions import LONG_STEADY, SHORT_OPEN, SHORT_STEADY, RegionsResult, WheelRegions, run
+from validation.cases.wheel.regions_numbers import (
+    APART,
+    FIRST,
+    MAXIMUM,
+    OMEGA,
+    RATIO,
+    contrast_numbers,
+    jump_numbers,
+    levels_over_second_order,
+    merging,
+    second_order,
+    speeds_of,
+)
+from validation.selection import model_needed
+
+CLAIM = "The plateau of region 2 has a substructure or none, depending on the parameters."
+
+
+def evidence(result: RegionsResult) -> Evidence:
+    """Levels and contrast of region 2 beside the second-order force; the jump and the valley by speed."""
+    speeds = speeds_of(result)
+    levels = {name: levels_over_second_order(result, name) for name in (LONG_STEADY, SHORT_STEADY)}
+    contrasts = {name: contrast_numbers(result, name) for name in (SHORT_STEADY, SHORT_OPEN)}
+    jumps = jump_numbers(result, speeds)
+    of_levels = [worst(some, OMEGA) for some in levels.values() if some]
+    of_contrast = [worst(some, MAXIMUM) for some in contrasts.values() if some]
+    of_speed = [*([worst(jumps, RATIO)] if jumps else []), merging(result, speeds)]
+    return Evidence(
+        title="Region 2: its substructure, and its end at low speed",
+        method=_method(result.case),
+        numbers=(*of_levels, *of_contrast, *of_speed),
+        tables=(*plateau_tables(result), speeds, spectra_by_speed(result)),
+        page_tables=(shown_speeds(speeds, jumps),),
+        claims=_claims(result.case, of_levels, of_contrast, of_speed, levels),
+        conclusions=tuple(_conclusions(result.case, of_levels, of_contrast, of_speed)),
+        captions=_captions(result.case),
+    )
+
+
+def _method(case: WheelRegions) -> str:
+    own, short = case.q_min_a
+    return (
+        f"{case.wheels} wheels of {case.scene.name} on springs over {case.distance:g} m: in the steady state, where "
+        f"nothing leaks, over its own waves and over waves of {1e3 * case.short:g} mm and less, h₀ = "
+        f"{1e6 * case.rms:g} µm; over the latter also on open tracks without window. q_min a is "
+        f"{own:.3g} and {short:.3g}. The second-order force "
+        "is that of the springs which the ends of the contact gain and lose, E* R / 4a (h(x + a)² + h(x - a)²). "
+        f"Speeds: {case.wheels} wheels on open tracks of {case.periods} natural periods, Hann's window; the valley is "
+        "the least A between ω_eigen and q_min v₀ under the largest within a fifth behind q_min v₀."
+    )
+
+
+def _claims(
+    case: WheelRegions,
+    of_levels: Sequence[Number],
+    of_contrast: Sequence[Number],
+    of_speed: Sequence[Number],
+    levels: dict[str, list[Number]],
+) -> tuple[JudgedClaim, ...]:
+    steady, leaking = of_contrast
+    means = ", ".join(f"{signed_mean(some):+.1f} dB in the mean for {name}" for name, some in levels.items() if some)
+    merged = of_speed[-1]
+    own, short = case.q_min_a
+    return (
+        answered(
+            CLAIM,
+            [leaking],
+            f"over short waves, q_min a = {short:.3g}, open records have maxima {leaking.value:.0f} dB over zeros; "
+            f"without leakage these are {steady.value:.0f} dB, in the second-order force {steady.reference:.0f} dB, "
+            f"whose zeros begin at q a = π/2; {case.scene.name} has q_min a = {own:.3g} and "
+            f"{'none' if own < math.pi / 2 else 'some'}.",
+            confirmed_by=Verdict.DIFFER,
+        ),
+        answered(
+            "Without leakage, region 2 of springs is the second-order force of the roughness.",
+            [*of_levels, steady],
+            f"one-third octaves are {means}; the worst is {max((n.value for n in of_levels), key=abs):+.1f} dB; maxima "
+            f"over zeros are {steady.value:.1f} dB beside {steady.reference:.1f} dB.",
+        ),
+        answered(
+            "At low speed the jump comes to the resonance, and the plateau disappears.",
+            of_speed,
+            f"it ends at q_min v₀ = {merged.value:.2f} ± {merged.grid:.2f} ω_eigen beside {merged.reference:.2f} in a "
+            f"record of {case.periods} natural periods.",
+        ),
+    )
+
+
+def _conclusions(
+    case: WheelRegions, of_levels: Sequence[Number], of_contrast: Sequence[Number], of_speed: Sequence[Number]
+) -> list[str]:
+    own, _ = case.q_min_a
+    return [
+        *(
+            if_confirmed(
+                "The level of region 2 without leakage is that of the second-order force of springs: worst one-third "
+                f"octave of {n.model.split(', over')[0]} {with_reference(n)}.",
+                [n],
+            )
+            for n in of_levels
+        ),
+        *(
+            if_confirmed(f"The maxima of region 2 over its zeros, {n.model}: {with_reference(n)}, {n.source}.", [n])
+            for n in of_contrast[:1]
+        ),
+        f"The second-order force vanishes at q a = π/2, 3π/2, ...; below q_min there are {round(own / math.pi)} such "
+        f"wavenumbers in {case.scene.name}, whose q_min a is {own:.3g}.",
+        *(if_confirmed(f"{n.quantity}: {with_reference(n)}.", [n]) for n in of_speed),
+    ]
+
+
+# --- tables ---
+
+
+def plateau_tables(result: RegionsResult) -> list[Table]:
+    """A in bands of a part of a period, up to region 3, with the second-order force."""
+    tables = []
+    for name, short in ((LONG_STEADY, "long"), (SHORT_STEADY, "short")):
+        scene, outcome = result.case.plateaus()[name].scene, result.plateaus[name]
+        omega = outcome["omega"]
+        width = max(scene.oscillation_period / 12, 2 * float(omega[0]))
+        edges = np.arange(FIRST * scene.eigenfrequency, 1.2 * scene.jump, width)
+        curves = {
+            "omega [rad/s]": (edges[1:] + edges[:-1]) / 2,
+            "steady-state": band_means(omega, outcome["plain"].mean(axis=0), edges),
+            "second order": band_means(omega, second_order(scene, omega), edges),
+        }
+        if short == "short":
+            leaking = result.plateaus[SHORT_OPEN]
+            curves["open"] = band_means(leaking["omega"], leaking["plain"].mean(axis=0), edges)
+        tables.append(Table(f"plateau of {short} waves", columns(**curves)))
+    return tables
+
+
+def spectra_by_speed(result: RegionsResult) -> Table:
+    """Mean A with Hann's window over omega / omega_eigen, line by line up to four times the jump."""
+    rows: list[dict[str, object]] = []
+    for ratio, ensemble in result.case.speeds().items():
+        omega = result.speeds[ratio]["omega"] / ensemble.scene.eigenfrequency
+        density = result.speeds[ratio]["hann"].mean(axis=0)
+        for x, a in zip(omega, density, strict=True):
+            if 0.5 < x < 1.5 * max(ratio, 2):
+                rows.append({RATIO: ratio, "omega / omega_eigen": float(x), "A [(m/s2)2 s]": float(a)})
+    return table_of("spectra", rows)
+
+
+def shown_speeds(speeds: Table, jumps: Sequence[Number]) -> Table:
+    """Jump and valley by speed."""
+    verdicts = {number.where[RATIO]: number for number in jumps}
+
+    def verdict(ratio: float) -> object:
+        number = verdicts.get(float(ratio))
+        return VerdictCell(plus_minus(number.value, number.uncertainty), number.verdict) if number else "not sought"
+
+    return Table(
+        "regions 1 to 3 by speed",
+        {
+            RATIO: [f"{ratio:g}" for ratio in speeds[RATIO]],
+            "v₀ [m/s]": [f"{speed:.3g}" for speed in speeds["v0 [m/s]"]],
+            "q_min v₀ [rad/s]": [f"{jump:.5g}" for jump in speeds["q_min v0 [rad/s]"]],
+            "jump [rad/s]": [verdict(ratio) for ratio in speeds[RATIO]],
+            "valley [dB]": [f"{depth:.1f}" for depth in speeds["valley [dB]"]],
+        },
+    )
+
+
+def _captions(case: WheelRegions) -> dict[str, str]:
+    return {
+        "wheel_regions": (
+            f"(a) Region 2 over waves of {1e3 * case.short:g} mm and less: circles, springs in the steady state; line, "
+            "the second-order force; dotted, springs on open tracks, with leakage; region 3 begins behind. (b) The "
+            f"same over the waves of {case.scene.name}: no zero. (c) Spectra with Hann's window at lower and lower "
+            "speeds, dark to light. (d) The valley between the resonance and the jump; dashed: where a record of this "
+            f"length no longer keeps them apart; dotted: {APART:g} dB."
+        )
+    }
+
+
+CASE = Case(
+    name="wheel_regions",
+    chapter=Chapter.WHEEL,
+    place=4,
+    claim=CLAIM,
+    answers="Regions 1 and 2: the substructure of the plateau, the force that makes it, and where it ends at low speed",
+    quick=WheelRegions(),
+    full=WheelRegions(distance=0.4, springs=96, rms=0.15e-6, wheels=80, periods=60),
+    run=run,
+    evidence=evidence,
+    needs=model_needed.wheel,
+)
