@@ -79,9 +79,9 @@ def _contrast(axis: Axes, evidence: Evidence) -> None:
         axis.plot(omega, table["linear"], label="linear theory", **GREY)
         axis.errorbar(omega, found, yerr=bars, capsize=2, label="springs, Hann", **{**MDR, "marker": "o"})
         axis.axhline(1.0, **GUIDE)
-    axis.set(yscale="log", xlabel="ω [1000 rad/s]", ylabel="maxima over zeros of sin²(q a)")
-    axis.set_ylim(top=1000)
-    axis.legend(loc="upper right")
+        axis.set(yscale="log", xlabel="ω [1000 rad/s]", ylabel="maxima over zeros of sin²(q a)")
+        axis.set_ylim(top=1000)
+        axis.legend(loc="upper right")
 
 
 def _marks(axis: Axes, evidence: Evidence) -> None:
