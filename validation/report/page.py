@@ -42,11 +42,11 @@ def scene_summary(scene: WheelScene) -> dict[str, object]:
     }
 
 
-def format_verdict(verdict: str, count: str = "", *, unsteady: bool = False) -> Markup:
+def format_verdict(verdict: str, *, unsteady: bool = False) -> Markup:
     """A verdict with its symbol; a scene without a steady answer has none."""
     if unsteady:
         return NO_STEADY_ANSWER
-    return Markup('<span class="verdict {0}">{1} {2}{0}</span>').format(verdict, SYMBOL[verdict], count)
+    return Markup('<span class="verdict {0}">{1} {0}</span>').format(verdict, SYMBOL[verdict])
 
 
 def format_status(status: ClaimStatus | None, *, unsteady: bool = False) -> Markup:
@@ -95,15 +95,17 @@ def page(
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["format_value"] = format_value
     unsteady = scene is not None and bool(scene.no_steady_answer())
-    environment.filters["format_cell"] = partial(format_cell, unsteady=unsteady)
-    environment.filters["format_verdict"] = partial(format_verdict, unsteady=unsteady)
-    environment.filters["format_status"] = partial(format_status, unsteady=unsteady)
-    environment.filters["format_counts"] = format_counts
-    environment.filters["answer_of"] = answer_of
-    environment.filters["duration"] = lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s"
-    environment.filters["small"] = lambda value: f"{value:.2g}"
+    environment.filters |= {
+        "format_value": format_value,
+        "format_cell": partial(format_cell, unsteady=unsteady),
+        "format_verdict": partial(format_verdict, unsteady=unsteady),
+        "format_status": partial(format_status, unsteady=unsteady),
+        "format_counts": format_counts,
+        "answer_of": answer_of,
+        "duration": lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s",
+        "small": lambda value: f"{value:.2g}",
+    }
     text = environment.get_template("page.html").render(
         sections=sections,
         book=[] if unsteady else chapter_of(sections),

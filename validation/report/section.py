@@ -19,10 +19,6 @@ class Section:
     failure: tuple[str, ...] = ()
 
     @property
-    def answers(self) -> str:
-        return self.entry.answers
-
-    @property
     def numbers(self) -> tuple[Number, ...]:
         """All of its evidence, none where the case failed."""
         return self.evidence.numbers if self.evidence else ()
@@ -71,7 +67,7 @@ def case_results(section: Section) -> dict[str, object]:
             }
             for claim in section.claims
         ],
-        "answers": section.answers,
+        "answers": section.entry.answers,
         "model needed": section.needed,
         "settings": section.settings,
         "numbers": [
