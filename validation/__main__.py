@@ -17,8 +17,8 @@ from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import TerminatedError, terminable
 from validation.report.build import build
 from validation.report.contents import CASES, TIMED, timed_here
-from validation.report.section import Section
-from validation.report.terminal import lines_of, total_of
+from validation.report.section import Section, total_of
+from validation.report.terminal import lines_of
 from validation.scenes.description import description_lines
 from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
 from validation.scenes.load import bundled_for_compare, load_scene

@@ -14,8 +14,8 @@ from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
 from validation.report import page
 from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.contents import CASES, TIMED
-from validation.report.section import Section, case_results
-from validation.report.terminal import lines_of, total_of
+from validation.report.section import Section, case_results, total_of
+from validation.report.terminal import lines_of
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 OFF = {AGREE: (0.0, 0.0), DIFFER: (9.0, 0.0), UNDECIDED: (0.1, 1.0)}
@@ -119,6 +119,7 @@ def test_each_claim_of_a_case_has_a_row_of_its_own():
     table = summary(section).partition("</table>")[0]
     assert [name for name, _ in badges(table)] == ["holds", "contradicted"]
     assert total_of([section, section]) == "claims: holds 2, contradicted 2"
+    assert "<b>Claims: holds 1, contradicted 1.</b>" in html_of(section)
 
 
 def test_results_hold_every_claim():

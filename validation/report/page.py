@@ -12,7 +12,7 @@ from markupsafe import Markup, escape
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Verdict, VerdictCell
 from validation.report.chapter import ERRATA, chapter_of
-from validation.report.section import Section, answer_of
+from validation.report.section import Section, answer_of, total_of
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -110,6 +110,7 @@ def page(
         sections=sections,
         book=[] if unsteady else chapter_of(sections),
         errata=ERRATA,
+        total="" if unsteady else total_of(sections),
         chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in Chapter],
         profile=profile,
         pictures={name: _address(picture) for name, picture in pictures.items()},

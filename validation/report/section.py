@@ -47,6 +47,12 @@ def answer_of(claim: JudgedClaim) -> str:
     return f"{claim.answer} Limits: {claim.limits}." if silent else claim.answer
 
 
+def total_of(sections: Sequence[Section]) -> str:
+    """How many claims have each status."""
+    found = [claim.status for section in sections for claim in section.claims]
+    return "claims: " + ", ".join(f"{status} {found.count(status)}" for status in ClaimStatus if status in found)
+
+
 def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, object]:
     """What results.json holds."""
     return {"profile": profile, "cases": {section.name: case_results(section) for section in sections}}

@@ -1,8 +1,5 @@
 """Lines for the terminal on a finished case."""
 
-from collections.abc import Sequence
-
-from validation.analysis.evidence import ClaimStatus
 from validation.benchmarks.solvers.rows import rows_of
 from validation.report.contents import TIMED
 from validation.report.page import format_counts
@@ -26,9 +23,3 @@ def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
         details += section.evidence.conclusions
     head = f"{section.name:15s} {'no result' if section.failure else met}"
     return [head, *(f"    {line}" for line in details)]
-
-
-def total_of(sections: Sequence[Section]) -> str:
-    """How many claims hold, and how many do not."""
-    found = [claim.status for section in sections for claim in section.claims]
-    return "claims: " + ", ".join(f"{status} {found.count(status)}" for status in ClaimStatus if status in found)
