@@ -78,7 +78,7 @@ class OnHalfSpace:
         return self.cost.cells
 
     def measure(self) -> Outcome:
-        """Seconds of a step, several times, and its operator applications; plans are made before."""
+        """Seconds of a step, several times; plans are made before."""
         cost, scene = self.cost, self.cost.scene
         strip = WheelStrip(
             scene=scene,
@@ -96,8 +96,7 @@ class OnHalfSpace:
         found = [
             timed(lambda: simulate_from_linear_motion(law, linear, time_step, cost.steps))[1] for _ in range(1 + RUNS)
         ]
-        applications = law.operator_applications / ((1 + RUNS) * cost.steps)
-        return {"seconds": np.array(found[1:]) / cost.steps, "applications": np.array(applications)}
+        return {"seconds": np.array(found[1:]) / cost.steps}
 
 
 def figure_cost(cost: FigureCost, engine: Engine) -> Table:
