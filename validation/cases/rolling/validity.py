@@ -140,8 +140,9 @@ def evidence(result: ValidityResult) -> Evidence:
             f"once with equal h/d. h' is the rms gradient. Boundary elements: {case.strips} surfaces each, "
             f"{case.waves} of their longest waves long, at least {case.cells} cells to a radius and four to the "
             "shortest wave. The share of contact kept is the mean area over that of a smooth wheel under the same "
-            "force. The level over linear theory on the same surfaces is taken in one-third octaves of the band; its "
-            f"root mean square over bands counts. Each spectrum is judged beside {REFERENCE}."
+            "force; cells at the edge make it 1.02 to 1.03 where nothing is lost. The level over linear theory on the "
+            "same surfaces is taken in one-third octaves of the band; its root mean square over bands counts. Each "
+            f"spectrum is judged beside {REFERENCE}."
         ),
         numbers=tuple(numbers),
         tables=(table,),
@@ -220,9 +221,9 @@ def _rounded(value: float) -> float:
 def _claims(case: Validity, numbers: list[Number], table: Table) -> tuple[JudgedClaim, ...]:
     def claim(text: str, quantity: str, column: str, parameter: str) -> JudgedClaim:
         values = _of(case, parameter)
-        parts = [f"{spread(table, column, parameter, value)} at {parameter} = {value:g}" for value in values]
+        parts = [spread(table, column, parameter, value) for value in values]
         mine = [number for number in numbers_with(numbers, quantity) if parameter in number.where]
-        return answered(text, mine, f"over the spectra {'; '.join(parts)}.")
+        return answered(text, mine, f"{'; '.join(parts)}, over all spectra.")
 
     kept, off = "contact kept", "rms over linear [dB]"
     other = CLAIM.replace(SLOPE, HEIGHT)
@@ -242,8 +243,8 @@ def _of(case: Validity, parameter: str) -> tuple[float, ...]:
 def spread(table: Table, column: str, parameter: str, value: float) -> str:
     """The smallest and the largest over the spectra at one value of a parameter."""
     found = table.where(**{"at equal": parameter, parameter: value})[column]
-    what = "dB of rms" if "dB" in column else "of the contact kept"
-    return f"{found.min():.2f} to {found.max():.2f} {what}"
+    what, unit = ("the rms over linear theory is", " dB") if "dB" in column else ("the share kept is", "")
+    return f"{what} {found.min():.2f} to {found.max():.2f}{unit} at {parameter} = {value:g}"
 
 
 def _conclusions(case: Validity, table: Table) -> tuple[str, ...]:
@@ -253,10 +254,9 @@ def _conclusions(case: Validity, table: Table) -> tuple[str, ...]:
         value = _of(case, parameter)[-1]
         mine = table.where(**{"at equal": parameter, parameter: value})
         lost, off = 1 - mine["contact kept"], mine["rms over linear [dB]"]
-        ratio = lost.max() / lost.min() if lost.min() > 0 else math.inf
         found.append(
-            f"at {parameter} = {value:g} the share of contact lost differs by a factor of {ratio:.3g} over the "
-            f"spectra, and the rms over linear theory by {off.max() / off.min():.3g}"
+            f"at {parameter} = {value:g} the share of contact lost is {lost.min():.2f} to {lost.max():.2f} over the "
+            f"spectra, and the rms over linear theory differs by a factor of {off.max() / off.min():.3g}"
         )
     sentence = "; ".join(found)
     return (f"{sentence[0].upper()}{sentence[1:]}.",)
