@@ -88,8 +88,8 @@ def _claims_of_levels(
     def at(model: str, mine: levels.LevelsAtHeight) -> str:
         where, over = measured.place(mine.height, band), f"{model} over bem3d"
         worst, rms = (number_with(numbers, name, over, **where) for name in (measured.LEVEL, measured.IN_RMS))
-        worst_at = f"{worst.value:+.1f} dB in the worst, at q a = {worst.where['worst at']:.2g}"
-        return f"at h' a/d = {mine.slope:.2g} {rms.value:.1f} dB in the rms over bands and {worst_at}"
+        worst_at = f"the worst band {worst.value:+.1f} dB off, at q a = {worst.where['worst at']:.2g}"
+        return f"at h' a/d = {mine.slope:.2g} the rms over bands is {rms.value:.1f} dB and {worst_at}"
 
     geike, equivalent, linear = levels.SPRINGS, levels.ROLLING_SPRINGS, levels.LINEAR_3D
     nonlinear = [number for number in numbers if number.quantity in (measured.NONLINEAR, measured.RMS_NONLINEAR)]
@@ -101,16 +101,16 @@ def _claims_of_levels(
         CLAIM: (
             of(levels.LINEAR_1D, geike),
             f"springs are {mean(geike, band)} off boundary elements in the mean over the bands of q a = "
-            f"{_named(band)} and {mean(geike, below)} below them; {at(geike, lowest)}",
+            f"{_named(band)} and {mean(geike, below)} in those below; {at(geike, lowest)}",
         ),
         "With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third octave.": (
             of(equivalent),
-            f"the mean over the bands of q a = {_named(band)} is {mean(equivalent, band)} off, but they are off "
+            f"the mean over the bands of q a = {_named(band)} is {mean(equivalent, band)} off, but "
             f"{at(equivalent, lowest)}",
         ),
         "Linear theory in 3D has the level of boundary elements in each one-third octave.": (
             of(linear),
-            f"it is off {'; '.join(at(linear, mine) for mine in found)}",
+            "; ".join(at(linear, mine) for mine in found),
         ),
         "Nonlinearity changes the level of springs as it changes that of boundary elements.": (nonlinear, changes),
     }

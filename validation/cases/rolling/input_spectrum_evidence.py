@@ -70,7 +70,7 @@ def _claims(numbers: list[Number], levels: list[measured.InputLevels], bands: Ta
             f"in linear theory {near.sum()} of {near.size} one-third octaves are within {THREE_DECIBELS:g} dB, with an "
             f"rms of {min(linear):.1f} to {max(linear):.1f} dB in the bands of the spectra; one-sided springs are "
             f"{from_to(mean)} dB off boundary elements in the mean; the worst band is {worst.value:+.1f} dB off, "
-            f"{worst.conditions}."
+            f"{worst.where['spectrum']}, q a = {worst.where['worst at']:.2g} ({worst.model})."
         )
 
     punch = {rule: number_with(numbers, measured.STIFFNESS, input=measured.NAMES[rule]) for rule in INPUT_SPECTRA}

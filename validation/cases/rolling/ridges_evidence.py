@@ -59,9 +59,9 @@ def _answer(result: RidgesResult) -> str:
     q, cells, springs = result.case.wavenumbers, result.case.cells[-1], result.case.springs[-1]
     return (
         f"for {_named(q)}, through the zeros and with the change of sign there, boundary elements with {cells} cells "
-        f"to a radius are off (14.11) by at most {_largest(result, BEM, cells):.2g} of the envelope, less than an edge "
-        f"{EDGE:g} of a cell out of place explains, and {springs:g} springs by "
-        f"{_largest(result, SPRINGS, springs):.2g}."
+        f"to a radius are off (14.11) by at most {_largest(result, BEM, cells, FAR):.2g} of the envelope up to q a = "
+        f"{FAR:g} and {_largest(result, BEM, cells):.2g} beyond, less than an edge {EDGE:g} of a cell out of place "
+        f"explains, and {springs:g} springs by {_largest(result, SPRINGS, springs):.2g}."
     )
 
 

@@ -152,7 +152,7 @@ def _claims(
             slope=slope,
         ),
         answered(
-            "No filter finds roughness below the band, where there is none.",
+            "Filters that are read backwards find no roughness below the band, where there is none.",
             below,
             "; ".join(
                 f"{by} finds {from_to([100 * n.value for n in numbers_with(below, model=by)])} %" for by in FILTERS
