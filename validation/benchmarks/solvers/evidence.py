@@ -40,7 +40,7 @@ def evidence(result: SolverComparisonResult) -> Evidence:
             "loosest of its "
             "own tolerances that reaches this residual, and the force, or the approach of this force, as its interface "
             "requires. Each has a process with one thread, in turns; the time is the median of 5 to 15 runs, or "
-            "one long run. Set-up "
+            "one long run; the claim compares medians with intervals between order statistics. Set-up "
             "(operators, plans; ours with a whole first solve) is timed separately. Our applications are those on the "
             "finest grid or a window of it; our time includes the coarser grids. tamaas does not count "
             "applications. Fourier "

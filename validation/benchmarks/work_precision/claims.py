@@ -86,7 +86,7 @@ def claims_of(
         (CLAIM, up_to, _counted(up_to)),
         (BEYOND, beyond, _counted(beyond)),
         (ENOUGH, best, "; ".join(_said(number) for number in best) + "."),
-        (ORDERS, orders, ", ".join(f"{n.label} = {n.value:.2f} beside {n.reference:g}" for n in orders) + "."),
+        (ORDERS, orders, "; ".join(_order(number) for number in orders) + "."),
         (EQUAL, equal, f"ratios are within {max((abs(n.difference) for n in equal), default=0.0):.0e} of one."),
     )
     return tuple(answered(claim, numbers, answer) for claim, numbers, answer in candidates if numbers)
@@ -100,10 +100,17 @@ def _counted(times: Sequence[Number]) -> str:
         for number in times
         if number.verdict is Verdict.DIFFER
     ]
-    answer = (
-        f"they are the cheapest on {cheapest} of {len(times)} charts, undecided on {undecided}, not on {len(dearer)}"
+    faster = [1 / number.value for number in times if number.verdict is Verdict.AGREE and 0 < number.value < 1]
+    by = f" (others as close take {min(faster):.3g} to {max(faster):.3g} times as long)" if faster else ""
+    where = f" ({'; '.join(dearer)})" if dearer else ""
+    return (
+        f"they are the cheapest on {cheapest} of {len(times)} charts{by}, undecided on {undecided}, not on "
+        f"{len(dearer)}{where}."
     )
-    return f"{answer} ({'; '.join(dearer)})." if dearer else f"{answer}."
+
+
+def _order(number: Number) -> str:
+    return f"{number.where['scene']}, {number.model}: order {number.value:.2f} beside {number.reference:g}"
 
 
 def _best(models: Sequence[Number]) -> list[Number]:
