@@ -51,6 +51,9 @@ def in_the_case(attribute, wrong):
     return view
 
 
+combined = fractal_punch_decades.combined
+
+
 def of_each_hurst_exponent(mine, kind, realisation):
     return random_generator(mine.seed, kind, round(1000 * mine.hurst), realisation)
 
@@ -180,6 +183,10 @@ FAULTS = {
     "the mean of a decade for its worst force": (
         (fractal_punch_decades, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
+    ),
+    "the order of the curves turned round": (
+        (fractal_punch_decades, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
+        test_fractal_punch.test_the_order_of_the_curves_is_found_or_shown_to_be_absent,
     ),
     "other phases for every Hurst exponent": (
         (PunchRoughness, "_generator", of_each_hurst_exponent),

@@ -58,6 +58,7 @@ def evidence(result: FractalPunchResult) -> Evidence:
             *(text.matrix(name, comparisons) for name in QUANTITIES),
             *(text.margins(name, comparisons) for name in (DEVIATION, MEAN)),
             text.law_table(case, exponents),
+            text.plan(case, costs),
         ),
         conclusions=(
             *(text.summary(name, comparisons) for name in QUANTITIES),

@@ -131,6 +131,17 @@ def decided_by(number: Number) -> str:
     return f"needs {math.ceil(10 * needed) / 10:.1f} times the sample"
 
 
+def plan(case: FractalPunch, rows: Sequence[Row]) -> Table:
+    """On the page: surfaces on each grid, beside those that leave the least error for the same work."""
+    found = {(row["Fbar from"], row["cells"]): f"{row['surfaces']:.0f} ({row['best']:.2g})" for row in rows}
+    return Table(
+        "surfaces on each grid, and in brackets those that would leave the least error of the deviation for the same "
+        "work, by the variances of this run",
+        {"Fbar": [_decade(first) for first in case.first_forces]}
+        | {f"{cells}²": [found.get((first, cells), "") for first in case.first_forces] for cells in case.grids},
+    )
+
+
 def law_table(case: FractalPunch, laws: Sequence[Number]) -> Table:
     """On the page: exponents beside 1 / (1 + H), a row a Hurst exponent."""
 
