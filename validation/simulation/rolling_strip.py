@@ -27,8 +27,8 @@ K = TypeVar("K", bound=Hashable)
 
 HERTZ = 4 / 3
 SMOOTH: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
-TRACKS, STRIPS, BOOTSTRAP = 1, 2, 3
-"""Keys of random numbers: the roughness of both methods, and resampling."""
+TRACKS, STRIPS = 1, 2
+"""Keys of random numbers: the roughness of both methods."""
 
 
 @dataclass(frozen=True, kw_only=True)

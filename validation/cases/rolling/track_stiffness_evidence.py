@@ -287,7 +287,7 @@ CASE = Case(
         width=12,
         strips=8,
         refined=6,
-        tracks=200,
+        tracks=60,
         surfaces=100,
         profiles=2000,
     ),

@@ -13,6 +13,7 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_er
 from validation.cases.rolling.claims import answered
 from validation.cases.rolling.force_spectrum_levels import correlation
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation.rolling_strip import Strip, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 
@@ -221,7 +222,7 @@ def _rounded(value: float) -> float:
 def _claims(case: Validity, numbers: list[Number], table: Table) -> tuple[JudgedClaim, ...]:
     def claim(text: str, quantity: str, column: str, parameter: str) -> JudgedClaim:
         values = _of(case, parameter)
-        parts = [spread(table, column, parameter, value) for value in values]
+        parts = [f"at {parameter} = {value:g} {spread(table, column, parameter, value)}" for value in values]
         mine = [number for number in numbers_with(numbers, quantity) if parameter in number.where]
         return answered(text, mine, f"{'; '.join(parts)}, over all spectra.")
 
@@ -244,7 +245,7 @@ def spread(table: Table, column: str, parameter: str, value: float) -> str:
     """The smallest and the largest over the spectra at one value of a parameter."""
     found = table.where(**{"at equal": parameter, parameter: value})[column]
     what, unit = ("the rms over linear theory is", " dB") if "dB" in column else ("the share kept is", "")
-    return f"{what} {found.min():.2f} to {found.max():.2f}{unit} at {parameter} = {value:g}"
+    return f"{what} {found.min():.2f} to {found.max():.2f}{unit}"
 
 
 def _conclusions(case: Validity, table: Table) -> tuple[str, ...]:
@@ -259,7 +260,21 @@ def _conclusions(case: Validity, table: Table) -> tuple[str, ...]:
             f"spectra, and the rms over linear theory differs by a factor of {off.max() / off.min():.3g}"
         )
     sentence = "; ".join(found)
-    return (f"{sentence[0].upper()}{sentence[1:]}.",)
+    return f"{sentence[0].upper()}{sentence[1:]}.", _of_table_14_1(case, table)
+
+
+def _of_table_14_1(case: Validity, table: Table) -> str:
+    """Where the wheel of the book stands, beside the nearest slope of this case."""
+    scene = load_wheel_scene("table_14_1")
+    height = scene.rms / scene.approach
+    # an isotropic surface has half of its mean square gradient along the track
+    slope = math.sqrt(2) * scene.slope_along * scene.contact_radius / scene.approach
+    nearest = min(case.slopes, key=lambda one: abs(math.log(one / slope)))
+    return (
+        f"The wheel of Table 14.1 has h/d = {height:.2g}, but h' a/d = {slope:.3g}. At h' a/d = {nearest:g}, the "
+        f"nearest here, {spread(table, 'rms over linear [dB]', SLOPE, nearest)}, and "
+        f"{spread(table, 'contact kept', SLOPE, nearest)}."
+    )
 
 
 CASE = Case(
