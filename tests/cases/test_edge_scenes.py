@@ -1,13 +1,17 @@
 """Scenes at the edges of the ranges: drawn again alike, valid, and on both sides of every end."""
 
+import warnings
+
 import numpy as np
 import pytest
 
+import bem3d
 from validation.cases.selection import edge_scenes
-from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, edge_scene
+from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, SPHERE, edge_scene
 from validation.scenes.indentation import IndentationScene
 from validation.selection.compare import models_of, quantities_of
 from validation.simulation.model import GridModel
+from validation.simulation.sampling import distance
 
 
 def drawn(kind, count=24):
@@ -43,3 +47,35 @@ def test_of_measured_textures_a_gaussian_one_alone_is_told_by_its_spectrum(textu
     assert all(isinstance(scene, IndentationScene) for scene in scenes)
     known = np.mean([scene.ground.beyond_a_spectrum() == () for scene in scenes])
     assert known >= 0.8 if texture is edge_scenes.gaussian_face else known <= 0.1
+
+
+def pressed(scene):
+    """Stiffness of a measured face on all of its points, and how many are in contact: no window, no coarser grid."""
+    height, spacing = scene.ground.height, scene.ground.spacing[0]
+    gap = -height
+    if scene.shape == "sphere":
+        x, y = scene.ground.places
+        gap = np.add.outer(x**2, y**2) / (2 * scene.size) - height
+    half_space = bem3d.HalfSpace(shape=height.shape, spacing=spacing, modulus=scene.modulus)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", bem3d.ContactWarning)
+        contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-6)
+        return contact.stiffness(), np.count_nonzero(contact.pressure)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("body", [PUNCH, SPHERE])
+def test_claims_hold_on_measured_faces_and_few_of_them_are_refused(body):
+    """Two of each texture, as far as sixteen of their points are in contact."""
+    within, answerable = [], []
+    for number in range(12):
+        scene, quantity = edge_scene(MEASURED + body, number, 1)
+        stiffness, points = pressed(scene)
+        if points < 16:
+            continue
+        answers = [model.solve() for model in models_of(scene, quantity, 0.3, 0) if model.estimate().in_range]
+        errors = [(answer.error, distance(answer.value, stiffness)) for answer in answers if not answer.failed]
+        within += [true <= claimed for claimed, true in errors]
+        answerable.append(bool(errors))
+    assert len(answerable) >= 6 and all(within)
+    assert sum(answerable) >= 0.8 * len(answerable)

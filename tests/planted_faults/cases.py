@@ -12,6 +12,7 @@ import mdr
 from bem3d import kernel
 from tests.cases import (
     test_bandwidth,
+    test_edge_scenes,
     test_exact_cases,
     test_flags,
     test_fractal_punch,
@@ -35,7 +36,7 @@ from validation.cases.wheel import contrast, regions_numbers
 from validation.engine import engine as ensemble
 from validation.engine.engine import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
-from validation.simulation import free_vibration, integrators, rough_punch
+from validation.simulation import free_vibration, indentation, integrators, rough_punch
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.rough_punch import PunchRoughness
@@ -132,6 +133,10 @@ linear_response = rough_springs.linear_response
 
 
 FAULTS = {
+    "a window of a measured sphere that ends at its contact": (
+        (indentation, "MARGIN", 2),
+        functools.partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
+    ),
     "no plateau below the roll-off": (
         (bandwidth.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
         test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,

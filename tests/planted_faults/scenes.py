@@ -30,6 +30,10 @@ FAULTS = {
         (measured, "_spectrum", half_of_the_level),
         test_measured_heights.test_the_spectrum_has_the_height,
     ),
+    "plateaus taken for Gaussian heights": (
+        (measured, "FLAT", 0.0),
+        test_measured_heights.test_note_of_plateaus_that_neither_skewness_nor_kurtosis_shows,
+    ),
     "heights behind a mask": (
         (measured, "_numbers", behind_the_mask),
         test_measured_heights.test_points_without_data_are_refused,

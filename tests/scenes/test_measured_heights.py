@@ -110,8 +110,7 @@ def test_note_of_plateaus_that_neither_skewness_nor_kurtosis_shows():
     """Ground on top and pitted as deep below: of honed faces at a light load springs were a factor of six too soft."""
     plateaus = np.clip(drawn(), -1.6e-7, 1.6e-7)
     assert abs(stats.skew(plateaus, axis=None)) < 0.5 and abs(stats.kurtosis(plateaus, axis=None)) < 1
-    (doubt,) = heights(plateaus).notes()
-    assert "highest hundredth from 1." in doubt
+    assert ["highest hundredth from 1." in doubt for doubt in heights(plateaus).notes()] == [True]
 
 
 @pytest.mark.parametrize("call", [True, False])
