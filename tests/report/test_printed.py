@@ -510,11 +510,7 @@ def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given():
         over_bem(5.55, "linear, 3D", "region 3", sample=0.1),
         number(-4.44, quantity="slope of region 3", model="bem3d", reference=-4.4, sample=0.01, unit="-"),
     ]
-    text = wheel_3d_evidence.conclusions(["region 2", "region 3"], numbers, numbers, 11.5)
-    second, third, slope, plateau, cost, *_ = text
-    assert "region 2: linear, 3D +0.3 ± 0.2 dB (agree), +0.3 dB in the mean; springs, Geike" in second
-    assert "Geike spectrum -23.4 ± 0.3 dB (differ), -23.4 dB in the mean." in second
-    assert "region 3: linear, 3D +5.5 ± 0.1 dB (differ), +5.5 dB in the mean." in third
+    slope, plateau, cost, *_ = wheel_3d_evidence.conclusions(numbers, numbers, 11.5)
     assert with_reference(numbers[3]) in slope and not slope.startswith("Not")
     assert with_reference(numbers[0]) in plateau and "23 dB too low" in plateau
     assert "11.5 applications" in cost
@@ -533,36 +529,27 @@ def test_fig_14_5_prints_the_numbers_it_is_given():
         ends={wheel_distance.OPEN: spectrum_of(1.0)},
         ended={(wheel_distance.LINEAR_OPEN, phase): spectrum_of(level) for phase, level in phases.items()},
     )
-    law = number(0.417, reference=0.4167, quantity=at.BREAK_LAW, unit="-")
 
     def ratio(kind, region, value):
         key = {"quantity": at.LEVEL, "model": f"{kind}, over springs, open", "where": {"region": region}}
         return number(value, **key, reference=0.0, tolerance=1.0, sample=0.1)
 
     numbers = [
-        law,
-        ratio("springs, open, Hann's window", "region 4", -31.3),
-        ratio("springs, steady-state", "region 4", -42.6),
-        ratio("linear, open", "region 4", 0.2),
         ratio("linear, open", "region 2", -10.0),
         ratio("springs, steady-state", "region 2", -20.0),
         number(1.05, quantity=at.JUMP, where={"worst at": 0.2}, reference=1.0, sample=0.02),
-        number(0.97, quantity=at.PEAK_QUANTITY, where={"release / d": 0.4}, reference=0.971, unit="-"),
         number(1.52, quantity=at.SQUARE, reference=1.5, sample=0.03),
         number(3.87, quantity=at.ORDER, reference=4.0, tolerance=0.3, sample=0.05),
     ]
     text = wheel_distance_evidence.conclusions(result, numbers)
     printed = [
-        with_reference(law),
         "1.050 ± 0.020",
-        "Hann's window lowers it by 31.3 dB, steady-state motion by 42.6 dB",
         "has 10 % of its power; springs in the steady state, which have no leakage, have 1 %",
         "1.52 ± 0.03 times",
-        "released up to 0.4 d below equilibrium",
     ]
     for sentence, part in zip(text, printed, strict=True):
         assert part in sentence
-    assert "between -60 and -30 dB" in text[3] and "as h₀^3.87 (agree with h₀⁴ within 0.3)" in text[3]
+    assert "between -60 and -30 dB" in text[1] and "as h₀^3.87 (agree with h₀⁴ within 0.3)" in text[1]
     periods = 0.1 * case.scene.eigenfrequency / (2 * math.pi)
-    assert f"{periods:.2f} natural periods" in text[3]
+    assert f"{periods:.2f} natural periods" in text[1]
     assert not any(sentence.startswith("Not confirmed") for sentence in text)

@@ -82,8 +82,8 @@ def _claims(result: DistanceResult, numbers: list[Number]) -> tuple[JudgedClaim,
             CLAIM,
             [law, fourth],
             f"a linear contact, which has leakage alone in region 4, is {fourth.value:+.1f} dB off the level of "
-            f"springs there; Hann's window changes that by {hann.value:+.0f} dB; the break moves as T^{law.value:.2f}, "
-            f"the floor of a jump at the end of the record as T^{law.reference:.2f}.",
+            f"springs there; Hann's window changes that by {hann.value:+.1f} dB; the exponent of the break over the "
+            f"duration is {with_reference(law)}, that of a floor which a jump at the end of the record makes.",
         ),
         answered(
             "Regions 1, 2 and 4 arise from the non-linearity of the contact.",
@@ -115,21 +115,14 @@ def _share(result: DistanceResult, height: float) -> float:
 
 
 def conclusions(result: DistanceResult, numbers: list[Number]) -> list[str]:
-    law, jump, square = (number_with(numbers, quantity) for quantity in (BREAK_LAW, JUMP, SQUARE))
-    peaks = numbers_with(numbers, PEAK_QUANTITY)
+    jump, square = (number_with(numbers, quantity) for quantity in (JUMP, SQUARE))
     return [
-        if_confirmed(
-            f"The break moves as T^{law.reference:.3f}: exponent {with_reference(law)}. It moves to higher frequencies "
-            "with the distance, and region 4 moves out of the spectrum.",
-            [law],
-        ),
         if_confirmed(
             "Linear theory and the start in static equilibrium make the jump from the end of a record to its "
             "beginning, 1 + cos²(ω_eigen T) times the forced acceleration squared: its rms is "
             f"{jump.value:.3f} ± {jump.uncertainty:.3f} of that at {jump.where['worst at']:.3g} m, the worst distance.",
             [jump],
         ),
-        _cause(numbers),
         _plateau(result, numbers),
         if_confirmed(
             "Nothing damps the wheel, so its initial free vibration stays: the mean square acceleration is "
@@ -137,24 +130,7 @@ def conclusions(result: DistanceResult, numbers: list[Number]) -> list[str]:
             "1; the contact makes its frequency.",
             [square],
         ),
-        if_confirmed(
-            "The frequency of the peak depends on the amplitude of free vibration as on a Hertz contact, released up "
-            f"to {max(float(str(n.where['release / d'])) for n in peaks):g} d below equilibrium.",
-            peaks,
-        ),
     ]
-
-
-def _cause(numbers: list[Number]) -> str:
-    hann, steady, linear = (
-        number_with(numbers, LEVEL, f"{kind}, over {OPEN}", region=FOURTH) for kind in (HANN, STEADY, LINEAR_OPEN)
-    )
-    return if_confirmed(
-        "Region 4 is leakage of the rectangular window, which the linear contact has too: Hann's window lowers it by "
-        f"{-hann.value:.1f} dB, steady-state motion by {-steady.value:.1f} dB. What remains is the nonlinearity of "
-        "the springs.",
-        [linear],
-    )
 
 
 def _plateau(result: DistanceResult, numbers: list[Number]) -> str:

@@ -40,7 +40,7 @@ def evidence(result: Result3D) -> Evidence:
         tables=(tables.levels_of(levels), tables.oscillation_of(levels), *tables.contrast_of(levels)),
         page_tables=(tables.shown_regions(levels, numbers), tables.shown_within(levels)),
         claims=_claims(numbers, bands),
-        conclusions=tuple(conclusions(list(levels.ranges), numbers, bands, applications)),
+        conclusions=tuple(conclusions(numbers, bands, applications)),
         captions=_captions(result.case),
         unconverged=result.unconverged,
     )
@@ -97,19 +97,9 @@ def _method(case: Wheel3D) -> str:
     )
 
 
-def conclusions(ranges: list[str], numbers: list[Number], bands: Sequence[Number], applications: float) -> list[str]:
-    """Levels by range, the slope, the contrast, the plateau, and what a time step costs."""
-    sentences = []
-    for name in ranges:
-        parts = [
-            f"{model} {n.value:+.1f} ± {n.uncertainty:.1f} dB ({n.verdict}), "
-            f"{mean_over_range(bands, name, model):+.1f} dB in the mean"
-            for model, over in OVER_BEM.items()
-            for n in numbers_with(numbers, LEVEL, over, range=name)
-        ]
-        if parts:
-            sentences.append(f"Worst one-third octave over boundary elements, {name}: {'; '.join(parts)}.")
-    sentences += [
+def conclusions(numbers: Sequence[Number], bands: Sequence[Number], applications: float) -> list[str]:
+    """The slope, the contrast, the plateau, and what a time step costs."""
+    sentences = [
         if_confirmed(f"The slope of region 3 is that of (14.13): {slope.model} {with_reference(slope)}.", [slope])
         for slope in numbers_with(numbers, SLOPE_3)
     ]

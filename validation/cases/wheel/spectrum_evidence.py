@@ -106,17 +106,23 @@ def _claims(
         )
     of_figure = [mine[key] for key in names if key in mine] + [ranges[key] for key in ("worst level",) if key in ranges]
     claims = [answered(CLAIM, of_figure, f"on springs {', '.join(parts)}.")]
-    if "contrast" in ranges:
-        worst_one, period = ranges["contrast"], [mine[key] for key in (PERIOD,) if key in mine]
+    if PERIOD in mine:
         claims.append(
             answered(
-                "Region 3 oscillates as sin²(q a), with the constant period π v₀ / a.",
-                [*period, worst_one],
-                (f"the period is {beside(period[0])} rad/s {period_range(scene)}, but " if period else "")
-                + f"at zero {worst_one.where['worst at']:g} the maxima are {worst_one.value:.1f} dB above the zero, "
-                f"{worst_one.reference:.1f} dB in linear theory.",
-                limits="the period alone" if period else "",
-                inside=period,
+                "Region 3 oscillates with the constant period π v₀ / a.",
+                [mine[PERIOD]],
+                f"the period is {beside(mine[PERIOD])} rad/s {period_range(scene)}.",
+            )
+        )
+    if "contrast" in ranges:
+        worst_one = ranges["contrast"]
+        claims.append(
+            answered(
+                "Region 3 oscillates as sin²(q a), down to its zeros.",
+                [worst_one],
+                f"at zero {worst_one.where['worst at']:g} the maxima are {worst_one.value:.1f} dB above it, "
+                f"{worst_one.reference:.1f} dB in linear theory; each end of the contact moves by R h₀ / 2a = "
+                f"{1e6 * scene.radius * scene.rms / (2 * scene.contact_radius):.3g} µm.",
             )
         )
     sayings = {
