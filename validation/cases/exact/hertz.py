@@ -52,7 +52,7 @@ class Hertz:
 
     @property
     def contact_radius(self) -> float:
-        """Contact radius of Hertz [m]."""
+        """Of Hertz [m]."""
         return closed_forms.hertz_contact_radius(radius=self.radius, approach=self.approach)
 
     @property
@@ -62,8 +62,13 @@ class Hertz:
 
     @property
     def force(self) -> float:
-        """Force of Hertz [N]."""
-        return closed_forms.hertz_force(radius=self.radius, modulus=self.modulus, approach=self.approach)
+        """Of Hertz [N]."""
+        return closed_forms.hertz_force(approach=self.approach, **self.sphere)
+
+    @property
+    def sphere(self) -> dict[str, float]:
+        """Arguments of the closed forms."""
+        return {"radius": self.radius, "modulus": self.modulus}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,10 +112,9 @@ def press_by_bem(sphere: Sphere) -> Outcome:
     half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=sphere.spacing, modulus=case.modulus)
     gap = r**2 / (2 * case.radius)
     contact = bem3d.solve(half_space, gap, approach=sphere.approach, tolerance=case.tolerance)
-    hertz = {"radius": case.radius, "modulus": case.modulus}
-    force = closed_forms.hertz_force(approach=sphere.approach, **hertz)
+    force = closed_forms.hertz_force(approach=sphere.approach, **case.sphere)
     by_force = bem3d.solve(half_space, gap, force=force, start=contact, tolerance=case.tolerance)
-    exact = closed_forms.hertz_pressure(r, approach=sphere.approach, **hertz)
+    exact = closed_forms.hertz_pressure(r, approach=sphere.approach, **case.sphere)
     middle = cells // 2
     return {
         "force": np.array(contact.force),
@@ -129,7 +133,7 @@ def press_by_springs(sphere: Sphere) -> Outcome:
     x = (np.arange(cells) - (cells - 1) / 2) * sphere.spacing
     height = -mdr.sphere_profile(x, radius=case.radius)
     curve = mdr.load_curve(height, length=cells * sphere.spacing, modulus=case.modulus)
-    force = closed_forms.hertz_force(radius=case.radius, modulus=case.modulus, approach=sphere.approach)
+    force = closed_forms.hertz_force(approach=sphere.approach, **case.sphere)
     with warnings.catch_warnings():
         # the error that few springs make is measured here
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
@@ -250,19 +254,18 @@ def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> tuple[Numbe
 
 def _data(result: HertzResult) -> dict[str, dict[str, ArrayLike]]:
     case, bem, springs = result.case, result.bem, result.mdr
-    scene = {"radius": case.radius, "modulus": case.modulus}
     x = np.linspace(0, 2 * case.contact_radius, 401)
     return {
         "load": {
             "approach [m]": case.approaches,
-            "hertz force [N]": [closed_forms.hertz_force(approach=d, **scene) for d in case.approaches],
+            "hertz force [N]": [closed_forms.hertz_force(approach=d, **case.sphere) for d in case.approaches],
             "bem3d force [N]": [o["force"] for o in bem["loads"]],
             "mdr force [N]": [o["force"] for o in springs["loads"]],
         },
         "pressure": {"x [m]": bem["grids"][1]["x"], "bem3d pressure [Pa]": bem["grids"][1]["pressure"]},
         "exact-pressure": {
             "x [m]": x,
-            "hertz pressure [Pa]": closed_forms.hertz_pressure(x, approach=case.approach, **scene),
+            "hertz pressure [Pa]": closed_forms.hertz_pressure(x, approach=case.approach, **case.sphere),
         },
         "refinement": {
             "cells per contact radius": case.cells_per_radius,

@@ -17,14 +17,16 @@ from validation.analysis.statistics import (
     Sample,
     Statistic,
     at_level,
+    decade_slope,
     extrapolated,
     jackknifed,
+    local_slope,
     log_mean,
     log_relative_deviation,
     sample,
+    weighted_mean,
 )
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
-from validation.cases.punch.decade_statistics import exponent_over, local_exponent
 from validation.cases.punch.ensembles import Row, cells_in_contact, interval_columns
 from validation.cases.punch.rough_interface import Layer
 from validation.engine.engine import random_generator
@@ -125,7 +127,7 @@ def _worst(
 
 def _exponent(case: MdrLimits, mine: RollOffSamples, layer: Layer, method: str, first: float) -> Number | None:
     """d ln kappa / d ln F over a decade; None where the punch is as stiff as the flat one."""
-    slope = exponent_over(case.forces, first, layer.statistic)
+    slope = weighted_mean(decade_slope(case.forces, first), layer.statistic)
     found, grid = mine.by_method[method, "stiffness"].estimate(slope), 0.0
     if method == BEM:
         found, grid = mine.extrapolated("stiffness", slope)
@@ -161,8 +163,8 @@ def _row(result: MdrLimitsResult, mine: RollOffSamples, layers: Mapping[str, Lay
         deviation = stiffness.estimate(at_level(level, log_relative_deviation))
         row |= interval_columns(f"{method} {DEVIATION}", deviation, math.exp)
         row |= interval_columns(f"{method} interface", stiffness.estimate(at_level(level, interface)), math.exp)
-        slope = local_exponent(case.forces, level, interface)
-        row[f"{method} exponent of the interface"] = stiffness.estimate(slope).value
+        slope = stiffness.estimate(weighted_mean(local_slope(case.forces, level), interface))
+        row[f"{method} exponent of the interface"] = slope.value
     row["Persson contact fraction"] = persson(result, mine.roll_off, level)
     return row | cells_in_contact(row[f"{BEM} {AREA}"], case.cells)
 

@@ -23,12 +23,12 @@ from validation.analysis.statistics import (
     at_level,
     decade_weights,
     difference_of_halves,
+    log_deviation_over,
     log_relative_deviation,
     mean_of,
     paired_samples,
     sample,
 )
-from validation.cases.punch.decade_statistics import deviation_over
 from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
 from validation.selection import model_needed
@@ -111,7 +111,7 @@ class Fluctuations:
 
     def over(self, first: float) -> Statistic:
         """Of a decade of force, its root mean square."""
-        return deviation_over(self.result.case.forces, first)
+        return log_deviation_over(decade_weights(self.result.case.forces, first))
 
     def of(self, hurst: float, variant: str, method: str, statistic: Statistic) -> Estimate:
         return self.samples[hurst, variant, method].estimate(statistic)
