@@ -211,7 +211,7 @@ CASE = Case(
         cells=16,
         strips=6,
         rough_strips=8,
-        refined=3,
+        refined=4,
         tracks=400,
     ),
     run=run,
