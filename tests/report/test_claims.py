@@ -54,6 +54,7 @@ def summary(section):
 # --- no green badge above a refutation ---
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(found)
 def test_a_claim_whose_numbers_differ_stands_under_no_green_badge(verdicts):
