@@ -145,6 +145,8 @@ def test_doubts_stand_first(tmp_path, capsys, small):
     (doubt,) = said["doubts"]
     assert capsys.readouterr().out.splitlines()[1] == f"note: {doubt}"
     assert page.index("Doubt:") < page.index("<h1>")
+    # the statements of the book are about its own scene
+    assert 'id="book"' not in page
 
 
 def test_a_name_of_a_variation_is_no_name_of_a_scene():

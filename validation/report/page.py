@@ -108,7 +108,7 @@ def page(
     }
     text = environment.get_template("page.html").render(
         sections=sections,
-        book=[] if unsteady else chapter_of(sections),
+        book=[] if scene else chapter_of(sections),
         errata=ERRATA,
         total="" if unsteady else total_of(sections),
         chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in Chapter],
