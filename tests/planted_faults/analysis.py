@@ -290,6 +290,10 @@ FAULTS = {
         (fractal_punch_decades, "Number", sample_for_grid),
         test_error_bars.test_the_grid_interval_of_fig_14_1,
     ),
+    "the signed mean over bands for the worst of them, in rolling": (
+        (rolling_numbers, "worst", mean_of_the_range),
+        test_error_bars.test_levels_of_rolling_are_powers_in_decibels,
+    ),
     "decibels of an amplitude for those of a power, in rolling": (
         (rolling_numbers, "difference", functools.partial(difference, scale=statistics.DECIBEL)),
         test_error_bars.test_levels_of_rolling_are_powers_in_decibels,
