@@ -626,20 +626,6 @@ def test_a_feature_covers_its_truth():
     assert holds(covered(drawn, 7.0, trials=60), trials=60)
 
 
-@pytest.mark.parametrize("strips", [4, 8])
-def test_levels_over_the_linear_contact_cover_their_truth(strips):
-    """Strips in pairs: the scatter of the surface is common to both."""
-    rng = np.random.default_rng(strips)
-
-    def drawn():
-        linear = rng.lognormal(0, 0.3, (strips, 1))
-        return ends(
-            wheel_3d_levels.log_ratio(0.8 * linear * np.exp(0.05 * rng.standard_normal((strips, 1))), linear)[0]
-        )
-
-    assert holds(covered(drawn, math.log(0.8) + 0.05**2 / 2), short=0.02)
-
-
 def strips_of(factor, rng_seed=0, count=3, steps=720):
     """Series of boundary elements `factor` times the linear ones."""
     linear = np.random.default_rng(rng_seed).standard_normal((count, steps))
@@ -681,7 +667,7 @@ def test_a_mean_over_bands_in_three_dimensions_has_all_of_its_errors():
     }
     levels = wheel_3d_levels.WheelLevels(wheel_3d.Result3D(case, strips, {}, ()))
     bands = len(levels.centres)
-    groups = np.random.default_rng(0).standard_normal((6, bands))
+    groups = 0.01 * np.random.default_rng(0).standard_normal((6, bands))
     exact = dict.fromkeys((wheel_3d_levels.LINEAR_3D, wheel_3d_levels.LINEAR_1D), np.zeros(bands))
     levels.__dict__.update(springs={wheel_3d_levels.GEIKE: groups}, exact=exact)
     where = np.arange(bands) < 3
@@ -689,7 +675,8 @@ def test_a_mean_over_bands_in_three_dimensions_has_all_of_its_errors():
     springs, same = levels.mean_over_bem(wheel_3d_levels.GEIKE, where)
     assert left == same == pytest.approx(levels.grid[where].mean() + levels.solver[where].mean())
     own = groups[:, where].mean(axis=1).std(ddof=1) / math.sqrt(6)
-    assert springs.error == pytest.approx(math.hypot(theory.error, own))
+    # of small logarithms, the spread of their means
+    assert math.sqrt(springs.error**2 - theory.error**2) == pytest.approx(own, rel=0.02)
     assert theory.error > 0 and theory.samples == springs.samples == 3
 
 

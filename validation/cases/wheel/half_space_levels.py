@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import RecordSpectra, band_levels, one_third_octaves, record_spectra
-from validation.analysis.statistics import Estimate, jackknife_error
+from validation.analysis.statistics import Estimate, log_ratio_of_means
 from validation.cases.wheel.features import linear_force_3d, linear_spectrum, resonator
 from validation.cases.wheel.half_space import COARSER, FINEST, LOOSE, TIGHT, Result3D
 from validation.engine.engine import Outcome
@@ -73,7 +73,12 @@ class WheelLevels:
     @cached_property
     def ratio(self) -> list[Estimate]:
         """ln of boundary elements over the linear contact on the same strips, band by band."""
-        return log_ratio(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
+        return [self._ratio_over(band) for band in np.eye(self.centres.size)]
+
+    def _ratio_over(self, weights: FloatArray) -> Estimate:
+        """Its mean over bands."""
+        bem, linear = (self.of_strips(self.converged, contact) for contact in ("bem", "linear"))
+        return log_ratio_of_means(bem, linear, weights)
 
     @cached_property
     def grid(self) -> FloatArray:
@@ -128,21 +133,15 @@ class WheelLevels:
 
     def mean_over_bem(self, model: str, where: NDArray[np.bool_]) -> tuple[Estimate, float]:
         """Mean of that over some bands, with the error of both samples; the error of grid and solver."""
-        error = math.sqrt(self._error_of_ratio(where) ** 2 + self._error_of_model(model, where) ** 2)
+        weights = where / where.sum()
+        error = self._ratio_over(weights).error
+        if model in self.springs:
+            springs = np.exp(self.springs[model])
+            error = math.hypot(error, log_ratio_of_means(springs, np.ones(where.size), weights).error)
         value = float(self.over_bem(model)[where].mean())
         solver = self.solver[where][np.isfinite(self.solver[where])]
         grid = float(self.grid[where].mean() + (solver.mean() if solver.size else 0.0))
         return Estimate(value, error, len(self.converged)), grid
-
-    def _error_of_ratio(self, where: NDArray[np.bool_]) -> float:
-        bem, linear = (self.of_strips(self.converged, contact)[:, where] for contact in ("bem", "linear"))
-        return float(jackknife_error(_without_one(bem, linear).mean(axis=1)))
-
-    def _error_of_model(self, model: str, where: NDArray[np.bool_]) -> float:
-        if model in self.exact:
-            return 0.0
-        groups = self.springs[model][:, where].mean(axis=1)
-        return float(np.std(groups, ddof=1)) / math.sqrt(groups.size)
 
 
 def _integral(density: Callable[[FloatArray], FloatArray], low: float, high: float, points: int) -> float:
@@ -154,17 +153,6 @@ def hann_spectra(strips: list[Outcome], contact: str) -> RecordSpectra:
     """Of the acceleration on each strip, with Hann's window."""
     series = np.stack([strip[contact] for strip in strips], axis=1)
     return record_spectra(series, time_step=float(strips[0]["time step"]), window="hann")
-
-
-def log_ratio(mine: FloatArray, other: FloatArray) -> list[Estimate]:
-    """ln of the ratio of both means, realisations in pairs along the first axis; error by the jackknife."""
-    value, errors = _log_mean(mine) - _log_mean(other), jackknife_error(_without_one(mine, other))
-    return [Estimate(float(v), float(e), len(mine)) for v, e in zip(value, errors, strict=True)]
-
-
-def _without_one(mine: FloatArray, other: FloatArray) -> FloatArray:
-    """ln of that ratio, without one realisation after the other."""
-    return np.array([_log_mean(np.delete(mine, i, 0)) - _log_mean(np.delete(other, i, 0)) for i in range(len(mine))])
 
 
 def _log_mean(levels: FloatArray) -> FloatArray:
