@@ -101,8 +101,9 @@ def claims_of(numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
 
 def _times(numbers: Sequence[Number]) -> str:
     """From the smallest to the largest ratio, at the worst forces of all decades and roll-offs."""
-    ratios = {f"{math.exp(n.value / DECIBEL):.2g}" for n in numbers}
-    return " to ".join(sorted({min(ratios, key=float), max(ratios, key=float)}, key=float) if ratios else []) + " times"
+    ratios = sorted(math.exp(n.value / DECIBEL) for n in numbers)
+    ends = dict.fromkeys(f"{ratio:.2g}" for ratio in (*ratios[:1], *ratios[-1:]))
+    return f"{' to '.join(ends)} times"
 
 
 def _method(case: MdrLimits) -> str:
