@@ -24,7 +24,7 @@ class FractalPunch(PunchEnsembles):
     `cells` a side, which are four to the shortest wave; the coarsest has no waves beyond two of its cells.
 
     hursts; surfaces: how many on each of these grids, coarse to fine, one row a decade of force; zero if a grid is
-    not used, else descending, with the three finest not among the coarsest grid; fine_profiles: of the profiles, as
+    not used, else descending, with three finer than the coarsest grid, that of `cells` among them; fine_profiles: of the profiles, as
     many are pressed with twice the springs. cells: a multiple of 8.
     """
 
@@ -51,7 +51,7 @@ class FractalPunch(PunchEnsembles):
             raise ValueError(f"surfaces must have a row a decade, got {self.surfaces}")
         for row in self.surfaces:
             used = [count for count in row if count]
-            if sum(map(bool, row[1:])) < 3 or used != sorted(used, reverse=True) or used[-1] < PAIRS:
+            if not row[2] or sum(map(bool, row[1:])) < 3 or used != sorted(used, reverse=True) or used[-1] < PAIRS:
                 raise ValueError(
                     f"surfaces of a decade must descend to {PAIRS} or more on three grids of one band, got {row}"
                 )

@@ -17,10 +17,10 @@ from validation.simulation.rough_punch import BEM
 def estimator(found: PunchStatistics) -> list[Row]:
     """One row a decade and grid: surfaces, and what their best number follows from; NaN on a grid without any.
 
-    correlation: of the deviation's sample terms with those of the next coarser grid; variance: of the step from that
-    grid, or of the coarsest itself, over the plain variance on the finest; work: cells times operator applications of
-    a surface at the forces of the decade, over that of the finest; best: surfaces ~ sqrt(variance / work), for the
-    same work in all (Giles 2015).
+    variance: what one surface adds to that of ln deviation, by the step from the next coarser grid or on the coarsest,
+    four times that of the last step, which the extrapolation doubles; work: cells times operator applications of a
+    surface at the forces of the decade, over that of the finest; best: surfaces ~ sqrt(variance / work), for the same
+    work in all (Giles 2015).
     """
     case = found.case
     rows = []
@@ -31,6 +31,7 @@ def estimator(found: PunchStatistics) -> list[Row]:
         work = {cells: mean(_work(ensemble, cells, level) for ensemble, level in pairs) for cells in used}
         steps = [_steps(stiffness_on_grids(ensemble, BEM, level)) for ensemble, level in pairs]
         variance = {cells: mean(step[cells] for step in steps) for cells in used}
+        variance[used[-1]] *= 4
         counts = dict(zip(case.grids, case.surfaces[decade], strict=True))
         best = {cells: (variance[cells] / work[cells]) ** 0.5 for cells in used}
         total = sum(counts[cells] * work[cells] for cells in used) / sum(best[cells] * work[cells] for cells in used)

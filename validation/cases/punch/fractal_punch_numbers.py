@@ -56,7 +56,7 @@ def _convex(result: FractalPunchResult, method: str) -> Number:
 
 def _bounded(result: FractalPunchResult) -> Number:
     """No rough punch is stiffer than the flat one, and at the largest force it is nearly as stiff."""
-    cells = result.case.grids_at(result.case.forces[-1])[-1]
+    cells = result.case.cells
     largest = max(float(np.nanmax(ensemble.outcomes[BEM][cells]["stiffness"])) for ensemble in result.ensembles)
     deficit = 2 / cells
     return Number(
