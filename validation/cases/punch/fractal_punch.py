@@ -24,8 +24,8 @@ class FractalPunch(PunchEnsembles):
     `cells` a side, which are four to the shortest wave; the coarsest has no waves beyond two of its cells.
 
     hursts; surfaces: how many on each of these grids, coarse to fine, one row a decade of force; zero if a grid is
-    not used, else descending, with three finer than the coarsest grid, that of `cells` among them; fine_profiles: of the profiles, as
-    many are pressed with twice the springs. cells: a multiple of 8.
+    not used, else descending, with three finer than the coarsest grid, that of `cells` among them; fine_profiles: of
+    the profiles, as many are pressed with twice the springs. cells: a multiple of 8.
     """
 
     hursts: tuple[float, ...] = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
