@@ -544,13 +544,14 @@ def test_lines_of_iterations():
 def test_marks_of_methods_are_those_of_the_legend():
     """Each line of a chart looks as its name does, and no two names look alike."""
     methods = list(precision.STYLES)
-    keys = {"scene": ["s"] * 22, "quantity": ["force"] * 22, "unit": ["%"] * 22, "status": ["finished"] * 22}
-    yes = np.tile([True, False], 11)
+    size = 2 * len(methods)
+    keys = {"scene": ["s"] * size, "quantity": ["force"] * size, "unit": ["%"] * size, "status": ["finished"] * size}
+    yes = np.tile([True, False], len(methods))
     table = Made({**keys, "method": np.repeat(methods, 2), "front": yes, "reference itself": ~yes & False})
-    table.given["error"] = table["median [s]"] * 0 + np.linspace(0.01, 0.2, 22)
+    table.given["error"] = table["median [s]"] * 0 + np.linspace(0.01, 0.2, size)
     table.given["lower quartile [s]"] = 0.9 * table["median [s]"]
     table.given["upper quartile [s]"] = 1.2 * table["median [s]"]
-    table.given["band"], table.given["± sample"] = np.full(22, 1e-4), np.full(22, 1e-3)
+    table.given["band"], table.given["± sample"] = np.full(size, 1e-4), np.full(size, 1e-3)
     axes = precision.draw(made(points=table)).axes
     legend = {h.get_label(): look(h) for h in axes[-1].get_legend().legend_handles}
     assert list(legend) == methods and len(set(legend.values())) == len(methods)

@@ -76,8 +76,8 @@ def tick(axis: Axes, values: Iterable[float]) -> None:
     axis.xaxis.minorticks_off()
 
 
-def positive(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
-    """NaN in place of what a logarithmic axis has no room for."""
+def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
+    """NaN in place of what a logarithmic axis, or one that ends there, has no room for."""
     return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 

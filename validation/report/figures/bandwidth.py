@@ -1,11 +1,10 @@
 """Figure of bandwidth and roll-off."""
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.style import GUIDE, Style, graded, panels
+from validation.report.style import GUIDE, Style, graded, panels, visible
 
 LINES = ("-", "--", "-.", (0, (6, 1, 1, 1, 1, 1)))
 """No dots, which are the fit."""
@@ -28,7 +27,7 @@ def draw(evidence: Evidence) -> Figure:
             mean.plot(mine["Fbar"], fit, **{**GUIDE, "color": style["color"]}, label=f"fit, {label}")
         _with_bars(deviation, mine, "bem3d relative deviation", {**style, "linestyle": "none"}, shift=1.04**i)
         line = {**style, "marker": "none"}
-        deviation.plot(mine["Fbar"], _positive(mine["mdr relative deviation"]), **line)
+        deviation.plot(mine["Fbar"], visible(mine["mdr relative deviation"]), **line)
     titles = ("mean stiffness, over bem3d", "relative deviation, MDR over bem3d", "relative deviation")
     for axis, title in zip(axes, titles, strict=True):
         axis.set(xscale="log", xlabel="force Fbar = F / (E* h L)", title=title)
@@ -45,10 +44,5 @@ def draw(evidence: Evidence) -> Figure:
 
 def _with_bars(axis: Axes, mine: Table, column: str, style: Style, shift: float) -> None:
     """Moved along the force a little, so that intervals stand side by side."""
-    value, low, high = (_positive(mine[f"{column}{end}"]) for end in ("", " low", " high"))
+    value, low, high = (visible(mine[f"{column}{end}"]) for end in ("", " low", " high"))
     axis.errorbar(shift * mine["Fbar"], value, yerr=[value - low, high - value], capsize=1.5, elinewidth=0.7, **style)
-
-
-def _positive(values: np.ndarray) -> np.ndarray:
-    """NaN in place of zero, as in saturation."""
-    return np.where(np.isfinite(values) & (values > 0), values, np.nan)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels, positive
+from validation.report.style import BEM, GUIDE, MDR_LINE, MDR_OTHER, graded, panels, visible
 
 FORCE = "force Fbar = F / (E* h L)"
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
@@ -21,11 +21,11 @@ def draw(evidence: Evidence) -> Figure:
     for axis, method, title in zip(axes, ("bem3d", "mdr"), ("boundary elements", "MDR"), strict=True):
         for i, hurst in enumerate(hursts):
             mine = curves.where(H=hurst)
-            value = positive(mine[f"{method} relative deviation"])
+            value = visible(mine[f"{method} relative deviation"])
             few = mine["bem3d few cells"] & (method == "bem3d")
             style = graded(i, hursts.size)
             axis.plot(mine["Fbar"], value, label=f"H = {hurst:g}", **style)
-            low, high = (positive(mine[f"{method} relative deviation {end}"]) for end in ("low", "high"))
+            low, high = (visible(mine[f"{method} relative deviation {end}"]) for end in ("low", "high"))
             axis.fill_between(mine["Fbar"], low, high, color=style["color"], alpha=0.15, linewidth=0)
             axis.plot(mine["Fbar"][few], value[few], **{**style, "linestyle": "none", "markerfacecolor": "white"})
         axis.set(xscale="log", xlabel=FORCE, title=title, ylim=(0, None))
@@ -130,16 +130,16 @@ def _by_hurst(evidence: Evidence, one: Callable[[Axes, Evidence, float], None], 
 def _compare(axis: Axes, curves: Table, name: str) -> None:
     _with_bars(axis, curves, f"bem3d {name}", "boundary elements")
     force = curves["Fbar"]
-    axis.plot(force, positive(curves[f"mdr {name}"]), label="MDR, L_1D = L", **MDR_LINE)
-    low, high = positive(curves[f"mdr {name} low"]), positive(curves[f"mdr {name} high"])
+    axis.plot(force, visible(curves[f"mdr {name}"]), label="MDR, L_1D = L", **MDR_LINE)
+    low, high = visible(curves[f"mdr {name} low"]), visible(curves[f"mdr {name} high"])
     axis.fill_between(force, low, high, color=MDR_LINE["color"], alpha=0.25, linewidth=0)
-    axis.plot(force, positive(curves[f"mdr 1.1523 L {name}"]), label="MDR, L_1D = 1.1523 L", **MDR_OTHER)
+    axis.plot(force, visible(curves[f"mdr 1.1523 L {name}"]), label="MDR, L_1D = 1.1523 L", **MDR_OTHER)
 
 
 def _with_bars(axis: Axes, curves: Table, column: str, label: str) -> None:
     """Circles with their 95 % intervals, open where contacts have few cells."""
     force = curves["Fbar"]
-    value, low, high = (positive(curves[f"{column}{end}"]) for end in ("", " low", " high"))
+    value, low, high = (visible(curves[f"{column}{end}"]) for end in ("", " low", " high"))
     few = curves["bem3d few cells"]
     for drawn, face, name in ((~few, BEM["color"], label), (few, "white", f"{label}, few cells")):
         if drawn.any():

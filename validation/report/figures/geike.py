@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import BEM, EXACT, MDR, MDR_OTHER, panels, positive
+from validation.report.style import BEM, EXACT, MDR, MDR_OTHER, panels, visible
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -20,7 +20,7 @@ def draw(evidence: Evidence) -> Figure:
         ("lines of drawn surfaces [m^3]", "lines cut from drawn surfaces", BEM, sparse),
     ):
         # outside the band, transforms have rounding alone
-        values = positive(spectra[column], above=1e-9 * spectra[column].max())
+        values = visible(spectra[column], above=1e-9 * spectra[column].max())
         spectrum_axis.loglog(q[some], values[some], label=label, **style)
     spectrum_axis.set(xlabel="wavenumber q [rad/m]", ylabel="C_1D [m³]")
     spectrum_axis.legend()

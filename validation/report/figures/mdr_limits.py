@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.style import GUIDE, graded, panels, positive
+from validation.report.style import GUIDE, graded, panels, visible
 
 
 def draw(evidence: Evidence) -> Figure:
@@ -50,7 +50,7 @@ def _draw(axis: Axes, curves: Table, name: str, over_force: bool = False) -> Non
             bars = [(value - low)[drawn], (high - value)[drawn]]
             look = {**style, "markerfacecolor": face}
             axis.errorbar(force[drawn], value[drawn], yerr=bars, capsize=2, label=label, **look)
-        value, low, high = (positive(mine[f"mdr {name}{end}"], above=1e-6) / unit for end in ("", " low", " high"))
+        value, low, high = (visible(mine[f"mdr {name}{end}"], above=1e-6) / unit for end in ("", " low", " high"))
         line = {"color": style["color"], "linestyle": ("-", "--", "-.")[i % 3], "linewidth": 1.6}
         axis.plot(force, value, label=f"MDR, {named}", **line)
         axis.fill_between(force, low, high, color=style["color"], alpha=0.2, linewidth=0)

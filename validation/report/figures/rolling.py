@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_1D, LINEAR_3D, MODELS, SPRINGS
-from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels, tick
+from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_OTHER, graded, panels, tick, visible
 
 POINTS_PER_CELL = 12
 """Of the map, for its border lines."""
@@ -21,7 +21,7 @@ def draw_line(evidence: Evidence) -> Figure:
     axis.plot(q, found["linear 3D"], color="#999999", linewidth=3.0, label="linear theory, 3D")
     axis.plot(q, found["springs"], color=MDR["color"], marker=".", markersize=2.5, linestyle="none", label="springs")
     for formula, style in (("(14.12)", EXACT), ("(14.14)", {**MDR_OTHER, "linewidth": 1.8})):
-        axis.plot(q, np.where(found[formula] > 0, found[formula], np.nan), label=formula, **style)
+        axis.plot(q, visible(found[formula]), label=formula, **style)
     top = float(found["linear 3D"].max())
     axis.set(xscale="log", yscale="log", ylim=(1e-7 * top, 6 * top))
     axis.set(xlabel="q a", ylabel="C_F / (F_Hertz² a (h/d)²)")
@@ -42,8 +42,8 @@ def draw(evidence: Evidence) -> Figure:
         mine = levels.where(**{"h/d": height})
         q = mine["q a"]
         axis.plot(q, mine[f"{LINEAR_3D} [dB]"], label="linear theory, 3D", **EXACT)
-        axis.plot(q, _on_axis(mine[f"{LINEAR_1D} [dB]"], top), label="linear theory, 1D (14.12)", **MDR_OTHER)
-        axis.plot(q, _on_axis(mine[f"{SPRINGS} [dB]"], top), label="springs", **MDR)
+        axis.plot(q, visible(mine[f"{LINEAR_1D} [dB]"], above=top - 60), label="linear theory, 1D (14.12)", **MDR_OTHER)
+        axis.plot(q, visible(mine[f"{SPRINGS} [dB]"], above=top - 60), label="springs", **MDR)
         bars = mine["± sample [dB]"] + mine["± grid [dB]"]
         axis.errorbar(q, mine["bem3d [dB]"], yerr=bars, capsize=2, label="boundary elements", **BEM)
         axis.axvspan(0.9 * q[0], 1.0, color="#000000", alpha=0.06, linewidth=0)
@@ -143,11 +143,6 @@ def _points_in_cells(borders: np.ndarray) -> np.ndarray:
     logs = np.log(borders)
     part = (np.arange(POINTS_PER_CELL) + 0.5) / POINTS_PER_CELL
     return np.asarray(np.exp((logs[:-1, np.newaxis] + np.diff(logs)[:, np.newaxis] * part).ravel()))
-
-
-def _on_axis(levels: np.ndarray, top: float) -> np.ndarray:
-    """Levels down to 60 dB below the top; NaN for others."""
-    return np.where(levels > top - 60, levels, np.nan)
 
 
 def _ticks(axis: Axes, q: np.ndarray) -> None:

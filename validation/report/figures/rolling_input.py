@@ -6,12 +6,13 @@ from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
 from validation.cases.rolling.input_spectrum_numbers import NAMES
-from validation.report.style import graded, panels, tick
+from validation.report.style import graded, panels, tick, visible
 
 STYLES = {
     name: {**graded(i, 3), "linestyle": dash}
     for i, (name, dash) in enumerate(zip(NAMES.values(), ("-", "--", "-."), strict=True))
 }
+LOWEST = -60.0
 DECIBELS = (-11.0, 11.0)
 """Limits of the axis."""
 
@@ -25,7 +26,7 @@ def draw(evidence: Evidence) -> Figure:
         mine = bands.where(spectrum=name)
         _shade_tolerance(axis)
         for label in NAMES.values():
-            axis.plot(mine["q a"], _on_axis(mine[f"{label} [dB]"]), label=label, **STYLES[label])
+            axis.plot(mine["q a"], visible(mine[f"{label} [dB]"], above=LOWEST), label=label, **STYLES[label])
         _format_axis(axis, str(name))
     _label_axes(figure, axes, 3, "(14.12) over linear theory in 3D [dB]")
     return figure
@@ -41,10 +42,8 @@ def draw_springs(evidence: Evidence) -> Figure:
         mine = rolled.where(**{"spectrum": name, "h/d": height})
         _shade_tolerance(axis)
         for label in NAMES.values():
-            bars = mine[f"{label} ± [dB]"]
-            axis.errorbar(
-                mine["q a"], _on_axis(mine[f"{label} [dB]"]), yerr=bars, capsize=1.5, label=label, **STYLES[label]
-            )
+            level, bars = visible(mine[f"{label} [dB]"], above=LOWEST), mine[f"{label} ± [dB]"]
+            axis.errorbar(mine["q a"], level, yerr=bars, capsize=1.5, label=label, **STYLES[label])
         _format_axis(axis, f"{name}, h/d = {height:g}")
     _label_axes(figure, axes, len(names), "springs over boundary\nelements [dB]")
     return figure
@@ -68,11 +67,6 @@ def draw_punch(evidence: Evidence) -> Figure:
 def _shade_tolerance(axis: Axes) -> None:
     axis.axhspan(-3, 3, color="#000000", alpha=0.07, linewidth=0)
     axis.axhline(0, color="#000000", linewidth=0.8)
-
-
-def _on_axis(errors: np.ndarray) -> np.ndarray:
-    """Errors above -60 dB; NaN for others."""
-    return np.where(np.isfinite(errors) & (errors > -60), errors, np.nan)
 
 
 def _format_axis(axis: Axes, title: str) -> None:

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import GUIDE, MDR, Style, graded, panels, positive
+from validation.report.style import GUIDE, MDR, Style, graded, panels, visible
 
 GREY: Style = {"color": "#aaaaaa", "linewidth": 3.0}
 INK: Style = {"color": "#D55E00", "linewidth": 1.2}
@@ -19,7 +19,7 @@ def draw_contact(evidence: Evidence) -> Figure:
     table = evidence.table("pressure")
     x, y = np.unique(table["x / a"]), np.unique(table["y / a"])
     p = table["p / p0"].reshape(x.size, y.size)
-    image = pressure.pcolormesh(x, y, np.where(p > 0, p, np.nan).T, cmap="cividis", shading="nearest", rasterized=True)
+    image = pressure.pcolormesh(x, y, visible(p).T, cmap="cividis", shading="nearest", rasterized=True)
     turn = np.linspace(0, 2 * np.pi, 200)
     pressure.plot(np.cos(turn), np.sin(turn), **{**GUIDE, "color": "#000000"})
     pressure.set(xlabel="x / a from below the wheel, along the track", ylabel="y / a", aspect="equal")
@@ -50,7 +50,7 @@ def draw(evidence: Evidence) -> Figure:
     figure, (whole, region, contrast) = panels(1, 3, width=13.5, height=4.2)
     omega, mean = table["omega [rad/s]"], table["A [(m/s2)2 s]"]
     floor, linear, hann = table["floor"], table["linear"], table["Hann"]
-    whole.plot(omega, positive(linear), label="linear theory", **GREY)
+    whole.plot(omega, visible(linear), label="linear theory", **GREY)
     spread: Style = {"color": "#D55E00", "alpha": 0.2, "linewidth": 0, "label": "10th to 90th percentile"}
     whole.fill_between(omega, table["lowest tenth"], table["highest tenth"], **spread)
     whole.plot(omega, mean, label="no window, (14.17)", **INK)
@@ -62,7 +62,7 @@ def draw(evidence: Evidence) -> Figure:
     whole.legend(loc="upper right", fontsize=7)
     near = evidence.table("oscillation")
     omega = near["omega [rad/s]"]
-    region.plot(omega / 1e3, positive(near["linear"]), label="linear theory", **GREY)
+    region.plot(omega / 1e3, visible(near["linear"]), label="linear theory", **GREY)
     region.plot(omega / 1e3, near["springs"], label="no window", **INK)
     region.plot(omega / 1e3, near["springs, Hann"], color="#000000", linestyle="--", linewidth=1.0, label="Hann")
     region.set(yscale="log", ylim=(0.01, 30), xlabel="ω [1000 rad/s]", ylabel="A over its mean law ω^(-2H-3)")

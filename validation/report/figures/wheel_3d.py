@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence
-from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, panels
+from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, panels, visible
 
 STYLES: dict[str, Style] = {
     "linear, 3D": {"color": "#aaaaaa", "linewidth": 3.0},
@@ -27,7 +27,7 @@ def draw(evidence: Evidence) -> Figure:
         plateau = 0.9 * float(omega[0]), float(table["to [rad/s]"][below][-1])
         levels.axvspan(*plateau, color="#000000", alpha=0.06, linewidth=0)
     for name, style in STYLES.items():
-        off = np.where(table[f"{name} over bem3d [dB]"] > LOWEST, table[f"{name} over bem3d [dB]"], np.nan)
+        off = visible(table[f"{name} over bem3d [dB]"], above=LOWEST)
         levels.plot(omega, bem + off, label=name, **style)
         differences.plot(omega, off, **style)
     levels.errorbar(omega, bem, yerr=open_, capsize=2, label="boundary elements", **BEM)

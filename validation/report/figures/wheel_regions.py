@@ -1,11 +1,10 @@
 """Region 2: its second-order force, and its end at low speed."""
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.style import EXACT, GUIDE, MDR, graded, panels, tick
+from validation.report.style import EXACT, GUIDE, MDR, graded, panels, tick, visible
 
 RATIO = "q_min v₀ / ω_eigen"
 
@@ -28,7 +27,7 @@ def draw(evidence: Evidence) -> Figure:
 
 def _plateau(axis: Axes, table: Table) -> None:
     omega = table["omega [rad/s]"] / 1e3
-    seen = np.where(table["second order"] > 0, table["second order"], np.nan)
+    seen = visible(table["second order"])
     axis.plot(omega, seen, label="second-order force", **EXACT)
     axis.plot(omega, table["steady-state"], label="springs, steady-state", **{**MDR, "marker": "o"})
     if "open" in table.columns:
