@@ -207,14 +207,14 @@ def test_the_median_lies_between_order_statistics():
 
 @pytest.mark.slow
 def test_contact_models_are_listed_with_the_difference_of_their_stiffness(result):
-    """Of the sphere the difference of the grid alone; rough faces scatter about the closed form."""
-    heats = comparison_evidence.evidence(result).table("heats").where(solver="closed form")
-    assert heats["surface"].tolist() == ["sphere", "rough"]
-    assert (heats["status"] == "finished").all()
-    sphere, rough = heats["stiffness difference to ours"]
-    assert sphere < 0.05 and rough < 1.0
-    assert np.isnan(heats["residual"]).all()
-    assert (heats["median [s]"] > 0).all()
+    """Of the sphere the difference of the grid alone; rough faces scatter about the fit."""
+    heats = comparison_evidence.evidence(result).table("heats")
+    for model, surface, most in (("closed form", "sphere", 0.05), ("fit", "rough", 1.0)):
+        found = heats.where(solver=model, status="finished")
+        assert found["surface"].tolist() == [surface]
+        assert found["stiffness difference to ours"] < most
+        assert np.isnan(found["residual"])
+        assert found["median [s]"] > 0
 
 
 @pytest.mark.slow

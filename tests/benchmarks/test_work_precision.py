@@ -459,7 +459,7 @@ ROUGH = {CLOSED, MDR, BEM, LOOSE}
         ("sphere", {CLOSED, MDR, POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED}),
         ("square punch", {CLOSED, MDR, POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED}),
         ("Westergaard's wave", {CLOSED, POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED}),
-        ("fractal punch", {*ROUGH, POLONSKY_KEER, EXTRAPOLATED}),
+        ("fractal punch", {"fit", MDR, BEM, LOOSE, POLONSKY_KEER, EXTRAPOLATED}),
         ("rolling force", {*ROUGH, POLONSKY_KEER, MDR_ROLLING, FILTER_1D, FILTER_3D}),
         ("dynamic wheel", {*ROUGH, MDR_ROLLING, FILTER_1D, FILTER_3D}),
     ],

@@ -44,7 +44,6 @@ class DiscreteProblem:
         return self.height.shape[0] * self.spacing, self.height.shape[1] * self.spacing
 
     def half_space(self) -> bem3d.HalfSpace:
-        """A new one, without plans."""
         shape = self.height.shape
         return bem3d.HalfSpace(
             shape=(shape[0], shape[1]), spacing=self.spacing, modulus=self.modulus, periodic=self.periodic
@@ -215,8 +214,7 @@ def peers_installed() -> bool:
 class DiscreteScene(Protocol):
     """A scene that other solvers take in plain values."""
 
-    def discrete(self, cells: int) -> DiscreteProblem:
-        """On a grid."""
+    def discrete(self, cells: int) -> DiscreteProblem: ...
 
     def read_pressure(self, discrete: DiscreteProblem, pressure: Field) -> Values:
         """Values of the scene from a pressure."""

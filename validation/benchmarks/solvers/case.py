@@ -41,12 +41,10 @@ class LoadPathWorkload:
     paths: int = 1
 
     def problems(self, seed: int) -> list[SurfaceProblem]:
-        """The sampled forces."""
         loads = (self.forces[i] * punch(self.cells, seed).height for i in self.sampled)
         return [SurfaceProblem(PUNCH, load, self.cells, False, seed, self.tolerance) for load in loads]
 
     def load_paths(self, seed: int) -> list["LoadPath"]:
-        """Ours."""
         first = Surface(
             roughness=punch(self.cells, seed),
             realisation=0,

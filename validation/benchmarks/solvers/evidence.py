@@ -36,14 +36,12 @@ def evidence(result: SolverComparisonResult) -> Evidence:
         title="Solver comparison: time to the same residual, one thread each",
         method=(
             f"All solvers solve the same discrete problems, cold, to a residual of {result.case.residual:g} as this "
-            "project defines it, from a fresh operator application on the returned pressure. Each has the "
-            "loosest of its "
-            "own tolerances that reaches this residual, and the force, or the approach of this force, as its interface "
-            "requires. Each has a process with one thread, in turns; the time is the median of 5 to 15 runs, or "
-            "one long run; the claim compares medians with intervals between order statistics. Set-up "
-            "(operators, plans; ours with a whole first solve) is timed separately. Our applications are those on the "
-            "finest grid or a window of it; our time includes the coarser grids. tamaas does not count "
-            "applications. Fourier "
+            "project defines it, from a fresh operator application on the returned pressure. Each has the loosest of "
+            "its own tolerances that reaches this residual, and the force, or the approach of this force, as its "
+            "interface requires. Each has a process with one thread, in turns; the time is the median of 5 to 15 runs, "
+            "or one long run; the claim compares medians with intervals between order statistics. Set-up (operators, "
+            "plans; ours with a whole first solve) is timed separately. Our applications are those on the finest grid "
+            "or a window of it; our time includes the coarser grids. tamaas does not count applications. Fourier "
             "transforms are those of each package as it is installed. Contact models that have no pressure are listed "
             "with the difference of their stiffness. "
             + "; ".join(f"{s.name}: {s.mode} ({s.version or 'not installed'})" for s in SOLVERS)
@@ -216,9 +214,9 @@ def _work(result: SolverComparisonResult) -> str:
         f"{ours}. A cold solve without stiffness takes us {1e3 * cold:.1f} ms in the mean over "
         f"{len(load_path.sampled)} of these loads, and the fastest peer that solves them all, {fastest}, "
         f"{1e3 * times[fastest]:.0f} ms "
-        f"({times[fastest] / cold:.0f} times as long). It has no stiffness: a path of such solves, whose differences "
-        f"are secants, takes {times[fastest] / seconds:.0f} times as long as ours, with a second load beside each for "
-        f"a tangent {2 * times[fastest] / seconds:.0f} times; set-up not counted."
+        f"({times[fastest] / cold:.0f} times as long). It has no stiffness: by this mean, a path of such solves, "
+        f"whose differences are secants, would take {times[fastest] / seconds:.0f} times as long as ours, with a "
+        f"second load beside each for a tangent {2 * times[fastest] / seconds:.0f} times; set-up not counted."
     )
 
 

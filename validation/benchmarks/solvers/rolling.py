@@ -33,7 +33,6 @@ class RollingThroughput:
     seed: int = 145
 
     def rolls(self) -> list["RolledStrip"]:
-        """One strip a height."""
         spectrum = PiecewisePowerLaw(edges=(1.0, np.pi / 2 * self.cells), exponents=(3.4,))
         return [
             RolledStrip(

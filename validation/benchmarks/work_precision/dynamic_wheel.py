@@ -232,7 +232,6 @@ class WheelsOnSprings:
     linear: bool = False
 
     def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
-        """Tracks of all wheels."""
         count, spectrum = scene.wheels, self.input_spectrum
         distance = scene.duration * scene.wheel_scene.speed
         on = replace(scene.wheel_scene, distance=distance, springs=round(resolution.size))

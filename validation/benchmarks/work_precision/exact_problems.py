@@ -123,7 +123,6 @@ class SphereProblem(ExactProblem):
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
-        """At a given approach."""
         return (
             Quantity(name="force", log=logarithm("force"), needs=("force",), order=2.0),
             Quantity(name="contact radius", log=logarithm("radius"), needs=("radius",)),
@@ -152,7 +151,6 @@ class SphereProblem(ExactProblem):
         return np.asarray((x[:, np.newaxis] ** 2 + x**2) / 2)
 
     def peer_force(self, cells: int) -> float:
-        """Of Hertz."""
         return float(self.exact()["force"])
 
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
@@ -221,7 +219,6 @@ class PunchProblem(ExactProblem):
         return scalars(stiffness=force / approach)
 
     def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
-        """Flat, L long."""
         return np.zeros(round(springs)), 1.0
 
     def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
@@ -246,7 +243,6 @@ class WaveProblem(ExactProblem):
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
-        """At a given mean pressure."""
         return (
             Quantity(name="contact width", log=logarithm("width"), needs=("width",)),
             Quantity(name="approach", log=logarithm("approach"), needs=("approach",), order=2.0),

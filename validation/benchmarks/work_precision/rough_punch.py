@@ -46,7 +46,6 @@ class RoughPunchProblem(ChartProblem):
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
-        """Of all surfaces together."""
         return (
             Quantity(name="mean stiffness", log=logarithm("stiffness"), needs=("stiffness",)),
             Quantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
@@ -63,7 +62,6 @@ class RoughPunchProblem(ChartProblem):
         return self.roughness.scene(self.force)
 
     def configurations(self) -> tuple[Configuration, ...]:
-        """Springs and boundary elements."""
         own: dict[str, Any] = {"realisations": self.profiles, "paired": False}
         return (*along(PressedSprings(), self, self.springs, "# springs a side", **own), *self.boundary_elements())
 
