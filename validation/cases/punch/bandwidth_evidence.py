@@ -65,12 +65,14 @@ def evidence(result: BandwidthResult) -> Evidence:
 
 
 def _method(case: Bandwidth) -> str:
-    pairs = " and ".join(f"{n} of q_max / q_min = {b}" for n, b in zip(case.pairs, case.bandwidths[1:], strict=True))
+    pairs = " and ".join(
+        f"{n} surfaces of q_max / q_min = {b}" for n, b in zip(case.pairs, case.bandwidths[1:], strict=True)
+    )
     return (
         f"Punches as in Fig. 14.1, H = {case.hurst:g}, longest wave L, q_max / q_min = "
         f"{', '.join(map(str, case.bandwidths))}, each on four cells to its shortest wave. Boundary elements press "
-        f"{case.surfaces} surfaces of the narrowest band, and {pairs} once more in the band before, with the same long "
-        "waves: the narrowest band and the changes add up to the widest. With a roll-off: "
+        f"{case.surfaces} surfaces of the narrowest band. They press {pairs} both in that band and in the one before, "
+        "with the same long waves. The narrowest band and these changes add up to the widest. With a roll-off: "
         f"{case.rolled_off} surfaces whose spectrum is constant up to q_r = {case.roll_off} · 2π/L and the narrowest "
         f"band beyond. {case.profiles} profiles of {case.points} springs in each band, all with the same long waves. "
         f"Intervals by the jackknife and Student's t. Grid: {case.refined} surfaces of the narrowest band on twice as "
