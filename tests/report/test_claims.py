@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.report.test_printed import evidence_with, html_of, number
+from validation import benchmarks
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
 from validation.report import page
 from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
@@ -153,6 +155,13 @@ def test_every_equation_figure_and_table_of_the_chapter_has_an_entry():
 def test_every_case_that_is_named_exists():
     named = {test.case for entry in ENTRIES for test in entry.tests}
     assert named <= {*CASES, *TIMED}
+
+
+def test_claims_of_timed_cases_are_written_as_they_are_named():
+    """No test runs these cases whole, as `test_a_case_gives_equal_bytes` runs all others and finds the names."""
+    sources = [source.read_text() for source in Path(benchmarks.__path__[0]).rglob("*.py")]
+    timed = [test for entry in ENTRIES for test in entry.tests if test.case in TIMED]
+    assert all(test.quantity is None and any(test.claim in source for source in sources) for test in timed)
 
 
 @pytest.mark.parametrize("wrong", [{}, {"tests": (ChapterTest(case="geike"),), "untested": "why"}])
