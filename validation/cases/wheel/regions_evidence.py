@@ -148,7 +148,8 @@ def plateau_tables(result: RegionsResult) -> list[Table]:
         curves = {
             "omega [rad/s]": (edges[1:] + edges[:-1]) / 2,
             "steady-state": band_means(omega, outcome["plain"].mean(axis=0), edges),
-            "second order": band_means(omega, second_order(scene, omega), edges),
+            # no band that reaches into region 3
+            "second order": np.where(edges[1:] < scene.jump, band_means(omega, second_order(scene, omega), edges), 0.0),
         }
         if short == "short":
             leaking = result.plateaus[SHORT_OPEN]
