@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import NoReturn
 
-from validation.engine.engine import LOCAL, RESUME_NOTE, WorkerLostError
+from validation.engine.engine import LOCAL, RESUME_NOTE, Engine, WorkerLostError
 from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import TerminatedError, terminable
 from validation.report.build import build
@@ -24,6 +24,7 @@ from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_whe
 from validation.scenes.load import bundled_for_compare, load_scene
 from validation.scenes.printable import printable
 from validation.scenes.reader import SceneError
+from validation.selection.calibrate import CalibrationRun, calibration_lines, write_calibration
 from validation.selection.compare import QUANTITIES
 from validation.selection.compare import compare as compared
 from validation.selection.hierarchy import ContactModel
@@ -149,6 +150,18 @@ def compare(arguments: argparse.Namespace) -> Exit:
     return Exit.MET if found.met else Exit.NOT_CONVERGED
 
 
+def calibrate(arguments: argparse.Namespace) -> Exit:
+    """Measure the errors of cheap models beside boundary elements, or show those that were measured."""
+    if not arguments.show:
+        run = CalibrationRun(
+            punches=arguments.punches, spheres=arguments.spheres, rolling=arguments.rolling, seed=arguments.seed
+        )
+        engine = Engine(workers=arguments.workers, store=arguments.store, progress=True)
+        write_calibration(run, engine, arguments.out)
+    print("\n".join(calibration_lines(arguments.out)))
+    return Exit.MET
+
+
 def _announce(model: ContactModel) -> None:
     """Name a model whose solve takes a second or more, before it begins."""
     if model.cost().seconds >= 1:
@@ -187,6 +200,9 @@ def _parser() -> argparse.ArgumentParser:
     _describe_report(commands.add_parser("report", help="run the cases and write a report folder"))
     _describe_compare(
         commands.add_parser("compare", help="select the cheapest model of a scene that meets a tolerance")
+    )
+    _describe_calibrate(
+        commands.add_parser("calibrate", help="measure the errors that cheap models claim, beside boundary elements")
     )
     for name, what in CLOCKED.items():
         _describe_timed(commands.add_parser(name, help=what), name)
@@ -254,6 +270,27 @@ def _describe_compare(comparing: argparse.ArgumentParser) -> None:
     )
     comparing.add_argument("--seed", type=_at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
     comparing.set_defaults(command=compare)
+
+
+def _describe_calibrate(calibrating: argparse.ArgumentParser) -> None:
+    run = CalibrationRun()
+    for name, what in {"punches": "rough punches", "spheres": "rough spheres", "rolling": "rolling wheels"}.items():
+        default = getattr(run, name)
+        calibrating.add_argument(
+            f"--{name}", type=_at_least(0), default=default, metavar="N", help=f"{what} (default: {default})"
+        )
+    calibrating.add_argument("--seed", type=_at_least(0), default=run.seed, metavar="S", help="seed of the scenes")
+    calibrating.add_argument("--workers", type=_at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
+    calibrating.add_argument(
+        "--store",
+        type=Path,
+        default=Path(".mdr-validation-calibration"),
+        metavar="DIR",
+        help="folder of finished solves",
+    )
+    calibrating.add_argument("--out", type=Path, metavar="FILE", help="the table (default: that of the package)")
+    calibrating.add_argument("--show", action="store_true", help="show what the table holds, and measure nothing")
+    calibrating.set_defaults(command=calibrate)
 
 
 def _describe_timed(timing: argparse.ArgumentParser, name: str) -> None:

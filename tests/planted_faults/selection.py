@@ -12,14 +12,16 @@ from tests import test_face
 from tests.planted_faults.wrong import scaled, with_math
 from tests.selection import test_claims, test_selection
 from tests.selection import test_model_hierarchy as test_ladder
+from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.engine import engine as ensemble
 from validation.scenes import measured
 from validation.selection import compare, hierarchy, scene_model, summary
+from validation.simulation import calibration, rolling_claims, sampling
 from validation.simulation import indentation as pressed_heights
-from validation.simulation import rolling_claims, sampling
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
+from validation.simulation.calibrated_range import LOAD
 from validation.simulation.models import (
     boundary_elements_pressed,
     boundary_elements_rolling,
@@ -141,8 +143,28 @@ FAULTS = {
         test_claims.test_grids_that_do_not_converge_have_no_error_bar,
     ),
     "a table of errors held constant beyond its end": (
-        (springs_pressed, "outside", lambda *_: ""),
-        functools.partial(test_claims.test_light_loads_have_no_answer_unless_it_is_that_of_the_summits, 1e-5, 8),
+        (calibration, "OPEN_BELOW", (LOAD,)),
+        functools.partial(test_calibration.test_beyond_the_table_there_is_no_claim, "punch", LOAD, 0.0075, 0.0065),
+    ),
+    "the error nearby, without what covers it": (
+        (calibration.MeasuredErrors, "factor", 1.0),
+        functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "punch"),
+    ),
+    "the largest error that was ever measured, everywhere": (
+        (calibration, "NEARBY", 1.0),
+        functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "sphere"),
+    ),
+    "a scene that calibrates itself": (
+        (calibration.MeasuredErrors, "left_out", lambda table: table.errors),
+        test_calibration.test_a_scene_does_not_calibrate_itself,
+    ),
+    "a table without the growth of its errors": (
+        (calibration.MeasuredErrors, "trend", 0.0),
+        test_calibration.test_an_error_that_grows_with_the_height_is_followed,
+    ),
+    "a grid that leaves too much solved to the end of its sample": (
+        (scene_model.SceneModel, "_left_by_grid", lambda model, *_: (0.0, "")),
+        test_ladder.test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one,
     ),
     "a linear filter for waves shorter than the contact": (
         (rolling_claims, "outside", lambda *_: ""),

@@ -32,8 +32,8 @@ class Answer:
 
     @property
     def error(self) -> float:
-        """All three, added as if they went the same way; infinite for what has failed."""
-        return math.inf if self.failed else self.model + self.grid + self.sample
+        """Of the model, and of a grid and a sample, which are independent; infinite for what has failed."""
+        return math.inf if self.failed else self.model + math.hypot(self.grid, self.sample)
 
 
 class ContactModel(Protocol):

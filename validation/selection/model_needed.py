@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import groupby
 from typing import Any, Protocol
 
@@ -9,7 +10,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection.compare import models_of
+from validation.selection.compare import MOVING, PRESSED, ROLLING, models_of
 from validation.selection.hierarchy import needed
 from validation.simulation.rough_punch import PunchRoughness
 
@@ -21,6 +22,11 @@ def model_for(scene: Scene, quantity: str) -> str:
     """The first model whose estimated error is small enough; all grids of boundary elements are one model."""
     model = needed(models_of(scene, quantity, TOLERANCE, 0), TOLERANCE)
     return "none" if model is None else model.kind
+
+
+def of_each(quantities: Sequence[str], shown: Callable[[str], str]) -> str:
+    """ "stiffness: springs", and so for each quantity: what is enough for one is not for another."""
+    return ". ".join(f"{quantity}: {shown(quantity)}" for quantity in quantities)
 
 
 def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> str:
@@ -47,12 +53,12 @@ class SphereSettings(Protocol):
 
 def sphere(case: SphereSettings) -> str:
     scene = IndentationScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
-    return model_for(scene, "stiffness")
+    return of_each(PRESSED, partial(model_for, scene))
 
 
 def square_punch(case: Any) -> str:
     scene = IndentationScene(name="punch", shape="punch", size=case.side, load=1.0, modulus=case.modulus)
-    return model_for(scene, "stiffness")
+    return of_each(PRESSED, partial(model_for, scene))
 
 
 def punches(case: Any) -> str:
@@ -66,7 +72,8 @@ def rolled_off(case: Any) -> str:
 
 
 def _punches(roughness: PunchRoughness, forces: Sequence[float]) -> str:
-    return along("Fbar", [(force, roughness.scene(force)) for force in forces], "stiffness")
+    scenes = [(force, roughness.scene(force)) for force in forces]
+    return f"mean {of_each(PRESSED, partial(along, 'Fbar', scenes))} (H = {roughness.hurst:g})"
 
 
 def rolling(case: Any) -> str:
@@ -85,14 +92,14 @@ def rolling(case: Any) -> str:
         )
         for height in case.heights
     ]
-    return along("h/d", scenes, "force-spectrum")
+    return of_each(ROLLING, partial(along, "h/d", scenes))
 
 
 def wheel(case: Any) -> str:
     scene = case.scene
     if scene.rail is None or scene.wheel is not None:
         return "boundary elements"
-    return model_for(RollingScene.of_wheel(scene), "acceleration")
+    return of_each(MOVING, partial(model_for, RollingScene.of_wheel(scene)))
 
 
 def always(model: str) -> Callable[[Any], str]:

@@ -1,5 +1,7 @@
-"""A model on a scene: realisations are solved until the sample is small enough, and other grids tell the grid error."""
+"""A model on a scene: realisations are solved until the error is small enough, and other grids tell the grid error."""
 
+import itertools
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,6 +16,9 @@ from validation.simulation.resolution import too_few
 from validation.simulation.sampling import mean_error, realisations
 
 FloatArray = NDArray[np.float64]
+
+SAMPLE_SHARE = 0.9
+"""Of the tolerance, that a sample may leave where a grid of 0.44 of it is added at a right angle."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +45,9 @@ class SceneModel:
 
     @property
     def solves(self) -> int:
-        """So many are expected to leave half of the tolerance."""
+        """So many are expected to leave the most of the tolerance."""
         plan = self.sampling
-        return realisations(plan.scatter, self.target.tolerance / 2, least=plan.fewest, most=plan.most)
+        return realisations(plan.scatter, SAMPLE_SHARE * self.target.tolerance, least=plan.fewest, most=plan.most)
 
     @cached_property
     def references(self) -> tuple[Resolution, ...]:
@@ -55,44 +60,49 @@ class SceneModel:
         return self._cost(self.solves)
 
     def solve(self) -> Answer:
-        """Model error as expected; sample and grid error from what was computed."""
-        expected, found = self.estimate(), self._drawn()
-        results = [*found]
-        others = []
-        for resolution in self.references:
-            solve = self.model.prepare(self.target, resolution)
-            others.append([solve(i)() for i in range(min(len(found), self.sampling.compared))])
-            results += others[-1]
-        cost = self._cost(len(found))
-        if failed := next((result.failed for result in results if result.failed), ""):
-            return Answer(value=np.array([np.nan]), cost=cost, failed=failed)
-        values = self._rows(found)
-        value, sample = self._mean(values)
-        grid, reason = 0.0, expected.reason
-        if isinstance(self.model, GridModel):
-            on_others = np.array([self._rows(other) for other in others])
-            grid, reason = self.model.grid_error(self.target, self.resolution, values, on_others)
-        return Answer(
-            value=value,
-            cost=cost,
-            model=expected.model + self.model.left_out(self.target, value),
-            grid=grid,
-            sample=sample,
-            reason=reason,
-            failed=self._too_few(found)
-            or ("" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"),
-        )
+        """Model error as expected; sample and grid error from what was computed.
 
-    def _drawn(self) -> list[Result]:
-        """Solve by solve, until the sample leaves half of the tolerance, or one has failed."""
-        solve, found = self.model.prepare(self.target, self.resolution), list[Result]()
-        while len(found) < self.sampling.most:
+        Realisations are added until the error is within the tolerance, and no longer than the grid allows that.
+        """
+        expected, plan = self.estimate(), self.sampling
+        solve = self.model.prepare(self.target, self.resolution)
+        found = [solve(i)() for i in range(plan.fewest)]
+        others = [self._first(resolution, plan.compared) for resolution in self.references]
+        if failed := _failed(itertools.chain(found, *others)):
+            return self._no_answer(found, failed)
+        others_values = np.array([self._rows(other) for other in others])
+        while True:
+            values = self._rows(found)
+            value, sample = self._mean(values)
+            grid, reason = self._left_by_grid(values, others_values, expected)
+            answer = Answer(
+                value=value,
+                cost=self._cost(len(found)),
+                model=expected.model + self.model.left_out(self.target, value),
+                grid=grid,
+                sample=sample,
+                reason=reason,
+                failed=self._too_few(found)
+                or ("" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"),
+            )
+            hopeless = answer.model + grid > self.target.tolerance
+            if answer.error <= self.target.tolerance or hopeless or len(found) >= plan.most:
+                return answer
             found.append(solve(len(found))())
             if found[-1].failed:
-                break
-            if len(found) >= self.sampling.fewest and self._mean(self._rows(found))[1] <= self.target.tolerance / 2:
-                break
-        return found
+                return self._no_answer(found, found[-1].failed)
+
+    def _first(self, resolution: Resolution, count: int) -> list[Result]:
+        solve = self.model.prepare(self.target, resolution)
+        return [solve(i)() for i in range(count)]
+
+    def _left_by_grid(self, values: FloatArray, others: FloatArray, expected: ErrorEstimate) -> tuple[float, str]:
+        if not isinstance(self.model, GridModel):
+            return 0.0, expected.reason
+        return self.model.grid_error(self.target, self.resolution, values, others)
+
+    def _no_answer(self, found: list[Result], failed: str) -> Answer:
+        return Answer(value=np.array([np.nan]), cost=self._cost(len(found)), failed=failed)
 
     def _rows(self, results: list[Result]) -> FloatArray:
         """(realisations, numbers)."""
@@ -120,6 +130,10 @@ class SceneModel:
             unit=one.unit,
             seconds=solves * one.seconds + compared * sum(other.seconds for other in others),
         )
+
+
+def _failed(results: Iterable[Result]) -> str:
+    return next((result.failed for result in results if result.failed), "")
 
 
 def models_on(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:

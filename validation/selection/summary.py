@@ -5,6 +5,7 @@ import math
 from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
+from validation.selection.calibrate import calibration_age
 from validation.selection.compare import MOVING, UNITS, Comparison
 from validation.selection.hierarchy import Candidate
 
@@ -37,6 +38,7 @@ def summary(comparison: Comparison) -> str:
     if best is None or best.answer is None:
         return "\n".join([*lines, "", "no model has a result"])
     lines += ["", *_result(comparison, best)]
+    lines.append(calibration_age())
     spent = (
         f"cost of the solves: about {format_seconds(selection.spent)}, from counted operations, without program start"
     )

@@ -1,11 +1,16 @@
-"""Where the errors that models claim were measured: outside of it a model is out of range."""
+"""What decides how far cheap models are off, and the ranges in which that is known."""
 
 import math
 from collections.abc import Mapping
 
+import numpy as np
+
 from validation.scenes.indentation import IndentationScene
+from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.indentation import ground_of
+from validation.simulation.rolling_quantity import RollingQuantity
+from validation.theory.rolling import contact_lost
 
 Conditions = Mapping[str, float]
 Ranges = Mapping[str, tuple[float, float]]
@@ -35,15 +40,12 @@ def counted(conditions: Conditions) -> str:
 LOAD, HEIGHT, WAVES, HURST = "F / (E* h L)", "h/d", "longest waves on a side", "Hurst exponent"
 LONG, SHORT, RATIO = "q a of the longest wave", "q a of the shortest wave", "longest over shortest wave"
 """What decides how far cheap models are off, in words."""
-FACE: Ranges = {WAVES: (1, 5), RATIO: (3, 64), HURST: (0.2, 1.2)}
-BALL: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 20), RATIO: (2, 20), HURST: (0.2, 1.2)}
-"""Rough punches and spheres for which errors are known: drawn ones were pressed with bands up to a factor 32 wide,
-those of Fig. 14.1 up to 64, and spheres with h/d from 0.003 and q a of the longest wave from 0.1. Under high loads
-both are flat punches, whose stiffness is known; waves much longer than the contact of a sphere only move it."""
+CONDITIONS = (LOAD, HEIGHT, WAVES, LONG, RATIO, HURST)
+"""Those of the calibration."""
+SPHERE_SHAPE = (1.0, 0.1, 0.005)
+"""What the errors of a rough sphere go with: the contact that is lost, h/d, and what the reference leaves."""
 SCATTER = 0.22
 """Relative deviation of the stiffness of one rough punch without roll-off, about: Fig. 14.1."""
-SPHERE_FLOOR = 0.01
-"""Error that the finest grid leaves beside which models of rough spheres were measured."""
 
 
 def conditions_of(scene: IndentationScene) -> dict[str, float]:
@@ -56,6 +58,30 @@ def conditions_of(scene: IndentationScene) -> dict[str, float]:
         return {LOAD: scene.reduced_load, WAVES: ground.q_min * scene.size / (2 * math.pi), **band}
     radius = scene.contact_radius
     return {HEIGHT: scene.roughness_ratio, LONG: ground.q_min * radius, SHORT: ground.q_max * radius, **band}
+
+
+def rolling_conditions(quantity: RollingQuantity) -> dict[str, float]:
+    """The same of a wheel, whose h/d is by its resonance."""
+    scene, ground = quantity.scene, quantity.scene.ground
+    first, last = (q * scene.contact_radius for q in (ground.q_min, quantity.q_max))
+    height = scene.roughness_ratio * quantity.amplification
+    conditions = {HEIGHT: height, LONG: first, SHORT: last, RATIO: last / first}
+    return conditions if ground.hurst is None else {**conditions, HURST: ground.hurst}
+
+
+def lost_contact(scene: IndentationScene | RollingScene) -> float:
+    """Share of the contact of a smooth sphere or wheel that linear theory loses to the roughness."""
+    ground = scene.ground
+    assert ground is not None  # as asked
+    radius = scene.size if isinstance(scene, IndentationScene) else scene.radius
+    return contact_lost(ground.c2d, edges=ground.edges, contact_radius=scene.contact_radius, radius=radius)
+
+
+def sphere_shape(scene: IndentationScene) -> float:
+    """What errors of cheap models of a rough sphere go with; one for a punch."""
+    if scene.shape == "punch":
+        return 1.0
+    return float(np.dot(SPHERE_SHAPE, (lost_contact(scene), scene.roughness_ratio, 1.0)))
 
 
 def beyond_spectrum(ground: RoughSurface) -> str:

@@ -114,6 +114,10 @@ class Model(ABC):
         """Those that are offered, the cheapest first."""
         return (Resolution(),)
 
+    def shape(self, target: Target) -> float:
+        """What its error is expected to go with; the calibration measures how many times that it is."""
+        return 1.0
+
     def left_out(self, target: Target, value: FloatArray) -> float:
         """Error of the model that shows in its result alone."""
         return 0.0

@@ -1,5 +1,6 @@
 """The errors that cheap models of a rolling wheel claim, and the scenes on which those were measured."""
 
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -15,13 +16,15 @@ from validation.simulation.calibrated_range import (
     Ranges,
     beyond_spectrum,
     counted,
+    lost_contact,
     outside,
+    rolling_conditions,
 )
+from validation.simulation.calibration import calibrated
 from validation.simulation.method import Resolution
 from validation.simulation.model import ErrorEstimate, Model, Target
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
-from validation.theory.rolling import contact_lost
 
 FloatArray = NDArray[np.float64]
 Rule = tuple[float, float, float]
@@ -32,7 +35,7 @@ FED_BANDS: Rule = (0.0, 0.6, 0.45)
 SPRINGS_RMS: Rule = (1.0, 0.1, 0.002)
 """Errors of linear theory, of that with Geike's spectrum in one dimension, and of springs, in bands and in the rms: a
 sum over the contact that linear theory loses, h/d, and one. Envelopes of what was measured beside boundary elements on
-random scenes; others hold them to account, see `cases/selection/model_selection.py`."""
+random scenes, for scenes that are not in the table of the calibration."""
 FORCE_RMS = "force-rms"
 """The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force."""
 MEASURED_SCATTER = 0.5
@@ -63,18 +66,32 @@ class CheapRollingModel(Model):
         return isinstance(scene, RollingScene) and quantity != "stiffness"
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
-        quantity = target.rolling
-        scene, ratio = quantity.scene, quantity.scene.roughness_ratio * quantity.amplification
-        if reason := self.beyond(target) or quantity.unsteady or outside(rolling_conditions(quantity), RANGES):
+        quantity, single = target.rolling, target.scene.ground.is_single
+        if reason := self.beyond(target) or quantity.unsteady:
             return ErrorEstimate.out_of_range(reason)
-        lost = contact_lost(
-            scene.ground.c2d, edges=scene.ground.edges, contact_radius=scene.contact_radius, radius=scene.radius
+        expected = calibrated(self, target)
+        if not expected.in_range:
+            expected = self._by_envelope(target, expected.reason)
+        rest = self.on_rms if quantity.name == FORCE_RMS else self.on_bands
+        return replace(
+            expected,
+            model=expected.model + (self.own if single else 0.0),
+            reason=f"{expected.reason}; {rest}" if rest else expected.reason,
         )
-        rule, rest = (self.rms, self.on_rms) if quantity.name == FORCE_RMS else (self.bands, self.on_bands)
+
+    def shape(self, target: Target) -> float:
+        return float(np.dot(self.rms if target.quantity == FORCE_RMS else self.bands, (*_causes(target.rolling), 1.0)))
+
+    def _by_envelope(self, target: Target, why: str) -> ErrorEstimate:
+        """why: the scene is not one of the table."""
+        quantity = target.rolling
+        conditions = {**rolling_conditions(quantity), HEIGHT: target.scene.roughness_ratio}
+        if reason := outside(conditions, RANGES):
+            return ErrorEstimate.out_of_range(reason)
+        lost, ratio = _causes(quantity)
         height = "h/d, by the resonance" if quantity.amplification > 1 else "h/d"
-        reason = counted({"loss of contact by linear theory": lost, height: ratio})
-        error = float(np.dot(rule, (lost, ratio, 1.0))) + (self.own if scene.ground.is_single else 0.0)
-        return ErrorEstimate(model=error, reason=f"{reason}; {rest}" if rest else reason)
+        named = counted({"loss of contact by linear theory": lost, height: ratio})
+        return ErrorEstimate(model=self.shape(target), reason=f"{named}: an envelope, not calibrated ({why})")
 
     def beyond(self, target: Target) -> str:
         """Why the model cannot know this surface; empty where it can."""
@@ -91,9 +108,6 @@ class CheapRollingModel(Model):
         return distance(np.hypot(value, other), value)
 
 
-def rolling_conditions(quantity: RollingQuantity) -> dict[str, float]:
-    """What decides how far cheap models are off."""
-    scene, ground = quantity.scene, quantity.scene.ground
-    first, last = (q * scene.contact_radius for q in (ground.q_min, quantity.q_max))
-    conditions = {HEIGHT: scene.roughness_ratio, LONG: first, SHORT: last, RATIO: last / first}
-    return conditions if ground.hurst is None else {**conditions, HURST: ground.hurst}
+def _causes(quantity: RollingQuantity) -> tuple[float, float]:
+    """The share of the contact that linear theory loses, and h/d, by the resonance."""
+    return lost_contact(quantity.scene), quantity.scene.roughness_ratio * quantity.amplification

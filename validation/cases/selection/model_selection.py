@@ -17,8 +17,10 @@ from validation.simulation.sampling import distance
 
 OTHER_SEED = 1_000_003
 """Added to the seed of the tested models: the reference has surfaces of its own."""
-REFERENCE_TOLERANCE = 0.1
-"""Tolerance of the reference: a sample that leaves half of it."""
+REFERENCE_TOLERANCE = 0.05
+"""Tolerance of the reference."""
+EVERY_TOLERANCE = 0.1
+"""Of the models that are solved whatever error they expect."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
 CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel)))
 MODELS = (*CHEAP, COARSE, FINE)
@@ -99,7 +101,7 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
     reference = answered(finest)
     slower = reference.cost.seconds / finest.cost().seconds
     rows = np.array([_selected(trial, tolerance, reference.value, slower) for tolerance in trial.tolerances])
-    models = trial.models(REFERENCE_TOLERANCE)
+    models = trial.models(EVERY_TOLERANCE)
     every = np.array([_solved(models, kind, reference.value) for kind in CHEAP])
     scene = random_scene(trial.kind, trial.number, trial.seed)
     punch = isinstance(scene, IndentationScene) and scene.shape == "punch"

@@ -5,20 +5,10 @@ from typing import ClassVar
 import numpy as np
 
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.calibrated_range import (
-    BALL,
-    HEIGHT,
-    SPHERE_FLOOR,
-    beyond_spectrum,
-    conditions_of,
-    counted,
-    outside,
-)
+from validation.simulation.calibrated_range import beyond_spectrum, sphere_shape
+from validation.simulation.calibration import calibrated
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target
-
-ROUGH_SPHERE = 0.32
-"""Error over h/d, beside boundary elements."""
 
 
 class SmoothBodyClosedForm(Model):
@@ -35,13 +25,14 @@ class SmoothBodyClosedForm(Model):
         return Cost(work=1, unit="formula", seconds=2.0e-5)
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
-        scene = target.scene
-        if scene.ground is None:
+        ground = target.scene.ground
+        if ground is None:
             return ErrorEstimate(reason="exact for a smooth body")
-        if reason := beyond_spectrum(scene.ground) or outside(conditions_of(scene), BALL):
-            return ErrorEstimate.out_of_range(reason)
-        ratio = scene.roughness_ratio
-        return ErrorEstimate(model=ROUGH_SPHERE * ratio + SPHERE_FLOOR, reason=counted({HEIGHT: ratio}))
+        reason = beyond_spectrum(ground)
+        return ErrorEstimate.out_of_range(reason) if reason else calibrated(self, target)
+
+    def shape(self, target: Target) -> float:
+        return sphere_shape(target.scene)
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         return lambda _: Solve(

@@ -1,7 +1,7 @@
 """Springs under a rough body: MDR with profiles of Geike's spectrum, L_1D = L."""
 
 import math
-from collections.abc import Mapping
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -9,20 +9,8 @@ import numpy as np
 import mdr
 from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.calibrated_range import (
-    BALL,
-    FACE,
-    HEIGHT,
-    LOAD,
-    SCATTER,
-    SPHERE_FLOOR,
-    WAVES,
-    Ranges,
-    beyond_spectrum,
-    conditions_of,
-    counted,
-    outside,
-)
+from validation.simulation.calibrated_range import SCATTER, beyond_spectrum, sphere_shape
+from validation.simulation.calibration import calibrated
 from validation.simulation.indentation import ground_of, side_of
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target
@@ -35,16 +23,6 @@ SPRING = 3.5e-8
 SPRINGS_TO_A_WAVE, SPRINGS_TO_A_RADIUS = 8, 100
 MOST_SPRINGS, BLOCK = 2**26, 2**22
 """Springs of a profile at the most, which take four gigabytes, and of all that are drawn at once, or one profile."""
-PUNCH_SPRINGS = (
-    np.array([-3.0, -2.5, -2.0, -1.5, -0.5, -0.2, 0.0, 0.3, 0.5, 0.7, 0.85, 1.0]),
-    np.array([0.18, 0.15, 0.12, 0.075, 0.065, 0.075, 0.12, 0.12, 0.08, 0.12, 0.14, 0.16]),
-)
-"""lg Fbar, and the error of springs there without roll-off, H from 0.4 to 1: beside boundary elements."""
-ROLL_OFF = 0.06
-"""By which it grows with each more of the longest waves on a side."""
-SPHERE_SPRINGS = 0.15
-"""Error of a rough sphere, over h/d."""
-RANGES: Mapping[str, Ranges] = {"punch": {LOAD: (1e-3, math.inf), **FACE}, "sphere": BALL}
 
 
 class SpringsPressed(Model):
@@ -72,24 +50,20 @@ class SpringsPressed(Model):
         return Cost(work=work, unit="springs", seconds=1e-3 + SPRING * work)
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
-        """By the load, the height and the waves on a side; a measured face is one of many that have its spectrum."""
-        scene, ground = target.scene, ground_of(target.scene)
-        conditions = conditions_of(scene)
-        if reason := beyond_spectrum(ground) or outside(conditions, RANGES[scene.shape]):
+        """A measured face is one of many that have its spectrum."""
+        ground = ground_of(target.scene)
+        if reason := beyond_spectrum(ground):
             return ErrorEstimate.out_of_range(reason)
         if resolution.size > MOST_SPRINGS:
             return ErrorEstimate.out_of_range(
                 f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}"
             )
-        if scene.shape == "sphere":
-            ratio = conditions[HEIGHT]
-            error, reason = SPHERE_SPRINGS * ratio + SPHERE_FLOOR, counted({HEIGHT: ratio})
-        else:
-            load, waves = conditions[LOAD], conditions[WAVES]
-            error = float(np.interp(math.log10(load), *PUNCH_SPRINGS)) + ROLL_OFF * (waves - 1)
-            reason = counted({LOAD: load, WAVES: waves})
+        expected = calibrated(self, target)
         own = 2 * SCATTER if ground.is_single else 0.0
-        return ErrorEstimate(model=error + own, sample=target.tolerance / 5, reason=reason)
+        return replace(expected, model=expected.model + own, sample=target.tolerance / 5)
+
+    def shape(self, target: Target) -> float:
+        return sphere_shape(target.scene)
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         """All profiles are one solve, from one stream of random numbers, in blocks that fit into memory."""

@@ -43,7 +43,7 @@ class SpringsRolling(CheapRollingModel):
             return ErrorEstimate.out_of_range(
                 f"{TRACKS} tracks need {springs:.2g} springs, more than {MOST_ON_TRACKS:.2g}"
             )
-        return replace(expected, model=expected.model + target.tolerance / 10)
+        return replace(expected, sample=target.tolerance / 10)
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         quantity = target.rolling

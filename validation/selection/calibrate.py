@@ -1,0 +1,189 @@
+"""Measurement of the errors that cheap models claim: each beside fine boundary elements, over a sample of scenes."""
+
+import csv
+import io
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, date, datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.load import Scene
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.selection.hierarchy import answered
+from validation.selection.scene_model import SceneModel
+from validation.simulation.calibrated_range import CONDITIONS
+from validation.simulation.calibration import TABLE, code_version, conditions_by_kind, provenance, table
+from validation.simulation.model import GridModel, Model, Target, models_serving
+from validation.simulation.sampling import distance
+from validation.theory.closed_forms import hertz_force
+
+REFERENCE_TOLERANCE = {"stiffness": 0.06, "force-rms": 0.1, "force-spectrum": 0.15}
+"""Of the references, by their quantity: half of it is left to their samples."""
+MODEL_TOLERANCE = 0.05
+"""Of the models that are measured: their samples leave a fifth of it or less."""
+OTHER_SEED = 1_000_003
+"""Added to the seed of a scene: the reference has surfaces of its own."""
+RADIUS, APPROACH = 1.0, 1e-4
+"""Of spheres and wheels: no error depends on units."""
+HEIGHT = 1e-3
+"""Of the roughness of punches, over their side."""
+QUANTITIES = {"punch": ("stiffness",), "sphere": ("stiffness",), "rolling": ("force-rms", "force-spectrum")}
+DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
+    "punch": ((-2.2, 2.0), (0.0, math.log10(5.4)), (math.log10(3), math.log10(24)), (0.2, 1.2)),
+    "sphere": ((-2.5, 0.0), (math.log10(0.3), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
+    "rolling": ((-2.5, 0.0), (math.log10(0.5), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
+}
+"""Ranges of lg Fbar or lg h/d; of lg of the longest waves on a side, or of q a of the longest wave; of lg of the
+longest over the shortest wave; and of the Hurst exponent."""
+SHORTEST = {"punch": 24, "sphere": 16, "rolling": 12}
+"""Of the shortest wave: as many on a side at the most, and q a."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibrationScene:
+    """A point of the design: the first of a kind are the same, however many there are."""
+
+    kind: str
+    number: int
+    quantity: str
+    seed: int
+
+    @property
+    def scene(self) -> Scene:
+        """Drawn evenly from the ranges."""
+        low, high = np.array(DESIGNS[self.kind]).T
+        rng = random_generator(self.seed, list(DESIGNS).index(self.kind), self.number)
+        power, first, ratio, hurst = rng.uniform(low, high).tolist()
+        if self.kind == "punch":
+            waves = round(10**first)
+            last = max(min(round(waves * 10**ratio), SHORTEST[self.kind]), 3 * waves)
+            ground = Roughness(rms=HEIGHT, hurst=hurst, longest=1 / waves, shortest=1 / last)
+            load = 10**power * HEIGHT
+            return IndentationScene(name=self.name, shape="punch", size=1.0, load=load, modulus=1.0, ground=ground)
+        d = APPROACH * RADIUS
+        a, load = math.sqrt(RADIUS * d), hertz_force(radius=RADIUS, modulus=1.0, approach=d)
+        longest, shortest = 10**first, min(10 ** (first + ratio), SHORTEST[self.kind])
+        ground = Roughness(
+            rms=10**power * d, hurst=hurst, longest=2 * math.pi * a / longest, shortest=2 * math.pi * a / shortest
+        )
+        if self.kind == "sphere":
+            return IndentationScene(name=self.name, shape="sphere", size=RADIUS, load=load, modulus=1.0, ground=ground)
+        return RollingScene(name=self.name, radius=RADIUS, load=load, modulus=1.0, ground=ground)
+
+    @property
+    def name(self) -> str:
+        return f"{self.kind} {self.number}"
+
+    def target(self, tolerance: float, seed: int = 0) -> Target:
+        """seed: added to that of the design."""
+        return Target(self.scene, self.quantity, tolerance, self.seed + self.number + seed)
+
+    @property
+    def cheap(self) -> tuple[Model, ...]:
+        """The models that are measured."""
+        return tuple(m for m in models_serving(self.scene, self.quantity) if not isinstance(m, GridModel))
+
+
+def measure_errors(point: CalibrationScene) -> Outcome:
+    """Distance of each cheap model from fine boundary elements, NaN where one has no answer.
+
+    reference: the error that the reference itself leaves; failed: one where it has no answer.
+    """
+    target = point.target(REFERENCE_TOLERANCE[point.quantity], OTHER_SEED)
+    (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
+    reference = answered(SceneModel(judge, target, judge.resolutions(target)[-1]))
+    return {
+        "error": np.array([_error(model, point.target(MODEL_TOLERANCE), reference.value) for model in point.cheap]),
+        "reference": np.array(reference.error),
+        "failed": np.array(float(bool(reference.failed))),
+    }
+
+
+def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
+    answer = answered(SceneModel(model, target, model.resolutions(target)[-1]))
+    return math.nan if answer.failed or not np.isfinite(truth).all() else distance(answer.value, truth)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibrationRun:
+    """How many scenes of each kind; each of rolling is solved for both quantities of the force."""
+
+    punches: int = 62
+    spheres: int = 40
+    rolling: int = 20
+    seed: int = 19
+
+    @property
+    def points(self) -> list[CalibrationScene]:
+        """All of them; what takes longest first."""
+        counts = {"rolling": self.rolling, "punch": self.punches, "sphere": self.spheres}
+        return [
+            CalibrationScene(kind=kind, number=number, quantity=quantity, seed=self.seed)
+            for kind, count in counts.items()
+            for quantity in QUANTITIES[kind]
+            for number in range(count)
+        ]
+
+
+def write_calibration(run: CalibrationRun, engine: Engine = SERIAL, path: Path | None = None) -> None:
+    """Measure all errors; path: of the table, that of the package by default."""
+    points = run.points
+    outcomes = engine.map(measure_errors, points)
+    rows = [row for point, outcome in zip(points, outcomes, strict=True) for row in rows_of_point(point, outcome)]
+    text = io.StringIO()
+    size = f"--punches {run.punches} --spheres {run.spheres} --rolling {run.rolling} --seed {run.seed}"
+    today = datetime.now(tz=UTC).date().isoformat()
+    text.write(f"# measured: {today}\n# code: {code_version()}\n")
+    text.write(f"# command: mdr-validation calibrate {size}\n")
+    writer = csv.DictWriter(text, ["kind", "quantity", "number", "model", *CONDITIONS, "shape", "error", "reference"])
+    writer.writeheader()
+    writer.writerows(rows)
+    (path or TABLE).write_text(text.getvalue(), encoding="utf-8")
+
+
+def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, object]]:
+    """A row a model that has an answer; none where boundary elements have none."""
+    if outcome["failed"]:
+        return []
+    kind, conditions = conditions_by_kind(point.target(MODEL_TOLERANCE))
+    named = {name: f"{conditions[name]:.5g}" for name in CONDITIONS if name in conditions}
+    about = {"kind": kind, "quantity": point.quantity, "number": point.number, **named}
+    return [
+        {
+            **about,
+            "model": model.name,
+            "shape": f"{model.shape(point.target(MODEL_TOLERANCE)):.5g}",
+            "error": f"{error:.5g}",
+            "reference": f"{float(outcome['reference']):.3g}",
+        }
+        for model, error in zip(point.cheap, outcome["error"], strict=True)
+        if np.isfinite(error)
+    ]
+
+
+def calibration_lines(path: Path | None = None) -> list[str]:
+    """What the table holds: its age, its code, and how well claims cover scenes that are left out of it."""
+    head = f"{'scene':10s}{'quantity':18s}{'model':20s}{'scenes':>7s}{'covered':>9s}{'claim/error':>13s}"
+    lines = [calibration_age(path or TABLE), head]
+    for (kind, quantity, model), measured in table(path or TABLE).items():
+        claimed = measured.factor * measured.left_out()
+        covered, ratio = np.mean(measured.errors <= claimed), np.median(claimed / measured.errors)
+        lines.append(f"{kind:10s}{quantity:18s}{model:20s}{len(claimed):7d}{covered:9.0%}{ratio:13.2g}")
+    return lines
+
+
+def calibration_age(path: Path = TABLE) -> str:
+    """Age of the table, and whether the methods are still those that it was measured with."""
+    about = provenance(path)
+    if not about:
+        return "errors of models: no calibration"
+    days = (datetime.now(tz=UTC).date() - date.fromisoformat(about["measured"])).days
+    same = "the code of today" if about["code"] == code_version() else "other code than today's"
+    return f"errors of models: calibrated {about['measured']}, {days} days ago, code {about['code']}, {same}"

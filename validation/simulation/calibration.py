@@ -1,0 +1,166 @@
+"""Errors of cheap models, measured beside boundary elements, and interpolated in the conditions of a scene."""
+
+import csv
+import hashlib
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.engine.engine import sources_of
+from validation.scenes.indentation import IndentationScene
+from validation.simulation.calibrated_range import (
+    CONDITIONS,
+    HEIGHT,
+    HURST,
+    LOAD,
+    LONG,
+    conditions_of,
+    counted,
+    rolling_conditions,
+)
+from validation.simulation.model import ErrorEstimate, Model, Target
+
+FloatArray = NDArray[np.float64]
+Key = tuple[str, str, str]
+"""Kind of scene, quantity, name of the model."""
+
+TABLE = Path(__file__).with_name("calibration.csv")
+SHARE = 0.96
+"""Of the calibrated scenes, whose error a claim covers when they are left out of the table."""
+NEIGHBOURS, NEARBY = 6, 0.15
+"""Scenes of the table that an error is interpolated between, at the least, and their share of all."""
+LEADS = 2.0
+"""Weight of the load or the height in the distance between scenes; of every other condition, one."""
+MARGIN = 0.15
+"""Decades by which a scene may lie beyond the outermost of the table; of the Hurst exponent, as much."""
+OPEN_ABOVE, OPEN_BELOW = (LOAD,), (HEIGHT, LONG)
+"""Beyond these ends of the table the error at the end holds: a punch under a high load is a flat one, low roughness
+changes next to nothing, and waves much longer than the contact only move it."""
+MEASURED_CODE = ("mdr", "bem3d")
+"""What an error of a model depends on."""
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredErrors:
+    """Errors of one model over a sample of scenes.
+
+    names: of the conditions; points: their coordinates, (scenes, conditions): decades, and the Hurst exponent itself;
+    shapes: what the errors are expected to go with, one where nothing is known of that.
+    """
+
+    names: tuple[str, ...]
+    points: FloatArray
+    errors: FloatArray
+    shapes: FloatArray
+
+    def estimate(self, conditions: Mapping[str, float], shape: float = 1.0) -> ErrorEstimate:
+        """The root mean square of the errors nearby over their shapes, times the factor that covers them."""
+        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        named = [name for name in self.names if name in conditions]
+        at = np.array([_coordinate(name, conditions[name]) if name in conditions else math.nan for name in self.names])
+        for i, name in enumerate(self.names):
+            if (at[i] < low[i] - MARGIN and name not in OPEN_BELOW) or (
+                at[i] > high[i] + MARGIN and name not in OPEN_ABOVE
+            ):
+                ends = " to ".join(f"{_condition(name, end):.3g}" for end in (low[i], high[i]))
+                reason = f"{name} = {conditions[name]:.3g}; the error of the model is measured from {ends} only"
+                return ErrorEstimate.out_of_range(reason)
+        error = self.factor * shape * self._scale(np.clip(at, low, high), np.ones(len(self.errors), dtype=bool))
+        reason = f"{counted({name: conditions[name] for name in named[:2]})}: measured on {len(self.errors)} scenes"
+        return ErrorEstimate(model=error, reason=reason)
+
+    @cached_property
+    def factor(self) -> float:
+        """Of the errors nearby, that covers a share of all scenes, each left out of its own neighbours."""
+        ratios = np.sort(self.errors / self.left_out())
+        return float(ratios[min(math.ceil(SHARE * (len(ratios) + 1)), len(ratios)) - 1])
+
+    def left_out(self) -> FloatArray:
+        """Root mean square errors nearby, at each scene without itself."""
+        every = np.arange(len(self.errors))
+        nearby = [self._scale(point, every != i) for i, point in enumerate(self.points)]
+        return np.asarray(self.shapes * nearby)
+
+    @cached_property
+    def trend(self) -> float:
+        """p of an error over its shape that grows as (h/d)^p; zero where the first condition is a load."""
+        if self.names[0] != HEIGHT:
+            return 0.0
+        slope = np.polyfit(self.points[:, 0], np.log10(self.errors / self.shapes), 1)[0]
+        return float(np.clip(slope, 0.0, 1.0))
+
+    def _scale(self, at: FloatArray, of: NDArray[np.bool_]) -> float:
+        """The nearest scenes weigh the most. A condition that measured heights do not have counts for nothing."""
+        weights = np.array([LEADS] + [1.0] * (len(at) - 1))
+        apart = np.sqrt(np.nansum((weights * (self.points[of] - at)) ** 2, axis=1))
+        nearest = np.argsort(apart, kind="stable")[: max(NEIGHBOURS, round(NEARBY * len(apart)))]
+        weight = 1 - 0.9 * (apart[nearest] / (apart[nearest[-1]] + 1e-12)) ** 2
+        grown = 10 ** (self.trend * (at[0] - self.points[of][nearest, 0]))
+        return math.sqrt(float(np.average(((self.errors / self.shapes)[of][nearest] * grown) ** 2, weights=weight)))
+
+
+def calibrated(model: Model, target: Target) -> ErrorEstimate:
+    """The error of a model by the table."""
+    kind, conditions = conditions_by_kind(target)
+    measured = table().get((kind, target.quantity, model.name))
+    if measured is None:
+        return ErrorEstimate.out_of_range(f"the error of {target.quantity} is not in the table of the calibration")
+    return measured.estimate(conditions, model.shape(target))
+
+
+def conditions_by_kind(target: Target) -> tuple[str, dict[str, float]]:
+    """Kind of the scene, and what decides how far cheap models are off."""
+    if isinstance(target.scene, IndentationScene):
+        return target.scene.shape, conditions_of(target.scene)
+    return "rolling", rolling_conditions(target.rolling)
+
+
+def _coordinate(name: str, value: float) -> float:
+    return value if name == HURST else math.log10(value)
+
+
+def _condition(name: str, coordinate: float) -> float:
+    return coordinate if name == HURST else 10**coordinate
+
+
+@cache
+def table(path: Path = TABLE) -> Mapping[Key, MeasuredErrors]:
+    """All models that are calibrated."""
+    rows: dict[Key, list[dict[str, str]]] = {}
+    for row in rows_of(path):
+        rows.setdefault((row["kind"], row["quantity"], row["model"]), []).append(row)
+    return {key: _errors_of(mine) for key, mine in rows.items()}
+
+
+def _errors_of(rows: Sequence[Mapping[str, str]]) -> MeasuredErrors:
+    names = tuple(name for name in CONDITIONS if rows[0][name])
+    points = [[_coordinate(name, float(row[name])) for name in names] for row in rows]
+    errors, shapes = (np.array([float(row[name]) for row in rows]) for name in ("error", "shape"))
+    return MeasuredErrors(names, np.array(points), errors, shapes)
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    """All rows, without the lines of the provenance."""
+    lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def provenance(path: Path = TABLE) -> dict[str, str]:
+    """When, how and with which code the table was measured."""
+    lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
+    return dict(line[1:].strip().split(": ", 1) for line in lines if line.startswith("#"))
+
+
+@cache
+def code_version() -> str:
+    """Digest of the source of both methods."""
+    digest = hashlib.sha256()
+    for package in MEASURED_CODE:
+        for source in sources_of(package):
+            digest.update(source.read_bytes())
+    return digest.hexdigest()[:12]
