@@ -14,6 +14,7 @@ from validation.benchmarks.solvers import problems
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.problem import Grids, measure
+from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
@@ -22,6 +23,7 @@ from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
+from validation.simulation.models import linear_filter_1d
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory.closed_forms import rough_punch_stiffness
 
@@ -85,6 +87,21 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     assert {"mean stiffness", "relative deviation"} == set(mine)
     assert all(point.finished and point.work == 1.0 for point in mine.values())
     assert mine["mean stiffness"].setting == "three realisations"
+
+
+def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
+    """The linear filter under another name, beside itself: the rms force of linear theory over that of strips."""
+    use_a_clock_of_its_own(monkeypatch)
+    monkeypatch.setattr(linear_filter_1d.LinearFilter1D, "name", "found")
+    grids = Grids(cells=(2, 4), fixed=2, tolerances=(), per="to a radius")
+    problem = RollingProblem(last=4.0, length=24, width=12, tracks=2, grids=grids, filtered=(), springs=(8,))
+    chart = points(problem, measure(TimedProblem(problem, RunLimits(slow=1.0, enough=0.0))))
+    rms = {point.method: point for point in chart if point.quantity == "rms"}
+    assert rms["found"].finished and rms["found"].is_model
+    assert rms["found"].over == pytest.approx(rms["closed form"].over, rel=1e-6)
+    assert [point.status for point in chart if point.method == "found" and point.quantity == "spectrum"] == [
+        "out of range: it does not have this quantity"
+    ]
 
 
 def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):

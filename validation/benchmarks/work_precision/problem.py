@@ -12,6 +12,7 @@ from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.timing import FINISHED, Configuration, Timing, along, time_in_turns
 from validation.engine.engine import Outcome
 from validation.simulation.method import FloatArray, Method, Resolution, Values
+from validation.simulation.model import Model
 from validation.simulation.pressed import PressedGrid
 
 CLOSED = "closed form"
@@ -127,6 +128,10 @@ class ChartProblem(ABC):
         """Names of the values that a model may have."""
         return tuple(dict.fromkeys(name for quantity in self.quantities for name in quantity.needs))
 
+    def of_model(self, values: Values) -> Values:
+        """What a model that is found has, in the values of this problem."""
+        return values
+
     def reference(self) -> Values | tuple[Configuration, Configuration]:
         """What is exact, or the coarse and the fine grid from which it is extrapolated."""
         coarse, fine = (self.on(n) for n in self.grids.cells[-2:])
@@ -186,8 +191,12 @@ def _work(timing: Timing) -> float:
 
 def values_by_configuration(problem: ChartProblem, outcome: Mapping[str, Any]) -> dict[Configuration, Values]:
     """Of all that have finished."""
-    configurations = configurations_of(problem)
-    return {each: _values(outcome, i) for i, each in enumerate(configurations) if str(outcome["status"][i]) == FINISHED}
+    return {
+        each: problem.of_model(values) if isinstance(each.method, Model) else values
+        for i, each in enumerate(configurations_of(problem))
+        if str(outcome["status"][i]) == FINISHED
+        for values in [_values(outcome, i)]
+    }
 
 
 def _values(outcome: Mapping[str, Any], i: int) -> Values:

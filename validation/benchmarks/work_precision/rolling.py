@@ -28,6 +28,8 @@ from validation.benchmarks.work_precision.problem import (
     Quantity,
     log_power,
 )
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import MOST_ITERATIONS
 from validation.simulation.rolling_strip import HERTZ, Strip, Tracks, crop_to_reach
@@ -50,7 +52,7 @@ class RollingProblem(ChartProblem):
 
     hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; realisations:
     of strips; tracks: of springs, their own; filtered: cells for the linear filter; springs: to a contact radius; seed:
-    zero or positive. No models are found: these values are those of a periodic strip.
+    zero or positive.
     """
 
     name: ClassVar = "rolling force"
@@ -73,6 +75,19 @@ class RollingProblem(ChartProblem):
             Quantity(name="rms", log=lambda values: log_power(values, "variance") / 2, needs=("variance",)),
             Quantity(name="spectrum", log=partial(log_power, name="level"), needs=("level",), decibel=True),
         )
+
+    @property
+    def scene(self) -> RollingScene:
+        ground = Roughness(rms=self.height, hurst=self.hurst, longest=2 * math.pi, shortest=2 * math.pi / self.last)
+        return RollingScene(name=self.name, radius=1.0, load=HERTZ, modulus=1.0, ground=ground)
+
+    @property
+    def served(self) -> tuple[str, ...]:
+        """Bands of models are those of an endless track, and not of strips: the rms alone."""
+        return ("force-rms",)
+
+    def of_model(self, values: Values) -> Values:
+        return {"variance": (values["force-rms"] / HERTZ) ** 2}
 
     @property
     def spectrum(self) -> PiecewisePowerLaw:
