@@ -9,7 +9,7 @@ import numpy as np
 import mdr
 from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.calibrated_range import SCATTER, beyond_spectrum, sphere_shape
+from validation.simulation.calibrated_range import SCATTER, WAVES, beyond_spectrum, conditions_of, sphere_shape
 from validation.simulation.calibration import calibrated
 from validation.simulation.indentation import ground_of, side_of
 from validation.simulation.method import Prepared, Resolution, Result, Solve
@@ -21,6 +21,8 @@ PROFILES = 1
 SPRING = 3.5e-8
 """Seconds that a spring takes in a sort, about."""
 SPRINGS_TO_A_WAVE, SPRINGS_TO_A_RADIUS = 8, 100
+ROLL_OFF = 0.6
+"""By which the error of a punch grows, relative, with each more of the longest waves on a side."""
 MOST_SPRINGS, BLOCK = 2**26, 2**22
 """Springs of a profile at the most, which take four gigabytes, and of all that are drawn at once, or one profile."""
 
@@ -63,7 +65,8 @@ class SpringsPressed(Model):
         return replace(expected, model=expected.model + own, sample=target.tolerance / 5)
 
     def shape(self, target: Target) -> float:
-        return sphere_shape(target.scene)
+        waves = conditions_of(target.scene).get(WAVES, 1.0)
+        return sphere_shape(target.scene) * (1 + ROLL_OFF * (waves - 1))
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         """All profiles are one solve, from one stream of random numbers, in blocks that fit into memory."""
