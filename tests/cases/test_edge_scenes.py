@@ -7,7 +7,7 @@ import pytest
 
 import bem3d
 from validation.cases.selection import edge_scenes
-from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, SPHERE, edge_scene
+from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, QUANTITIES, SPHERE, edge_scene
 from validation.scenes.indentation import IndentationScene
 from validation.selection.compare import models_of, quantities_of
 from validation.simulation.model import GridModel
@@ -25,13 +25,13 @@ def test_a_scene_is_that_of_its_numbers_and_has_its_quantity(kind):
         assert (again.load, again.ground.rms) == (scene.load, scene.ground.rms)
         assert edge_scene(kind, number, 4)[0].load != scene.load
         assert quantity in quantities_of(scene)
-    assert {quantity for _, quantity in drawn(kind)} == set(edge_scenes.QUANTITIES[kind.removeprefix(MEASURED)])
+    assert {quantity for _, quantity in drawn(kind)} == set(QUANTITIES[kind.removeprefix(MEASURED)])
 
 
-@pytest.mark.parametrize("kind", EDGE_KINDS)
-def test_some_are_inside_and_some_beyond_what_cheap_models_claim(kind):
+@pytest.mark.parametrize("body", QUANTITIES)
+def test_some_are_inside_and_some_beyond_what_cheap_models_claim(body):
     found = set()
-    for scene, quantity in drawn(kind, 72):
+    for scene, quantity in drawn(body, 72):
         cheap = [model for model in models_of(scene, quantity, 0.3, 0) if model.kind != GridModel.name]
         found.add(any(model.estimate().in_range for model in cheap))
         if len(found) == 2:
