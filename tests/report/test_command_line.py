@@ -186,6 +186,7 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
         assert report("--only", name, "--out", str(one), "--workers", "1") in (0, 1)
     assert set(contents(one, *NUMBERS, *FIGURES)) == files_of(name, evidences[0])
     whole_page(one, [name])
+    assert evidences[0].claims[0].claim == CASES[name].claim
     in_the_book(name, evidences[0])
     by_one, drawn = contents(one, *NUMBERS), contents(one, *FIGURES)
     if name not in REDRAWN:
