@@ -99,7 +99,9 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
     """
     finest = trial.models(REFERENCE_TOLERANCE, OTHER_SEED)[-1]
     reference = answered(finest)
-    slower = reference.cost.seconds / finest.cost().seconds
+    # a reference whose grid leaves more than its tolerance ends after its first surfaces
+    finished = reference.error <= REFERENCE_TOLERANCE
+    slower = reference.cost.seconds / finest.cost().seconds if finished else 1.0
     rows = np.array([_selected(trial, tolerance, reference.value, slower) for tolerance in trial.tolerances])
     models = trial.models(EVERY_TOLERANCE)
     every = np.array([_solved(models, kind, reference.value) for kind in CHEAP])
