@@ -75,8 +75,7 @@ def _resolved(result: FractalPunchResult, first: float) -> bool:
     """Whether the lightest contacts of a decade have cells enough at every Hurst exponent; the last decade counts."""
     case = result.case
     level = nearest(case.forces, first)
-    finest = case.grids_at(case.forces[level])[-1]
-    cells = [float(np.nanmean(e.outcomes[BEM][finest]["area"][:, level])) * finest**2 for e in result.ensembles]
+    cells = [float(np.nanmean(e.outcomes[BEM][case.cells]["area"][:, level])) * case.cells**2 for e in result.ensembles]
     return min(cells) >= FEW_CELLS or first == case.first_forces[-1]
 
 
