@@ -29,7 +29,7 @@ from validation.analysis.over_range import signed_mean
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
-from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_decades
+from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
 from validation.cases.rolling import roughness_from_force, track_stiffness, validity
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
@@ -188,6 +188,10 @@ FAULTS = {
     "the mean of a decade for its worst force": (
         (fractal_punch_decades, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
+    ),
+    "a fine application as cheap as a coarse one": (
+        (fractal_punch_cost, "_work", lambda ensemble, cells, level: 1.0),
+        test_fractal_punch.test_the_work_beside_plain_sampling,
     ),
     "the order of the curves turned round": (
         (fractal_punch_decades, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
