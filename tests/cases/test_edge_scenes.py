@@ -7,10 +7,12 @@ import pytest
 
 import bem3d
 from validation.cases.selection import edge_scenes
-from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, QUANTITIES, SPHERE, edge_scene
+from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, QUANTITIES, ROLLING, SPHERE, edge_scene
 from validation.scenes.indentation import IndentationScene
 from validation.selection.compare import models_of, quantities_of
 from validation.simulation.model import GridModel
+from validation.simulation.rolling_levels import by_linear_theory, strip_of
+from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
 
 
@@ -79,3 +81,12 @@ def test_claims_hold_on_measured_faces_and_few_of_them_are_refused(body):
         answerable.append(bool(errors))
     assert len(answerable) >= 6 and all(within)
     assert sum(answerable) >= 0.8 * len(answerable)
+
+
+def test_linear_theory_of_few_points_claims_what_its_cells_leave():
+    """Four points to a contact radius: beside the same theory on cells a third as long, which no rule of h/d knows."""
+    scene, name = edge_scene(MEASURED + ROLLING, 6, 3)
+    linear = next(model for model in models_of(scene, name, 0.3, 0) if model.kind == "linear filter, 3D")
+    quantity, answer = RollingQuantity(scene, name), linear.solve()
+    fine = by_linear_theory(quantity, strip_of(quantity, 48, 0, 0), scene.contact_radius / 48)
+    assert linear.estimate().error < distance(answer.value, fine) <= answer.error

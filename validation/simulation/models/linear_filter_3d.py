@@ -11,6 +11,7 @@ from validation.simulation.model import Cost, Target
 from validation.simulation.rolling_claims import FORCE_RMS, LINEAR_BANDS, NODE, CheapRollingModel
 from validation.simulation.rolling_levels import FINE, LEAST, by_linear_theory, strip_of
 from validation.simulation.rolling_quantity import RollingQuantity
+from validation.simulation.sampling import distance
 
 
 class LinearFilter3D(CheapRollingModel):
@@ -32,6 +33,11 @@ class LinearFilter3D(CheapRollingModel):
         nodes = target.rolling.nodes
         return Cost(work=nodes, unit="quadratures", seconds=NODE * nodes)
 
+    def left_out(self, target: Target, value: NDArray[np.float64]) -> float:
+        """Of measured heights also what cells twice as long change."""
+        grid = distance(value, _of_heights(target.rolling, 1)) if target.scene.ground.is_single else 0.0
+        return super().left_out(target, value) + grid
+
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         quantity = target.rolling
         levels = _of_heights if quantity.scene.ground.is_single else _of_spectrum
@@ -47,9 +53,10 @@ def _of_spectrum(quantity: RollingQuantity) -> NDArray[np.float64]:
     return quantity.expected(one_dimensional=False)
 
 
-def _of_heights(quantity: RollingQuantity) -> NDArray[np.float64]:
+def _of_heights(quantity: RollingQuantity, finer: int = 2) -> NDArray[np.float64]:
+    """On cells so many times finer than boundary elements need at the least."""
     a = quantity.scene.contact_radius
-    cells = max(LEAST, math.ceil(FINE * quantity.q_max * a / (2 * math.pi)))
+    cells = finer * max(LEAST, math.ceil(FINE * quantity.q_max * a / (2 * math.pi)))
     return by_linear_theory(quantity, strip_of(quantity, cells, 0, 0), a / cells)
 
 
