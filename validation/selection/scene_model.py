@@ -62,7 +62,7 @@ class SceneModel:
     def solve(self) -> Answer:
         """Model error as expected; sample and grid error from what was computed.
 
-        Realisations are added until the error is within the tolerance, and no longer than the grid allows that.
+        Realisations are added until the error is within the tolerance, and no longer than grid and cells allow that.
         """
         expected, plan = self.estimate(), self.sampling
         solve = self.model.prepare(self.target, self.resolution)
@@ -85,7 +85,7 @@ class SceneModel:
                 failed=self._too_few(found)
                 or ("" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"),
             )
-            hopeless = answer.model + grid > self.target.tolerance
+            hopeless = bool(answer.failed) or answer.model + grid > self.target.tolerance
             if answer.error <= self.target.tolerance or hopeless or len(found) >= plan.most:
                 return answer
             found.append(solve(len(found))())
