@@ -171,7 +171,7 @@ def _announce(model: ContactModel) -> None:
 def cases(arguments: argparse.Namespace) -> Exit:
     """List what there is."""
     for name, entry in CASES.items():
-        print(f"{name:15s} {entry.answers}")
+        print(f"{name:20s} {entry.answers}")
     return Exit.MET
 
 

@@ -373,10 +373,19 @@ def test_cases_are_listed(capsys):
     assert all(name in printed and entry.answers in printed for name, entry in CASES.items())
 
 
+HEARS_CONTROL_C = """
+import signal, sys
+from validation.__main__ import main
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.exit(main(sys.argv[1:]))
+"""
+"""The command, in a process that may have been started in the background, where a shell has it ignore Control-C."""
+
+
 @pytest.mark.slow
 def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     """Control-C in the middle: exit 130; finished solves are there, and the next run takes them."""
-    words = [sys.executable, "-m", "validation", "report", "--only", "fractal_punch", "--workers", "1"]
+    words = [sys.executable, "-c", HEARS_CONTROL_C, "report", "--only", "fractal_punch", "--workers", "1"]
     run = subprocess.Popen([*words, "--out", str(tmp_path)], cwd=ROOT, stderr=subprocess.PIPE, text=True)
     store = tmp_path / "realisations"
     while len(list(store.glob("*.npz"))) < 3:
