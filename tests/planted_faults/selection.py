@@ -248,4 +248,8 @@ FAULTS = {
         (hierarchy.Selection, "met", property(lambda selection: True)),
         test_face.test_a_missed_tolerance_leaves_the_best_value,
     ),
+    "a punch without the error at its edge": (
+        (boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0),
+        functools.partial(test_claims.test_a_pressed_face_claims_no_less_than_the_edge_of_the_flat_punch, 32),
+    ),
 }

@@ -33,6 +33,7 @@ from validation.simulation.models import (
 from validation.simulation.resolution import too_few
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import grid_error, mean_error
+from validation.theory.closed_forms import SQUARE_PUNCH
 from validation.theory.rolling import contact_lost
 
 
@@ -106,6 +107,16 @@ def summit_stiffness(scene, realisation, cells=64):
         at = at - np.linalg.solve(bend, slope)
     radius = 1 / (math.sqrt(np.linalg.det(bend)) * cells**2)
     return 2 * (0.75 * scene.load * radius) ** (1 / 3)
+
+
+@pytest.mark.parametrize("cells", [32, 64])
+def test_a_pressed_face_claims_no_less_than_the_edge_of_the_flat_punch(cells):
+    """In nearly full contact, where the waves that a grid leaves out may hide it in the change of the grid."""
+    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
+    flat = 1 - bem3d.solve(half_space, np.zeros(half_space.shape), approach=1e-3).stiffness() / SQUARE_PUNCH
+    with pytest.MonkeyPatch.context() as hidden:
+        hidden.setattr(boundary_elements_pressed, "grid_error", lambda *changes: 0.0)
+        assert grid_of(punch(load=43.0, last=cells // 4), 0.3, 0, cells).solve().grid >= 0.95 * flat
 
 
 @pytest.mark.slow
