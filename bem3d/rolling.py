@@ -178,11 +178,8 @@ def rolling_force(
 
 def _wide_enough(track: Track, approach: float) -> None:
     """Refuse a strip that cannot hold the contact of the smooth wheel."""
-    (length, width), (nx, ny), (dx, dy) = (
-        (2 * a for a in track.smooth.semi_axes(approach)),
-        track.height.shape,
-        track.steps,
-    )
+    (nx, ny), (dx, dy) = track.height.shape, track.steps
+    length, width = (2 * semi_axis for semi_axis in track.smooth.semi_axes(approach))
     if nx * dx <= length:
         raise ValueError(f"height must be longer than the contact, {length:.6g} m, got a track of {nx * dx:.6g} m")
     if ny * dy <= width:

@@ -37,15 +37,21 @@ def by_sorting(track: SpringTrack, block: slice, wanted: float, d: float) -> Bor
         second = by_sorting(track, slice(middle, block.stop), wanted, d)
         both = ((first.approach, second.approach), (first.pressed, second.pressed), (first.looked, second.looked))
         return Borne(*(np.concatenate(pair) for pair in both))
-    level = -np.sort(-_levels(near), axis=1)
+    return borne_by(_levels(near), wanted)
+
+
+def borne_by(levels: FloatArray, wanted: float) -> Borne:
+    """The same for springs whose levels h - x^2 / R are given, shape (positions, springs)."""
+    positions, springs = levels.shape
+    level = -np.sort(-levels, axis=1)
     highest = level[:, :1]
     # a spring so far down never touches: the highest alone would bear the force before
     below = np.minimum(highest - level, 2 * wanted)
-    met = np.cumsum(np.arange(1, near.columns) * np.diff(below, axis=1), axis=1)
+    met = np.cumsum(np.arange(1, springs) * np.diff(below, axis=1), axis=1)
     pressed = 1 + np.count_nonzero(met < wanted, axis=1)
-    in_contact = np.arange(near.columns) < pressed[:, np.newaxis]
+    in_contact = np.arange(springs) < pressed[:, np.newaxis]
     overlap = (wanted + np.where(in_contact, below, 0.0).sum(axis=1)) / pressed
-    return Borne(overlap - highest[:, 0], pressed.astype(np.float64), np.full(positions, float(near.columns)))
+    return Borne(overlap - highest[:, 0], pressed.astype(np.float64), np.full(positions, float(springs)))
 
 
 def _deepest(track: SpringTrack, block: slice, wanted: float, d: float) -> FloatArray:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from mdr.approach_by_sorting import borne_by
 from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
 from mdr.diagnostics import Diagnostic, diagnose_units, diagnose_wheel, warn
 from mdr.elliptic_wheel import SpringWheel, spring_wheel
@@ -15,6 +16,8 @@ from mdr.rolling_track import RollingTrack
 
 MOST_NUMBERS = 2**20
 """Springs times positions that are sorted at once."""
+MOST_SPRINGS = 2**20
+"""To each side of a wheel: of more, a single position would take tens of megabytes and seconds."""
 
 
 def roll_surface(
@@ -92,15 +95,14 @@ def _rolled(
     for name, size, contact in (("longer", points * dx, 2 * a), ("wider", across * dy, 2 * a * wheel.aspect)):
         if size <= contact:
             raise ValueError(f"height must be {name} than the contact, {contact:.6g} m, got a strip of {size:.6g} m")
-    deepest = d if force is None else d - float(heights.min())
-    reach = math.ceil(math.sqrt(wheel.radius * max(deepest + float(heights.max()), 0.0)) / dx)
-    offsets = np.arange(-reach, reach + 1)
-    half_widths = wheel.aspect * np.sqrt(np.maximum(a**2 - (dx * np.arange(reach + 1)) ** 2, 0.0))
-    read = heights @ weights_across(half_widths, across, dy)
-    found = []
-    for first in range(0, points, max(1, MOST_NUMBERS // offsets.size)):
-        rows = np.arange(first, min(first + max(1, MOST_NUMBERS // offsets.size), points))
-        level = read[(rows[:, np.newaxis] + offsets) % points, np.abs(offsets)] - (dx * offsets) ** 2 / wheel.radius
+    reach = _reach(wheel, (d if force is None else d - float(heights.min())) + float(heights.max()), dx)
+    inside, offsets = int(a / dx), np.arange(-reach, reach + 1)
+    half_widths = wheel.aspect * np.sqrt(np.maximum(a**2 - (dx * np.arange(inside + 2)) ** 2, 0.0))
+    read, column = heights @ weights_across(half_widths, across, dy), np.minimum(np.abs(offsets), inside + 1)
+    found, block = [], max(1, MOST_NUMBERS // offsets.size)
+    for first in range(0, points, block):
+        rows = np.arange(first, min(first + block, points))[:, np.newaxis]
+        level = read[(rows + offsets) % points, column] - (dx * offsets) ** 2 / wheel.radius
         found.append(_at_approach(level, d) if force is None else _under_force(level, force / spring))
     total, depth, pressed = np.concatenate(found, axis=1)
     rolled = RollingTrack(
@@ -132,11 +134,17 @@ def _at_approach(level: FloatArray, approach: float) -> FloatArray:
 
 
 def _under_force(level: FloatArray, wanted: float) -> FloatArray:
-    """The same where the sum is given: the highest n springs bear it, and a sort finds n."""
-    highest_first = -np.sort(-level, axis=1)
-    below = highest_first[:, :1] - highest_first
-    met = np.cumsum(np.arange(1, level.shape[1]) * np.diff(below, axis=1), axis=1)
-    pressed = 1 + np.count_nonzero(met < wanted, axis=1)
-    in_contact = np.arange(level.shape[1]) < pressed[:, np.newaxis]
-    overlap = (wanted + np.where(in_contact, below, 0.0).sum(axis=1)) / pressed
-    return np.stack([np.full(pressed.size, wanted), overlap - highest_first[:, 0], pressed])
+    """The same where the sum is given."""
+    borne = borne_by(level, wanted)
+    return np.stack([np.full(borne.approach.size, wanted), borne.approach, borne.pressed])
+
+
+def _reach(wheel: SpringWheel, overlap: float, spacing: float) -> int:
+    """Springs to each side that may touch; ValueError where they would take gigabytes."""
+    about = math.sqrt(wheel.radius * max(overlap, 0.0)) / spacing
+    if not about < MOST_SPRINGS:
+        raise ValueError(
+            f"spacing must be larger, or height, radius and load smaller: the wheel overlaps heights to {about:.3g} "
+            f"springs on each side, more than {MOST_SPRINGS}"
+        )
+    return math.ceil(about)

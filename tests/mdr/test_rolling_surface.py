@@ -107,6 +107,7 @@ def test_weights_across_are_a_mean_and_that_of_the_flat_punch(half_widths, point
         ({"modulus": math.inf}, "modulus"),
         ({"approach": -1.0}, "approach"),
         ({"force": 1.0}, "either approach or force"),
+        ({"height": np.pad(np.full((1, 1), 1e6), ((0, 59), (0, 40)))}, "springs on each side"),
     ],
 )
 def test_bad_input_is_named(wrong, message):

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.engine.files import write_whole
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
@@ -145,7 +146,7 @@ def write_calibration(run: CalibrationRun, engine: Engine = SERIAL, path: Path |
     writer = csv.DictWriter(text, ["kind", "quantity", "number", "model", *CONDITIONS, "shape", "error", "reference"])
     writer.writeheader()
     writer.writerows(rows)
-    (path or TABLE).write_text(text.getvalue(), encoding="utf-8")
+    write_whole(path or TABLE, text.getvalue().encode())
 
 
 def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, object]]:

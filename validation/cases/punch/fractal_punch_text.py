@@ -43,7 +43,8 @@ def method(case: FractalPunch) -> str:
         "intervals that hold at 95 % for all forces of a decade at once. Grid: boundary elements are extrapolated to "
         "cells of no size, to first order from the two finest grids; ± grid is the distance to the extrapolation from "
         "the next two, with the change from twice the springs. The rest is the error of the model. The verdict of a "
-        "decade is that of its worst force. An undecided verdict says how many times the sample would decide it at the "
+        "decade is that of its worst force; a deviation below 1 % of the other counts as 1 % of it. An undecided "
+        "verdict says how many times the sample would decide it at the "
         'same value and grid error. With "grid error too large" no sample size would: finer cells lower that error.'
     )
 

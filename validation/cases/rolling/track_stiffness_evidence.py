@@ -7,7 +7,7 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, numbers_with, table_of
 from validation.analysis.over_range import root_mean_square, worst
 from validation.analysis.statistics import (
     POWER_DECIBEL,
@@ -228,11 +228,15 @@ def _percent(numbers: Sequence[Number]) -> str:
 
 def _punch_and_wheel(numbers: list[Number]) -> str:
     last = numbers_with(numbers, DEVIATION, PUNCH_OVER_WHEEL)[-1]
+    found = (
+        f"At Fbar = {last.where['Fbar']:g} the deviation from punch to punch is {100 * last.value:+.0f} % off that "
+        f"along the track ({last.verdict})."
+    )
+    if last.verdict is not Verdict.DIFFER or last.value > 0:
+        return found
     return (
-        "A punch touches everywhere once its load is high, and its stiffness then no longer fluctuates. The edge of a "
-        "wheel's contact is always partly open, so that waves still move it: at Fbar = "
-        f"{last.where['Fbar']:g} the deviation from punch to punch is {100 * last.value:+.0f} % off that along the "
-        f"track ({last.verdict})."
+        f"{found} A punch touches everywhere once its load is high, and its stiffness then no longer fluctuates. The "
+        "edge of a wheel's contact is always partly open, so that waves still move it."
     )
 
 

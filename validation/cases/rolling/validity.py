@@ -141,7 +141,7 @@ def evidence(result: ValidityResult) -> Evidence:
             f"once with equal h/d. h' is the rms gradient. Boundary elements: {case.strips} surfaces each, "
             f"{case.waves} of their longest waves long, at least {case.cells} cells to a radius and four to the "
             "shortest wave. The share of contact kept is the mean area over that of a smooth wheel under the same "
-            "force; cells at the edge make it 1.02 to 1.03 where nothing is lost. The level over linear theory on the "
+            "force; cells at its edge may make it a little more than one. The level over linear theory on the "
             "same surfaces is taken in one-third octaves of the band; its root mean square over bands counts. Each "
             f"spectrum is judged beside {REFERENCE}."
         ),

@@ -93,7 +93,7 @@ def _claims(
             f"over short waves, q_min a = {short:.3g}, open records have maxima {leaking.value:.0f} dB over zeros; "
             f"without leakage these are {steady.value:.0f} dB, in the second-order force {steady.reference:.0f} dB, "
             f"whose zeros begin at q a = π/2; {case.scene.name} has q_min a = {own:.3g} and "
-            f"{'none' if own < math.pi / 2 else 'some'}.",
+            f"{'no zero' if own < math.pi / 2 else 'a zero'} below it.",
             confirmed_by=Verdict.DIFFER,
         ),
         answered(
