@@ -46,7 +46,7 @@ MAY_IMPORT = {
     "theory": set(),
     "analysis": set(),
     "engine": set(),
-    "scenes": {"theory", "mdr"},
+    "scenes": {"theory", "analysis", "mdr"},
     "simulation": BASE,
     "selection": BASE | {"simulation"},
     "benchmarks": BASE | {"simulation"},

@@ -1,0 +1,90 @@
+"""Base-ten one-third octaves of wavelength, against the tables of the field and against sums by hand."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from validation.analysis.nominal_bands import NominalBands, band_number, nominal_wavelength
+
+TABLE = (2000, 1600, 1250, 1000, 800, 630, 500, 400, 315, 250, 200, 160, 125, 100, 80, 63, 50, 40, 31.5, 25, 20, 16)
+TABLE += (12.5, 10, 8, 6.3, 5, 4, 3.15, 2.5, 2, 1.6, 1.25, 1, 0.8)
+"""Of CNOSSOS-EU, in mm."""
+
+
+def test_names_are_those_of_the_tables():
+    bands = NominalBands.named([mm / 1000 for mm in TABLE])
+    assert bands == NominalBands()
+    assert (1000 * bands.nominal).tolist() == list(TABLE)
+    np.testing.assert_allclose(bands.wavelengths, bands.nominal, rtol=0.01)
+
+
+def test_bands_are_base_ten_and_lie_beside_each_other():
+    bands = NominalBands(0, -20)
+    np.testing.assert_allclose(bands.edges[1:] / bands.edges[:-1], 10**0.1, rtol=1e-12)
+    np.testing.assert_allclose(np.sqrt(bands.edges[1:] * bands.edges[:-1]), bands.centres, rtol=1e-12)
+    assert bands.centres[10] == pytest.approx(2 * math.pi / 0.1, rel=1e-12)
+    # base two is off by a quarter of a band at the short end
+    assert abs(math.log(2 ** (-20 / 3) / bands.wavelengths[-1]) / math.log(10**0.1)) > 0.05
+
+
+@pytest.mark.parametrize(
+    ("wavelengths", "said"),
+    [
+        ([0.1, 0.08, 0.08, 0.063], "80 mm twice"),
+        ([0.1, 0.063, 0.08], "no 80 mm behind 100 mm"),
+        ([0.1, 0.125], "sorted, got 125 mm behind 100 mm"),
+        ([0.1, 0.05], "no 80 mm behind 100 mm"),
+        ([2.0, 1.7], "got 1700 mm"),
+        ([1000.0], "got 1e[+]06 mm"),
+        ([math.nan], "got nan"),
+        ([], "got none"),
+    ],
+)
+def test_what_is_no_row_of_bands(wavelengths, said):
+    with pytest.raises(ValueError, match=said):
+        NominalBands.named(wavelengths)
+
+
+def test_power_of_a_wave_is_in_its_band_alone():
+    """A cosine of amplitude A has A^2 / 2."""
+    bands = NominalBands(-10, -20)
+    x = np.arange(4000) * 1e-3
+    found = bands.powers_of_track(3.0 * np.cos(2 * np.pi * x / 0.04), spacing=1e-3)
+    np.testing.assert_allclose(found, np.where(np.array(bands.numbers) == band_number(0.04), 4.5, 0.0), atol=1e-12)
+
+
+def test_a_track_must_be_long():
+    with pytest.raises(ValueError, match="length must be so large"):
+        NominalBands(0, -10).powers_of_track(np.zeros(100), spacing=1e-2)
+
+
+@pytest.mark.parametrize("power", [-3.4, -1.0, 0.0, 2.0])
+def test_power_of_a_spectrum_against_the_integral(power):
+    bands = NominalBands(-5, -15)
+    found = bands.powers_of_spectrum(lambda q: 1e-9 * (q / 100) ** power)
+    for i, (low, high) in enumerate(zip(bands.edges[:-1], bands.edges[1:], strict=True)):
+        reference = 2 * integrate.quad(lambda q: 1e-9 * (q / 100) ** power, low, high, epsrel=1e-12)[0]
+        assert found[i] == pytest.approx(reference, rel=1e-11)
+
+
+def test_power_of_a_filtered_spectrum():
+    """sin^2(q a) / (q a)^2 at six zeros a band: within rounding."""
+    bands, a = NominalBands(-20, -31), 6e-3
+    found = bands.powers_of_spectrum(lambda q: np.sinc(q * a / np.pi) ** 2)
+    for i, (low, high) in enumerate(zip(bands.edges[:-1], bands.edges[1:], strict=True)):
+        reference = 2 * integrate.quad(lambda q: np.sinc(q * a / np.pi) ** 2, low, high, epsrel=1e-12, limit=200)[0]
+        assert found[i] == pytest.approx(reference, rel=1e-9)
+
+
+def test_bands_within_two_wavelengths():
+    assert NominalBands().within(1.0, 0.01) == NominalBands(-1, -19)
+    assert NominalBands().within(10**0.05, 10**-1.95) == NominalBands(0, -19)
+    with pytest.raises(ValueError, match="no band"):
+        NominalBands().within(0.011, 0.01)
+
+
+def test_numbers_and_names():
+    assert nominal_wavelength(-15) == 31.5e-3
+    assert band_number(0.0315) == -15

@@ -1,0 +1,129 @@
+"""Roughness as the field of rolling noise has it: levels in dB re 1 um of one line, over nominal wavelengths."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mdr.checks import finite
+from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.units import in_unit
+
+FloatArray = NDArray[np.float64]
+
+MICROMETRE = 1e-6
+LARGEST = 60.0
+"""dB re 1 um of one band, 1 mm, and less than 1 nm with the other sign: beyond both the unit is another."""
+STEPS, CLOSE = 200, 1e-12
+"""Of the iteration for the spectrum, and the relative error of a band's power that ends it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoughnessLevels:
+    """Levels L = 20 lg(rms / 1 um) of a line in base-ten one-third octaves.
+
+    wavelengths: nominal [m], the longest first, none left out; levels: dB re 1 um; source: where they come from.
+    Raises ValueError for wavelengths that are no such bands, and for levels that are none.
+    """
+
+    wavelengths: tuple[float, ...]
+    levels: tuple[float, ...]
+    source: str = "given"
+
+    def __post_init__(self) -> None:
+        _ = self.bands
+        if len(self.levels) != len(self.wavelengths):
+            raise ValueError(
+                f"levels must be one a wavelength, got {len(self.levels)} for {len(self.wavelengths)} wavelengths"
+            )
+        for wavelength, level in zip(self.wavelengths, self.levels, strict=True):
+            if not abs(finite("levels", level)) <= LARGEST:
+                raise ValueError(
+                    f"levels must lie between -{LARGEST:g} and {LARGEST:g} dB re 1 um, got {level:g} dB at "
+                    f"{wavelength * 1000:g} mm: are they re 1 m or 1 nm?"
+                )
+
+    @classmethod
+    def of_powers(cls, bands: NominalBands, powers: ArrayLike, *, source: str) -> "RoughnessLevels":
+        """Of the mean square of the heights in each band [m^2]."""
+        levels = 10 * np.log10(np.asarray(powers, dtype=np.float64) / MICROMETRE**2)
+        return cls(wavelengths=tuple(bands.nominal.tolist()), levels=tuple(levels.tolist()), source=source)
+
+    @cached_property
+    def bands(self) -> NominalBands:
+        """The base-ten one-third octaves that the wavelengths name."""
+        return NominalBands.named(self.wavelengths)
+
+    @property
+    def powers(self) -> FloatArray:
+        """Mean square of the heights in each band [m^2]."""
+        return np.asarray(MICROMETRE**2 * 10 ** (np.array(self.levels) / 10))
+
+    @property
+    def rms(self) -> float:
+        """Root mean square height over all bands [m]."""
+        return math.sqrt(float(self.powers.sum()))
+
+    @property
+    def slope(self) -> float:
+        """Root mean square slope along the line, over all bands [-]."""
+        q, weight = self.bands.quadrature()
+        return math.sqrt(float(2 * (weight * q**2 * self.c_line(q)).sum()))
+
+    def raised(self, offset: float) -> "RoughnessLevels":
+        """The same with so many dB more in each band."""
+        levels = tuple(level + offset for level in self.levels)
+        return RoughnessLevels(wavelengths=self.wavelengths, levels=levels, source=f"{self.source} {offset:+g} dB")
+
+    def __add__(self, other: "RoughnessLevels") -> "RoughnessLevels":
+        """Energies of both, over these bands; where the other has no level it adds nothing."""
+        more = dict(zip(other.bands.numbers, other.powers, strict=True))
+        powers = self.powers + [more.get(number, 0.0) for number in self.bands.numbers]
+        return RoughnessLevels.of_powers(self.bands, powers, source=f"{self.source} and {other.source}")
+
+    def c_line(self, q: ArrayLike) -> FloatArray:
+        """C_line of one line, two-sided [m^3]: powers of q between `nodes`, zero beyond the outer edges.
+
+        Its integral over each band is the power of that band.
+        """
+        return power_laws(q, *self.nodes)
+
+    @cached_property
+    def nodes(self) -> tuple[FloatArray, FloatArray]:
+        """Wavenumbers [rad/m] between which C_line is a power of q, and C_line there [m^3].
+
+        They are the centres of the bands and both outer edges; beyond the last centres the power goes on.
+        """
+        wanted, density = self.powers, self.powers / (2 * np.diff(self.bands.edges))
+        for _ in range(STEPS):
+            nodes = _with_outer_edges(self.bands, density)
+            excess = self.bands.powers_of_spectrum(partial(power_laws, q=nodes[0], density=nodes[1])) / wanted
+            if np.abs(excess - 1).max() < CLOSE:
+                break
+            density = density / excess
+        return nodes
+
+    @property
+    def waves(self) -> str:
+        """Wavelengths, height and source, in words."""
+        longest, shortest = (in_unit(wave, "length") for wave in (self.wavelengths[0], self.wavelengths[-1]))
+        return f"{longest} to {shortest}, {self.source}"
+
+
+def power_laws(at: ArrayLike, q: FloatArray, density: FloatArray) -> FloatArray:
+    """The density between its values at q, linear in the logarithms of both; zero outside."""
+    wavenumber = np.abs(np.asarray(at, dtype=np.float64))
+    inside = (wavenumber >= q[0]) & (wavenumber <= q[-1])
+    logarithm = np.interp(np.log(np.where(inside, wavenumber, q[0])), np.log(q), np.log(density))
+    return np.asarray(np.where(inside, np.exp(logarithm), 0.0))
+
+
+def _with_outer_edges(bands: NominalBands, density: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Centres and both outer edges, and the density there; beyond the last centres the last power goes on."""
+    q, edges = bands.centres, bands.edges[[0, -1]]
+    if len(bands) == 1:
+        return edges, np.repeat(density, 2)
+    first, last = (density[i] * math.sqrt(density[i] / density[j]) for i, j in ((0, 1), (-1, -2)))
+    return np.concatenate([edges[:1], q, edges[1:]]), np.concatenate([[first], density, [last]])
