@@ -1,0 +1,188 @@
+"""What each model makes of a rough strip: the equivalent displacement of the wheel, and the contact filter.
+
+The equivalent displacement at constant load is -(approach - mean): by how much the roughness lifts the wheel. Its band
+power over that of the line roughness is the contact filter A3. A model of one-sided contact has a linear twin, whose
+filter is known without a sample: only what the model is over its twin is found on strips.
+"""
+
+import math
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+import mdr
+from mdr.approach_by_sorting import borne_by
+from validation.analysis.spectra import Bands, levels, waves
+from validation.analysis.statistics import Estimate, jackknifed
+from validation.engine.engine import Outcome
+from validation.simulation.rail_strip import RailStrip, Transfer
+from validation.theory.contact_filters import half_space_filter, spring_bed_filter
+from validation.theory.elliptic_contact import EllipticContact
+
+FloatArray = NDArray[np.float64]
+
+LINE, LINEAR, BED = "line roughness", "linear, ellipse", "spring bed (DPRS), linear"
+LINEAR_ON_LINE, LINEAR_ON_MEAN = "linear, on the line", "linear, on the mean across"
+BEM, ONE_SIDED_BED = "boundary elements", "spring bed (DPRS), one-sided"
+SPRINGS_ON_LINE, SPRINGS_ON_MEAN = "springs on the line", "springs on the mean across"
+SPRINGS_THAT_READ = "springs that read the surface"
+MOST_NUMBERS = 2**21
+"""Springs of a bed times positions that are sorted at once."""
+
+
+def _axes(contact: EllipticContact) -> tuple[float, float]:
+    return contact.along, contact.across
+
+
+LINEAR_MODELS: Mapping[str, Callable[[EllipticContact], Transfer]] = {
+    LINE: lambda contact: lambda along, across: np.ones_like(along + across),
+    LINEAR: lambda contact: lambda along, across: half_space_filter(along, across, semi_axes=_axes(contact)),
+    BED: lambda contact: lambda along, across: spring_bed_filter(along, across, semi_axes=_axes(contact)),
+    LINEAR_ON_LINE: lambda contact: lambda along, across: np.sinc((along + 0 * across) * contact.along / np.pi),
+    LINEAR_ON_MEAN: lambda contact: (
+        lambda along, across: np.sinc(along * contact.along / np.pi) * np.sinc(across * contact.across / np.pi)
+    ),
+}
+"""From the smooth contact to H(k_x, k_y)."""
+
+
+def boundary_elements(strip: RailStrip, tolerance: float) -> FloatArray:
+    """The half-space, one-sided; NaN where it has not converged."""
+    found = bem3d.roll(
+        strip.surface,
+        spacing=strip.spacing,
+        radius=strip.radii,
+        modulus=strip.modulus,
+        force=strip.force,
+        tolerance=tolerance,
+        raise_on_failure=False,
+    )
+    return lifted(np.where(found.converged, found.approach, np.nan))
+
+
+def springs_that_read(strip: RailStrip, tolerance: float) -> FloatArray:
+    """Springs that read the surface across the contact."""
+    return _on_springs(strip, mdr.roll_surface, strip.surface)
+
+
+def springs_on_line(strip: RailStrip, tolerance: float) -> FloatArray:
+    """Springs under the middle line."""
+    return _on_springs(strip, mdr.roll, strip.along_middle(LINEAR_MODELS[LINE](strip.contact)))
+
+
+def springs_on_mean(strip: RailStrip, tolerance: float) -> FloatArray:
+    """Springs under the mean of the heights across the contact, |y| < a_y."""
+    b = strip.contact.across
+    return _on_springs(strip, mdr.roll, strip.along_middle(lambda x, y: np.sinc((0 * x + y) * b / np.pi)))
+
+
+def _on_springs(strip: RailStrip, roll: Callable[..., mdr.RollingTrack], height: FloatArray) -> FloatArray:
+    with warnings.catch_warnings():
+        # what few springs leave is measured on two grids
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
+        found = roll(height, spacing=strip.spacing, radius=strip.radii, modulus=strip.modulus, force=strip.force)
+    return lifted(found.approach)
+
+
+def one_sided_bed(strip: RailStrip, tolerance: float) -> FloatArray:
+    """Springs, a patch of them, that do not pull: the sum of kappa max(d - g + h, 0) dA over the cells is the force.
+
+    Patch, force and stiffness of the smooth wheel are those of Hertz: kappa = k / (pi a b), d = 2 F / k, and
+    g = d (x^2 / a^2 + y^2 / b^2).
+    """
+    contact, surface, step = strip.contact, strip.surface, strip.spacing
+    depth, (nx, ny) = 2 * contact.force / contact.stiffness, surface.shape
+    share = math.sqrt(1 + float(np.ptp(surface)) / depth)
+    reach = math.ceil(share * contact.along / step)
+    rows, y = np.arange(-reach, reach + 1), (np.arange(ny) - (ny - 1) / 2) * step
+    near = np.abs(y) <= share * contact.across
+    gap = depth * ((rows * step / contact.along)[:, np.newaxis] ** 2 + (y[near] / contact.across) ** 2)
+    wanted = contact.force * math.pi * contact.along * contact.across / contact.stiffness / step**2
+
+    def approach(positions: NDArray[np.int64]) -> FloatArray:
+        level = surface[(positions[:, np.newaxis] + rows) % nx][:, :, near] - gap
+        return borne_by(level.reshape(positions.size, -1), wanted).approach
+
+    blocks = np.array_split(np.arange(nx), 1 + nx * gap.size // MOST_NUMBERS)
+    return lifted(np.concatenate([approach(block) for block in blocks]))
+
+
+def lifted(approach: FloatArray) -> FloatArray:
+    """-(approach - mean)."""
+    return np.asarray(np.mean(approach) - approach)
+
+
+@dataclass(frozen=True)
+class OneSided:
+    """displacement: of a strip, with the residual of boundary elements; twin: its linear model, of `LINEAR_MODELS`."""
+
+    displacement: Callable[[RailStrip, float], FloatArray]
+    twin: str
+
+
+ONE_SIDED: Mapping[str, OneSided] = {
+    BEM: OneSided(boundary_elements, LINEAR),
+    SPRINGS_THAT_READ: OneSided(springs_that_read, LINEAR),
+    SPRINGS_ON_LINE: OneSided(springs_on_line, LINEAR_ON_LINE),
+    SPRINGS_ON_MEAN: OneSided(springs_on_mean, LINEAR_ON_MEAN),
+    ONE_SIDED_BED: OneSided(one_sided_bed, BED),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class RolledRail:
+    """A strip, the models of `ONE_SIDED` that roll over it, and the residual of boundary elements."""
+
+    strip: RailStrip
+    models: tuple[str, ...]
+    tolerance: float = 3e-6
+
+    def __post_init__(self) -> None:
+        if unknown := [name for name in self.models if name not in ONE_SIDED]:
+            raise ValueError(f"models must be of {', '.join(ONE_SIDED)}, got {', '.join(unknown)}")
+
+
+def roll_rail(problem: RolledRail) -> Outcome:
+    """Equivalent displacement along the strip of each model and of all linear ones, by their names [m].
+
+    failed: positions at which boundary elements did not converge, whose displacement is NaN.
+    """
+    strip = problem.strip
+    linear = {name: strip.along_middle(transfer(strip.contact)) for name, transfer in LINEAR_MODELS.items()}
+    found = {name: ONE_SIDED[name].displacement(strip, problem.tolerance) for name in problem.models}
+    failed = sum(float(np.isnan(track).sum()) for track in found.values())
+    return {**linear, **found, "failed": np.array(failed)}
+
+
+def band_powers(outcomes: Sequence[Outcome], name: str, spacing: float, bands: Bands) -> FloatArray:
+    """Of the tracks with a name, (strips, bands); NaN in strips that failed [m^2]."""
+    return levels(waves(np.array([outcome[name] for outcome in outcomes]), spacing=spacing), bands)
+
+
+def log_filter(strip: RailStrip, model: str, outcomes: Sequence[Outcome], bands: Bands) -> list[Estimate]:
+    """ln of the contact filter, a ratio of powers, in each band: that of the linear twin in the mean of all
+    realisations of this kind of strip, and what the model is over it on the strips that were rolled."""
+    twin = ONE_SIDED[model].twin if model in ONE_SIDED else model
+    power = [strip.expected_power(LINEAR_MODELS[name](strip.contact), bands) for name in (twin, LINE)]
+    exact = np.log(power[0] / power[1])
+    if model == twin:
+        return [Estimate(float(value), 0.0, 2) for value in exact]
+    return [
+        Estimate(float(value) + over.value, over.error, over.samples)
+        for value, over in zip(exact, log_over(model, twin, outcomes, strip.spacing, bands), strict=True)
+    ]
+
+
+def log_over(model: str, other: str, outcomes: Sequence[Outcome], spacing: float, bands: Bands) -> list[Estimate]:
+    """ln of the band power of a model over that of another on the same strips, by the jackknife over strips."""
+    both = np.stack([band_powers(outcomes, name, spacing, bands) for name in (model, other)], axis=1)
+
+    def ratio(rows: FloatArray) -> FloatArray:
+        mine, reference = rows.sum(axis=0)
+        return np.asarray(np.log(mine / reference))
+
+    return jackknifed(ratio, both)
