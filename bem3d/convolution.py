@@ -4,10 +4,9 @@ import math
 import threading
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
-import pyfftw
 from numpy.typing import NDArray
 
 from bem3d.checks import FloatArray, IndexArray
@@ -35,12 +34,14 @@ class Convolution(ABC):
         self.shape, self.padded, self._planning = shape, padded, planning
         self._lock = threading.Lock()
         # the padding along the first axis need not be stored, see PaddedConvolution
-        self._rows = pyfftw.empty_aligned((shape[0], padded[1]), dtype=np.float64)
+        self._rows = _aligned((shape[0], padded[1]), dtype=np.float64)
 
     def _plan(
         self, there: FloatArray | ComplexArray, back: FloatArray | ComplexArray, axes: tuple[int, ...]
     ) -> tuple[Callable[[], None], Callable[[], None]]:
         """The transforms from one array to the other and back; the way back may destroy its input."""
+        import pyfftw
+
         common = {"axes": axes, "threads": 1}
         flags = (f"FFTW_{self._planning.upper()}",)
         with PLANNER:
@@ -90,7 +91,7 @@ class PlainConvolution(Convolution):
     def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], planning: Planning):
         super().__init__(shape, shape, planning)
         self._symbol = _halfplane(symbol, shape)
-        self._spectrum = pyfftw.empty_aligned(self._symbol.shape, dtype=np.complex128)
+        self._spectrum = _aligned(self._symbol.shape, dtype=np.complex128)
         self._forward, self._inverse = self._plan(self._rows, self._spectrum, (0, 1))
 
     def _convolve(self) -> None:
@@ -114,8 +115,8 @@ class PaddedConvolution(Convolution):
         at_once = math.ceil(columns / math.ceil(columns / COLUMNS_AT_ONCE))
         blocks = (slice(first, first + at_once) for first in range(0, columns, at_once))
         self._symbols = [(block, np.ascontiguousarray(whole[:, block])) for block in blocks]
-        self._spectrum = pyfftw.empty_aligned((shape[0], columns), dtype=np.complex128)
-        self._columns = pyfftw.empty_aligned((padded[0], at_once), dtype=np.complex128)
+        self._spectrum = _aligned((shape[0], columns), dtype=np.complex128)
+        self._columns = _aligned((padded[0], at_once), dtype=np.complex128)
         self._forward, self._inverse = self._plan(self._rows, self._spectrum, (1,))
         self._down, self._up = self._plan(self._columns, self._columns, (0,))
 
@@ -142,7 +143,7 @@ class CachedConvolution(Convolution):
     def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
         super().__init__(shape, padded, planning)
         self._symbol = _halfplane(symbol, padded)
-        self._spectrum = pyfftw.empty_aligned(self._symbol.shape, dtype=np.complex128)
+        self._spectrum = _aligned(self._symbol.shape, dtype=np.complex128)
         filled = self._spectrum[: shape[0]]
         self._forward, self._inverse = self._plan(self._rows, filled, (1,))
         self._down, self._up = self._plan(self._spectrum, self._spectrum, (0,))
@@ -154,6 +155,13 @@ class CachedConvolution(Convolution):
         np.multiply(self._spectrum, self._symbol, out=self._spectrum)
         self._up()
         self._inverse()
+
+
+def _aligned(shape: tuple[int, int], dtype: type[np.float64] | type[np.complex128]) -> NDArray[Any]:
+    """Numbers where FFTW is fastest. Its package is imported here alone: that takes longer than all others."""
+    import pyfftw
+
+    return np.asarray(pyfftw.empty_aligned(shape, dtype=dtype))
 
 
 def _halfplane(quadrant: FloatArray, padded: tuple[int, int]) -> FloatArray:

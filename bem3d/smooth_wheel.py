@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import optimize, special
+import scipy
+from scipy import special
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,4 +54,4 @@ def _axis_ratio(radius_ratio: float) -> float:
         square = math.exp(2 * log_k)
         return math.log(float(special.elliprd(0, square, 1) / special.elliprd(0, 1, square)) / radius_ratio)
 
-    return math.exp(optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))
+    return math.exp(scipy.optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import optimize, special
+import scipy
+from scipy import special
 
 from mdr.checks import positive
 
@@ -51,7 +52,7 @@ def _axis_ratio(radius_ratio: float) -> float:
         d = _integral(k)
         return math.log(k**2 * d / (float(special.ellipkm1(k**2)) - d) / radius_ratio)
 
-    return math.exp(optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))
+    return math.exp(scipy.optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))
 
 
 def _integral(k: float) -> float:

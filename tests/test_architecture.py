@@ -38,7 +38,7 @@ def rooms(source):
     return {name.partition(".")[0] for name in imported(source)}
 
 
-ROOMS = ("theory", "analysis", "engine", "scenes", "simulation", "selection", "benchmarks", "cases", "report")
+ROOMS = ("theory", "analysis", "engine", "scenes", "simulation", "selection", "benchmarks", "cases", "report", "commands")
 BASE = {"theory", "analysis", "engine", "scenes", "mdr", "bem3d"}
 MAY_IMPORT = {
     "mdr": set(),
@@ -52,7 +52,8 @@ MAY_IMPORT = {
     "benchmarks": BASE | {"simulation"},
     "cases": BASE | {"simulation", "selection"},
     "report": {"cases", "benchmarks", "scenes", "analysis", "engine"},
-    "__main__": {"report", "selection", "scenes", "engine"},
+    "commands": {"report", "selection", "scenes", "engine"},
+    "__main__": {"commands", "scenes", "engine"},
 }
 """The table of ARCHITECTURE.md."""
 

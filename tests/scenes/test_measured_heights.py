@@ -11,8 +11,8 @@ from scipy import stats
 
 import bem3d
 import mdr
-from validation import __main__ as command
 from validation.__main__ import main
+from validation.commands import compare as command_compare
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
@@ -424,13 +424,13 @@ def test_what_cannot_be_reached_is_no_success(capsys, tmp_path):
 
 
 def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
-    seeds, compared = [], command.compared
+    seeds, compared = [], command_compare.compared
 
     def seen(scene, **settings):
         seeds.append(settings["seed"])
         return compared(scene, **settings)
 
-    monkeypatch.setattr(command, "compared", seen)
+    monkeypatch.setattr(command_compare, "compared", seen)
     for words in ([], ["--seed", "0"], ["--seed", "7"]):
         assert main(["compare", "sphere", *words]) == 0
     assert seeds == [0, 0, 7]

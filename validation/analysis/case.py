@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from validation.analysis.evidence import Evidence
+if TYPE_CHECKING:
+    from validation.analysis.evidence import Evidence
 
 Profile = Literal["quick", "full"]
 
@@ -40,7 +41,7 @@ class Case:
     quick: Any
     full: Any
     run: Callable[[Any, Any], Any]
-    evidence: Callable[[Any], Evidence]
+    evidence: "Callable[[Any], Evidence]"
     needs: Callable[[Any], str] | str
     timed: bool = False
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import stats
 
 FloatArray = NDArray[np.float64]
 Statistic = Callable[[FloatArray, FloatArray], FloatArray]
@@ -28,7 +28,7 @@ LOG10_TOLERANCE = 1e-9
 
 def student(degrees: float, confidence: float = 0.95) -> float:
     """Student's quantile: the half-width of an interval over the standard error, with so many degrees of freedom."""
-    return float(stats.t.ppf((1 + confidence) / 2, degrees))
+    return float(scipy.stats.t.ppf((1 + confidence) / 2, degrees))
 
 
 @dataclass(frozen=True)
@@ -184,7 +184,7 @@ def sample(realisations: FloatArray, rng: np.random.Generator) -> Sample:
     with warnings.catch_warnings():
         # where a level has few realisations, a resample may have none of them, and no moments
         warnings.simplefilter("ignore", RuntimeWarning)
-        resampled = stats.bootstrap(
+        resampled = scipy.stats.bootstrap(
             (rows,),
             _moments,
             vectorized=True,

@@ -14,12 +14,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-import joblib
 import numpy as np
 
 from validation.engine import stored
 from validation.engine.convergence import as_not_converged
 from validation.engine.progress import Progress
+from validation.engine.termination import RESUME_NOTE, WorkerLostError
 
 Outcome = stored.Outcome
 P = TypeVar("P")
@@ -32,7 +32,6 @@ LIBRARIES = ("numpy", "scipy", "pyfftw")
 LOCAL = "local"
 TIMEOUT = 10
 """Seconds that a scheduler and its first worker have to answer."""
-RESUME_NOTE = "finished solves are kept, the same command goes on from there"
 
 
 def random_generator(seed: int, *key: int) -> np.random.Generator:
@@ -41,10 +40,6 @@ def random_generator(seed: int, *key: int) -> np.random.Generator:
     seed: of the whole run, zero or positive; key: address of the realisation, whole numbers.
     """
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=key)))
-
-
-class WorkerLostError(RuntimeError):
-    """A worker process has ended during a solve, so that the run cannot end; finished results are kept."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +119,8 @@ class Engine:
         if not tasks:
             return
         if self.executor == LOCAL:
+            import joblib  # where workers are needed: it takes a tenth of a second
+
             calls = [joblib.delayed(_solve_and_save)(task, _version_of_numerics()) for task in tasks]
             try:
                 with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):

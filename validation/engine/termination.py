@@ -1,4 +1,4 @@
-"""Requests to terminate raise an exception, so that workers and files are cleaned up."""
+"""How a run ends before its time: requests to terminate, which raise an exception, and workers that are lost."""
 
 import signal
 import threading
@@ -7,6 +7,11 @@ from contextlib import contextmanager
 from types import FrameType
 
 SIGNALS = (signal.SIGTERM, signal.SIGHUP)
+RESUME_NOTE = "finished solves are kept, the same command goes on from there"
+
+
+class WorkerLostError(RuntimeError):
+    """A worker process has ended during a solve, so that the run cannot end; finished results are kept."""
 
 
 class TerminatedError(KeyboardInterrupt):

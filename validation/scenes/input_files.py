@@ -15,6 +15,10 @@ KINDS = {
 """Of what is no regular file."""
 
 
+class SceneError(ValueError):
+    """What is wrong with a scene file, and where it can be shown, the lines that would be right."""
+
+
 def check_regular(name: str, path: Path, *, most: int) -> int:
     """The size of a regular file [bytes].
 

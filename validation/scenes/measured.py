@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import interpolate, stats
 
 from mdr.checks import positive
 from validation.scenes.printable import shortened
@@ -131,7 +131,7 @@ class MeasuredHeights:
         """Heights over the grid of x and y, from the middle of the surface, ascending [m]: linear between points."""
         ends = self.places
         inside = [np.clip(places, end[0], end[-1]) for places, end in zip((x, y), ends, strict=True)]
-        return np.asarray(interpolate.RectBivariateSpline(*ends, self.height, kx=1, ky=1)(*inside))
+        return np.asarray(scipy.interpolate.RectBivariateSpline(*ends, self.height, kx=1, ky=1)(*inside))
 
     @property
     def waves(self) -> str:
@@ -189,7 +189,10 @@ class MeasuredHeights:
 
     def not_gaussian(self) -> str:
         """How far from it heights are, in a sentence; empty where they are Gaussian, about."""
-        skewness, kurtosis = float(stats.skew(self.height, axis=None)), float(stats.kurtosis(self.height, axis=None))
+        skewness, kurtosis = (
+            float(scipy.stats.skew(self.height, axis=None)),
+            float(scipy.stats.kurtosis(self.height, axis=None)),
+        )
         summits = float(np.quantile(self.height, 0.99)) / self.rms
         if abs(skewness) <= SKEWED and abs(kurtosis) <= PEAKED and summits >= FLAT:
             return ""

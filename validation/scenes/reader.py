@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mdr.checks import count, finite
-from validation.scenes.input_files import contents_of
+from validation.scenes.input_files import SceneError, contents_of
 from validation.scenes.printable import is_printable, printable, shortened
 from validation.scenes.units import quantity
 
@@ -53,10 +53,6 @@ def tables_of(path: Path) -> dict[str, Any]:
     except (ValueError, RecursionError) as problem:
         got = "values nested too deep" if isinstance(problem, RecursionError) else printable(problem)
         raise ValueError(f"scene {printable(path)} must be valid TOML, got: {got}") from None
-
-
-class SceneError(ValueError):
-    """What is wrong with a scene file, and where it can be shown, the lines that would be right."""
 
 
 @contextmanager

@@ -5,8 +5,8 @@ import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import stats
 
 import mdr
 from validation.engine.engine import Outcome, random_generator
@@ -238,7 +238,7 @@ def spread(track: RoughTrack, stride: int) -> float:
     """
     dx, response = stride * track.spacing, linear_response(track, stride)
     x = dx * np.arange(2 * math.ceil(WHEEL.contact_radius / dx))
-    ends = dx * np.sum(stats.norm.pdf((WHEEL.approach - x**2 / WHEEL.radius) / track.rms))
+    ends = dx * np.sum(scipy.stats.norm.pdf((WHEEL.approach - x**2 / WHEEL.radius) / track.rms))
     return float(2 * math.sqrt(2 / response.size) * ends / np.sqrt(np.mean(response**2)))
 
 

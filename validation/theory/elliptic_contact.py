@@ -7,7 +7,8 @@ textbooks without its loss of digits near the circle. Source: Johnson, Contact M
 import math
 from dataclasses import dataclass
 
-from scipy import optimize, special
+import scipy
+from scipy import special
 
 from validation.theory.closed_forms import positive
 
@@ -64,4 +65,4 @@ def _axis_ratio(radius_ratio: float) -> float:
         square = math.exp(2 * log_k)
         return math.log(float(special.elliprd(0, square, 1) / special.elliprd(0, 1, square)) / radius_ratio)
 
-    return math.exp(optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))
+    return math.exp(scipy.optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))

@@ -1,0 +1,49 @@
+"""What starts fast imports little: modules are counted in a fresh process, no clock is read."""
+
+import subprocess
+import sys
+
+import pytest
+
+from validation.report.contents import CASES
+from validation.report.listing import answers_of_cases
+
+HEAVY = {"matplotlib", "pyfftw", "joblib", "dask", "distributed", "jinja2", "scipy.optimize", "scipy.stats"}
+"""Each takes a tenth of a second or more to import."""
+COMMAND = """
+import sys
+from contextlib import suppress
+from validation.__main__ import main
+with suppress(SystemExit):
+    main(sys.argv[1:])
+"""
+
+
+def modules_of(code, *words):
+    """Names of the modules that are imported after this code."""
+    printed = f"{code}\nimport sys\nprint('\\n' + ' '.join(sys.modules))"
+    run = subprocess.run([sys.executable, "-c", printed, *words], capture_output=True, text=True, check=True)
+    return set(run.stdout.splitlines()[-1].split())
+
+
+@pytest.mark.parametrize("words", [["--help"], ["--version"], ["cases"], ["scene", "sphere"]])
+def test_what_computes_nothing_imports_no_numerics(words):
+    found = modules_of(COMMAND, *words)
+    assert not found & {"numpy", "scipy", "mdr", "bem3d", *HEAVY}
+    assert len(found) < 250
+
+
+@pytest.mark.parametrize("code", ["import bem3d", "import mdr", "from validation import compare, load_scene, summary"])
+def test_packages_import_nothing_heavy(code):
+    assert not modules_of(code) & HEAVY
+
+
+@pytest.mark.parametrize("scene", ["sphere", "rough_punch"])
+def test_a_closed_form_or_springs_need_no_boundary_elements(scene):
+    found = modules_of(COMMAND, "compare", scene, "--tolerance", "50%")
+    assert not found & HEAVY
+    assert not {name for name in found if name.startswith(("validation.report", "validation.cases"))}
+
+
+def test_the_list_of_cases_is_that_of_the_report():
+    assert list(answers_of_cases().items()) == [(name, case.answers) for name, case in CASES.items()]

@@ -1,0 +1,43 @@
+"""Measure the errors that cheap models claim, beside boundary elements."""
+
+import argparse
+import os
+from pathlib import Path
+
+from validation.commands.arguments import at_least
+from validation.commands.exit_status import Exit
+from validation.engine.engine import Engine
+from validation.selection.calibrate import CalibrationRun, calibration_lines, write_calibration
+
+
+def describe(calibrating: argparse.ArgumentParser) -> None:
+    run = CalibrationRun()
+    for name, what in {"punches": "rough punches", "spheres": "rough spheres", "rolling": "rolling wheels"}.items():
+        default = getattr(run, name)
+        calibrating.add_argument(
+            f"--{name}", type=at_least(0), default=default, metavar="N", help=f"{what} (default: {default})"
+        )
+    calibrating.add_argument("--seed", type=at_least(0), default=run.seed, metavar="S", help="seed of the scenes")
+    calibrating.add_argument("--workers", type=at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
+    calibrating.add_argument(
+        "--store",
+        type=Path,
+        default=Path(".mdr-validation-calibration"),
+        metavar="DIR",
+        help="folder of finished solves",
+    )
+    calibrating.add_argument("--out", type=Path, metavar="FILE", help="the table (default: that of the package)")
+    calibrating.add_argument("--show", action="store_true", help="show what the table holds, and measure nothing")
+    calibrating.set_defaults(command=calibrate)
+
+
+def calibrate(arguments: argparse.Namespace) -> Exit:
+    """Measure the errors of cheap models beside boundary elements, or show those that were measured."""
+    if not arguments.show:
+        run = CalibrationRun(
+            punches=arguments.punches, spheres=arguments.spheres, rolling=arguments.rolling, seed=arguments.seed
+        )
+        engine = Engine(workers=arguments.workers, store=arguments.store, progress=True)
+        write_calibration(run, engine, arguments.out)
+    print("\n".join(calibration_lines(arguments.out)))
+    return Exit.MET

@@ -1,0 +1,7 @@
+"""Error against cost of every method."""
+
+from functools import partial
+
+from validation.commands import timed
+
+describe = partial(timed.describe, name="precision")

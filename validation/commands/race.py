@@ -1,0 +1,7 @@
+"""The solver comparison."""
+
+from functools import partial
+
+from validation.commands import timed
+
+describe = partial(timed.describe, name="race")

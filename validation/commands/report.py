@@ -1,0 +1,106 @@
+"""Run cases and write their report."""
+
+import argparse
+import os
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+from validation.commands.arguments import add_profile, at_least
+from validation.commands.exit_status import Exit
+from validation.engine.engine import LOCAL
+from validation.report.build import build
+from validation.report.contents import CASES, TIMED, timed_here
+from validation.report.section import Section, total_of
+from validation.report.terminal import lines_of
+from validation.scenes.description import description_lines
+from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
+from validation.scenes.printable import printable
+
+
+def describe(making: argparse.ArgumentParser) -> None:
+    add_profile(making)
+    making.add_argument(
+        "--only",
+        nargs="+",
+        action="extend",
+        choices=list(CASES),
+        metavar="CASE",
+        help="run only these cases; `cases` lists them",
+    )
+    making.add_argument(
+        "--out",
+        type=Path,
+        metavar="DIR",
+        help="folder of the report (default: reports/PROFILE, with the names of the cases if --only)",
+    )
+    making.add_argument(
+        "--workers",
+        type=at_least(1),
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="number of processes (default: one per core)",
+    )
+    making.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random numbers of every case")
+    making.add_argument(
+        "--executor",
+        default=LOCAL,
+        metavar="WHERE",
+        help='"local", or dask://HOST:PORT, the scheduler whose workers replace local processes (default: local)',
+    )
+    making.add_argument(
+        "--scene",
+        metavar="FILE",
+        help="a dynamic wheel of your own, a TOML file like validation/scenes/table_14_1.toml, or the name of an "
+        f"example scene ({', '.join(bundled_wheels())}); alone, it means --only wheel",
+    )
+    making.set_defaults(command=report)
+
+
+def report(arguments: argparse.Namespace) -> Exit:
+    """Run cases and write their report."""
+    # what is timed is run last, when nothing else is; a race needs other solvers
+    timed = timed_here()
+    everything = [*CASES, *timed] if arguments.scene is None else ["wheel"]
+    names = list(dict.fromkeys(arguments.only or everything))
+    some = names if arguments.only or arguments.scene else ()
+    out = arguments.out or Path("reports") / "-".join([arguments.profile, *some])
+    return built(names, out, arguments)
+
+
+def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
+    """The scene of `--scene`, refused where a case takes none."""
+    if arguments.scene is None:
+        return None
+    without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
+    if without:
+        raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
+    return load_wheel_scene(arguments.scene)
+
+
+def built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exit:
+    """Write a report and say how it came out."""
+    scene = _scene_of(arguments, names)
+    if scene is not None:
+        print("\n".join([scene.name, *description_lines(scene), ""]), flush=True)
+    unsteady = scene is not None and bool(scene.no_steady_answer())
+    sections = build(
+        names,
+        profile=arguments.profile,
+        out=out,
+        workers=arguments.workers,
+        seed=arguments.seed,
+        scene=scene,
+        executor=arguments.executor,
+        callback=partial(_print_section, unsteady=unsteady),
+    )
+    if not unsteady and any(section.claims for section in sections):
+        print(total_of(sections))
+    print(printable(f"report: {out / 'index.html'}"))
+    if unsteady or any(section.unconverged for section in sections):
+        return Exit.NOT_CONVERGED
+    return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
+
+
+def _print_section(section: Section, *, unsteady: bool) -> None:
+    print("\n".join(lines_of(section, unsteady=unsteady)), flush=True)

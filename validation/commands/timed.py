@@ -1,0 +1,25 @@
+"""What is timed alone: `precision` and `race`."""
+
+import argparse
+from pathlib import Path
+
+from validation.commands.arguments import add_profile, at_least
+from validation.commands.exit_status import Exit
+from validation.commands.report import built
+from validation.engine.engine import LOCAL
+
+
+def describe(timing: argparse.ArgumentParser, name: str) -> None:
+    add_profile(timing)
+    timing.add_argument(
+        "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"
+    )
+    timing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the rough surfaces")
+    timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None)
+
+
+def clock(arguments: argparse.Namespace) -> Exit:
+    """Run what is timed alone, and write the page of it."""
+    name = arguments.timed
+    out = arguments.out or Path("reports") / (name if arguments.profile == "full" else f"{name}-quick")
+    return built([name], out, arguments)
