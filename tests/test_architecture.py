@@ -38,7 +38,18 @@ def rooms(source):
     return {name.partition(".")[0] for name in imported(source)}
 
 
-ROOMS = ("theory", "analysis", "engine", "scenes", "simulation", "selection", "benchmarks", "cases", "report", "commands")
+ROOMS = (
+    "theory",
+    "analysis",
+    "engine",
+    "scenes",
+    "simulation",
+    "selection",
+    "benchmarks",
+    "cases",
+    "report",
+    "commands",
+)
 BASE = {"theory", "analysis", "engine", "scenes", "mdr", "bem3d"}
 MAY_IMPORT = {
     "mdr": set(),

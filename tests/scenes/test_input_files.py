@@ -8,10 +8,11 @@ import pytest
 
 from validation.__main__ import main
 from validation.scenes import height_files
+from validation.scenes.bundled import SCENES
 from validation.scenes.height_files import read_heights
 from validation.scenes.input_files import check_regular, contents_of
 from validation.scenes.printable import is_printable, printable, quoted, shortened
-from validation.scenes.reader import LONGEST_LINE, MOST_BYTES, SCENES
+from validation.scenes.reader import LONGEST_LINE, MOST_BYTES
 
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 HEIGHT = 1e-6 * np.random.default_rng(1).standard_normal((64, 64))
@@ -162,7 +163,7 @@ def test_an_editors_mark_and_a_header_behind_a_sign_are_read(tmp_path, mark, sig
         ),
         (PUNCH.replace("hurst", "hurst." + ".".join(400 * "a")), "roughness.hurst must be a number, got {'a': {'a':"),
         (
-            "punch = 1\n" + PUNCH.replace("[punch]\n", "").replace('side = "1 mm"\n', "").replace("load", "#"),
+            "punch = 1\n" + PUNCH.replace("[punch]\n", "").replace("side", "# side").replace("load", "#"),
             "punch must be a table, got 1",
         ),
         ("a = 1" + 5000 * "0", "must have lines of at most"),

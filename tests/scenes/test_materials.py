@@ -9,13 +9,13 @@ import pytest
 
 import bem3d
 from validation.__main__ import main
+from validation.scenes.bundled import SCENES, bundled
 from validation.scenes.description import describe, description_lines
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
 from validation.scenes.material import Elastic, Material
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.reader import SCENES, bundled
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.units import in_unit

@@ -13,11 +13,11 @@ import bem3d
 import mdr
 from validation.__main__ import main
 from validation.commands import compare as command_compare
+from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights, measured
-from validation.scenes.reader import SCENES
 from validation.scenes.rolling import RollingScene
 from validation.selection.compare import models_of
 

@@ -9,9 +9,10 @@ import pytest
 from scipy.fft import next_fast_len
 
 import mdr
+from validation.__main__ import main
+from validation.scenes.bundled import SCENES, bundled
 from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
 from validation.scenes.material import Material
-from validation.scenes.reader import SCENES, bundled
 from validation.scenes.roughness import Roughness
 
 IN_FILE = r"scene \S+scene\.toml: "
@@ -358,3 +359,18 @@ def test_doubts_come_with_their_numbers_and_go_with_their_cause(doubtful, beyond
     assert any(pattern.search(doubt) for doubt in scene(**doubtful).diagnose())
     cause = re.compile(f"{re.escape(words[0])}.*{re.escape(words[-1])}")
     assert not any(cause.search(doubt) for doubt in scene(**beyond_doubt).diagnose())
+
+
+@pytest.mark.parametrize("name", bundled())
+def test_a_scene_is_printed_to_be_copied_with_a_comment_on_every_key(name, capsys):
+    assert main(["scene", name]) == 0
+    printed = capsys.readouterr().out
+    assert printed == (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    keys = [line for line in printed.splitlines() if re.match(r"\w+ = ", line)]
+    assert keys and [line for line in keys if " # " not in line] == []
+
+
+def test_a_scene_that_is_not_there_is_not_printed(capsys):
+    with pytest.raises(SystemExit) as refused:
+        main(["scene", "nowhere"])
+    assert refused.value.code == 2 and "'nowhere'" in capsys.readouterr().err

@@ -10,9 +10,9 @@ import pytest
 from tests.report.test_command_line import SMALL
 from validation.__main__ import main
 from validation.report.contents import CASES
+from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.load import load_scene
-from validation.scenes.reader import SCENES
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
 from validation.simulation.wheel_on_springs import WheelEnsemble, _motion

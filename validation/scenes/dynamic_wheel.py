@@ -10,6 +10,7 @@ from typing import Any
 from scipy.fft import next_fast_len
 
 from mdr.checks import count, positive
+from validation.scenes.bundled import bundled, path_of
 from validation.scenes.material import Material, material_of
 from validation.scenes.reader import (
     FORCE,
@@ -18,10 +19,8 @@ from validation.scenes.reader import (
     SPEED,
     WHOLE,
     Reader,
-    bundled,
     file_named_in_errors,
     nonblank_text,
-    path_of,
     table,
     tables_of,
 )

@@ -4,6 +4,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.scenes.bundled import bundled, path_of
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.height_files import heights_of
 from validation.scenes.indentation import IndentationScene
@@ -14,10 +15,8 @@ from validation.scenes.reader import (
     MASS,
     SPEED,
     Reader,
-    bundled,
     file_named_in_errors,
     nonblank_text,
-    path_of,
     table,
     tables_of,
 )

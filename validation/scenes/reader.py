@@ -14,28 +14,8 @@ from validation.scenes.units import quantity
 
 Reader = Callable[[str, object], Any]
 
-SCENES = Path(__file__).parent
 MOST_BYTES, LONGEST_LINE = 100_000, 1000
 """Of a scene file. Keys of thousands of parts, all on one line, would take minutes to parse."""
-
-
-def bundled() -> tuple[str, ...]:
-    """Names of the scenes that come with this package."""
-    return tuple(sorted(path.stem for path in SCENES.glob("*.toml")))
-
-
-def path_of(scene: str | Path) -> Path:
-    """The file of a scene: a path, or, without folder and without ".toml", the name of a shipped one.
-
-    Raises ValueError for a name that none has.
-    """
-    name = str(scene)
-    if name.endswith(".toml") or Path(name).name != name:
-        return Path(name)
-    if name not in bundled():
-        name = printable(name)
-        raise ValueError(f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"')
-    return SCENES / f"{name}.toml"
 
 
 def tables_of(path: Path) -> dict[str, Any]:
