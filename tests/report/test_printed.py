@@ -374,10 +374,10 @@ def test_a_claim_of_rolling_holds_up_to_the_last_height_that_agrees():
         number(v, reference=0.0, tolerance=1.0, quantity=LEVEL, where={"h/d": h})
         for v, h in zip((0.5, 2.5, 0.1), heights, strict=True)
     ]
-    claim = rolling_claims.answered("It is so.", found, "that much.", slope=2.7)
+    claim = rolling_claims.answered_up_to("It is so.", found, "that much.", slope=2.7)
     assert claim.answer == "Within limits (up to h/d = 0.1, h' a/d = 0.27): that much."
-    assert rolling_claims.answered("It is so.", found[1:], "that much.", slope=2.7).answer == "No: that much."
-    assert rolling_claims.answered("It is so.", found[:1], "that much.", slope=2.7).answer == "Yes: that much."
+    assert rolling_claims.answered_up_to("It is so.", found[1:], "that much.", slope=2.7).answer == "No: that much."
+    assert rolling_claims.answered_up_to("It is so.", found[:1], "that much.", slope=2.7).answer == "Yes: that much."
 
 
 def test_bands_within_1_and_3_db_are_counted():

@@ -17,7 +17,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection.hierarchy import answered
+from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
 from validation.simulation.calibrated_range import CONDITIONS
 from validation.simulation.calibration import TABLE, code_version, conditions_by_kind, provenance, table
@@ -99,7 +99,7 @@ def measure_errors(point: CalibrationScene) -> Outcome:
     """
     target = point.target(REFERENCE_TOLERANCE[point.quantity], OTHER_SEED)
     (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
-    reference = answered(SceneModel(judge, target, judge.resolutions(target)[-1]))
+    reference = try_to_solve(SceneModel(judge, target, judge.resolutions(target)[-1]))
     return {
         "error": np.array([_error(model, point.target(MODEL_TOLERANCE), reference.value) for model in point.cheap]),
         "reference": np.array(reference.error),
@@ -108,7 +108,7 @@ def measure_errors(point: CalibrationScene) -> Outcome:
 
 
 def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
-    answer = answered(SceneModel(model, target, model.resolutions(target)[-1]))
+    answer = try_to_solve(SceneModel(model, target, model.resolutions(target)[-1]))
     return math.nan if answer.failed or not np.isfinite(truth).all() else distance(answer.value, truth)
 
 

@@ -144,7 +144,7 @@ def needed(models: Sequence[ContactModel], tolerance: float) -> ContactModel | N
     return next((model for model in models if model.estimate().error <= tolerance), None)
 
 
-def answered(model: ContactModel) -> Answer:
+def try_to_solve(model: ContactModel) -> Answer:
     try:
         return model.solve()
     except REFUSALS as problem:
@@ -152,7 +152,7 @@ def answered(model: ContactModel) -> Answer:
 
 
 def _solved(model: ContactModel, expected: ErrorEstimate, tolerance: float) -> Candidate:
-    answer = answered(model)
+    answer = try_to_solve(model)
     if answer.failed:
         return Candidate(model, "failed", answer.failed, expected, answer)
     status: Status = "accepted" if answer.error <= tolerance else "not accurate enough"

@@ -10,7 +10,7 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.rolling import force_spectrum_levels as levels
 from validation.cases.rolling import force_spectrum_numbers as measured
 from validation.cases.rolling import force_spectrum_tables as tables
-from validation.cases.rolling.claims import answered, from_to, height_of
+from validation.cases.rolling.claims import answered_up_to, from_to, height_of
 from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
 from validation.selection import model_needed
 
@@ -61,13 +61,13 @@ def _claims(case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: li
     means, variances = (numbers_with(numbers, quantity) for quantity in (measured.MEAN, measured.VARIANCE))
     return (
         *_claims_of_levels(case, found, numbers),
-        answered(
+        answered_up_to(
             "The force at one position has the variance of linear theory, which Geike's rule keeps.",
             variances,
             f"{_variances(variances)}.",
             slope=slope,
         ),
-        answered("Springs have the mean force of boundary elements.", means, f"{_means(means)}.", slope=slope),
+        answered_up_to("Springs have the mean force of boundary elements.", means, f"{_means(means)}.", slope=slope),
     )
 
 
@@ -114,7 +114,9 @@ def _claims_of_levels(
         ),
         "Nonlinearity changes the level of springs as it changes that of boundary elements.": (nonlinear, changes),
     }
-    return [answered(claim, mine, f"{answer}.", slope=case.spectrum.slope) for claim, (mine, answer) in tested.items()]
+    return [
+        answered_up_to(claim, mine, f"{answer}.", slope=case.spectrum.slope) for claim, (mine, answer) in tested.items()
+    ]
 
 
 def _conclusions(found: list[levels.LevelsAtHeight], numbers: list[Number]) -> list[str]:

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, Verdict, number_with
 from validation.cases.rolling import input_spectrum_numbers as measured
-from validation.cases.rolling.claims import answered, from_to
+from validation.cases.rolling.claims import from_to
 from validation.cases.rolling.force_spectrum_numbers import IN_RMS, LEVEL, THREE_DECIBELS
 from validation.cases.rolling.input_spectrum import RollingInput, RollingInputResult, run
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum

@@ -5,9 +5,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, columns
-from validation.cases.rolling.claims import answered
 from validation.cases.rolling.ridges import BEM, FILTER, FULL, SPRINGS, Ridges, RidgesResult, run
 from validation.theory import rolling as rolling_theory
 

@@ -1,11 +1,12 @@
 """What filters read backwards find of a known roughness: numbers, tables, sentences, and the case of the report."""
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, Role, Table, numbers_with, table_of
 from validation.analysis.over_range import root_mean_square, signed_mean, worst
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.rolling.claims import answered, from_to, height_of
+from validation.cases.rolling.claims import answered_up_to, from_to, height_of
 from validation.cases.rolling.force_spectrum_numbers import (
     FORD_THOMPSON,
     ONE_DECIBEL,
@@ -132,20 +133,20 @@ def _claims(
 
     below = [number for number in numbers if number.quantity == BELOW]
     return (
-        answered(CLAIM, of(MEAN_FILTER), f"{text(MEAN_FILTER, BETWEEN)}.", slope=slope),
-        answered(
+        answered_up_to(CLAIM, of(MEAN_FILTER), f"{text(MEAN_FILTER, BETWEEN)}.", slope=slope),
+        answered_up_to(
             "The roughness spectrum follows from the force spectrum by (14.12), read backwards.",
             of(FILTER_1D),
             f"{text(FILTER_1D, BETWEEN)}.",
             slope=slope,
         ),
-        answered(
+        answered_up_to(
             "Between the zeros of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
             of(FILTER_3D, bands=BETWEEN),
             f"{text(FILTER_3D, BETWEEN)}.",
             slope=slope,
         ),
-        answered(
+        answered_up_to(
             "At the zeros of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
             of(FILTER_3D, bands=ZEROS),
             f"{text(FILTER_3D, ZEROS)}.",

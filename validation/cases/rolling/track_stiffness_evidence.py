@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, numbers_with, table_of
@@ -16,7 +17,7 @@ from validation.analysis.statistics import (
     jackknife_error,
     log_ratio_of_means,
 )
-from validation.cases.rolling.claims import answered, from_to
+from validation.cases.rolling.claims import from_to
 from validation.cases.rolling.force_spectrum_numbers import (
     FORD_THOMPSON,
     ONE_DECIBEL,

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, Table, numbers_with, table_of
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
-from validation.cases.rolling.claims import answered
 from validation.cases.rolling.force_spectrum_levels import correlation
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import load_wheel_scene

@@ -11,7 +11,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.selection.compare import models_of
-from validation.selection.hierarchy import ContactModel, answered, select_model
+from validation.selection.hierarchy import ContactModel, select_model, try_to_solve
 from validation.simulation.model import GridModel, all_models
 from validation.simulation.sampling import distance
 
@@ -98,7 +98,7 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
     reference: the error that the reference itself leaves; failed: one where the reference did not converge.
     """
     finest = trial.models(REFERENCE_TOLERANCE, OTHER_SEED)[-1]
-    reference = answered(finest)
+    reference = try_to_solve(finest)
     # a reference whose grid leaves more than its tolerance ends after its first surfaces
     finished = reference.error <= REFERENCE_TOLERANCE
     slower = reference.cost.seconds / finest.cost().seconds if finished else 1.0
@@ -143,5 +143,5 @@ def _solved(models: Sequence[ContactModel], kind: str, truth: np.ndarray) -> tup
     model = {name_in_models(model, models): model for model in reversed(models)}.get(kind)
     if model is None or not model.estimate().in_range:
         return math.nan, math.nan
-    answer = answered(model)
+    answer = try_to_solve(model)
     return (math.nan, math.nan) if answer.failed else (answer.error, distance(answer.value, truth))
