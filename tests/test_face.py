@@ -118,7 +118,7 @@ def test_bad_input_is_refused_in_one_sentence(arguments, error, sentence):
 @pytest.mark.parametrize("name", ["nowhere", 5])
 def test_a_scene_that_is_not_there_is_refused_with_those_that_are(name):
     with pytest.raises(
-        ValueError, match=f'^scene must be a file, as "./{name}.toml", or one of rolling_wheel, .*sphere'
+        ValueError, match=f'^scene must be a file, as "./{name}.toml", or one of rail, rolling_wheel, .*sphere'
     ):
         validation.load_scene(name)
 

@@ -12,6 +12,7 @@ MODULES = {
     "IndentationScene": "scenes.indentation",
     "Material": "scenes.material",
     "MeasuredHeights": "scenes.measured",
+    "RailScene": "scenes.rail",
     "RollingScene": "scenes.rolling",
     "Roughness": "scenes.roughness",
     "WheelScene": "scenes.dynamic_wheel",

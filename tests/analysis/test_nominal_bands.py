@@ -79,10 +79,28 @@ def test_power_of_a_filtered_spectrum():
 
 
 def test_bands_within_two_wavelengths():
-    assert NominalBands().within(1.0, 0.01) == NominalBands(-1, -19)
-    assert NominalBands().within(10**0.05, 10**-1.95) == NominalBands(0, -19)
-    with pytest.raises(ValueError, match="no band"):
-        NominalBands().within(0.011, 0.01)
+    assert NominalBands().within(1.0, 0.01) == NominalBands(0, -20)
+    assert NominalBands(-5, -30).within(1.0, 2.5e-3) == NominalBands(-5, -26)
+    with pytest.raises(ValueError, match="between the wavelengths 12 mm and 11 mm"):
+        NominalBands().within(0.012, 0.011)
+
+
+def test_power_of_a_record_is_that_of_its_waves():
+    """Of a cut through two cosines on a slope: their mean squares, and nothing of the slope."""
+    bands, x = NominalBands(-5, -20), np.arange(20000) * 1e-3
+    record = 3.0 * np.cos(2 * np.pi * x / 0.0401 + 1.0) + 0.5 * np.cos(2 * np.pi * x / 0.1003) + 1e5 * x
+    found = bands.powers_of_records(record, spacing=1e-3)
+    assert found[list(bands.numbers).index(-14)] == pytest.approx(4.5, rel=1e-3)
+    assert found[list(bands.numbers).index(-10)] == pytest.approx(0.125, rel=1e-2)
+    assert found.sum() == pytest.approx(4.625, rel=1e-3)
+
+
+def test_power_of_records_of_a_spectrum():
+    """White noise has 2 C dq in each band, that of the widest within its scatter, and narrow ones without bias."""
+    rng, bands = np.random.default_rng(4), NominalBands(-8, -22)
+    found = bands.powers_of_records(rng.standard_normal((2000, 700)), spacing=1e-3).mean(axis=0)
+    density = 1e-3 / (2 * np.pi)
+    np.testing.assert_allclose(found, 2 * density * np.diff(bands.edges), rtol=0.07)
 
 
 def test_numbers_and_names():

@@ -8,10 +8,17 @@ from types import SimpleNamespace
 import numpy as np
 from scipy import stats
 
-from tests.analysis import test_error_bars, test_evidence, test_judged_claims, test_multilevel, test_rules_by_loops
+from tests.analysis import (
+    test_error_bars,
+    test_evidence,
+    test_judged_claims,
+    test_multilevel,
+    test_nominal_bands,
+    test_rules_by_loops,
+)
 from tests.analysis import test_spectra as test_wheel_spectra
 from validation.analysis import difference as difference_module
-from validation.analysis import multilevel, over_range, spectra, statistics
+from validation.analysis import multilevel, nominal_bands, over_range, spectra, statistics
 from validation.analysis import spectral_features as regions
 from validation.analysis.difference import difference
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
@@ -198,6 +205,22 @@ peak = regions.peak
 
 
 FAULTS = {
+    "bands of base two for those of base ten": (
+        (
+            nominal_bands.NominalBands,
+            "edges",
+            property(lambda bands: bands.centres[0] * 2 ** ((np.arange(len(bands) + 1) - 0.5) / 3)),
+        ),
+        test_nominal_bands.test_bands_are_base_ten_and_lie_beside_each_other,
+    ),
+    "positive wavenumbers alone for the power of a band": (
+        (nominal_bands, "levels", lambda found, bands: spectra.levels(found, bands) / 2),
+        test_nominal_bands.test_power_of_a_wave_is_in_its_band_alone,
+    ),
+    "lines that keep their slope": (
+        (nominal_bands, "detrend", lambda heights: heights),
+        test_nominal_bands.test_power_of_a_record_is_that_of_its_waves,
+    ),
     "a third of the interval, seen by its coverage": (
         (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
         functools.partial(test_evidence.test_intervals_cover_the_truth, 60, "normal"),

@@ -6,8 +6,8 @@ import math
 import numpy as np
 
 from tests.planted_faults.wrong import scaled, with_math
-from tests.scenes import test_materials, test_measured_heights, test_steadiness
-from validation.scenes import material, measured, roughness, steadiness
+from tests.scenes import test_materials, test_measured_heights, test_rail, test_steadiness
+from validation.scenes import material, measured, rail, roughness, roughness_levels, steadiness
 from validation.theory import rolling as rolling_theory
 
 measured_spectrum = measured._spectrum
@@ -17,6 +17,7 @@ def behind_the_mask(height):
     return np.asarray(height, dtype=np.float64)
 
 
+radii_of_rail = rail.RailScene.radii.fget
 slope_in_one_direction = roughness.Roughness.slope_along.fget
 
 
@@ -59,6 +60,22 @@ FAULTS = {
     "a flight that nobody foretells": (
         (steadiness, "MAX_FORCE", math.inf),
         functools.partial(test_steadiness.test_flight_is_predicted, 0.33, 30e-3, "by linear theory"),
+    ),
+    "the mean of both curvatures across for their sum": (
+        (rail.RailScene, "radii", property(lambda scene: (scene.radius, 2 * radii_of_rail(scene)[1]))),
+        test_rail.test_curvatures_across_add,
+    ),
+    "radii across and along that changed places": (
+        (rail.RailScene, "radii", property(lambda scene: radii_of_rail(scene)[::-1])),
+        test_rail.test_the_contact_of_the_field,
+    ),
+    "a level as 10 lg of the height": (
+        (roughness_levels.RoughnessLevels, "powers", property(lambda of: 1e-12 * 10 ** (np.array(of.levels) / 20))),
+        functools.partial(test_rail.test_the_spectrum_has_the_power_of_each_band, "iso3095-2013"),
+    ),
+    "a spectrum of the powers of its bands, without what their slopes take": (
+        (roughness_levels, "STEPS", 1),
+        functools.partial(test_rail.test_the_spectrum_has_the_power_of_each_band, "cnossos-average"),
     ),
     "the rougher of wheel and rail for both": (
         (steadiness, "math", with_math(hypot=lambda *heights: max(heights))),

@@ -126,7 +126,7 @@ def test_a_modulus_is_that_of_its_material():
 @pytest.mark.parametrize(("name", "modulus"), [("rough_punch", 210e9 / (1 - 0.3**2))])
 def test_shipped_scenes_are_those_of_the_book(name, modulus):
     assert load_scene(name).modulus == modulus
-    for other in set(bundled()) - {name, "rough_wheel"}:
+    for other in set(bundled()) - {name, "rough_wheel", "rail"}:
         assert load_scene(other).modulus == 210e9 / (1 - (1 / 3) ** 2)
         assert load_scene(other).material.counterface == "rigid"
 

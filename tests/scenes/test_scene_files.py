@@ -136,7 +136,7 @@ def test_every_valid_scene_can_be_drawn():
 
 
 def test_shipped_scenes_are_listed():
-    assert bundled() == ("rolling_wheel", "rough_punch", "rough_wheel", "sphere", "table_14_1")
+    assert bundled() == ("rail", "rolling_wheel", "rough_punch", "rough_wheel", "sphere", "table_14_1")
     assert bundled_wheels() == WHEELS
 
 

@@ -12,7 +12,8 @@ from validation.scenes.units import UNITS, quantity
 # what a unit is in SI, written down here once more
 TIMES = {"m": 1, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "km": 1e3}
 TIMES |= {"kg": 1, "g": 1e-3, "t": 1e3, "N": 1, "kN": 1e3, "MN": 1e6, "mN": 1e-3}
-TIMES |= {"Pa": 1, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "m/s": 1, "mm/s": 1e-3, "km/h": 1 / 3.6}
+TIMES |= {"Pa": 1, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "m/s": 1, "mm/s": 1e-3, "km/h": 1 / 3.6, "dB": 1}
+TIMES |= {"kgf": 9.80665, "tf": 9806.65}
 EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit in units]
 
 
@@ -36,6 +37,8 @@ EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit i
         ("210 GPa", "pressure", 210e9),
         ("0.1 MPa", "pressure", 1e5),
         ("1.1 kPa", "pressure", 1100.0),
+        ("10 tf", "force", 98066.5),
+        ("5.5 dB", "level", 5.5),
         ("72 km/h", "speed", 20.0),
         ("1 km/h", "speed", 1 / 3.6),
         ("7 mm/s", "speed", 0.007),

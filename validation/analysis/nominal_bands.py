@@ -11,6 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import interp1d
+from scipy.signal import detrend
 
 from validation.analysis.spectra import Bands, levels, waves
 
@@ -85,12 +87,12 @@ class NominalBands:
         return np.asarray(2 * np.pi * 10 ** ((np.arange(len(self) + 1) - self.longest - 0.5) / 10))
 
     def within(self, longest: float, shortest: float) -> "NominalBands":
-        """Those whose edges lie between two wavelengths [m]. ValueError where there are none."""
-        first = min(self.longest, math.floor(10 * math.log10(longest) - 0.5 + 1e-9))
-        last = max(self.shortest, math.ceil(10 * math.log10(shortest) + 0.5 - 1e-9))
-        if first < last:
-            raise ValueError(f"no band lies between the wavelengths {longest:g} m and {shortest:g} m")
-        return NominalBands(first, last)
+        """Those whose nominal wavelengths lie between two wavelengths [m]. ValueError where there are none."""
+        inside = (self.nominal <= longest * (1 + 1e-9)) & (self.nominal >= shortest * (1 - 1e-9))
+        numbers = np.array(self.numbers)[inside]
+        if not numbers.size:
+            raise ValueError(f"no band lies between the wavelengths {_in_mm(longest)} and {_in_mm(shortest)}")
+        return NominalBands(int(numbers[0]), int(numbers[-1]))
 
     def powers_of_track(self, track: ArrayLike, *, spacing: float) -> FloatArray:
         """Mean square in each band of a periodic track [m^2], or of several along the last axis; bands come last.
@@ -105,6 +107,21 @@ class NominalBands:
         """Mean square in each band, 2 int C_line dq [m^2], of a two-sided spectrum [m^3] smooth on halves of bands."""
         q, weight = self.quadrature()
         return np.asarray(2 * (weight * c_line(q)).sum(axis=-1))
+
+    def powers_of_records(self, records: ArrayLike, *, spacing: float) -> FloatArray:
+        """Mean square in each band [m^2] of lines that do not repeat, along the last axis; bands come last.
+
+        Each is levelled and seen through Hann's window. Its density is even on each wave's share of the wavenumbers, of
+        which a band may have a part.
+        """
+        heights = detrend(np.asarray(records, dtype=np.float64))
+        points = heights.shape[-1]
+        window = np.sin(np.pi * (np.arange(points) + 0.5) / points) ** 2 * math.sqrt(8 / 3)
+        found = waves(window * heights, spacing=spacing)
+        ends = found.q[0] * (np.arange(found.q.size + 1) + 0.5)
+        powers = 2 * np.abs(found.amplitude) ** 2
+        total = np.cumsum(np.concatenate([np.zeros((*powers.shape[:-1], 1)), powers], axis=-1), axis=-1)
+        return np.diff(interp1d(ends, total)(self.edges))
 
     def quadrature(self) -> tuple[FloatArray, FloatArray]:
         """Wavenumbers [rad/m] and weights of int dq over each band, both of shape (bands, nodes)."""
@@ -127,10 +144,9 @@ def band_number(wavelength: float) -> int:
         number = round(10 * math.log10(wavelength))
         if LONGEST >= number >= SHORTEST and abs(wavelength / 10 ** (number / 10) - 1) < OFF:
             return number
-    raise ValueError(
-        f"a wavelength must be nominal, of one-third octaves from {_in_mm(nominal_wavelength(LONGEST))} to "
-        f"{_in_mm(nominal_wavelength(SHORTEST))}, got {_in_mm(wavelength)}"
-    )
+    ends = f"{_in_mm(nominal_wavelength(LONGEST))} to {_in_mm(nominal_wavelength(SHORTEST))}"
+    hint = ": is it in metres?" if 0 < wavelength < nominal_wavelength(SHORTEST) else ""
+    raise ValueError(f"a wavelength must be nominal, of one-third octaves from {ends}, got {_in_mm(wavelength)}{hint}")
 
 
 def _in_mm(wavelength: float) -> str:

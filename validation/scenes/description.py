@@ -5,11 +5,14 @@ import math
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material
+from validation.scenes.rail import RailScene
+from validation.scenes.rail_description import of_rail
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.units import in_unit
 
-AnyScene = IndentationScene | RollingScene | WheelScene
+WithSphere = IndentationScene | RollingScene | WheelScene
+AnyScene = WithSphere | RailScene
 Pairs = tuple[tuple[str, str], ...]
 
 
@@ -17,6 +20,8 @@ def describe(scene: AnyScene) -> Pairs:
     """What a scene is, in pairs of a name and a value with its unit: E* and its origin, body, contact, roughness."""
     material = scene.material or Material(contact_modulus=scene.modulus)
     modulus = ("contact modulus E*", f"{in_unit(scene.modulus, 'pressure', digits=6)}: {material.origin}")
+    if isinstance(scene, RailScene):
+        return modulus, *of_rail(scene)
     if isinstance(scene, WheelScene):
         return modulus, *_of_body("wheel", scene.radius, scene), _of_motion(scene), *_of_roughness_of_wheel(scene)
     if isinstance(scene, RollingScene):
@@ -31,7 +36,7 @@ def description_lines(scene: AnyScene, *, moving: bool = True) -> list[str]:
 
     moving: whether the motion of a wheel is asked for.
     """
-    reason = scene.no_steady_answer() if moving and not isinstance(scene, IndentationScene) else ""
+    reason = scene.no_steady_answer() if moving and isinstance(scene, RollingScene | WheelScene) else ""
     lines = [f"no steady answer: {reason}"] if reason else []
     lines += [f"note: {note}" for note in scene.diagnose()]
     pairs = describe(scene)
@@ -39,7 +44,7 @@ def description_lines(scene: AnyScene, *, moving: bool = True) -> list[str]:
     return [*lines, *(f"  {name:{width}s}  {value}" for name, value in pairs)]
 
 
-def _of_body(name: str, radius: float, scene: AnyScene) -> Pairs:
+def _of_body(name: str, radius: float, scene: WithSphere) -> Pairs:
     return (
         (name, f"radius {in_unit(radius, 'length')}, load {in_unit(scene.load, 'force')}"),
         ("contact radius a", f"{in_unit(scene.contact_radius, 'length')}, of the smooth body"),
@@ -88,12 +93,12 @@ def _height(rms: float, approach: float) -> tuple[str, str]:
     return "rms height h", f"{in_unit(rms, 'length')}, h/d = {rms / approach:.3g}"
 
 
-def _slope(slope: float, scene: AnyScene) -> tuple[str, str]:
+def _slope(slope: float, scene: WithSphere) -> tuple[str, str]:
     lost = slope * scene.contact_radius / scene.approach
     return "rms slope h'", f"{slope:.3g}, in one direction, h' a/d = {lost:.3g}"
 
 
-def _waves(ground: RoughSurface, scene: AnyScene) -> str:
+def _waves(ground: RoughSurface, scene: WithSphere) -> str:
     if isinstance(scene, IndentationScene) or scene.speed is None or ground.is_single:
         return ground.waves
     return f"{ground.waves}, {ground.q_min * scene.speed:.4g} to {ground.q_max * scene.speed:.4g} rad/s"

@@ -28,7 +28,7 @@ ARCHIVE = b"PK"
 
 def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
     """Of a table in a scene file: file, .npy or CSV beside it; spacing of its points; unit of its values."""
-    readers: dict[str, Reader] = {"file": nonblank_text, "spacing": LENGTH, "unit": _unit}
+    readers: dict[str, Reader] = {"file": nonblank_text, "spacing": LENGTH, "unit": unit_of}
     found = table(readers, ("unit",), name, given)
     height = read_heights(f"{name}.file", folder / found["file"]) * found.get("unit", 1.0)
     try:
@@ -124,5 +124,6 @@ def _lines(file: IO[bytes]) -> Iterator[bytes]:
         yield line
 
 
-def _unit(name: str, given: object) -> float:
+def unit_of(name: str, given: object) -> float:
+    """How many metres one of a unit of heights is."""
     return quantity(name, f"1 {given}", "length")

@@ -1,4 +1,4 @@
-"""The scene of a file: a sphere, a punch, a wheel that rolls at a constant approach, or one with a mass."""
+"""The scene of a file: a sphere, a punch, a wheel on rough ground with or without a mass, or one on a rail."""
 
 from functools import partial
 from pathlib import Path
@@ -9,6 +9,8 @@ from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.height_files import heights_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material, material_of
+from validation.scenes.rail import RailScene
+from validation.scenes.rail_file import is_rail, rail_of
 from validation.scenes.reader import (
     FORCE,
     LENGTH,
@@ -23,7 +25,7 @@ from validation.scenes.reader import (
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import roughness_of
 
-Scene = IndentationScene | RollingScene
+Scene = IndentationScene | RollingScene | RailScene
 
 
 def load_scene(scene: str | Path) -> Scene:
@@ -32,13 +34,14 @@ def load_scene(scene: str | Path) -> Scene:
     Parameters
     ----------
     scene : str or Path
-        Path of a scene file, or the name of a shipped scene: "rolling_wheel", "rough_punch", "sphere" or
+        Path of a scene file, or the name of a shipped scene: "rail", "rolling_wheel", "rough_punch", "sphere" or
         "table_14_1". A name has no folder and no ".toml".
 
     Returns
     -------
-    IndentationScene or RollingScene
-        A sphere or punch, or a wheel, by the body that the file has a table of.
+    IndentationScene, RollingScene or RailScene
+        A sphere or punch, or a wheel, by the body that the file has a table of. A wheel on a rail has a crown,
+        roughness as levels or lines, or another key that no other wheel has.
 
     Raises
     ------
@@ -68,6 +71,8 @@ def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
     body = bodies[0]
     if body != "wheel":
         return _pressed(body, tables, folder)
+    if is_rail(tables):
+        return rail_of(tables, folder)
     wheel, rail = tables["wheel"], tables.get("rail")
     moving = isinstance(wheel, dict) and "mass" in wheel
     if moving and not (isinstance(rail, dict) and "heights" in rail):

@@ -308,12 +308,18 @@ def _undefined(what: str, places: NDArray[np.bool_]) -> str:
     )
 
 
-def _grid(height: ArrayLike) -> FloatArray:
+def known_heights(height: ArrayLike) -> FloatArray:
+    """Real numbers, all of them there. Raises ValueError for masked ones and ones that are not finite, or TypeError."""
     values = _numbers(height)
-    if values.ndim != 2 or min(values.shape) < FEWEST:
-        raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
     if not np.isfinite(values).all():
         raise ValueError(_undefined("not finite", ~np.isfinite(values)))
+    return values
+
+
+def _grid(height: ArrayLike) -> FloatArray:
+    values = known_heights(height)
+    if values.ndim != 2 or min(values.shape) < FEWEST:
+        raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
     return values
 
 

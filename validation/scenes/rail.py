@@ -8,7 +8,8 @@ from typing import Literal
 
 from mdr.checks import positive
 from validation.scenes.material import Material, check_modulus
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.units import in_unit
@@ -37,8 +38,8 @@ class RailScene:
         Static load of one wheel [N].
     modulus : float
         Contact modulus E* [Pa].
-    roughness : RoughnessLevels or MeasuredHeights
-        Of wheel and rail together: levels of a line, or heights whose first axis is along the track.
+    roughness : RoughnessLevels, MeasuredLines or MeasuredHeights
+        Of wheel and rail together: levels of a line, measured lines, or heights whose first axis is along the track.
     transverse_radius, crown_radius : float or None, optional
         Radii of wheel and rail across the track [m], None where straight; one of the two is given.
     speed, mass : float or None, optional
@@ -48,24 +49,33 @@ class RailScene:
     across : "ridges", "isotropic", float or None, optional
         What lies across a line: ridges, isotropic ground, or waves with abs(k_y) < alpha k_x. None: ridges and
         isotropic ground, as both ends.
+    notes : tuple of str, optional
+        What was assumed where the scene was made, in sentences.
 
     Raises
     ------
     ValueError, TypeError
         If a value is out of range; the message names the key of a scene file.
+
+    Examples
+    --------
+    >>> contact = validation.load_scene("rail").contact
+    >>> print(f"{contact.along:.3g} m along, {contact.across:.3g} m across, pressed by {contact.approach:.3g} m")
+    0.00568 m along, 0.00428 m across, pressed by 6.56e-05 m
     """
 
     name: str
     radius: float
     load: float
     modulus: float
-    roughness: RoughnessLevels | MeasuredHeights
+    roughness: RoughnessLevels | MeasuredLines | MeasuredHeights
     transverse_radius: float | None = None
     crown_radius: float | None = None
     speed: float | None = None
     mass: float | None = None
     material: Material | None = None
     across: Across = None
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         nonblank_text("name", self.name)
@@ -78,14 +88,15 @@ class RailScene:
         check_modulus(self.modulus, self.material)
         if self.transverse_radius is None and self.crown_radius is None:
             raise ValueError(
-                "rail.crown_radius or wheel.transverse_radius must be given: both bodies are straight across"
+                "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"
             )
-        if not isinstance(self.roughness, RoughnessLevels | MeasuredHeights):
-            raise TypeError(
-                f"roughness must be RoughnessLevels or MeasuredHeights, got {type(self.roughness).__name__}"
-            )
+        if not isinstance(self.roughness, RoughnessLevels | MeasuredLines | MeasuredHeights):
+            given = type(self.roughness).__name__
+            raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {given}")
         if self.across not in ("ridges", "isotropic", None):
             positive("rail.across", self.across)
+        if isinstance(self.roughness, MeasuredHeights):
+            self._check_heights(self.roughness)
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -98,12 +109,14 @@ class RailScene:
         """Of the smooth bodies under the static load."""
         return elliptic_contact(self.radii, modulus=self.modulus, force=self.load)
 
-    @property
+    @cached_property
     def levels(self) -> RoughnessLevels:
-        """Levels of one line along the track."""
-        if isinstance(self.roughness, MeasuredHeights):
-            raise NotImplementedError("levels of measured heights")
-        return self.roughness
+        """Levels of one line along the track; of several that were measured, of their mean energy."""
+        if isinstance(self.roughness, RoughnessLevels):
+            return self.roughness
+        if isinstance(self.roughness, MeasuredLines):
+            return self.roughness.levels
+        return MeasuredLines.of_heights(self.roughness).levels
 
     def frequency(self, wavelength: float) -> float:
         """f = v / lambda [Hz], NaN without a speed."""
@@ -111,14 +124,14 @@ class RailScene:
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        return tuple(self._doubts())
+        return (*self.notes, *self._doubts())
 
     def _doubts(self) -> Iterator[str]:
         contact = self.contact
         if contact.pressure > MAX_PRESSURE:
             yield (
-                f"the largest pressure is {contact.pressure / 1e9:.3g} GPa, more than {MAX_PRESSURE / 1e9:g} GPa: steel "
-                "yields; is wheel.load that of one wheel?"
+                f"the largest pressure is {contact.pressure / 1e9:.3g} GPa, more than {MAX_PRESSURE / 1e9:g} GPa: "
+                "steel yields; is wheel.load that of one wheel?"
             )
         for side, semi_axis, radius in (
             ("along", contact.along, self.radii[0]),
@@ -126,6 +139,20 @@ class RailScene:
         ):
             if semi_axis > WIDE * radius:
                 yield (
-                    f"the contact is wider than the crown of the bodies: {semi_axis / radius:.3g} of the radius {side}, "
-                    f"{in_unit(radius, 'length')}, more than a tenth: no half-space."
+                    f"the contact is wider than the crown of the bodies: {semi_axis / radius:.3g} of the radius {side} "
+                    f"the track, {in_unit(radius, 'length')}, more than a tenth: no half-space."
                 )
+        if isinstance(self.roughness, MeasuredHeights):
+            yield from self.roughness.notes()
+
+    def _check_heights(self, heights: MeasuredHeights) -> None:
+        """Long and wide enough for the contact; what lies across was measured."""
+        if self.across is not None:
+            raise ValueError(f"rail.across must be left out beside rail.heights, which have it, got {self.across!r}")
+        (length, width), contact = heights.sides, self.contact
+        if length < 4 * math.pi * contact.along or width < 3 * contact.across:
+            needed = 4 * math.pi * contact.along, 3 * contact.across
+            shown = [in_unit(side, "length", digits=3) for side in (*needed, length, width)]
+            size = " and ".join(shown[2:])
+            raise ValueError(f"rail.heights must be {shown[0]} long and {shown[1]} wide for this contact, got {size}")
+        check_points(heights, min(contact.along, contact.across))

@@ -14,8 +14,8 @@ from validation.scenes.units import in_unit
 FloatArray = NDArray[np.float64]
 
 MICROMETRE = 1e-6
-LARGEST = 60.0
-"""dB re 1 um of one band, 1 mm, and less than 1 nm with the other sign: beyond both the unit is another."""
+LEAST, MOST = -100.0, 50.0
+"""dB re 1 um of one band, 0.01 nm and 0.3 mm: beyond, the unit is another, as 1 m or 1 nm."""
 STEPS, CLOSE = 200, 1e-12
 """Of the iteration for the spectrum, and the relative error of a band's power that ends it."""
 
@@ -39,16 +39,17 @@ class RoughnessLevels:
                 f"levels must be one a wavelength, got {len(self.levels)} for {len(self.wavelengths)} wavelengths"
             )
         for wavelength, level in zip(self.wavelengths, self.levels, strict=True):
-            if not abs(finite("levels", level)) <= LARGEST:
+            if not LEAST <= finite("levels", level) <= MOST:
                 raise ValueError(
-                    f"levels must lie between -{LARGEST:g} and {LARGEST:g} dB re 1 um, got {level:g} dB at "
-                    f"{wavelength * 1000:g} mm: are they re 1 m or 1 nm?"
+                    f"levels must lie between {LEAST:g} and {MOST:g} dB re 1 um, got {level:g} dB at "
+                    f"{wavelength * 1000:g} mm: is the unit another?"
                 )
 
     @classmethod
     def of_powers(cls, bands: NominalBands, powers: ArrayLike, *, source: str) -> "RoughnessLevels":
         """Of the mean square of the heights in each band [m^2]."""
-        levels = 10 * np.log10(np.asarray(powers, dtype=np.float64) / MICROMETRE**2)
+        # a band without any power is refused with the others that are none
+        levels = 10 * np.log10(np.maximum(np.asarray(powers, dtype=np.float64), 1e-99) / MICROMETRE**2)
         return cls(wavelengths=tuple(bands.nominal.tolist()), levels=tuple(levels.tolist()), source=source)
 
     @cached_property

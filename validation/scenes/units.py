@@ -7,15 +7,23 @@ from typing import Literal
 
 from validation.scenes.printable import quoted
 
-Dimension = Literal["length", "mass", "force", "pressure", "speed"]
+Dimension = Literal["length", "mass", "force", "pressure", "speed", "level"]
 
 ONE = Fraction(1)
 UNITS: dict[Dimension, dict[str, Fraction]] = {
     "length": {"m": ONE, "mm": ONE / 10**3, "um": ONE / 10**6, "µm": ONE / 10**6, "nm": ONE / 10**9, "km": ONE * 10**3},
     "mass": {"kg": ONE, "g": ONE / 10**3, "t": ONE * 10**3},
-    "force": {"N": ONE, "kN": ONE * 10**3, "MN": ONE * 10**6, "mN": ONE / 10**3},
+    "force": {
+        "N": ONE,
+        "kN": ONE * 10**3,
+        "MN": ONE * 10**6,
+        "mN": ONE / 10**3,
+        "kgf": ONE * 980665 / 10**5,
+        "tf": ONE * 980665 / 10**2,
+    },
     "pressure": {"Pa": ONE, "kPa": ONE * 10**3, "MPa": ONE * 10**6, "GPa": ONE * 10**9},
     "speed": {"m/s": ONE, "mm/s": ONE / 10**3, "km/h": ONE * 10 / 36},
+    "level": {"dB": ONE},
 }
 """Each unit over the SI unit of its dimension."""
 EXAMPLES: dict[Dimension, str] = {
@@ -24,6 +32,7 @@ EXAMPLES: dict[Dimension, str] = {
     "force": "4905 N",
     "pressure": "210 GPa",
     "speed": "20 m/s",
+    "level": "10 dB",
 }
 PRINTED_UNITS: dict[Dimension, tuple[str, ...]] = {
     "length": ("nm", "µm", "mm", "m"),
@@ -31,6 +40,7 @@ PRINTED_UNITS: dict[Dimension, tuple[str, ...]] = {
     "force": ("mN", "N", "kN", "MN"),
     "pressure": ("Pa", "kPa", "MPa", "GPa"),
     "speed": ("mm/s", "m/s"),
+    "level": ("dB",),
 }
 """Units in which a quantity is printed, the smallest first."""
 # decimal, so that "0.5 um" is the float nearest to 5e-7; nothing trapped, since what is not finite is refused anyway

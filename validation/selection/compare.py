@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mdr.checks import count
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
-from validation.scenes.rolling import RollingScene
+from validation.scenes.rail import RailScene
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
 from validation.selection.scene_model import SceneModel, models_on
 from validation.simulation.rolling_quantity import RollingQuantity
@@ -125,6 +125,8 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
     """The quantities that a scene has; the first is the default."""
     if isinstance(scene, IndentationScene):
         return PRESSED
+    if isinstance(scene, RailScene):
+        return ()
     return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
 
 
@@ -189,9 +191,11 @@ def compare(
     >>> print(f"{result.value[0]:.4g} {result.unit}")
     9.365e+08 N/m
     """
-    if not isinstance(scene, IndentationScene | RollingScene):
+    if not isinstance(scene, Scene):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
+    if not quantities_of(scene):
+        raise ValueError(f"scene {scene.name!r}, a wheel on a rail, has no quantity to compare, got {quantity}")
     asked = quantities_of(scene)[0] if quantity is None else quantity
     return Comparison(
         scene, asked, select_model(models_of(scene, asked, tolerance, seed), tolerance, callback=callback)

@@ -4,7 +4,7 @@ import math
 
 from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
-from validation.scenes.indentation import IndentationScene
+from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
 from validation.selection.compare import MOVING, UNITS, Comparison
 from validation.selection.hierarchy import Candidate
@@ -66,7 +66,7 @@ def _result(comparison: Comparison, best: Candidate) -> list[str]:
         value = float(answer.value[0])
         shown = f"{_scaled(value, value * answer.error)} {comparison.unit}"
         return [f"{comparison.quantity} = {shown} ({_percent(answer.error)}: {parts}), by {best.name}"]
-    assert not isinstance(comparison.scene, IndentationScene)  # which has one number
+    assert isinstance(comparison.scene, RollingScene)  # of which alone there are levels
     radius, speed, unit = comparison.scene.contact_radius, comparison.scene.speed, UNITS[comparison.quantity]
     decibels = 20 * math.log10(1 + answer.error)
     lines = [

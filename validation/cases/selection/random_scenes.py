@@ -6,7 +6,6 @@ import numpy as np
 
 from validation.engine.engine import random_generator
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.theory.closed_forms import hertz_force
@@ -26,7 +25,7 @@ RANGES = (
 """In words."""
 
 
-def random_scene(kind: str, number: int, seed: int) -> Scene:
+def random_scene(kind: str, number: int, seed: int) -> IndentationScene | RollingScene:
     """One of `KINDS`, with units, Hurst exponent, band, height and load at random; the same for the same numbers."""
     rng = random_generator(seed, KINDS.index(kind), number)
     modulus = 10 ** rng.uniform(6, 11.5)

@@ -1,0 +1,301 @@
+"""Scene files of a rail: units of the field, levels, lines and heights; everything that is refused, by its key."""
+
+import re
+
+import numpy as np
+import pytest
+
+from validation import compare
+from validation.__main__ import main
+from validation.scenes.description import describe
+from validation.scenes.load import load_scene
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.rail import RailScene
+
+TEXT = """
+name = "regional train"
+[material]
+youngs_modulus = "210 GPa"
+poisson_ratio = 0.3
+counterface = "same"             # two equal bodies: E* = E / (2 (1 - nu^2))
+[wheel]
+radius = "460 mm"                # or diameter; transverse_radius = "..." where it is not conical
+load = "50 kN"                   # per wheel
+speed = "80 km/h"
+[rail]
+crown_radius = "300 mm"
+across = "isotropic"             # "ridges", or alpha = 1.0
+[rail.levels]
+curve = "iso3095-2013"           # or "cnossos-average", or file = "levels.csv"
+"""
+"""As it stands in files of other people."""
+CURVE = 'curve = "iso3095-2013"'
+LEVELS = "[rail.levels]\ncurve"
+HEADER = "wavelength [mm],level [dB re 1 um]"
+
+
+def written(folder, *changes, text=TEXT):
+    """A scene file with some texts changed, each of which must be there."""
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (folder / "rail.toml").write_text(text, encoding="utf-8")
+    return folder / "rail.toml"
+
+
+def loaded(folder, *changes):
+    return load_scene(written(folder, *changes))
+
+
+def with_levels(folder, contents):
+    (folder / "levels.csv").write_text(contents, encoding="utf-8")
+    return loaded(folder, (CURVE, 'file = "levels.csv"'))
+
+
+def with_lines(folder, height, *keys):
+    np.save(folder / "lines.npy", height)
+    return loaded(folder, ("[rail.levels]", "[rail.lines]"), (CURVE, "\n".join(('file = "lines.npy"', *keys))))
+
+
+# What is read
+
+
+def test_the_file_of_the_field_is_the_scene_that_it_says(tmp_path):
+    scene = loaded(tmp_path)
+    assert isinstance(scene, RailScene)
+    assert (scene.name, scene.radius, scene.crown_radius, scene.load) == ("regional train", 0.46, 0.3, 5e4)
+    assert (scene.across, scene.transverse_radius, scene.mass, scene.notes) == ("isotropic", None, None, ())
+    assert scene.speed == pytest.approx(80 / 3.6)
+    assert scene.modulus == pytest.approx(210e9 / 2 / (1 - 0.09))
+    assert scene.levels.levels[0] == 17.1
+
+
+def test_the_shipped_scene_is_that_scene(tmp_path, capsys):
+    shipped, here = load_scene("rail"), loaded(tmp_path)
+    assert shipped.diagnose() == here.diagnose() == ()
+    assert describe(shipped) == describe(here)
+    with pytest.raises(SystemExit):
+        main(["compare", "--help"])
+    assert "(rail, " in " ".join(capsys.readouterr().out.split())
+
+
+def test_the_description_has_the_contact_that_is_assumed(tmp_path):
+    pairs = dict(describe(loaded(tmp_path)))
+    assert pairs["contact ellipse"].startswith("a_x = 5.68 mm along, a_y = 4.28 mm across")
+    assert (pairs["approach d"], pairs["peak pressure p0"]) == ("65.6 µm", "982 MPa")
+    assert pairs["contact modulus E*"].startswith("115.385 GPa: two equal bodies")
+    assert pairs["wheel"] == "radius 460 mm, straight across, load 50 kN of one wheel"
+    assert pairs["motion"] == "speed 80 km/h"
+    assert pairs["roughness"] == "rms 22.3 µm over all bands: iso3095-2013"
+    assert pairs["what lies across"] == "isotropic ground"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "value"),
+    [
+        ('radius = "460 mm" ', 'diameter = "920 mm"', {"radius": 0.46}),
+        ('load = "50 kN" ', 'load = "5 tf"', {"load": 49033.25}),
+        ('load = "50 kN" ', 'axle_load = "100 kN"\nwheels_per_axle = 2', {"load": 5e4}),
+        ('speed = "80 km/h"', 'mass = "0.5 t"', {"speed": None, "mass": 500.0}),
+        ('crown_radius = "300 mm"', "", {"crown_radius": None}),
+        ('across = "isotropic"', 'across = "ridges"', {"across": "ridges"}),
+        ('across = "isotropic"', "across = 1.5", {"across": 1.5}),
+        ('across = "isotropic"', "alpha = 1.0", {"across": 1.0}),
+        ('across = "isotropic"', "", {"across": None}),
+    ],
+)
+def test_other_words_for_a_value(tmp_path, old, new, value):
+    changes = [(old, new)] if "crown" not in old else [(old, new), ('load = "', 'transverse_radius = "1 m"\nload = "')]
+    scene = loaded(tmp_path, *changes)
+    assert {key: getattr(scene, key) for key in value} == pytest.approx(value) or value == {"across": scene.across}
+
+
+def test_an_axle_load_is_told(tmp_path):
+    scene = loaded(tmp_path, ('load = "50 kN"', 'axle_load = "100 kN"\nwheels_per_axle = 2'))
+    assert scene.diagnose() == ("the axle load of 100 kN is shared by 2 wheels: 50 kN each.",)
+
+
+@pytest.mark.parametrize("offset", ["10", '"10 dB"'])
+def test_an_offset_raises_all_levels(tmp_path, offset):
+    raised = loaded(tmp_path, (CURVE, f"{CURVE}\noffset = {offset}")).levels
+    np.testing.assert_allclose(np.array(raised.levels) - loaded(tmp_path).levels.levels, 10)
+
+
+def test_wheel_and_rail_add_their_energies(tmp_path):
+    (tmp_path / "wheel.csv").write_text(f"{HEADER}\n100,4.9\n80,2.9\n")
+    both = loaded(tmp_path, ("[rail]", '[wheel.levels]\nfile = "wheel.csv"\n[rail]'))
+    more = np.array(both.levels.levels) - loaded(tmp_path).levels.levels
+    at = np.isin(both.levels.bands.nominal, [0.1, 0.08])
+    np.testing.assert_allclose(more, np.where(at, 10 * np.log10(2), 0.0), atol=1e-12)
+    assert "of the wheel is not known at 2000, " in both.diagnose()[0]
+
+
+@pytest.mark.parametrize(
+    ("contents", "unit"),
+    [
+        (f"{HEADER}\n100,1.5\n80,-2\n", "mm"),
+        ("# a comment\nwavelength_mm;level_dB\n80;-2\n100;1.5\n", "mm, ascending"),
+        ("wavelength_m,level [dB re 1 µm]\n0.1,1.5\n0.08,-2\n", "m"),
+        ("\ufeffwavelength [mm]\tdB\n100\t1.5\n80\t-2\n", "tabs, a mark"),
+    ],
+)
+def test_levels_of_a_file(tmp_path, contents, unit):
+    levels = with_levels(tmp_path, contents).levels
+    assert levels.levels == (1.5, -2.0), unit
+    assert levels.bands.nominal.tolist() == [0.1, 0.08]
+    assert levels.source == "levels.csv"
+
+
+def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
+    """Two lines, one of which carries a wave of 40 mm and 3 um: half of its power."""
+    x = np.arange(4000)
+    lines = 0.01 * np.random.default_rng(3).standard_normal((4000, 2))
+    lines[:, 0] += 3 * np.cos(2 * np.pi * x / 40)
+    keys = ('spacing = "1 mm"', 'unit = "um"', 'positions = ["-5 mm", "5 mm"]', 'shortest = "20 mm"')
+    scene = with_lines(tmp_path, lines, *keys)
+    assert isinstance(scene.roughness, MeasuredLines)
+    at = scene.levels.bands.nominal.tolist().index(0.04)
+    assert scene.levels.levels[at] == pytest.approx(20 * np.log10(3 / 2), abs=0.05)
+    assert scene.levels.bands.nominal[[0, -1]].tolist() == [1.0, 0.02]
+    assert dict(describe(scene))["roughness"].endswith("2 measured lines, at -5, 5 mm across")
+    assert "are missing and have no answer" in dict(describe(scene))["bands"]
+
+
+def test_one_line_needs_no_position(tmp_path):
+    line = np.random.default_rng(1).standard_normal(1000) * 1e-6
+    levels = with_lines(tmp_path, line, 'spacing = "1 mm"').levels
+    assert levels.bands.nominal[[0, -1]].tolist() == [0.25, 0.0025]
+    assert with_lines(tmp_path, line[:, np.newaxis], 'spacing = "1 mm"').levels == levels
+
+
+def test_heights_have_the_levels_of_their_lines(tmp_path):
+    np.save(tmp_path / "h.npy", 1e-6 * np.random.default_rng(1).standard_normal((1000, 40)))
+    heights = [("[rail.levels]", "[rail.heights]"), (CURVE, 'file = "h.npy"\nspacing = "1 mm"')]
+    scene = loaded(tmp_path, *heights, ('across = "isotropic"', ""))
+    assert isinstance(scene.roughness, MeasuredHeights)
+    assert scene.levels.source == "40 measured lines"
+    assert dict(describe(scene))["what lies across"] == "measured"
+    with pytest.raises(ValueError, match=r"rail\.across must be left out beside rail\.heights"):
+        loaded(tmp_path, *heights)
+    with pytest.raises(ValueError, match=r"wheel\.levels must be left out beside rail\.heights"):
+        loaded(tmp_path, *heights, ("[rail]", f"[wheel.levels]\n{CURVE}\n[rail]"), ('across = "isotropic"', ""))
+
+
+# What is refused
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('load = "50 kN" ', 'axle_load = "100 kN"', "wheel.wheels_per_axle is missing"),
+        ('load = "50 kN" ', 'load = "50 kN"\nwheels_per_axle = 2', "wheel.wheels_per_axle belongs to wheel.axle_load"),
+        ('load = "50 kN" ', 'load = "50 kN"\naxle_load = "1 N"', "one of load, axle_load, got load and axle_load"),
+        ('load = "50 kN" ', 'load = "5 t"', r"wheel.load must be a force, .* got \"5 t\""),
+        ('load = "50 kN" ', "", "wheel must have one of load, axle_load, got none"),
+        ('radius = "460 mm" ', 'radius = "460 mm"\ndiameter = "1 m"', "got radius and diameter"),
+        ('across = "isotropic"', 'across = "random"', 'rail.across must be "ridges", "isotropic" or a number'),
+        ('across = "isotropic"', "across = -1.0", "rail.across must be positive"),
+        ('across = "isotropic"', "across = true", "rail.across must be"),
+        ('across = "isotropic"', 'across = "ridges"\nalpha = 1.0', "got across and alpha"),
+        ('crown_radius = "300 mm"', "", "rail.crown_radius or wheel.transverse_radius must be given"),
+        ('crown_radius = "300 mm"', 'crown = "300 mm"', "rail.crown is unknown"),
+        (
+            CURVE,
+            'curve = "iso3095"',
+            "rail.levels.curve must be one of cnossos-average, iso3095-2013, got",
+        ),
+        (CURVE, f'{CURVE}\nfile = "a.csv"', "rail.levels must have one of curve, file, got curve and file"),
+        (CURVE, f'{CURVE}\noffset = "10 um"', "rail.levels.offset must be a level"),
+        (CURVE, f"{CURVE}\noffset = 90", "rail.levels.levels must lie between -100 and 50 dB re 1 um, got 107.1 dB"),
+        ("[rail.levels]\n", "[rail.heights]\n", "rail.heights.curve is unknown"),
+        (CURVE, f'{CURVE}\n[rail.roughness]\nrms = "1 um"', "rail.roughness is unknown"),
+    ],
+)
+def test_files_are_refused_by_key(tmp_path, old, new, said):
+    with pytest.raises(ValueError, match=rf"^scene \S+rail\.toml: .*{said}"):
+        loaded(tmp_path, (old, new))
+
+
+@pytest.mark.parametrize(
+    ("contents", "said"),
+    [
+        ("wavelength [mm],level [dB re 1 nm]\n100,60\n", "levels must be in dB re 1 um, got 'level .dB re 1 nm.'"),
+        ("wavelength [mm],level_um\n100,1\n", "columns must be named"),
+        ("wavelength,level [dB]\n100,1\n", "columns must be named"),
+        ("100,1\n80,2\n", "columns must be named"),
+        (f"{HEADER}\n100,-110\n80,-115\n", "levels must lie between .* got -110 dB at 100 mm: is the unit another"),
+        (f"{HEADER}\n100,64.9\n80,62.9\n", "levels must lie between .* got 64.9 dB at 100 mm: is the unit another"),
+        (f"{HEADER}\n0.1,4.9\n0.08,2.9\n", "from 2000 mm to 0.8 mm, got 0.1 mm: is it in metres"),
+        (f"{HEADER}\n100,1\n63,2\n80,3\n", "no 80 mm behind 100 mm"),
+        (f"{HEADER}\n100,1\n125,2\n80,3\n", "sorted, got 125 mm behind 100 mm"),
+        (f"{HEADER}\n100,1\n80,2\n80,3\n", "got 80 mm twice"),
+        (f"{HEADER}\n100,1\n63,2\n", "no 80 mm behind 100 mm"),
+        (f"{HEADER}\n97,1\n", "must be nominal, .* got 97 mm"),
+        (f"{HEADER}\n100,nan\n", "levels must be finite"),
+        (f"{HEADER}\n100,x\n", "a row must be two numbers, got '100,x'"),
+        (f"{HEADER}\n100\n", "two columns"),
+        (f"{HEADER}\n", "must name one band at least"),
+        ("", "two columns"),
+    ],
+)
+def test_levels_are_refused_by_what_is_wrong(tmp_path, contents, said):
+    with pytest.raises(ValueError, match=rf"rail\.levels\.file \S+levels\.csv: .*{said}"):
+        with_levels(tmp_path, contents)
+
+
+LINE = 1e-6 * np.random.default_rng(2).standard_normal((1000, 2))
+PLACES = 'positions = ["0 mm", "5 mm"]'
+
+
+@pytest.mark.parametrize(
+    ("height", "keys", "said"),
+    [
+        (
+            LINE,
+            (PLACES, 'longest = "500 mm"'),
+            "lines.longest must be a quarter of the lines at the most, 1 m long",
+        ),
+        (LINE, (PLACES, 'shortest = "1 mm"'), "lines.shortest must be 2.5 points or more, 1 mm apart, got 1 mm"),
+        (LINE, (PLACES, 'shortest = "100 mm"', 'longest = "50 mm"'), "lines.no band lies between"),
+        (LINE[:5], (PLACES,), "lines.no band lies between"),
+        (LINE, (), r"lines.positions must be one a line, got 1 for heights of shape \(1000, 2\)"),
+        (LINE.T, (PLACES,), r"lines.positions must be one a line, got 2 for heights of shape \(2, 1000\)"),
+        (LINE, ('positions = ["5 mm", "0 mm"]',), "lines.positions must ascend"),
+        (LINE, ("positions = [0, 5]",), r"lines.positions\[0\] must be a length"),
+        (LINE, ('positions = "0 mm"',), "lines.positions must be a list of lengths"),
+        (
+            np.stack([LINE[:, 0], np.nan * LINE[:, 1]], axis=1),
+            (PLACES,),
+            "lines.heights must be known everywhere, got 1000 of",
+        ),
+    ],
+)
+def test_lines_are_refused_by_what_is_wrong(tmp_path, height, keys, said):
+    with pytest.raises(ValueError, match=rf"rail\.{said}"):
+        with_lines(tmp_path, height, 'spacing = "1 mm"', *keys)
+
+
+def test_masked_lines_are_refused():
+    with pytest.raises(ValueError, match=r"heights must be known everywhere, got 1 of 1000 .* masked"):
+        MeasuredLines(height=np.ma.masked_less(LINE[:, 0], LINE[:, 0].min() * 0.999), spacing=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("shape", "spacing", "said"),
+    [
+        ((60, 40), "1 mm", "must be 71.4 mm long"),
+        ((200, 16), "0.5 mm", "12.8 mm wide"),
+        ((40, 40), "5 mm", "no more"),
+    ],
+)
+def test_heights_must_hold_the_contact(tmp_path, shape, spacing, said):
+    np.save(tmp_path / "h.npy", 1e-6 * np.random.default_rng(1).standard_normal(shape))
+    ground = f'file = "h.npy"\nspacing = "{spacing}"'
+    with pytest.raises(ValueError, match=said):
+        loaded(tmp_path, ("[rail.levels]", "[rail.heights]"), (CURVE, ground), ('across = "isotropic"', ""))
+
+
+def test_a_quantity_that_a_rail_has_not_is_a_sentence():
+    with pytest.raises(ValueError, match=re.escape("scene 'Wheel on a rail'")):
+        compare(load_scene("rail"), "force-rms")

@@ -1,0 +1,77 @@
+"""Description of a wheel on a rail: the contact that is assumed, which no one can tell from a wrong load otherwise."""
+
+import math
+
+from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.rail import RailScene
+from validation.scenes.units import in_unit
+
+
+def of_rail(scene: RailScene) -> tuple[tuple[str, str], ...]:
+    """Pairs of a name and a value with its unit: bodies, contact, motion, roughness, and what lies across."""
+    contact, levels = scene.contact, scene.levels
+    slope = levels.slope
+    return (
+        ("wheel", f"radius {in_unit(scene.radius, 'length')}, {_across(scene.transverse_radius)}, {_load(scene)}"),
+        ("rail", _across(scene.crown_radius)),
+        (
+            "contact ellipse",
+            f"a_x = {_short(contact.along)} along, a_y = {_short(contact.across)} across, of the smooth bodies",
+        ),
+        ("approach d", _short(contact.approach)),
+        ("peak pressure p0", in_unit(contact.pressure, "pressure", digits=3)),
+        ("motion", _motion(scene)),
+        ("roughness", f"rms {_short(levels.rms)} over all bands: {_source(scene)}"),
+        ("bands", _bands(scene)),
+        ("rms slope h'", f"{slope:.3g} along the track, h' a_x/d = {slope * contact.along / contact.approach:.3g}"),
+        ("what lies across", _structure(scene)),
+    )
+
+
+def _load(scene: RailScene) -> str:
+    return f"load {in_unit(scene.load, 'force')} of one wheel"
+
+
+def _across(radius: float | None) -> str:
+    return "straight across" if radius is None else f"radius {in_unit(radius, 'length')} across"
+
+
+def _motion(scene: RailScene) -> str:
+    if scene.speed is None:
+        return "none: wavelengths have no frequencies"
+    mass = "" if scene.mass is None else f", mass {in_unit(scene.mass, 'mass')}"
+    return f"speed {3.6 * scene.speed:.5g} km/h{mass}"
+
+
+def _source(scene: RailScene) -> str:
+    if isinstance(scene.roughness, MeasuredHeights):
+        return scene.roughness.waves
+    if isinstance(scene.roughness, MeasuredLines) and len(scene.roughness.positions) > 1:
+        places = ", ".join(f"{1000 * position:g}" for position in scene.roughness.positions)
+        return f"{scene.levels.source}, at {places} mm across"
+    return scene.levels.source
+
+
+def _bands(scene: RailScene) -> str:
+    bands, all_bands = scene.levels.bands, NominalBands()
+    known = f"{len(bands)} one-third octaves, {1000 * bands.nominal[0]:g} to {1000 * bands.nominal[-1]:g} mm"
+    if bands == all_bands:
+        return known
+    longest, shortest = 1000 * all_bands.nominal[[0, -1]]
+    return f"{known}; the others of {longest:g} to {shortest:g} mm are missing and have no answer"
+
+
+def _structure(scene: RailScene) -> str:
+    if isinstance(scene.roughness, MeasuredHeights):
+        return "measured"
+    if scene.across is None:
+        return "not given: from ridges to isotropic ground"
+    if isinstance(scene.across, str):
+        return {"ridges": "ridges", "isotropic": "isotropic ground"}[scene.across]
+    return f"waves within {math.degrees(math.atan(scene.across)):.3g} degrees of the track, alpha = {scene.across:g}"
+
+
+def _short(length: float) -> str:
+    return in_unit(length, "length", digits=3)
