@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.report.test_printed import evidence_with, html_of, number
-from validation import benchmarks
+from validation import benchmarks, cases
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
 from validation.report import page
 from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
@@ -295,3 +295,11 @@ def test_the_period_of_region_3_is_a_frequency():
     omega = np.linspace(0, 6 * np.pi * V / A, 1001)
     assert np.sin((omega + np.pi * V / A) / V * A) ** 2 == pytest.approx(np.sin(omega / V * A) ** 2, abs=1e-9)
     assert erratum("After (14.19)").correct == "Δω3 = π v0/a"
+
+
+def test_every_answer_of_a_case_begins_with_its_status():
+    """`answered` puts it there: no case makes a claim beside it."""
+    for package in (benchmarks, cases):
+        sources = [source for folder in package.__path__ for source in Path(folder).rglob("*.py")]
+        assert [source.name for source in sources if re.search(r"\bJudgedClaim\(", source.read_text())] == []
+        assert any(re.search(r"\banswered\(", source.read_text()) for source in sources)

@@ -6,6 +6,7 @@ import numpy as np
 
 import bem3d
 import mdr
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, columns, number_with
 from validation.cases.exact.spectral_moments import line_moment, mean_power_of_cosine, surface_moment
@@ -166,29 +167,25 @@ def _claims(
     off = ", ".join(f"{n.quantity} by {100 * n.difference:+.1f} %" for n in profiles_over_surfaces)
     gradient = number_with(moments, f"{NAMED[2]} over that of the surface")
     return (
-        JudgedClaim(
-            claim=CLAIM,
-            answer=f"Drawn profiles differ from drawn surfaces in {off}: the first wave of a band counts whole.",
-            numbers=profiles_over_surfaces,
+        answered(
+            CLAIM,
+            profiles_over_surfaces,
+            f"drawn profiles differ from drawn surfaces in {off}, since the first wave of a band counts whole.",
             limits=" and ".join(n.quantity for n in kept),
             inside=kept,
         ),
-        JudgedClaim(
-            claim="Geike's spectrum is not that of a line on the surface.",
-            answer=(
-                f"Lines cut from drawn surfaces have {over_geike.value:.3f} of Geike's spectrum in the middle of the "
-                f"band; an unbounded power law would have {unbounded:.3f}."
-            ),
-            numbers=(over_geike,),
+        answered(
+            "Geike's spectrum is not that of a line on the surface.",
+            [over_geike],
+            f"lines cut from drawn surfaces have {over_geike.value:.3f} of Geike's spectrum in the middle of the "
+            f"band; an unbounded power law would have {unbounded:.3f}.",
             confirmed_by=Verdict.DIFFER,
         ),
-        JudgedClaim(
-            claim="A line on the surface keeps its mean square height and half of its mean square gradient.",
-            answer=(
-                f"The line trace has {gradient.value:.4f} of the gradient, and drawn lines have "
-                f"{over_trace.value:.5f} of the line trace in the middle of the band."
-            ),
-            numbers=(*moments, over_trace),
+        answered(
+            "A line on the surface keeps its mean square height and half of its mean square gradient.",
+            [*moments, over_trace],
+            f"the line trace has {gradient.value:.4f} of the gradient, and drawn lines have {over_trace.value:.5f} of "
+            "the line trace in the middle of the band.",
         ),
     )
 

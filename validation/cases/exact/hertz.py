@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike
 
 import bem3d
 import mdr
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, columns
+from validation.analysis.evidence import Evidence, Number, Table, columns
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
@@ -190,7 +191,7 @@ def evidence(result: HertzResult) -> Evidence:
         ),
         numbers=numbers,
         tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
-        claims=(JudgedClaim(claim=CLAIM, answer=_answer(case, numbers), numbers=numbers),),
+        claims=(answered(CLAIM, numbers, _answer(case, numbers)),),
         conclusions=(),
         captions={
             "hertz": (
@@ -209,7 +210,7 @@ def _answer(case: Hertz, numbers: tuple[Number, ...]) -> str:
         return f"{max(abs(n.difference) for n in numbers if n.quantity.startswith(quantities)):.1e}"
 
     return (
-        f"With {case.cells_per_radius[-1]} cells in the contact radius the relative error of force and approach is at "
+        f"with {case.cells_per_radius[-1]} cells in the contact radius the relative error of force and approach is at "
         f"most {off('force', 'approach')}, that of contact radius and stiffness {off('contact radius', 'stiffness')}, "
         f"and the relative L2 error of the pressure {off('relative L2')}."
     )

@@ -7,6 +7,7 @@ import numpy as np
 
 import bem3d
 import mdr
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, columns
 from validation.cases.exact.refinement import first_order_limit
@@ -126,24 +127,22 @@ def evidence(result: SquarePunchResult) -> Evidence:
 def _claims(numbers: tuple[Number, ...], error_of_cells: float) -> tuple[JudgedClaim, ...]:
     square, _, circle, springs, quoted = numbers
     return (
-        JudgedClaim(
-            claim=CLAIM,
-            answer=(
-                f"Boundary elements tend to {square.value:.5f} ± {square.uncertainty:.5f} for the square (on n cells a "
-                f"side they have a fraction of {error_of_cells:.3f} / n less), and have {circle.value:.4f} times the "
-                "closed form for the circle."
-            ),
-            numbers=(*numbers[:3],),
+        answered(
+            CLAIM,
+            numbers[:3],
+            f"boundary elements tend to {square.value:.5f} ± {square.uncertainty:.5f} for the square (on n cells a "
+            f"side they have a fraction of {error_of_cells:.3f} / n less), and have {circle.value:.4f} times the "
+            "closed form for the circle.",
         ),
-        JudgedClaim(
-            claim="A 1D model as long as the side has the stiffness of the square in full contact.",
-            answer=f"It is {100 * (1 - springs.value / springs.reference):.1f} % too soft.",
-            numbers=(springs,),
+        answered(
+            "A 1D model as long as the side has the stiffness of the square in full contact.",
+            [springs],
+            f"it is {100 * (1 - springs.value / springs.reference):.1f} % too soft.",
         ),
-        JudgedClaim(
-            claim="The factor of the square is 1.012 * 2 / sqrt(pi), as it is often quoted.",
-            answer=f"That is {quoted.value:.4f}, {100 * (1 - quoted.value / quoted.reference):.1f} % too low.",
-            numbers=(quoted,),
+        answered(
+            "The factor of the square is 1.012 * 2 / sqrt(pi), as it is often quoted.",
+            [quoted],
+            f"that is {quoted.value:.4f}, {100 * (1 - quoted.value / quoted.reference):.1f} % too low.",
         ),
     )
 

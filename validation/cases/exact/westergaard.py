@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import bem3d
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, columns
+from validation.analysis.evidence import Evidence, Number, Table, columns
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.theory import closed_forms
@@ -126,14 +127,12 @@ def evidence(result: WestergaardResult) -> Evidence:
         numbers=numbers,
         tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
         claims=(
-            JudgedClaim(
-                claim=CLAIM,
-                answer=(
-                    f"On {n[-1]} cells the relative L2 error of the pressure is {half[-1]:.1e} at 0.5 p*, where the "
-                    f"edges of the contact lie between cells, and {errors[:, -1].max():.1e} at the worst of "
-                    f"{len(case.loads)} loads, where they cut a cell."
-                ),
-                numbers=numbers,
+            answered(
+                CLAIM,
+                numbers,
+                f"on {n[-1]} cells the relative L2 error of the pressure is {half[-1]:.1e} at 0.5 p*, where the edges "
+                f"of the contact lie between cells, and {errors[:, -1].max():.1e} at the worst of {len(case.loads)} "
+                "loads, where they cut a cell.",
             ),
         ),
         conclusions=(f"At least {100 * edges:.0f} % of the square of that error is in the two cells at the edges.",),

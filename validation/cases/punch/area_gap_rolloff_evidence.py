@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Verdict, numbers_with, table_of
 from validation.analysis.statistics import (
@@ -78,25 +79,21 @@ def claims_of(numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
             "MDR has the stiffness of roughness with a roll-off.",
             rolled_off,
             Verdict.AGREE,
-            f"It has {_times(rolled_off)} the stiffness of boundary elements.",
+            f"it has {_times(rolled_off)} the stiffness of boundary elements.",
         ),
         (
             "MDR has the relative deviation of the stiffness.",
             deviation,
             Verdict.AGREE,
-            f"It has {_times(deviation)} that of boundary elements.",
+            f"it has {_times(deviation)} that of boundary elements.",
         ),
     ]
     for method in METHODS:
         exponents = numbers_with(numbers, EXPONENT, method)
-        found = "; ".join(f"{n.conditions}: {n.value:.2f} ± {n.uncertainty:.2f}" for n in exponents)
+        found = "; ".join(f"{n.value:.2f} ± {n.uncertainty:.2f} at {n.conditions}" for n in exponents)
         claim = f"With a roll-off the stiffness of the rough interface is proportional to the load, by {method}."
-        judged.append((claim, exponents, Verdict.AGREE, f"Exponents, 1 if it is: {found}."))
-    return tuple(
-        JudgedClaim(claim=claim, answer=answer, numbers=tuple(mine), confirmed_by=verdict)
-        for claim, mine, verdict, answer in judged
-        if mine
-    )
+        judged.append((claim, exponents, Verdict.AGREE, f"the exponent, which would be 1, is {found}."))
+    return tuple(answered(claim, mine, answer, confirmed_by=verdict) for claim, mine, verdict, answer in judged if mine)
 
 
 def _times(numbers: Sequence[Number]) -> str:

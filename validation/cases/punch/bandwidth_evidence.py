@@ -6,6 +6,7 @@ from itertools import groupby
 
 import numpy as np
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, Verdict, numbers_with, table_of
 from validation.analysis.statistics import DECIBEL, Estimate
@@ -85,9 +86,9 @@ def _claims(numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
     changes = [n for n in numbers if n.quantity.startswith(CHANGE)]
     sizes = [n for n in numbers if n.quantity.startswith(SIZE)]
     return (
-        _judged(CLAIM, "From one bandwidth to the next", [n for n in changes if BANDWIDTH in n.where]),
-        _judged(CLAIM_ROLL_OFF, "With the roll-off", [n for n in changes if ROLL_OFF in n.where]),
-        JudgedClaim(claim=CLAIM_SIZE, answer=_of_size(sizes), numbers=tuple(sizes)),
+        _judged(CLAIM, "from one bandwidth to the next", [n for n in changes if BANDWIDTH in n.where]),
+        _judged(CLAIM_ROLL_OFF, "with the roll-off", [n for n in changes if ROLL_OFF in n.where]),
+        answered(CLAIM_SIZE, sizes, _of_size(sizes)),
         *(
             _of_stiffness(claim, mine)
             for claim, model in ((CLAIM_FIT, FIT), (CLAIM_MDR, MDR))
@@ -103,12 +104,12 @@ def _judged(claim: str, subject: str, numbers: Sequence[Number]) -> JudgedClaim:
     quantities = {n.quantity for n in inside}
     whole = len(inside) == len(numbers) or len(quantities) < len(STATISTICS)
     answer = "; ".join(f"in {quantity} by {_by_decade(numbers, quantity)}" for quantity in STATISTICS)
-    return JudgedClaim(
-        claim=claim,
-        answer=f"{subject} MDR over boundary elements changes, at the worst force of each decade, {answer}.",
-        numbers=tuple(numbers),
+    return answered(
+        claim,
+        numbers,
+        f"{subject} MDR over boundary elements changes, at the worst force of each decade, {answer}.",
         limits="" if whole else f"Fbar from {_ends(inside[0])[0]:g} on",
-        inside=() if whole else tuple(inside),
+        inside=() if whole else inside,
     )
 
 
@@ -153,22 +154,20 @@ def _of_size(numbers: Sequence[Number]) -> str:
     for model in (BEM, MDR):
         mine = [n for n in numbers if n.model == model]
         found.append(f"{model} by {_per_cent(_largest([n for n in mine if n.verdict is Verdict.DIFFER] or mine))}")
-    return f"With {numbers[0].where[ROLL_OFF]:g} of them on a side it changes in {' and in '.join(found)}."
+    return f"with {numbers[0].where[ROLL_OFF]:g} of them on a side it changes in {' and in '.join(found)}."
 
 
 def _of_stiffness(claim: str, numbers: Sequence[Number]) -> JudgedClaim:
     """Perhaps true without a roll-off alone."""
     plain, rolled_off = ([n for n in numbers if name in n.where] for name in (BANDWIDTH, ROLL_OFF))
     limited = _all_agree(plain) and not _all_agree(rolled_off)
-    return JudgedClaim(
-        claim=claim,
-        answer=(
-            f"At worst it is off by {_per_cent(_largest(plain))} of {len(plain)} bandwidths without a roll-off, and by "
-            f"{_per_cent(_largest(rolled_off))} with one."
-        ),
-        numbers=tuple(numbers),
+    return answered(
+        claim,
+        numbers,
+        f"at worst it is off by {_per_cent(_largest(plain))} of {len(plain)} bandwidths without a roll-off, and by "
+        f"{_per_cent(_largest(rolled_off))} with one.",
         limits="without a roll-off" if limited else "",
-        inside=tuple(plain) if limited else (),
+        inside=plain if limited else (),
     )
 
 

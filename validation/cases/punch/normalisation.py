@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, numbers_with, table_of
@@ -248,11 +249,7 @@ def _judged(claim: str, numbers: Sequence[Number]) -> JudgedClaim:
         middle, low, high = (100 * math.expm1(v / DECIBEL) for v in (n.value, n.value - n.sample, n.value + n.sample))
         where = f"H = {n.where['H']:g}, Fbar = {n.where['worst at']:.2g}"
         found.append(f"in {method} by {middle:+.0f} % ({low:+.0f} to {high:+.0f}) at {where}")
-    return JudgedClaim(
-        claim=claim,
-        answer=f"What stands out most beside its interval: it changes {' and '.join(found)}.",
-        numbers=tuple(numbers),
-    )
+    return answered(claim, numbers, f"beside its interval it changes most {' and '.join(found)}.")
 
 
 def _curves(found: Fluctuations) -> Table:

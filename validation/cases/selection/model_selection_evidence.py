@@ -8,8 +8,9 @@ from itertools import product
 import numpy as np
 from scipy import stats
 
+from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, table_of
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
 from validation.cases.selection.model_selection import CHEAP, MODELS, CalibrationResult, CalibrationTest, run
 from validation.cases.selection.random_scenes import KINDS, RANGES
 from validation.engine.engine import Outcome, random_generator
@@ -143,17 +144,17 @@ def _claims(known: Sequence[tuple[float, Table]], numbers: Sequence[Number]) -> 
     """What the case claims, with the numbers of each."""
 
     def judged(claim: str, quantity: str, answer: str) -> JudgedClaim:
-        return JudgedClaim(claim=claim, answer=answer, numbers=tuple(n for n in numbers if n.quantity == quantity))
+        return answered(claim, numbers_with(numbers, quantity), answer)
 
     def at_each(shown: Callable[[Table], str]) -> str:
         return ", ".join(f"{shown(table)} at {tolerance:.0%}" for tolerance, table in known)
 
     return (
-        judged(CLAIM, COVERAGE, f"The true error is within the estimated one in {at_each(_share)}."),
+        judged(CLAIM, COVERAGE, f"the true error is within the estimated one in {at_each(_share)}."),
         judged(
-            TIGHT, TIGHTNESS, f"The estimated error is {at_each(lambda t: f'{_tightness(t):.2g} times')} the true one."
+            TIGHT, TIGHTNESS, f"the estimated error is {at_each(lambda t: f'{_tightness(t):.2g} times')} the true one."
         ),
-        judged(SAVES, SAVING, f"Fine boundary elements take {at_each(lambda t: f'{_total(t):.3g} times')} as long."),
+        judged(SAVES, SAVING, f"fine boundary elements take {at_each(lambda t: f'{_total(t):.3g} times')} as long."),
     )
 
 
