@@ -76,7 +76,7 @@ def test_levels_come_in_decibels():
 
 def comparison(status, *, failed="", quantity="stiffness"):
     class Model:
-        name, kind = "model", "model"
+        name, kind, is_mdr = "model", "model", False
 
         def cost(self):
             return Cost(work=1, unit="steps", seconds=2.0)

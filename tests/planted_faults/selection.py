@@ -10,13 +10,13 @@ import bem3d
 import mdr
 from tests import test_face
 from tests.planted_faults.wrong import scaled, with_math
-from tests.selection import test_claims, test_selection
+from tests.selection import test_claims, test_selection, test_what_compare_says
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.engine import engine as ensemble
 from validation.scenes import measured
-from validation.selection import compare, hierarchy, scene_model, summary
+from validation.selection import compare, hierarchy, scene_model, side_by_side, summary
 from validation.simulation import calibration, rolling_claims, sampling
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
@@ -237,8 +237,16 @@ FAULTS = {
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
     ),
     "radians in a second told as hertz": (
-        (summary, "math", with_math(pi=0.5)),
+        (compare, "math", with_math(pi=0.5)),
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
+    ),
+    "models side by side in decibels of a power": (
+        (side_by_side, "differences", lambda found, one, other: 10 * np.log10(one.answer.value / other.answer.value)),
+        test_what_compare_says.test_spectra_stand_side_by_side_in_decibels,
+    ),
+    "springs that are enough whatever error they have": (
+        (hierarchy.Candidate, "error", property(lambda candidate: 0.0)),
+        test_what_compare_says.test_mdr_is_named_where_it_is_enough_and_where_not,
     ),
     "a level of the face without its logarithm": (
         (compare.Comparison, "is_level", property(lambda result: False)),

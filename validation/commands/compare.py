@@ -6,10 +6,11 @@ import sys
 from validation.commands.arguments import at_least
 from validation.commands.exit_status import Exit
 from validation.scenes.load import bundled_for_compare, load_scene
-from validation.selection.compare import QUANTITIES
+from validation.selection.compare import QUANTITIES, check_quantity, quantities_of
 from validation.selection.compare import compare as compared
 from validation.selection.hierarchy import ContactModel
-from validation.selection.summary import format_seconds, summary
+from validation.selection.summary import findings, format_seconds, heading
+from validation.selection.tolerance import tolerance_of
 
 
 def describe(comparing: argparse.ArgumentParser) -> None:
@@ -19,7 +20,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         help=f"a TOML file, or the name of an example scene ({', '.join(bundled_for_compare())})",
     )
     comparing.add_argument(
-        "--tolerance", type=_tolerance, default=0.1, metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
+        "--tolerance", type=_tolerance, default="10%", metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
     )
     comparing.add_argument(
         "--quantity",
@@ -31,15 +32,25 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         ),
     )
     comparing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
+    comparing.add_argument("--all", action="store_true", help="solve all models, and print them side by side")
     comparing.set_defaults(command=compare)
 
 
 def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
-    scene = load_scene(arguments.scene)
-    seed = arguments.seed or 0
-    found = compared(scene, quantity=arguments.quantity, tolerance=arguments.tolerance, seed=seed, callback=_announce)
-    print(summary(found))
+    scene, seed = load_scene(arguments.scene), arguments.seed or 0
+    quantity = arguments.quantity or quantities_of(scene)[0]
+    check_quantity(scene, quantity)
+    print(heading(scene, quantity, tolerance_of(arguments.tolerance)), flush=True)
+    found = compared(
+        scene,
+        quantity=quantity,
+        tolerance=arguments.tolerance,
+        seed=seed,
+        solve_all=arguments.all,
+        callback=_announce,
+    )
+    print(findings(found))
     return Exit.MET if found.met else Exit.NOT_CONVERGED
 
 
@@ -49,19 +60,9 @@ def _announce(model: ContactModel) -> None:
         print(f"solving {model.name}, about {format_seconds(model.cost().seconds)}", file=sys.stderr, flush=True)
 
 
-def _tolerance(word: str) -> float:
-    """A relative one: in per cent, as a ratio, or in decibels of an amplitude."""
-    text, scale = word.strip(), 1.0
-    decibels = text.endswith("dB")
-    if text.endswith("%"):
-        text, scale = text[:-1], 0.01
-    elif decibels:
-        text = text[:-2]
+def _tolerance(word: str) -> str:
     try:
-        value = scale * float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f'must be as "5%", "0.05" or "0.4 dB", got {word!r}') from None
-    relative = 10 ** (value / 20) - 1 if decibels else value
-    if not 0 < relative <= 1:
-        raise argparse.ArgumentTypeError(f"must be above zero and no more than 100 %, or 6 dB, got {word!r}")
-    return relative
+        tolerance_of(word)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error).removeprefix("tolerance ")) from None
+    return word

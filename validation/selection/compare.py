@@ -13,6 +13,7 @@ from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
 from validation.selection.scene_model import SceneModel, models_on
+from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
 
 FloatArray = NDArray[np.float64]
@@ -44,6 +45,8 @@ class Comparison:
         "stiffness", "force-rms", "force-spectrum", "acceleration" or "acceleration-rms".
     selection : Selection
         Models, estimates and answers in full.
+    tolerance : Tolerance
+        What was asked, with its unit.
     value : ndarray
         One number in SI units; for "force-spectrum" and "acceleration" a level in each one-third octave, in dB re 1 N
         and 1 m/s^2. NaN where no model has an answer.
@@ -71,13 +74,27 @@ class Comparison:
     scene: Scene
     quantity: str
     selection: Selection
+    in_decibels: bool = False
+
+    @property
+    def tolerance(self) -> Tolerance:
+        """Asked for, with its unit."""
+        return Tolerance(self.selection.tolerance, self.in_decibels)
 
     @property
     def value(self) -> FloatArray:
         """One number, or one a band, in `unit`; NaN where no model has an answer."""
-        if self._answer is None:
-            return np.array([math.nan])
-        return 20 * np.log10(self._answer.value) if self.is_level else self._answer.value
+        return np.array([math.nan]) if self.selection.best is None else self.value_of(self.selection.best)
+
+    def value_of(self, candidate: Candidate) -> FloatArray:
+        """Of a model that was solved, as `value`."""
+        assert candidate.answer is not None  # as said
+        return 20 * np.log10(candidate.answer.value) if self.is_level else candidate.answer.value
+
+    def errors_of(self, candidate: Candidate) -> FloatArray:
+        """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in `unit`."""
+        error, value = candidate.error, self.value_of(candidate)
+        return np.full(value.shape, 20 * math.log10(1 + error)) if self.is_level else error * np.abs(value)
 
     @property
     def error(self) -> float:
@@ -100,6 +117,17 @@ class Comparison:
         if not self.is_level or self._answer is None:
             return np.empty(0)
         return RollingQuantity(self.scene, self.quantity).bands.centres  # type: ignore[arg-type]  # which a wheel has
+
+    @property
+    def wavelength_mm(self) -> FloatArray:
+        """The same as wavelengths [mm]."""
+        return 2e3 * math.pi / self.wavenumbers
+
+    @property
+    def frequency_hz(self) -> FloatArray:
+        """The same as frequencies [Hz]; empty without a speed."""
+        speed = getattr(self.scene, "speed", None)
+        return np.empty(0) if speed is None else speed * self.wavenumbers / (2 * math.pi)
 
     @property
     def model(self) -> str:
@@ -130,21 +158,27 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
     return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
 
 
-def models_of(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
-    """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not."""
+def check_quantity(scene: Scene, quantity: str) -> None:
+    """Raises ValueError for a quantity that the scene has not."""
     if quantity not in quantities_of(scene):
         raise ValueError(
             f"quantity must be one of {', '.join(quantities_of(scene))} for scene {scene.name!r}, got {quantity!r}"
         )
+
+
+def models_of(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
+    """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not."""
+    check_quantity(scene, quantity)
     return models_on(scene, quantity, tolerance, seed)
 
 
 def compare(
     scene: Scene,
     quantity: str | None = None,
-    tolerance: float = 0.1,
+    tolerance: float | str = 0.1,
     seed: int = 0,
     *,
+    solve_all: bool = False,
     callback: Callable[[ContactModel], None] = lambda _: None,
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.
@@ -156,10 +190,13 @@ def compare(
     quantity : str, optional
         "stiffness" of a sphere or punch; "force-rms" or "force-spectrum" of a wheel; "acceleration" or
         "acceleration-rms" of a wheel with a mass. By default "stiffness", "force-rms" and "acceleration".
-    tolerance : float, optional
-        Largest relative half-width of the 95 % interval; of a spectrum, of the root mean square over all bands.
+    tolerance : float or str, optional
+        Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB"; of a spectrum, of the root
+        mean square over all bands. Errors are printed in dB where it is given in dB.
     seed : int, optional
         Seed of the roughness that is drawn, zero or positive.
+    solve_all : bool, optional
+        Whether the models that are not needed are solved, too, to see them side by side. The selected one stays.
     callback : callable, optional
         Called with each model before its solve, as for a note that it takes a while.
 
@@ -197,6 +234,7 @@ def compare(
     if not quantities_of(scene):
         raise ValueError(f"scene {scene.name!r}, a wheel on a rail, has no quantity to compare, got {quantity}")
     asked = quantities_of(scene)[0] if quantity is None else quantity
-    return Comparison(
-        scene, asked, select_model(models_of(scene, asked, tolerance, seed), tolerance, callback=callback)
-    )
+    wanted = tolerance_of(tolerance)
+    models = models_of(scene, asked, wanted.relative, seed)
+    selection = select_model(models, wanted.relative, callback=callback, solve_all=solve_all)
+    return Comparison(scene, asked, selection, wanted.in_decibels)

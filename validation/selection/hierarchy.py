@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 import numpy as np
@@ -44,6 +44,10 @@ class ContactModel(Protocol):
         """What kind of model it is, its resolution apart."""
 
     @property
+    def is_mdr(self) -> bool:
+        """Whether its springs are the method of dimensionality reduction."""
+
+    @property
     def name(self) -> str: ...
 
     def cost(self) -> Cost:
@@ -76,6 +80,11 @@ class Candidate:
         return self.model.name
 
     @property
+    def claimed(self) -> float:
+        """Relative half-width of 95 % that was estimated before any solve; infinite where none is known."""
+        return self.estimate.error
+
+    @property
     def error(self) -> float:
         """Relative half-width of 95 %: found by a solve, or estimated before it."""
         return (self.answer or self.estimate).error
@@ -88,7 +97,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Selection:
-    """All models, in order, up to where the tolerance was met; those above were not needed."""
+    """All models, in order; those above the first that met the tolerance were not needed."""
 
     tolerance: float
     candidates: tuple[Candidate, ...]
@@ -100,9 +109,13 @@ class Selection:
     @property
     def best(self) -> Candidate | None:
         """The accepted model, or else the one with the smallest error; None where none has an answer."""
-        solved = [one for one in self.candidates if one.answer is not None and not one.answer.failed]
-        accepted = [candidate for candidate in solved if candidate.status == "accepted"]
-        return accepted[0] if accepted else min(solved, key=_error, default=None)
+        accepted = [candidate for candidate in self.solved if candidate.status == "accepted"]
+        return accepted[0] if accepted else min(self.solved, key=_error, default=None)
+
+    @property
+    def solved(self) -> tuple[Candidate, ...]:
+        """The models that have an answer."""
+        return tuple(one for one in self.candidates if one.answer is not None and not one.answer.failed)
 
     @property
     def spent(self) -> float:
@@ -111,12 +124,17 @@ class Selection:
 
 
 def select_model(
-    models: Sequence[ContactModel], tolerance: float, *, callback: Callable[[ContactModel], None] = lambda _: None
+    models: Sequence[ContactModel],
+    tolerance: float,
+    *,
+    callback: Callable[[ContactModel], None] = lambda _: None,
+    solve_all: bool = False,
 ) -> Selection:
     """Solve with models from the cheapest on, until the error of one is within the tolerance.
 
     models: in the order of their cost; tolerance: relative, positive; callback: called with each model
-    before its solve. A model without an estimate is out of range and not solved; one that expects to miss the tolerance
+    before its solve; solve_all: whether those that were not needed or skipped are solved, too, which selects no other
+    model. A model without an estimate is out of range and not solved; one that expects to miss the tolerance
     is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, if that is below the
     errors of the others. A solve that raises one of `REFUSALS` has failed.
     Raises ValueError for a tolerance that is not finite and positive.
@@ -126,17 +144,18 @@ def select_model(
     candidates: list[Candidate] = []
     for model in models:
         expected = model.estimate()
-        if any(candidate.status == "accepted" for candidate in candidates):
-            candidates.append(Candidate(model, "not needed", "a cheaper model is accurate enough", expected))
-        elif not expected.in_range:
+        if not expected.in_range:
             candidates.append(Candidate(model, "out of range", expected.reason, expected))
+        elif any(candidate.status == "accepted" for candidate in candidates):
+            candidates.append(Candidate(model, "not needed", expected.reason, expected))
         elif expected.error > tolerance:
             candidates.append(Candidate(model, "skipped", expected.reason, expected))
         else:
             callback(model)
             candidates.append(_solved(model, expected, tolerance))
     selection = Selection(tolerance, tuple(candidates))
-    return selection if selection.met else _with_least_estimate(selection, callback)
+    selection = selection if selection.met else _with_least_estimate(selection, callback)
+    return _with_all_solved(selection, callback) if solve_all else selection
 
 
 def needed(models: Sequence[ContactModel], tolerance: float) -> ContactModel | None:
@@ -169,6 +188,19 @@ def _with_least_estimate(selection: Selection, callback: Callable[[ContactModel]
     callback(candidates[least].model)
     solved = _solved(candidates[least].model, candidates[least].estimate, selection.tolerance)
     return Selection(selection.tolerance, (*candidates[:least], solved, *candidates[least + 1 :]))
+
+
+def _with_all_solved(selection: Selection, callback: Callable[[ContactModel], None]) -> Selection:
+    """All but those out of range: no error is known of what they would find."""
+    candidates = []
+    for one in selection.candidates:
+        if one.status in ("skipped", "not needed"):
+            callback(one.model)
+            answer = answered(one.model)
+            status: Status = "failed" if answer.failed else one.status
+            one = replace(one, answer=answer, status=status, reason=answer.failed or answer.reason or one.reason)
+        candidates.append(one)
+    return Selection(selection.tolerance, tuple(candidates))
 
 
 def _error(candidate: Candidate) -> float:

@@ -38,6 +38,10 @@ class SceneModel:
     def name(self) -> str:
         return self.model.label(self.resolution) if isinstance(self.model, GridModel) else self.kind
 
+    @property
+    def is_mdr(self) -> bool:
+        return self.model.is_mdr
+
     @cached_property
     def sampling(self) -> Sampling:
         """A single solve, but for boundary elements."""

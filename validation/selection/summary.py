@@ -1,17 +1,35 @@
-"""The text that `compare` prints: what the scene is, what became of each model, the result with its error."""
+"""The text that `compare` prints: what was understood, what became of each model, the result, whether MDR is enough."""
 
 import math
+import textwrap
+from collections.abc import Iterator
 
 from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
+from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
 from validation.selection.compare import MOVING, UNITS, Comparison
-from validation.selection.hierarchy import Candidate
+from validation.selection.hierarchy import Answer, Candidate, Status
+from validation.selection.side_by_side import side_by_side
+from validation.selection.tolerance import Tolerance, short
+
+WIDTH = 100
+"""Columns of a terminal."""
+ASSUMED = "elastic half-spaces, isotropic, without friction and adhesion"
+BECAME: dict[Status, str] = {
+    "accepted": "enough, and the cheapest that is",
+    "not accurate enough": "solved: not enough",
+    "skipped": "not solved: its claim is too large",
+    "not needed": "not solved: a cheaper is enough",
+    "failed": "solved: no result",
+    "out of range": "not solved: its error is unknown",
+}
+"""What became of a model, in words."""
 
 
 def summary(comparison: Comparison) -> str:
-    """Text of a comparison: the scene, what became of each model, the result with its error.
+    """Text of a comparison: the scene, what became of each model, the result with its error, a sentence on MDR.
 
     Parameters
     ----------
@@ -29,63 +47,128 @@ def summary(comparison: Comparison) -> str:
     >>> print(text.splitlines()[0])
     Smooth sphere: stiffness within 10 %
     """
-    scene, selection = comparison.scene, comparison.selection
-    lines = [f"{scene.name}: {comparison.quantity} within {_percent(selection.tolerance)}"]
-    lines += description_lines(scene, moving=comparison.quantity in MOVING)
-    lines += ["", f"{'model':36s}{'status':22s}{'error':>10s}{'cost':>14s}   reason"]
-    lines += [_row(candidate) for candidate in selection.candidates]
-    best = selection.best
+    understood = heading(comparison.scene, comparison.quantity, comparison.tolerance)
+    return f"{understood}\n{findings(comparison)}"
+
+
+def heading(scene: Scene, quantity: str, tolerance: Tolerance) -> str:
+    """What was understood, before anything is solved: what is asked, bodies, contact, roughness, what is assumed."""
+    lines = [f"{scene.name}: {quantity} within {tolerance}", *description_lines(scene, moving=quantity in MOVING)]
+    return "\n".join(_wrapped([*lines, f"  {'assumed':18s}  {ASSUMED}"], indent=22))
+
+
+def findings(comparison: Comparison) -> str:
+    """What became of each model, the result, its cost, and whether MDR is enough."""
+    selection, best = comparison.selection, comparison.selection.best
+    lines = ["", f"{'model':36s}{'claims':>9s}{'found':>9s}{'cost':>9s}   what became of it"]
+    lines += _rows(comparison)
+    lines.append("")
     if best is None or best.answer is None:
-        return "\n".join([*lines, "", "no model has a result"])
-    lines += ["", *_result(comparison, best)]
-    lines.append(calibration_age())
-    spent = (
-        f"cost of the solves: about {format_seconds(selection.spent)}, from counted operations, without program start"
-    )
-    saved = sum(one.cost for one in selection.candidates if one.status in ("not needed", "skipped"))
-    lines.append(
-        f"{spent}; the models that were not solved would have cost {format_seconds(saved)}" if saved else spent
-    )
-    if not selection.met:
-        left = f"{100 * best.answer.error:.3g} %"
-        lines.append(f"not reached: the tolerance of {_percent(selection.tolerance)}; the smallest error is {left}")
-    return "\n".join(lines)
+        lines += ["no model has a result", *_what_would_help(comparison)]
+    else:
+        lines += [*_result(comparison, best.answer), *side_by_side(comparison), calibration_age(), _cost(comparison)]
+        if not selection.met:
+            left = comparison.tolerance.shown(best.error)
+            lines.append(f"not reached: the tolerance of {comparison.tolerance}; the smallest error is {left}")
+            lines += _what_would_help(comparison)
+    return "\n".join(_wrapped([*lines, *sentences_on_mdr(comparison)], indent=4))
 
 
-def _row(candidate: Candidate) -> str:
-    error = "—" if candidate.status == "not needed" else _percent(candidate.error)
-    cost = format_seconds(candidate.cost)
-    return f"{candidate.name:36s}{candidate.status:22s}{error:>10s}{cost:>14s}   {candidate.reason}"
+def label(candidate: Candidate) -> str:
+    """The name of a model, and whether it is MDR."""
+    return f"{candidate.name} (MDR)" if candidate.model.is_mdr else candidate.name
 
 
-def _result(comparison: Comparison, best: Candidate) -> list[str]:
-    answer = best.answer
-    assert answer is not None  # as asked
-    parts = f"model {_percent(answer.model)}, grid {_percent(answer.grid)}, sample {_percent(answer.sample)}"
+def sentences_on_mdr(comparison: Comparison) -> list[str]:
+    """Whether springs by the method of dimensionality reduction are enough, and why: one a model of them."""
+    springs = [one for one in comparison.models if one.model.is_mdr]
+    if not springs:
+        return ["MDR: no springs are among the models of this scene."]
+    names = ["MDR"] if len(springs) == 1 else [f"MDR, {one.name}" for one in springs]
+    return [f"{name}: {_on_mdr(comparison, one)}." for name, one in zip(names, springs, strict=True)]
+
+
+def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
+    tolerance, selection = comparison.tolerance, comparison.selection
+    if springs.status in ("failed", "out of range"):
+        return f"not known to be enough, because {springs.reason}"
+    how = "claimed" if springs.answer is None else "found"
+    errors = f"({tolerance.shown(springs.error)} {how}, {tolerance} wanted)"
+    if springs.error > selection.tolerance:
+        return f"not enough {errors}, because {springs.reason}"
+    cheaper = selection.best
+    others = f"; {cheaper.name} is cheaper" if cheaper is not None and cheaper.model is not springs.model else ""
+    return f"enough {errors}{others}"
+
+
+def _rows(comparison: Comparison) -> Iterator[str]:
+    """A line a model, and its reason where that is another than of the model before."""
+    before = ""
+    for one in comparison.models:
+        found = "—" if one.answer is None else comparison.tolerance.shown(one.error)
+        claimed, cost = comparison.tolerance.shown(one.claimed), format_seconds(one.cost)
+        became = BECAME[one.status] if one.answer is None else BECAME[one.status].replace("not solved", "solved")
+        yield f"{label(one):36s}{claimed:>9s}{found:>9s}{cost:>9s}   {became}"
+        if one.reason != before:
+            yield f"    {one.reason}"
+        before = one.reason
+
+
+def _result(comparison: Comparison, answer: Answer) -> list[str]:
+    shown = comparison.tolerance.shown
+    parts = f"model {shown(answer.model)}, grid {shown(answer.grid)}, sample {shown(answer.sample)}"
     if answer.value.size == 1:
         value = float(answer.value[0])
-        shown = f"{_scaled(value, value * answer.error)} {comparison.unit}"
-        return [f"{comparison.quantity} = {shown} ({_percent(answer.error)}: {parts}), by {best.name}"]
+        number = f"{scaled(value, value * answer.error)} {comparison.unit}"
+        return [f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"]
     assert isinstance(comparison.scene, RollingScene)  # of which alone there are levels
-    radius, speed, unit = comparison.scene.contact_radius, comparison.scene.speed, UNITS[comparison.quantity]
-    decibels = 20 * math.log10(1 + answer.error)
+    radius, unit = comparison.scene.contact_radius, UNITS[comparison.quantity]
+    frequencies = [f"{f:.4g}" for f in comparison.frequency_hz] or [""] * answer.value.size
+    decibels = f"{short(20 * math.log10(1 + answer.error))} dB"
+    both = decibels if comparison.in_decibels else f"{shown(answer.error)}, {decibels},"
     lines = [
-        f"{comparison.quantity} by {best.name}, one-third octaves, root mean square in each, "
-        f"± {_percent(answer.error)}, {_short(decibels)} dB, over all bands ({parts})",
-        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if speed else '':>10s}{f'rms [{unit}]':>16s}",
+        f"{comparison.quantity} by {comparison.model}, one-third octaves, root mean square in each, "
+        f"± {both} over all bands ({parts})",
+        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if comparison.frequency_hz.size else '':>10s}{f'rms [{unit}]':>16s}",
     ]
-    for q, level in zip(comparison.wavenumbers, answer.value, strict=True):
-        frequency = f"{q * speed / (2 * math.pi):.4g}" if speed else ""
+    for q, frequency, level in zip(comparison.wavenumbers, frequencies, answer.value, strict=True):
         lines.append(f"{q:12.4g}{q * radius:8.2f}{frequency:>10s}{level:16.4g}")
     return lines
 
 
-def _percent(value: float) -> str:
-    """Two digits; "none" for what does not hold at all."""
-    return "none" if math.isinf(value) else f"{_short(100 * value)} %"
+def _cost(comparison: Comparison) -> str:
+    spent = format_seconds(comparison.selection.spent)
+    text = f"cost of the solves: about {spent}, from counted operations, without program start"
+    saved = sum(one.cost for one in comparison.models if one.answer is None and one.status != "out of range")
+    return f"{text}; the models that were not solved would have cost {format_seconds(saved)}" if saved else text
 
 
-def _scaled(value: float, error: float) -> str:
+def _what_would_help(comparison: Comparison) -> Iterator[str]:
+    """Where no model meets the tolerance: the tolerance that would be met, and what most of the error is due to."""
+    best = comparison.selection.best
+    if best is None or best.answer is None:
+        if comparison.models:
+            yield f"what would help: a scene for which this does not hold: {comparison.models[-1].reason}"
+        return
+    met = comparison.tolerance.shown(1.05 * best.answer.error)
+    causes = {
+        "the model's: lower roughness has less": best.answer.model,
+        "left by the grid: longer waves (`shortest`), or heights on more points, have less": best.answer.grid,
+        "the scatter of the surfaces that are drawn": best.answer.sample,
+    }
+    yield f"what would help: a tolerance of {met}; most of the error is {max(causes, key=causes.__getitem__)}"
+
+
+def _wrapped(lines: list[str], indent: int) -> Iterator[str]:
+    """Lines of the width at the most; what goes on in the next line is indented."""
+    for line in lines:
+        own = line[: len(line) - len(line.lstrip())]
+        more = " " * max(indent, len(own))
+        whole = len(line) <= WIDTH
+        yield from [line] if whole else textwrap.wrap(line.strip(), WIDTH, initial_indent=own, subsequent_indent=more)
+
+
+def scaled(value: float, error: float) -> str:
     """With its error, over a power of ten where that is far from one: (5.49 ± 0.50)e7."""
     power = math.floor(math.log10(value))
     if -3 < power < 4:
@@ -98,10 +181,5 @@ def format_seconds(seconds: float) -> str:
     """In a unit that fits."""
     for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
         if seconds >= size:
-            return f"{_short(seconds / size)} {unit}"
+            return f"{short(seconds / size)} {unit}"
     return "1 ms"
-
-
-def _short(value: float) -> str:
-    """Two digits, without a power of ten where that can be."""
-    return f"{float(f'{value:.2g}'):g}"

@@ -87,4 +87,4 @@ def sphere_shape(scene: IndentationScene) -> float:
 def beyond_spectrum(ground: RoughSurface) -> str:
     """Why a model that knows a surface by its spectrum alone is out of range for this one; empty where it is not."""
     beyond = ground.beyond_a_spectrum()
-    return f"knows the spectrum alone, and {beyond[0]}" if beyond else ""
+    return f"it knows the spectrum alone, and {beyond[0]}" if beyond else ""

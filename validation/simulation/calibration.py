@@ -71,7 +71,8 @@ class MeasuredErrors:
                 reason = f"{name} = {conditions[name]:.3g}; the error of the model is measured from {ends} only"
                 return ErrorEstimate.out_of_range(reason)
         error = self.factor * shape * self._scale(np.clip(at, low, high), np.ones(len(self.errors), dtype=bool))
-        reason = f"{counted({name: conditions[name] for name in named[:2]})}: measured on {len(self.errors)} scenes"
+        leading = counted({name: conditions[name] for name in named[:2]})
+        reason = f"its error is interpolated between {len(self.errors)} measured scenes, at {leading}"
         return ErrorEstimate(model=error, reason=reason)
 
     @cached_property

@@ -86,13 +86,15 @@ class Model(ABC):
     """A method with an estimate of its error and of its cost. A module of `simulation/models` holds one as `MODEL`.
 
     name: for tables and figures; setting: its resolution or its formula, in words; element: what a contact consists
-    of, where a result counts those "in contact"; charted: whether charts take it as it is, or vary its resolution.
+    of, where a result counts those "in contact"; charted: whether charts take it as it is, or vary its resolution;
+    is_mdr: whether its springs are the method of dimensionality reduction.
     """
 
     name: ClassVar[str]
     setting: ClassVar[str]
     element: ClassVar[str] = ""
     charted: ClassVar[bool] = True
+    is_mdr: ClassVar[bool] = False
 
     @abstractmethod
     def serves(self, scene: Any, quantity: str) -> bool:

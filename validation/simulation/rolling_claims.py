@@ -72,12 +72,11 @@ class CheapRollingModel(Model):
         expected = calibrated(self, target)
         if not expected.in_range:
             expected = self._by_envelope(target, expected.reason)
-        rest = self.on_rms if quantity.name == FORCE_RMS else self.on_bands
-        return replace(
-            expected,
-            model=expected.model + (self.own if single else 0.0),
-            reason=f"{expected.reason}; {rest}" if rest else expected.reason,
-        )
+        reasons = [expected.reason, self.on_rms if quantity.name == FORCE_RMS else self.on_bands]
+        own = self.own if single else 0.0
+        if own:
+            reasons.append(f"one track scatters {own:.0%} about the mean of its spectrum")
+        return replace(expected, model=expected.model + own, reason="; ".join(filter(None, reasons)))
 
     def shape(self, target: Target) -> float:
         return float(np.dot(self.rms if target.quantity == FORCE_RMS else self.bands, (*_causes(target.rolling), 1.0)))
@@ -91,7 +90,7 @@ class CheapRollingModel(Model):
         lost, ratio = _causes(quantity)
         height = "h/d, by the resonance" if quantity.amplification > 1 else "h/d"
         named = counted({"loss of contact by linear theory": lost, height: ratio})
-        return ErrorEstimate(model=self.shape(target), reason=f"{named}: an envelope, not calibrated ({why})")
+        return ErrorEstimate(model=self.shape(target), reason=f"an envelope, not calibrated ({why}): {named}")
 
     def beyond(self, target: Target) -> str:
         """Why the model cannot know this surface; empty where it can."""

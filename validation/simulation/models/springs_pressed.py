@@ -34,6 +34,7 @@ class SpringsPressed(Model):
     setting: ClassVar = "profiles of Geike's spectrum"
     element: ClassVar = "springs"
     charted: ClassVar = False
+    is_mdr: ClassVar = True
 
     def serves(self, scene: object, quantity: str) -> bool:
         return isinstance(scene, IndentationScene) and scene.ground is not None and quantity == "stiffness"
@@ -61,8 +62,11 @@ class SpringsPressed(Model):
                 f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}"
             )
         expected = calibrated(self, target)
-        own = 2 * SCATTER if ground.is_single else 0.0
-        return replace(expected, model=expected.model + own, sample=target.tolerance / 5)
+        if ground.is_single:
+            own = 2 * SCATTER
+            reason = f"{expected.reason}; one surface scatters {own:.0%} about the mean of its spectrum"
+            expected = replace(expected, model=expected.model + own, reason=reason)
+        return replace(expected, sample=target.tolerance / 5)
 
     def shape(self, target: Target) -> float:
         waves = conditions_of(target.scene).get(WAVES, 1.0)

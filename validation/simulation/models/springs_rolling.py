@@ -22,6 +22,7 @@ class SpringsRolling(CheapRollingModel):
     name: ClassVar = "springs"
     setting: ClassVar = f"{TRACKS} tracks"
     charted: ClassVar = False
+    is_mdr: ClassVar = True
 
     bands: ClassVar = FED_BANDS
     rms: ClassVar = SPRINGS_RMS

@@ -1,0 +1,118 @@
+"""What `compare` prints: every model with its claim, errors in the unit that was asked, and whether MDR is enough."""
+
+import math
+
+import numpy as np
+import pytest
+
+import validation
+from tests.selection.test_model_hierarchy import PARTS, Fake, Finding, punch, wheel
+from validation.selection.compare import Comparison
+from validation.selection.hierarchy import select_model
+from validation.selection.side_by_side import side_by_side
+from validation.selection.summary import WIDTH, sentences_on_mdr, summary
+from validation.selection.tolerance import Tolerance, tolerance_of
+from validation.simulation.rolling_quantity import RollingQuantity
+
+SCENES = ("sphere", "rough_punch", "rolling_wheel")
+
+
+def compared(*models, tolerance="20%", **settings):
+    wanted = tolerance_of(tolerance)
+    selection = select_model(models, wanted.relative, **settings)
+    return Comparison(punch(load=1.0), "stiffness", selection, wanted.in_decibels)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_model_has_its_claim_and_every_line_fits(name):
+    found = validation.compare(validation.load_scene(name), tolerance=0.5)
+    lines = summary(found).splitlines()
+    assert max(map(len, lines)) <= WIDTH
+    for one in found.models:
+        (row,) = [line for line in lines if line.startswith(f"{one.name} ")]
+        assert found.tolerance.shown(one.estimate.error) in row
+
+
+def test_mdr_is_named_where_it_is_enough_and_where_not():
+    """Of 12 % wanted: found, claimed, too much by its claim, without a known error, and lost."""
+    kinds = {
+        Finding(is_mdr=True, parts=(0.1, 0, 0)): "MDR: enough (10 % found, 12 % wanted).",
+        Fake(is_mdr=True, claimed=0.62): "MDR: not enough (62 % claimed, 12 % wanted), because claims 0.62.",
+        Fake(is_mdr=True, claimed=math.inf): "MDR: not known to be enough, because claims inf.",
+        Fake(is_mdr=True, failed="it was lost"): "MDR: not known to be enough, because it was lost.",
+    }
+    for springs, sentence in kinds.items():
+        assert sentences_on_mdr(compared(springs, Fake(name="grid"), tolerance="12%")) == [sentence]
+    cheaper = compared(Fake(name="formula"), Fake(is_mdr=True, claimed=0.1), tolerance="12%")
+    assert sentences_on_mdr(cheaper) == ["MDR: enough (10 % claimed, 12 % wanted); formula is cheaper."]
+    both = compared(Fake(name="line", is_mdr=True, claimed=0.5), Fake(name="surface", is_mdr=True), tolerance="12%")
+    assert [line.split(":")[0] for line in sentences_on_mdr(both)] == ["MDR, line", "MDR, surface"]
+    assert summary(both).splitlines()[-1].startswith("MDR, surface: enough")
+
+
+def test_a_claim_of_measured_heights_says_that_one_surface_scatters():
+    height = np.random.default_rng(4).standard_normal((64, 64)) * 1e-3
+    scene = punch(ground=validation.MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
+    told = " ".join(summary(validation.compare(scene, tolerance=0.2)).split())
+    assert "one surface scatters 44% about the mean of its spectrum" in told
+
+
+@pytest.mark.parametrize(
+    ("given", "relative", "shown"),
+    [
+        ("5%", 0.05, "5 %"),
+        ("0.05", 0.05, "5 %"),
+        (0.3, 0.3, "30 %"),
+        ("1 dB", 10**0.05 - 1, "1 dB"),
+        (" 0.4dB", 10**0.02 - 1, "0.4 dB"),
+    ],
+)
+def test_a_tolerance_is_echoed_in_its_unit(given, relative, shown):
+    tolerance = tolerance_of(given)
+    assert tolerance.relative == pytest.approx(relative, rel=1e-12)
+    assert str(tolerance) == shown
+    assert tolerance.shown(math.inf) == "unknown"
+
+
+def test_errors_are_in_decibels_where_the_tolerance_is():
+    """20 lg 1.1202 = 0.986 dB."""
+    text = summary(compared(Finding(value=(2e7,), parts=PARTS), tolerance="1 dB"))
+    assert "stiffness within 1 dB" in text and "(0.99 dB: model 0.83 dB, grid 0.17 dB, sample 0.026 dB)" in text
+    assert Tolerance(0.1).shown(0.1202) == "12 %"
+
+
+def test_what_would_help_is_said_where_nothing_is_enough():
+    for parts, cause in (((0.5, 0, 0), "the model's"), ((0, 0.5, 0), "by the grid"), ((0, 0, 0.5), "scatter")):
+        lines = summary(compared(Finding(parts=parts))).splitlines()
+        (told,) = (line for line in lines if line.startswith("what would help"))
+        assert "a tolerance of 52 %" in told and cause in told
+    nothing = summary(compared(Fake(claimed=math.inf)))
+    assert "no model has a result" in nothing and "what would help" in nothing
+
+
+def test_all_models_are_solved_and_the_selected_one_stays():
+    models = [
+        Finding(name="skipped", claimed=0.5, parts=(0.5, 0, 0), value=(3.0,)),
+        Finding(name="enough", parts=(0.1, 0, 0), value=(2.2,)),
+        Finding(name="dearer", parts=(0.01, 0, 0), value=(2.0,)),
+        Fake(name="lost", failed="why"),
+        Fake(name="unknown", claimed=math.inf),
+    ]
+    some, every = compared(*models), compared(*models, solve_all=True)
+    assert some.model == every.model == "enough"
+    assert [one.status for one in every.models] == ["skipped", "accepted", "not needed", "failed", "out of range"]
+    assert [one.name for one in every.selection.solved] == ["skipped", "enough", "dearer"]
+    assert side_by_side(some) == []
+    rows = side_by_side(every)[2:-1]
+    # 20 lg 1.5 and 20 lg 1.1 from the model with the smallest error
+    assert [row.split()[-3:-1] for row in rows] == [["+3.52", "dB"], ["+0.83", "dB"], ["+0.00", "dB"]]
+
+
+def test_spectra_stand_side_by_side_in_decibels():
+    scene = wheel(mass=None, speed=None)
+    count = RollingQuantity(scene, "force-spectrum").bands.centres.size
+    rough, fine = (Finding(value=(x,) * count, parts=(e, 0, 0)) for x, e in ((0.2, 0.1), (0.1, 0.01)))
+    found = Comparison(scene, "force-spectrum", select_model([rough, fine], 0.2, solve_all=True))
+    rows = [line.split() for line in side_by_side(found)[-1 - count : -1]]
+    assert [row[1:] for row in rows] == [["-20.0", "+6.0"]] * count
+    assert [float(row[0]) for row in rows] == pytest.approx(2e3 * math.pi / found.wavenumbers, rel=1e-3)
