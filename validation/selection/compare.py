@@ -45,6 +45,8 @@ class Comparison:
         "stiffness", "force-rms", "force-spectrum", "acceleration" or "acceleration-rms".
     selection : Selection
         Models, estimates and answers in full.
+    in_decibels : bool
+        Whether the tolerance was asked in dB, so that errors are printed in dB.
     tolerance : Tolerance
         What was asked, with its unit.
     value : ndarray
@@ -56,6 +58,8 @@ class Comparison:
         Unit of ``value``.
     wavenumbers : ndarray
         Centres of the one-third octaves [rad/m]; empty where ``value`` is one number.
+    wavelength_mm, frequency_hz : ndarray
+        The same as wavelengths [mm], and as frequencies [Hz] where the scene has a speed.
     model : str
         Name of the model that gives ``value``; empty where none has an answer.
     met : bool

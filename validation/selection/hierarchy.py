@@ -196,7 +196,7 @@ def _with_all_solved(selection: Selection, callback: Callable[[ContactModel], No
     for one in selection.candidates:
         if one.status in ("skipped", "not needed"):
             callback(one.model)
-            answer = answered(one.model)
+            answer = try_to_solve(one.model)
             status: Status = "failed" if answer.failed else one.status
             one = replace(one, answer=answer, status=status, reason=answer.failed or answer.reason or one.reason)
         candidates.append(one)
