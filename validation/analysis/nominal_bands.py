@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import interp1d
-from scipy.signal import detrend
 
 from validation.analysis.spectra import Bands, levels, waves
 
@@ -114,14 +113,14 @@ class NominalBands:
         Each is levelled and seen through Hann's window. Its density is even on each wave's share of the wavenumbers, of
         which a band may have a part.
         """
-        heights = detrend(np.asarray(records, dtype=np.float64))
+        heights = scipy.signal.detrend(np.asarray(records, dtype=np.float64))
         points = heights.shape[-1]
         window = np.sin(np.pi * (np.arange(points) + 0.5) / points) ** 2 * math.sqrt(8 / 3)
         found = waves(window * heights, spacing=spacing)
         ends = found.q[0] * (np.arange(found.q.size + 1) + 0.5)
         powers = 2 * np.abs(found.amplitude) ** 2
         total = np.cumsum(np.concatenate([np.zeros((*powers.shape[:-1], 1)), powers], axis=-1), axis=-1)
-        return np.diff(interp1d(ends, total)(self.edges))
+        return np.diff(scipy.interpolate.interp1d(ends, total)(self.edges))
 
     def quadrature(self) -> tuple[FloatArray, FloatArray]:
         """Wavenumbers [rad/m] and weights of int dq over each band, both of shape (bands, nodes)."""
