@@ -398,7 +398,7 @@ def test_realisations_are_others():
 
 def test_a_contact_costs_the_same_on_every_grid():
     model = grid_of(punch(), 0.4, 0, 32)
-    cost = model._cost(9)
+    cost = model._cost({model.resolution: 9, **dict.fromkeys(model.references, 8)})
     contacts = (cost.seconds - boundary_elements_pressed.CELL * cost.work) / boundary_elements_pressed.PRESS
     assert contacts == pytest.approx(9 + 2 * 8)
 

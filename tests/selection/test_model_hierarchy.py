@@ -151,8 +151,20 @@ def test_what_was_done_is_counted_and_not_what_was_expected():
     rough = grids_of(wheel(height=0.2), "force-spectrum", 0.12, seed=1)[-1]
     found = rough.solve()
     strips = int(found.reason.rsplit(" ", 1)[1])
-    assert found.cost == rough._cost(strips)
+    assert found.cost == rough._cost({rough.resolution: strips, rough.references[0]: 1})
     assert strips > 4
+
+
+def test_a_grid_that_was_solved_as_a_reference_is_not_solved_again():
+    """A climb over three grids costs what the finest and its references do, but for the coarsest reference of all."""
+    models = grids_of(punch(), "stiffness", 1e-3, seed=3)
+    first, *_, last = [model.solve() for model in models]
+    alone = grid_of(punch(), 1e-3, 3, round(models[-1].resolution.size)).solve()
+    assert last.value == alone.value and last.error == alone.error
+    finer = models[-1].resolution.size ** 2 / models[0].resolution.size ** 2
+    assert last.cost.work == pytest.approx(8 * 24 * models[-1].resolution.size ** 2)
+    assert alone.cost.work == pytest.approx(last.cost.work * (1 + 1 / 4 + 1 / 16))
+    assert first.cost.work * finer == pytest.approx(alone.cost.work)
 
 
 def test_what_is_needed_is_known_beforehand():

@@ -1,16 +1,16 @@
 """A model on a scene: realisations are solved until the error is small enough, and other grids tell the grid error."""
 
 import itertools
-from collections.abc import Iterable
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.scenes.load import Scene
 from validation.selection.hierarchy import Answer
-from validation.simulation.method import Resolution, Result
+from validation.simulation.method import Prepared, Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target, models_serving
 from validation.simulation.resolution import too_few
 from validation.simulation.sampling import mean_error, realisations
@@ -21,13 +21,37 @@ SAMPLE_SHARE = 0.9
 """Of the tolerance, that a sample may leave where a grid of 0.44 of it is added at a right angle."""
 
 
+@dataclass(eq=False)
+class Realisations:
+    """Those of a model at one resolution, each solved once, whichever candidate needs it first."""
+
+    prepare: Callable[[], Prepared]
+    solved: list[Result] = field(default_factory=list)
+
+    @cached_property
+    def solve(self) -> Prepared:
+        return self.prepare()
+
+    def first(self, count: int) -> list[Result]:
+        while len(self.solved) < count:
+            self.solved.append(self.solve(len(self.solved))())
+        return self.solved[:count]
+
+
+Shared = dict[tuple[Model, Resolution], Realisations]
+
+
 @dataclass(frozen=True)
 class SceneModel:
-    """A model at one of its resolutions, with what is asked of it."""
+    """A model at one of its resolutions, with what is asked of it.
+
+    shared: realisations of all resolutions, which a grid and the references of another have in common.
+    """
 
     model: Model
     target: Target
     resolution: Resolution
+    shared: Shared = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def kind(self) -> str:
@@ -61,19 +85,20 @@ class SceneModel:
         return self.model.estimate(self.target, self.resolution)
 
     def cost(self) -> Cost:
-        return self._cost(self.solves)
+        """Of so many realisations, and of the first of them on other grids, if none is solved yet."""
+        compared = min(self.solves, self.sampling.compared)
+        return self._cost({self.resolution: self.solves, **dict.fromkeys(self.references, compared)})
 
     def solve(self) -> Answer:
         """Model error as expected; sample and grid error from what was computed.
 
         Realisations are added until the error is within the tolerance, and no longer than grid and cells allow that.
         """
-        expected, plan = self.estimate(), self.sampling
-        solve = self.model.prepare(self.target, self.resolution)
-        found = [solve(i)() for i in range(plan.fewest)]
+        expected, plan, before = self.estimate(), self.sampling, self._solved()
+        found = self._first(self.resolution, plan.fewest)
         others = [self._first(resolution, plan.compared) for resolution in self.references]
         if failed := _failed(itertools.chain(found, *others)):
-            return self._no_answer(found, failed)
+            return self._no_answer(before, failed)
         others_values = np.array([self._rows(other) for other in others])
         while True:
             values = self._rows(found)
@@ -81,7 +106,7 @@ class SceneModel:
             grid, reason = self._left_by_grid(values, others_values, expected)
             answer = Answer(
                 value=value,
-                cost=self._cost(len(found)),
+                cost=self._spent(before),
                 model=expected.model + self.model.left_out(self.target, value),
                 grid=grid,
                 sample=sample,
@@ -92,21 +117,26 @@ class SceneModel:
             hopeless = bool(answer.failed) or answer.model + grid > self.target.tolerance
             if answer.error <= self.target.tolerance or hopeless or len(found) >= plan.most:
                 return answer
-            found.append(solve(len(found))())
+            found = self._first(self.resolution, len(found) + 1)
             if found[-1].failed:
-                return self._no_answer(found, found[-1].failed)
+                return self._no_answer(before, found[-1].failed)
 
     def _first(self, resolution: Resolution, count: int) -> list[Result]:
-        solve = self.model.prepare(self.target, resolution)
-        return [solve(i)() for i in range(count)]
+        prepare = partial(self.model.prepare, self.target, resolution)
+        return self.shared.setdefault((self.model, resolution), Realisations(prepare)).first(count)
+
+    def _solved(self) -> dict[Resolution, int]:
+        """Realisations so far, of this resolution and of its references."""
+        shared = [(one, self.shared.get((self.model, one))) for one in (self.resolution, *self.references)]
+        return {one: len(found.solved) if found else 0 for one, found in shared}
 
     def _left_by_grid(self, values: FloatArray, others: FloatArray, expected: ErrorEstimate) -> tuple[float, str]:
         if not isinstance(self.model, GridModel):
             return 0.0, expected.reason
         return self.model.grid_error(self.target, self.resolution, values, others)
 
-    def _no_answer(self, found: list[Result], failed: str) -> Answer:
-        return Answer(value=np.array([np.nan]), cost=self._cost(len(found)), failed=failed)
+    def _no_answer(self, before: dict[Resolution, int], failed: str) -> Answer:
+        return Answer(value=np.array([np.nan]), cost=self._spent(before), failed=failed)
 
     def _rows(self, results: list[Result]) -> FloatArray:
         """(realisations, numbers)."""
@@ -125,14 +155,16 @@ class SceneModel:
         counts = [result.values["in contact"] for result in found if "in contact" in result.values]
         return too_few(float(np.median(counts)), self.model.element) if counts else ""
 
-    def _cost(self, solves: int) -> Cost:
-        """Of so many, and of the first of them on other grids."""
-        one, compared = self.model.cost(self.target, self.resolution), min(solves, self.sampling.compared)
-        others = [self.model.cost(self.target, resolution) for resolution in self.references]
+    def _spent(self, before: dict[Resolution, int]) -> Cost:
+        """Of the realisations that were solved since."""
+        return self._cost({one: count - before[one] for one, count in self._solved().items()})
+
+    def _cost(self, solves: Mapping[Resolution, int]) -> Cost:
+        costs = [(count, self.model.cost(self.target, resolution)) for resolution, count in solves.items()]
         return Cost(
-            work=solves * one.work + compared * sum(other.work for other in others),
-            unit=one.unit,
-            seconds=solves * one.seconds + compared * sum(other.seconds for other in others),
+            work=sum(count * one.work for count, one in costs),
+            unit=costs[0][1].unit,
+            seconds=sum(count * one.seconds for count, one in costs),
         )
 
 
@@ -141,10 +173,10 @@ def _failed(results: Iterable[Result]) -> str:
 
 
 def models_on(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
-    """All models of a quantity at all of their resolutions, the cheapest first."""
-    target = Target(scene, quantity, tolerance, seed)
+    """All models of a quantity at all of their resolutions, the cheapest first; they share what is solved."""
+    target, shared = Target(scene, quantity, tolerance, seed), Shared()
     found = [
-        SceneModel(model, target, resolution)
+        SceneModel(model, target, resolution, shared)
         for model in models_serving(scene, quantity)
         for resolution in model.resolutions(target)
     ]

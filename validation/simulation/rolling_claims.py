@@ -67,7 +67,7 @@ class CheapRollingModel(Model):
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
         quantity, single = target.rolling, target.scene.ground.is_single
-        if reason := self.beyond(target) or quantity.unsteady:
+        if reason := self.beyond(target) or quantity.no_answer:
             return ErrorEstimate.out_of_range(reason)
         expected = calibrated(self, target)
         if not expected.in_range:

@@ -34,6 +34,10 @@ SPRINGS = 32
 """To a contact radius at least, and four to the shortest wave."""
 FINE, LEAST = 4.0, 8
 """Cells to the shortest wave on the fine grid, and to a contact radius at least on either."""
+MOST_CELLS = 64
+"""To a contact radius, on the finest grid that is offered."""
+MOST_GRIDS, GROWTH = 3, 1.5
+"""Grids of measured points, and the ratio of one to the next at the least."""
 
 
 @dataclass(frozen=True)
@@ -43,10 +47,10 @@ class RollingGrid:
     spacing: float
     along: int
     across: int
-    cells: int
+    cells: float
 
     @classmethod
-    def of(cls, quantity: RollingQuantity, cells: int) -> "RollingGrid":
+    def of(cls, quantity: RollingQuantity, cells: float) -> "RollingGrid":
         """Long enough for some of the longest waves, or as long as what was measured, there and back.
 
         A dynamic wheel comes back in the middle of a turn of its resonance, where free vibration is least excited.
@@ -56,7 +60,8 @@ class RollingGrid:
         spacing = a / cells
         if isinstance(ground, MeasuredHeights):
             long, wide = ground.sides
-            return cls(spacing, 2 * math.floor(long / spacing), math.floor(wide / spacing), cells)
+            along, across = (math.floor(side / spacing * (1 + 1e-9)) for side in (long, wide))
+            return cls(spacing, 2 * along, across, cells)
         longest = 2 * math.pi / ground.q_min
         # whole radii, so that all grids draw the same surface
         length = max(LONGEST * longest, RADII * a)
@@ -64,7 +69,8 @@ class RollingGrid:
             turn = 2 * math.pi * (scene.speed or 0.0) / scene.body.eigenfrequency
             length = (math.ceil(length / turn) + 0.5) * turn
         wide = max(ACROSS * longest, WIDE * a)
-        return cls(spacing, cells * math.ceil(length / a), cells * math.ceil(wide / a), cells)
+        along, across = (round(cells * math.ceil(side / a)) for side in (length, wide))
+        return cls(spacing, along, across, cells)
 
     @property
     def work(self) -> float:
@@ -76,7 +82,21 @@ APPLICATIONS = 7
 """Of the operator, a position."""
 
 
-def strip_of(quantity: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
+def grids_of_points(heights: MeasuredHeights, contact_radius: float) -> tuple[float, ...]:
+    """Cells to a contact radius, an odd number of them to each of the measured points.
+
+    So each point is the middle of a cell on every grid: others miss its summit, each by another part of it.
+    """
+    points, odd = contact_radius / min(heights.spacing), 1
+    found: list[float] = []
+    while len(found) < MOST_GRIDS and odd * points <= MOST_CELLS:
+        if odd * points >= LEAST:
+            found.append(odd * points)
+        odd = 2 * math.ceil(GROWTH * odd / 2 - 0.5) + 1
+    return tuple(found)
+
+
+def strip_of(quantity: RollingQuantity, cells: float, realisation: int, seed: int) -> FloatArray:
     """Heights at the centres of cells; drawn, or those that were measured, there and back [m]."""
     grid, ground = RollingGrid.of(quantity, cells), quantity.scene.ground
     along = grid.along // 2 if ground.is_single else grid.along
@@ -111,7 +131,7 @@ def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing
     return _levels(quantity, found.force, spacing)
 
 
-def on_boundary_elements(quantity: RollingQuantity, cells: int, realisation: int, seed: int) -> FloatArray:
+def on_boundary_elements(quantity: RollingQuantity, cells: float, realisation: int, seed: int) -> FloatArray:
     """ln of levels over those of linear theory on the same strip; of measured heights, of the levels themselves."""
     surface, spacing = strip_of(quantity, cells, realisation, seed), quantity.scene.contact_radius / cells
     found = np.log(by_boundary_elements(quantity, surface, spacing))

@@ -40,9 +40,9 @@ class RollingQuantity:
         return self.name.startswith("acceleration")
 
     @cached_property
-    def unsteady(self) -> str:
+    def no_answer(self) -> str:
         """Why there is no level of what is wanted, whatever the model; empty where there is one."""
-        return self.scene.no_steady_answer() if self.dynamic else ""
+        return (self.scene.no_steady_answer() if self.dynamic else "") or self._no_band
 
     @cached_property
     def amplification(self) -> float:
@@ -72,17 +72,44 @@ class RollingQuantity:
         """Of wavenumbers along the track [rad/m]; ValueError where there is none."""
         if self.name == "force-rms":
             return Bands((0.0, math.inf))
-        ground, body = self.scene.ground, self.scene.body
-        first = WAVES * ground.q_min if ground.is_single else ground.q_min
-        if self.dynamic:
-            first = max(first, 2 * body.eigenfrequency / (self.scene.speed or 1.0))
-        found = Bands.around(math.pi / self.scene.contact_radius, first, self.q_max)
-        if len(found.edges) < 2:
-            raise ValueError(
-                f"scene must leave a one-third octave of waves between {first:.3g} and {self.q_max:.3g} rad/m for "
-                f"{self.name}, got none"
-            )
-        return Bands((found.edges[0], found.edges[-1])) if self.whole else found
+        if self._no_band:
+            raise ValueError(self._no_band)
+        edges = self._edges
+        return Bands((edges[0], edges[-1])) if self.whole else Bands(edges)
+
+    @property
+    def _edges(self) -> tuple[float, ...]:
+        """Of one-third octaves; fewer than two where there is none."""
+        first = max(self._longest_counted, self._above_resonance)
+        return Bands.around(math.pi / self.scene.contact_radius, first, self.q_max).edges if first < self.q_max else ()
+
+    @property
+    def _longest_counted(self) -> float:
+        """The longest wave that counts: of measured heights, a quarter of their length [rad/m]."""
+        ground = self.scene.ground
+        return WAVES * ground.q_min if ground.is_single else ground.q_min
+
+    @property
+    def _above_resonance(self) -> float:
+        """The wave an octave above the resonance of a wheel with a mass [rad/m]."""
+        return 2 * self.scene.body.eigenfrequency / (self.scene.speed or 1.0) if self.dynamic else 0.0
+
+    @cached_property
+    def _no_band(self) -> str:
+        """Why no one-third octave is left, and what would help; empty where one is."""
+        if self.name == "force-rms" or len(self._edges) > 1:
+            return ""
+        if self._above_resonance > self._longest_counted:
+            end, remedy = "an octave above the resonance", "a higher speed, a larger mass or shorter waves"
+        elif self.scene.ground.is_single:
+            end, remedy = f"{WAVES} waves on the measured length", "a longer track or points closer together"
+        else:
+            end, remedy = "the longest", "a wider band of roughness"
+        first = max(self._longest_counted, self._above_resonance)
+        return (
+            f"no whole one-third octave of waves lies between {first:.3g} rad/m, {end}, and {self.q_max:.3g} rad/m, "
+            f"the shortest that counts; {remedy} would leave one"
+        )
 
     def transfer(self, q: FloatArray) -> FloatArray:
         """From the force to what is wanted: one, or omega^2 / |k - M omega^2| with omega = q v0 [-, 1/kg]."""
@@ -111,7 +138,7 @@ class RollingQuantity:
     @property
     def nodes(self) -> int:
         """Of the quadrature over all bands."""
-        if self.name == "force-rms":
+        if self.name == "force-rms" or self._no_band:
             return NODES
         pairs = zip(self.bands.edges, self.bands.edges[1:], strict=False)
         return sum(_nodes(low, high, self.scene.contact_radius)[0].size for low, high in pairs)

@@ -1,13 +1,15 @@
 """A linear filter in three dimensions: the spectrum of the force for a contact that keeps its radius."""
 
 import math
+from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.scenes.measured import OBLONG
 from validation.simulation.method import Prepared, Resolution, Result, Solve
-from validation.simulation.model import Cost, Target
+from validation.simulation.model import Cost, ErrorEstimate, Target
 from validation.simulation.rolling_claims import FORCE_RMS, LINEAR_BANDS, NODE, CheapRollingModel
 from validation.simulation.rolling_levels import FINE, LEAST, by_linear_theory, strip_of
 from validation.simulation.rolling_quantity import RollingQuantity
@@ -28,6 +30,15 @@ class LinearFilter3D(CheapRollingModel):
 
     def beyond(self, target: Target) -> str:
         return str(target.scene.ground.not_gaussian())
+
+    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
+        """Ridges lose contact where waves in all directions do not: as much again as the slope h' a/d is left open."""
+        expected, ground = super().estimate(target, resolution), target.scene.ground
+        if not ground.is_single or ground.texture <= OBLONG:
+            return expected
+        slope = ground.slope * target.scene.contact_radius / target.scene.approach
+        reason = f"{expected.reason}; heights are anisotropic, h' a/d = {slope:.2g}"
+        return replace(expected, model=expected.model + slope, reason=reason)
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
         nodes = target.rolling.nodes
