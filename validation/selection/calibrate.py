@@ -117,7 +117,7 @@ class CalibrationRun:
     """How many scenes of each kind; each of rolling is solved for both quantities of the force."""
 
     punches: int = 60
-    spheres: int = 40
+    spheres: int = 120
     rolling: int = 20
     seed: int = 19
 
