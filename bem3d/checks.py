@@ -88,6 +88,14 @@ def field(name: str, values: ArrayLike, shape: tuple[int, int]) -> FloatArray:
     return _finite(name, given)
 
 
+def finite_row(name: str, values: ArrayLike, size: int) -> FloatArray:
+    """So many finite real values."""
+    given = _real(name, values, f"shape ({size},)")
+    if given.shape != (size,):
+        raise ValueError(f"{name} must have shape ({size},), got shape {given.shape}")
+    return _finite(name, given)
+
+
 def strip(name: str, values: ArrayLike) -> FloatArray:
     """Finite real values on the cells of a grid of any shape."""
     given = _real(name, values, "shape (nx, ny)")

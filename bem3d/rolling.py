@@ -56,6 +56,7 @@ def roll(
     spacing: float | tuple[float, float],
     radius: float | tuple[float, float],
     modulus: float,
+    transverse_profile: ArrayLike | None = None,
     approach: float | None = None,
     force: float | None = None,
     positions: int | None = None,
@@ -69,7 +70,7 @@ def roll(
     ----------
     height : array_like, shape (nx, ny)
         Heights, positive towards the wheel, periodic along axis 0 [m].
-    spacing, radius, modulus
+    spacing, radius, modulus, transverse_profile
         As in `Track`.
     approach, force : float, optional
         Either the approach to the plane of height zero [m] or the normal force [N], both positive.
@@ -99,7 +100,13 @@ def roll(
     >>> print(f"{rolled.force.mean():.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
     534 N, by Hertz 533 N
     """
-    track = Track(height=cast(FloatArray, height), spacing=spacing, radius=radius, modulus=modulus)
+    track = Track(
+        height=cast(FloatArray, height),
+        spacing=spacing,
+        radius=radius,
+        modulus=modulus,
+        transverse_profile=cast(FloatArray | None, transverse_profile),
+    )
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
     prescribed = positive("approach" if force is None else "force", approach if force is None else force)

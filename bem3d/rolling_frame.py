@@ -14,6 +14,7 @@ from bem3d.diagnostics import Diagnostic, diagnose_sphere, diagnose_units
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 from bem3d.smooth_wheel import SmoothContact, smooth_contact
+from bem3d.transverse_profile import checked_profile, equivalent_radius, top_column
 from bem3d.window import Box, fast_side
 
 Span = tuple[int, int]
@@ -35,6 +36,9 @@ class Track(ReadOnly):
         Radius R of a sphere, or (along, across) the track [m]. Curvatures of two bodies add: 1/R = 1/R_1 + 1/R_2.
     modulus : float
         Contact modulus E* [Pa].
+    transverse_profile : array_like, shape (ny,), optional
+        Heights z of both bodies across the track, in place of R_y: one a column, positive towards the other body, those
+        of two bodies added, zero at the highest point [m]. ``radius`` is then one number.
 
     Raises
     ------
@@ -44,7 +48,8 @@ class Track(ReadOnly):
     Notes
     -----
     With the wheel at x_i the gap is g = (x - x_i)^2 / (2 R_x) + y^2 / (2 R_y) - h(x, y), y = 0 in the middle of
-    axis 1. A contact longer than a period meets the same roughness again.
+    axis 1, or g = (x - x_i)^2 / (2 R_x) - z(y) - h(x, y). A contact longer than a period meets the same roughness
+    again. A profile falls from its highest point, which lies inside; the contact may be of several parts.
 
     Examples
     --------
@@ -57,12 +62,19 @@ class Track(ReadOnly):
     spacing: float | tuple[float, float]
     radius: float | tuple[float, float]
     modulus: float
+    transverse_profile: FloatArray | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "height", kept(strip("height", self.height)))
         object.__setattr__(self, "spacing", grid_spacing(self.spacing))
-        object.__setattr__(self, "radius", positive_pair("radius", self.radius, "(along, across)"))
         object.__setattr__(self, "modulus", positive("modulus", self.modulus))
+        if self.transverse_profile is None:
+            object.__setattr__(self, "radius", positive_pair("radius", self.radius, "(along, across)"))
+        else:
+            z = checked_profile(self.transverse_profile, self.height.shape[1], self.steps[1])
+            object.__setattr__(self, "transverse_profile", kept(z))
+            radii = positive("radius", self.radius), equivalent_radius(z, self.steps[1])
+            object.__setattr__(self, "radius", radii)
 
     @cached_property
     def highest(self) -> float:
@@ -82,7 +94,7 @@ class Track(ReadOnly):
 
     @property
     def radii(self) -> tuple[float, float]:
-        """Of the wheel, along and across the track (R_x, R_y) [m]."""
+        """Of the wheel, along and across the track (R_x, R_y); of a profile, about [m]."""
         along, across = self.radius  # type: ignore[misc]
         return along, across
 
@@ -102,8 +114,10 @@ class Track(ReadOnly):
         return {}
 
     def wheel(self, rows: IndexArray, columns: IndexArray) -> FloatArray:
-        """x^2 / (2 R_x) + y^2 / (2 R_y) at cells `rows` ahead and columns of the strip, broadcast [m]."""
+        """x^2 / (2 R_x) + y^2 / (2 R_y), or - z(y), at cells `rows` ahead and columns of the strip, broadcast [m]."""
         x, y, (along, across) = self.along(rows), self.across(columns), self.radii
+        if self.transverse_profile is not None:
+            return np.asarray(x**2 / (2 * along) - self.transverse_profile[columns])
         return np.asarray((x**2 + along / across * y**2) / (2 * along))
 
     def along(self, rows: IndexArray) -> FloatArray:
@@ -118,7 +132,9 @@ class Track(ReadOnly):
         """Of the cells under the smooth wheel, one at least, as far as the strip has them."""
         ny, (dx, dy), (a, b) = self.height.shape[1], self.steps, self.smooth.semi_axes(approach)
         ahead, across = int(a / dx), min(int(b / dy) + 1, ny // 2)
-        return (-ahead, ahead + 1), (ny // 2 - across, ny - ny // 2 + across)
+        middle = (ny - 1) / 2 if self.transverse_profile is None else top_column(self.transverse_profile)
+        first, last = max(math.ceil(middle) - across, 0), min(math.floor(middle) + 1 + across, ny)
+        return (-ahead, ahead + 1), (first, last)
 
     def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
         """Diagnostics of the contact of the smooth wheel, F / (pi a b) on average by Hertz."""

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, count, doubles, finite_array, held, positive
 from mdr.diagnostics import diagnose_units, diagnose_wheel, warn
+from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling import smooth_approach
 from mdr.spring_track import MOST_SPRINGS
 
@@ -32,8 +33,8 @@ class RollingEnsemble:
         Heights of the tracks, positive towards the wheel [m].
     spacing : float
         Distance dx of the springs [m].
-    radius : float
-        Radius R of the wheels, whose profile is x^2 / R [m].
+    radius : float or tuple of float
+        Radius R of the wheels, whose profile is x^2 / R, or (along, across) the track [m], as in `roll`.
     modulus : float
         Contact modulus E* [Pa].
     force : float
@@ -80,10 +81,19 @@ class RollingEnsemble:
     array([1000., 1000., 1000.])
     """
 
-    def __init__(self, height: ArrayLike, *, spacing: float, radius: float, modulus: float, force: float):
+    def __init__(
+        self,
+        height: ArrayLike,
+        *,
+        spacing: float,
+        radius: float | tuple[float, float],
+        modulus: float,
+        force: float,
+    ):
         h = finite_array("height", height, ndim=2)
-        self.spacing, self.radius = positive("spacing", spacing), positive("radius", radius)
-        self.modulus, force = positive("modulus", modulus), positive("force", force)
+        self.spacing, force = positive("spacing", spacing), positive("force", force)
+        # the profile x^2 / R and the springs that stand for a contact with two radii
+        self.radius, self.modulus, _ = spring_wheel(radius, modulus)
         self.points, self.wheels = h.shape
         self._block, self._pad = range(0), 0
         self._low, self._high = math.inf, -math.inf

@@ -54,6 +54,29 @@ def test_equal_radii_are_one_to_the_last_digit():
     np.testing.assert_array_equal(one, pair)
 
 
+def test_an_ensemble_rolls_as_its_wheels_one_by_one():
+    """Under a force and at an approach, for two radii: to the rounding of the quantum."""
+    tracks = 1e-7 * np.random.default_rng(2).standard_normal((512, 3))
+    settings = {"spacing": 1e-4, "radius": (0.46, 0.3), "modulus": 2e11}
+    ensemble = mdr.RollingEnsemble(tracks, force=900.0, **settings)
+    for i, track in enumerate(tracks.T):
+        alone = mdr.roll(track, force=900.0, **settings)
+        assert ensemble.approach(7, 900.0)[i] == pytest.approx(alone.approach[7], rel=1e-10)
+        force = mdr.rolling_force(track, approach=4e-6, **settings)
+        assert ensemble.force(7, np.full(3, 4e-6))[i] == pytest.approx(force[7], rel=1e-10)
+
+
+def test_an_ensemble_of_equal_radii_is_one_of_spheres_to_the_last_digit():
+    tracks = 1e-7 * np.random.default_rng(2).standard_normal((512, 3))
+    one, pair = (
+        mdr.RollingEnsemble(tracks, spacing=1e-4, radius=r, modulus=2e11, force=900.0) for r in (0.5, (0.5, 0.5))
+    )
+    np.testing.assert_array_equal(one.approach(3, 900.0), pair.approach(3, 900.0))
+    np.testing.assert_array_equal(one.force(3, np.full(3, 5e-6)), pair.force(3, np.full(3, 5e-6)))
+    with pytest.raises(ValueError, match="one number or two"):
+        mdr.RollingEnsemble(tracks, spacing=1e-4, radius=(1.0, 2.0, 3.0), modulus=2e11, force=900.0)
+
+
 @pytest.mark.parametrize(
     ("radius", "message"), [((1.0,), "one number or two"), ((1.0, 0.0), r"radius\[1\]"), (-1.0, "radius must be")]
 )

@@ -21,6 +21,7 @@ from bem3d import (
 from bem3d import rolling_solve as wheel_on_strip
 from bem3d.rolling_frame import Frame, Track
 from bem3d.smooth_wheel import smooth_contact
+from bem3d.transverse_profile import equivalent_radius
 from tests.bem3d import (
     test_accepted_solves,
     test_contact_properties,
@@ -29,6 +30,7 @@ from tests.bem3d import (
     test_load_paths,
     test_operator_against_dense_twin,
     test_rolling_contact,
+    test_transverse_profile,
     test_windows_and_starts,
 )
 from tests.bem3d import test_warnings as test_doubts
@@ -104,6 +106,20 @@ moments = Frame._moments
 
 
 FAULTS = {
+    "a profile across that is half as high as it is": (
+        (rolling_frame, "checked_profile", lambda z, columns, step: np.asarray(z) / 2),
+        test_transverse_profile.test_a_worn_profile_against_a_fine_solve_of_the_plain_contact,
+    ),
+    "a profile across for the parabola that it is about": (
+        (
+            rolling_frame,
+            "checked_profile",
+            lambda z, columns, step: (
+                -(((np.arange(columns) - (columns - 1) / 2) * step) ** 2) / (2 * equivalent_radius(z, step))
+            ),
+        ),
+        test_transverse_profile.test_a_worn_profile_against_a_fine_solve_of_the_plain_contact,
+    ),
     "E for E* in boundary elements": (
         (kernel, "free_space_symbol", scaled(kernel.free_space_symbol, E_FOR_E_STAR)),
         test_convergence_rates.test_sphere_force_at_second_order,

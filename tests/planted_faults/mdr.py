@@ -255,6 +255,14 @@ FAULTS = {
         ),
         test_elliptic_wheels.test_the_smooth_wheel_rolls_at_the_approach_of_the_ellipse,
     ),
+    "an ensemble on the springs of a sphere": (
+        (
+            wheels_in_step,
+            "spring_wheel",
+            lambda radius, modulus: elliptic_wheel.spring_wheel(radius, modulus)._replace(modulus=modulus),
+        ),
+        test_elliptic_wheels.test_an_ensemble_rolls_as_its_wheels_one_by_one,
+    ),
     "the radius along the track for that of the contact": (
         (test_elliptic_wheels, "spring_wheel", lambda radius, modulus: (radius[0], modulus, 1.0)),
         functools.partial(test_elliptic_wheels.test_springs_have_the_load_curve_of_one_ellipse, (0.46, 0.3)),
