@@ -21,6 +21,8 @@ MODULES = {
     "load_wheel_scene": "scenes.dynamic_wheel",
     "measured": "scenes.measured",
     "summary": "selection.summary",
+    "to_csv": "selection.exported",
+    "to_json": "selection.exported",
 }
 """Where each name of the face is defined; `__init__.pyi` says the same to type checkers and editors."""
 

@@ -13,6 +13,8 @@ from validation.scenes.rolling import RollingScene as RollingScene
 from validation.scenes.roughness import Roughness as Roughness
 from validation.selection.compare import Comparison as Comparison
 from validation.selection.compare import compare as compare
+from validation.selection.exported import to_csv as to_csv
+from validation.selection.exported import to_json as to_json
 from validation.selection.summary import summary as summary
 
 MODULES: dict[str, str]

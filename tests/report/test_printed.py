@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from validation.analysis.contents import as_csv
 from validation.analysis.evidence import (
     Evidence,
     Number,
@@ -48,7 +49,6 @@ from validation.cases.wheel.spectrum_numbers import FEATURES, OMEGA
 from validation.report import page
 from validation.report.contents import CASES
 from validation.report.figures import fractal_punch
-from validation.report.folder import as_csv
 from validation.report.section import Section, case_results
 
 # --- the page, files ---

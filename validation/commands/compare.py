@@ -2,15 +2,21 @@
 
 import argparse
 import sys
+from pathlib import Path
 
 from validation.commands.arguments import at_least
 from validation.commands.exit_status import Exit
+from validation.engine.files import write_whole
 from validation.scenes.load import bundled_for_compare, load_scene
-from validation.selection.compare import QUANTITIES, check_quantity, quantities_of
+from validation.scenes.printable import printable
+from validation.selection.compare import QUANTITIES, Comparison, check_quantity, quantities_of
 from validation.selection.compare import compare as compared
+from validation.selection.exported import levels_of_models, to_csv, to_json
 from validation.selection.hierarchy import ContactModel
 from validation.selection.summary import findings, format_seconds, heading
 from validation.selection.tolerance import tolerance_of
+
+FIGURES = (".svg", ".png", ".pdf")
 
 
 def describe(comparing: argparse.ArgumentParser) -> None:
@@ -33,6 +39,12 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     comparing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
     comparing.add_argument("--all", action="store_true", help="solve all models, and print them side by side")
+    for name, what in (
+        ("--json", "write the result for other programs; the keys are in reports/README.md"),
+        ("--csv", "write a row a number or a band, of each model that was solved"),
+        ("--figure", "draw the models that were solved, in a .svg, .png or .pdf"),
+    ):
+        comparing.add_argument(name, type=Path, metavar="FILE", help=what)
     comparing.set_defaults(command=compare)
 
 
@@ -41,6 +53,7 @@ def compare(arguments: argparse.Namespace) -> Exit:
     scene, seed = load_scene(arguments.scene), arguments.seed or 0
     quantity = arguments.quantity or quantities_of(scene)[0]
     check_quantity(scene, quantity)
+    _check_figure(arguments.figure)
     print(heading(scene, quantity, tolerance_of(arguments.tolerance)), flush=True)
     found = compared(
         scene,
@@ -51,6 +64,7 @@ def compare(arguments: argparse.Namespace) -> Exit:
         callback=_announce,
     )
     print(findings(found))
+    _write(found, arguments)
     return Exit.MET if found.met else Exit.NOT_CONVERGED
 
 
@@ -58,6 +72,25 @@ def _announce(model: ContactModel) -> None:
     """Name a model whose solve takes a second or more, before it begins."""
     if model.cost().seconds >= 1:
         print(f"solving {model.name}, about {format_seconds(model.cost().seconds)}", file=sys.stderr, flush=True)
+
+
+def _check_figure(path: Path | None) -> None:
+    """Raises ValueError before anything is solved."""
+    if path is not None and path.suffix not in FIGURES:
+        raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(path)}")
+
+
+def _write(found: Comparison, arguments: argparse.Namespace) -> None:
+    """The files that are asked for, each of them whole."""
+    if arguments.json is not None:
+        write_whole(arguments.json, to_json(found).encode())
+    if arguments.csv is not None:
+        write_whole(arguments.csv, to_csv(found).encode())
+    if arguments.figure is not None:
+        from validation.report.compared import figure_of_models  # which takes half a second to import
+
+        title = f"{found.scene.name}: {found.quantity}"
+        write_whole(arguments.figure, figure_of_models(title, levels_of_models(found), arguments.figure.suffix[1:]))
 
 
 def _tolerance(word: str) -> str:

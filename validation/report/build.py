@@ -6,12 +6,13 @@ from dataclasses import asdict
 from pathlib import Path
 
 from validation.analysis.case import Profile
+from validation.analysis.contents import as_csv, as_json
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
 from validation.report.chapter import chapter_results
 from validation.report.contents import CASES, TIMED
 from validation.report.figures import drawing
-from validation.report.folder import REALISATIONS, RESULTS, Folder, as_csv, as_json
+from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.page import page, scene_summary
 from validation.report.provenance import provenance
 from validation.report.section import Section, results_of

@@ -1,17 +1,12 @@
 """The report folder, and how values are written in it."""
 
-import csv
 import hashlib
-import io
-import json
-import math
 import os
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 
-from validation.analysis.evidence import Table
 from validation.engine.files import (
     ERRORS_OF_A_PATH,
     PARTIAL_FILE,
@@ -135,24 +130,3 @@ def _check_rooms(folder: Path) -> None:
 def _digest(file: Path) -> str:
     with file.open("rb") as contents:
         return hashlib.file_digest(contents, "sha256").hexdigest()
-
-
-def as_json(value: object) -> bytes:
-    """Readable, sorted, strict: no NaN, no infinity."""
-    return (json.dumps(value, indent=1, sort_keys=True, allow_nan=False, ensure_ascii=False) + "\n").encode()
-
-
-def as_csv(table: Table) -> bytes:
-    """Numbers to ten digits, more than any curve shows; what is not finite is left empty."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(table.columns)
-    for row in zip(*table.columns.values(), strict=True):
-        writer.writerow(_cell(value) for value in row)
-    return text.getvalue().encode()
-
-
-def _cell(value: object) -> object:
-    if not isinstance(value, float):
-        return value
-    return f"{value:.10g}" if math.isfinite(value) else ""

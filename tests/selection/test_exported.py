@@ -1,0 +1,117 @@
+"""What `compare` writes for other programs: documented keys, strict JSON, equal numbers in CSV, whole files."""
+
+import csv
+import io
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import validation
+from tests.selection.test_model_hierarchy import Fake, Finding, punch
+from validation.__main__ import main
+from validation.selection.compare import Comparison
+from validation.selection.hierarchy import select_model
+
+ROOT = Path(__file__).parents[2]
+
+
+def refuse_constant(name):
+    raise AssertionError(name)
+
+
+def read(comparison):
+    return json.loads(validation.to_json(comparison), parse_constant=refuse_constant)
+
+
+def rows_of(comparison):
+    return list(csv.DictReader(io.StringIO(validation.to_csv(comparison))))
+
+
+def spectrum(**settings):
+    return validation.compare(validation.load_scene("rolling_wheel"), "force-spectrum", "3 dB", **settings)
+
+
+def test_the_keys_are_documented():
+    text = (ROOT / "reports" / "README.md").read_text().partition("## What `compare` writes")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| (`.*?`) \| (.*) \|$", text, flags=re.MULTILINE)
+    named = {key for keys, _ in rows for key in re.findall(r"`(\w+)`", keys)}
+    found = read(validation.compare(validation.load_scene("sphere")))
+    assert named == set(found)
+    said = {keys: set(re.findall(r"`(\w+)`", content)) for keys, content in rows}
+    assert set(found["assumed"]) == said["`assumed`"]
+    assert set(found["models"][0]) == said["`models`"]
+
+
+def test_a_spectrum_is_written_band_by_band():
+    result = spectrum(solve_all=True)
+    found = read(result)
+    assert found["value"] == pytest.approx(result.value.tolist())
+    assert found["wavelength_mm"] == pytest.approx((2e3 * math.pi / result.wavenumbers).tolist())
+    assert found["error"] == pytest.approx([result.error] * result.value.size)
+    assert (found["unit"], found["frequency_hz"], found["met"]) == ("dB re 1 N", [], True)
+    assert found["tolerance_dB"] == pytest.approx(3.0)
+    mine = [row for row in rows_of(result) if row["selected"] == "True"]
+    assert {row["model"] for row in mine} == {result.model}
+    assert [float(row["value"]) for row in mine] == pytest.approx(found["value"])
+    half = [(float(row["high"]) - float(row["low"])) / 2 for row in mine]
+    assert half == pytest.approx(found["error"])
+    assert len({row["model"] for row in rows_of(result)}) == len(result.selection.solved) > 2
+
+
+def test_the_contact_that_is_assumed_is_that_of_hertz():
+    """p0 = 3 F / (2 pi a^2) of a sphere, and a^2 = R d."""
+    scene = validation.load_scene("sphere")
+    found = read(validation.compare(scene))["assumed"]
+    assert found["a_x_m"] ** 2 == pytest.approx(0.5 * found["approach_m"])
+    assert found["largest_pressure_Pa"] == pytest.approx(3 * 4905 / (2 * math.pi * found["a_y_m"] ** 2))
+    assert (found["E_star_Pa"], found["load_N"]) == (scene.modulus, 4905.0)
+    assert set(read(validation.compare(validation.load_scene("rough_punch"), tolerance=0.5))["assumed"]) == {
+        "E_star_Pa",
+        "load_N",
+    }
+
+
+def test_what_is_not_known_is_null():
+    models = [Fake(name="unknown", claimed=math.inf), Fake(name="lost", failed="why"), Finding(claimed=9.0)]
+    nothing = Comparison(punch(load=1.0), "stiffness", select_model(models[:2], 0.2))
+    found = read(nothing)
+    assert (found["model"], found["value"], found["error"], found["met"]) == (None, [None], [None], False)
+    assert [one["claimed"] for one in found["models"]] == [None, 0.0]
+    assert [one["value"] for one in found["models"]] == [None, None]
+    (row,) = rows_of(nothing)
+    assert row["value"] == row["model"] == ""
+
+
+def test_the_error_of_a_number_is_in_its_unit():
+    found = read(Comparison(punch(load=1.0), "stiffness", select_model([Finding(value=(5.0,), parts=(0.1, 0, 0))], 0.2)))
+    assert (found["value"], found["error"]) == ([5.0], pytest.approx([0.5]))
+    assert found["models"][0]["error"] == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("form", ["svg", "png", "pdf"])
+def test_the_command_writes_what_the_library_returns(form, tmp_path, capsys):
+    places = {name: tmp_path / f"new/out.{name}" for name in ("json", "csv", form)}
+    words = ["--json", str(places["json"]), "--csv", str(places["csv"]), "--figure", str(places[form])]
+    assert main(["compare", "rolling_wheel", "--quantity", "force-spectrum", "--tolerance", "3 dB", *words]) == 0
+    assert places["json"].read_text() == validation.to_json(spectrum())
+    assert places["csv"].read_text() == validation.to_csv(spectrum())
+    starts = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
+    assert places[form].read_bytes().startswith(starts[form])
+    assert {path.name for path in (tmp_path / "new").iterdir()} == {place.name for place in places.values()}
+
+
+def test_a_figure_of_numbers_has_a_row_a_model(tmp_path):
+    out = tmp_path / "out.svg"
+    assert main(["compare", "sphere", "--figure", str(out)]) == 0
+    assert out.stat().st_size > 1000
+
+
+@pytest.mark.parametrize("name", ["out.jpg", "out"])
+def test_a_figure_of_another_form_is_refused_before_a_solve(name, tmp_path, capsys):
+    assert main(["compare", "sphere", "--figure", str(tmp_path / name)]) == 2
+    assert "--figure must end in .svg, .png, .pdf, got" in capsys.readouterr().err
+    assert not (tmp_path / name).exists()
