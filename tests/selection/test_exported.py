@@ -7,7 +7,6 @@ import math
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import validation
@@ -87,7 +86,9 @@ def test_what_is_not_known_is_null():
 
 
 def test_the_error_of_a_number_is_in_its_unit():
-    found = read(Comparison(punch(load=1.0), "stiffness", select_model([Finding(value=(5.0,), parts=(0.1, 0, 0))], 0.2)))
+    found = read(
+        Comparison(punch(load=1.0), "stiffness", select_model([Finding(value=(5.0,), parts=(0.1, 0, 0))], 0.2))
+    )
     assert (found["value"], found["error"]) == ([5.0], pytest.approx([0.5]))
     assert found["models"][0]["error"] == pytest.approx(0.1)
 
