@@ -374,3 +374,18 @@ def test_a_scene_that_is_not_there_is_not_printed(capsys):
     with pytest.raises(SystemExit) as refused:
         main(["scene", "nowhere"])
     assert refused.value.code == 2 and "'nowhere'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "right"),
+    [
+        ('radius = "0.5 m"', "", 'wheel must have it, as: radius = "460 mm"'),
+        ("longest = ", "longst = ", 'longest, shortest, as: longest = "10 mm"'),
+        ("[rail.roughness]", "[rail.roughnes]", "as: [rail.roughness]"),
+    ],
+)
+def test_a_message_shows_a_line_that_would_be_right(old, new, right, tmp_path, capsys):
+    (tmp_path / "scene.toml").write_text(TABLE.replace(old, new), encoding="utf-8")
+    assert main(["compare", str(tmp_path / "scene.toml")]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"error: scene {tmp_path / 'scene.toml'}: ") and said.rstrip().endswith(right)

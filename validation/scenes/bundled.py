@@ -24,3 +24,22 @@ def path_of(scene: str | Path) -> Path:
         name = printable(name)
         raise ValueError(f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"')
     return SCENES / f"{name}.toml"
+
+
+def line_for(key: str) -> str:
+    """The line of a shipped scene for a key as "wheel.load", or for a table; empty where none has it.
+
+    Where no scene has the key in this table, one that has it in another.
+    """
+    elsewhere, name = "", key.rpartition(".")[2]
+    for scene in bundled():
+        table = ""
+        for line in path_of(scene).read_text(encoding="utf-8").splitlines():
+            code = line.partition("  #")[0].strip()
+            if code.startswith("["):
+                table = f"{code[1:-1]}."
+            if code == f"[{key}]" or (code.startswith(f"{name} = ") and f"{table}{name}" == key):
+                return code
+            if code.startswith(f"{name} = "):
+                elsewhere = elsewhere or code
+    return elsewhere

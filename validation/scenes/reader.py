@@ -1,5 +1,6 @@
 """Scene files: TOML tables, each value by its own reader, anything else is an error that names it."""
 
+import difflib
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -8,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mdr.checks import count, finite
+from validation.scenes.bundled import line_for
 from validation.scenes.input_files import SceneError, contents_of
 from validation.scenes.printable import is_printable, printable, shortened
 from validation.scenes.units import quantity
@@ -52,11 +54,19 @@ def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, g
     for key in given:
         if key not in readers:
             unknown = printable(full[key])
-            raise ValueError(f"{unknown} is unknown, {name or 'a scene'} must be made of {', '.join(readers)}")
+            meant = difflib.get_close_matches(key, [*readers], 1)
+            right = _as_line(full[meant[0]]) if meant else ""
+            raise ValueError(f"{unknown} is unknown, {name or 'a scene'} must be made of {', '.join(readers)}{right}")
     for key in readers:
         if key not in given and key not in optional:
-            raise ValueError(f"{full[key]} is missing, {name or 'a scene'} must have it")
+            raise ValueError(f"{full[key]} is missing, {name or 'a scene'} must have it{_as_line(full[key])}")
     return {key: read(full[key], given[key]) for key, read in readers.items() if key in given}
+
+
+def _as_line(key: str) -> str:
+    """A line that would be right."""
+    line = line_for(key)
+    return f", as: {line}" if line else ""
 
 
 def without_unit(read: Reader, name: str, given: object) -> Any:
