@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.engine.jobs import Job, die_at_once, lose_alone, stay
-from tests.engine.test_engine import ENVIRONMENT, ROOT
+from tests.engine.toys import ENVIRONMENT, ROOT
 from validation import __main__ as command
 from validation.benchmarks.isolation import isolated_process
 from validation.engine.engine import Engine, WorkerLostError

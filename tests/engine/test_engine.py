@@ -1,4 +1,4 @@
-"""Independent solves: equal bits for any number of workers, and stored results that can be trusted."""
+"""Independent solves: seeds, stored results that can be trusted, progress."""
 
 import hashlib
 import importlib.metadata
@@ -6,56 +6,19 @@ import io
 import json
 import os
 import re
-import socket
 import subprocess
 import sys
-import threading
 import time
 import zipfile
-from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.engine.toys import ENVIRONMENT, ROOT, Slow, computed, other_toy, same, slow, toy
 from validation.engine import engine as ensemble
 from validation.engine import progress, stored
 from validation.engine.engine import Engine, random_generator
-
-ROOT = Path(__file__).parents[2]
-# workers of their own find this file as the tests do
-ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
-
-
-@dataclass(frozen=True)
-class Toy:
-    number: int
-    log: str
-
-
-def toy(problem):
-    """Leaves a trace each time it is computed."""
-    with Path(problem.log).open("a") as file:
-        file.write(f"{problem.number}\n")
-    return {"value": random_generator(5, problem.number).standard_normal(4)}
-
-
-def other_toy(problem):
-    return toy(problem)
-
-
-def computed(log):
-    return sorted(int(line) for line in Path(log).read_text().split()) if Path(log).exists() else []
-
-
-def same(outcomes, others):
-    return all(np.array_equal(a[k], b[k], equal_nan=True) for a, b in zip(outcomes, others, strict=True) for k in a)
-
-
-@pytest.fixture
-def problems(tmp_path):
-    return [Toy(i, str(tmp_path / "log")) for i in range(5)]
 
 
 def test_results_come_in_order_and_once(problems, tmp_path):
@@ -223,7 +186,7 @@ def test_what_is_timed_is_timed_anew(problems, tmp_path):
         assert alone.workers == 1
         alone.map(toy, problems)
         ours = sorted(path.name for path in tmp_path.glob("*.npz") if path.name != kept)
-        others = [ours[0].replace("test_engine", "test"), "test_engine.npz", "test_engine-toy-abc.npz", "a.txt"]
+        others = [ours[0].replace("toys", "test"), "toys.npz", "toys-toy-abc.npz", "a.txt"]
         for name in others:
             (tmp_path / name).write_bytes((tmp_path / ours[0]).read_bytes())
         (tmp_path / ours[1]).write_bytes(b"mine")
@@ -282,232 +245,6 @@ def test_a_failed_write_leaves_nothing_behind(problems, tmp_path, monkeypatch):
     with pytest.raises(OSError, match="no space"):
         Engine(store=tmp_path / "store").map(toy, problems)
     assert list((tmp_path / "store").iterdir()) == []
-
-
-@pytest.mark.slow
-def test_any_number_of_workers_and_any_order_give_the_same_bits(tmp_path):
-    from tests.engine.small_punches import SURFACES, press_surface
-
-    alone = Engine().map(press_surface, SURFACES)
-    for workers in (2, 3):
-        store = tmp_path / str(workers)
-        assert same(alone, Engine(workers=workers, store=store).map(press_surface, SURFACES))
-    shuffled = np.random.default_rng(0).permutation(len(SURFACES))
-    store = tmp_path / "shuffled"
-    mixed = Engine(workers=2, store=store).map(press_surface, [SURFACES[i] for i in shuffled])
-    assert same([alone[i] for i in shuffled], mixed)
-    for folder in ("3", "shuffled"):
-        assert contents(tmp_path / folder) == contents(tmp_path / "2")
-
-
-def contents(folder):
-    return {file.name: file.read_bytes() for file in folder.iterdir()}
-
-
-RUN = """
-import sys
-from pathlib import Path
-from tests.engine.test_engine import Slow, gated
-from validation.engine.engine import Engine
-problems = [Slow(i, sys.argv[2]) for i in range(12)]
-Engine(workers=2, store=Path(sys.argv[1])).map(gated, problems)
-"""
-
-
-@dataclass(frozen=True)
-class Slow:
-    number: int
-    log: str
-
-
-def slow(problem):
-    """Leaves a trace when it is finished."""
-    time.sleep(0.2)
-    found = toy(Toy(problem.number, problem.log))
-    return {"value": found["value"], "failed": np.array(float(problem.number == 3))}
-
-
-def gated(problem):
-    """The later ones wait until they may."""
-    wait_until(lambda: problem.number < 6 or Path(f"{problem.log}.go").exists())
-    return toy(Toy(problem.number, problem.log))
-
-
-def wait_until(condition, *alive, over=None):
-    """However long it takes, as long as the processes live that bring it about, and nobody has called it off."""
-    while not condition() and not (over and over.is_set()):
-        assert all(process.poll() is None for process in alive), "it ended before it happened"
-        time.sleep(0.02)
-
-
-@pytest.mark.slow
-def test_a_killed_run_goes_on_where_it_stopped(tmp_path):
-    """SIGKILL in the middle, no time for any farewell: a rerun ends with the bytes of a run that was left alone, and
-    computes nothing again that had been stored, and at most what the two workers were at or had before them."""
-    store, log = tmp_path / "store", tmp_path / "log"
-    words = [sys.executable, "-c", RUN, str(store), str(log)]
-    run = subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, stderr=subprocess.DEVNULL)
-    try:
-        wait_until(lambda: len(list(store.glob("*.npz"))) >= 4, run)
-        run.kill()
-        run.wait()
-        kept = {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")}
-        assert 4 <= len(kept) <= 6
-    finally:
-        run.kill()
-        # for its workers, too, whom nobody waits for any more
-        Path(f"{log}.go").touch()
-    subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, check=True)
-    assert {name: (store / name).stat().st_mtime_ns for name in kept} == kept
-    assert 12 <= len(computed(log)) <= 12 + 4
-    alone = Engine(store=tmp_path / "alone").map(gated, [Slow(i, str(log)) for i in range(12)])
-    assert len(alone) == 12
-    assert contents(tmp_path / "alone") == {f.name: f.read_bytes() for f in store.glob("*.npz")}
-
-
-AT_ANY_TIME = 10**6
-"""Seconds that no load makes of a machine that works at all."""
-
-
-@contextmanager
-def meanwhile(action, condition):
-    """Do it in a thread as soon as the condition holds, unless all is over by then."""
-    over = threading.Event()
-
-    def act():
-        wait_until(condition, over=over)
-        if not over.is_set():
-            action()
-
-    thread = threading.Thread(target=act)
-    thread.start()
-    try:
-        yield
-    finally:
-        over.set()
-        thread.join()
-
-
-@pytest.fixture
-def cluster(monkeypatch, request):
-    """A real scheduler on loopback: its address, how to start worker processes, and its own process."""
-    # a machine that is busy starts processes slowly, as slowly as it likes
-    monkeypatch.setattr(ensemble, "TIMEOUT", AT_ANY_TIME)
-    started = []
-
-    def start(module, *words):
-        words = [sys.executable, "-m", f"distributed.cli.{module}", *words, "--no-dashboard"]
-        settings = ENVIRONMENT | getattr(request, "param", {})
-        started.append(subprocess.Popen(words, cwd=ROOT, env=settings, stderr=subprocess.DEVNULL))
-        return started[-1]
-
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
-
-    def worker(threads=1):
-        return start("dask_worker", f"tcp://127.0.0.1:{port}", "--nthreads", str(threads), "--no-nanny")
-
-    yield f"dask://127.0.0.1:{port}", worker, scheduler
-    for process in reversed(started):
-        process.kill()
-        process.wait()
-
-
-@pytest.mark.slow
-def test_workers_of_a_scheduler_give_the_same_bits_and_one_may_die(cluster, tmp_path):
-    """One of three workers is killed in the middle: all results come, each as a single process would have it."""
-    from tests.engine.small_punches import SURFACES, press_surface
-
-    address, worker, _ = cluster
-    workers = [worker(), worker(), worker(threads=2)]
-    log = str(tmp_path / "log")
-    problems = [Slow(i, log) for i in range(16)]
-
-    with meanwhile(workers[0].kill, lambda: len(computed(log)) >= 6):
-        remote = Engine(store=tmp_path / "remote", executor=address).map(slow, problems)
-    assert workers[0].wait() != 0
-    assert all(other.poll() is None for other in workers[1:])
-    assert set(computed(log)) == set(range(16))
-    assert same(Engine().map(slow, problems), remote)
-    assert len(list((tmp_path / "remote").glob("*.npz"))) == 16
-    # the survivors still compute: surfaces this time, two at once on one of them
-    here, there = tmp_path / "here", tmp_path / "there"
-    assert same(
-        Engine(store=here).map(press_surface, SURFACES),
-        Engine(store=there, executor=address).map(press_surface, SURFACES),
-    )
-    assert contents(here) == contents(there)
-
-
-@pytest.mark.parametrize("executor", ["dask", "dask://", "dask://host", "tcp://host:1", "dask://host:port", "", "loky"])
-def test_an_executor_is_local_or_an_address(executor):
-    with pytest.raises(ValueError, match="executor must be"):
-        Engine(executor=executor)
-
-
-def test_an_address_where_nobody_answers(problems, monkeypatch):
-    monkeypatch.setattr(ensemble, "TIMEOUT", 1)
-    with pytest.raises(ValueError, match="executor must be a running scheduler"):
-        Engine(executor="dask://127.0.0.1:9").map(toy, problems)
-
-
-@pytest.mark.slow
-def test_a_scheduler_that_is_lost(cluster, tmp_path):
-    """A sentence, not a hang; what was finished is kept."""
-    address, worker, scheduler = cluster
-    worker()  # one is enough to compute there and not here
-    store = tmp_path / "store"
-
-    problems = [Slow(i, str(tmp_path / "log")) for i in range(10**4)]
-    lost = pytest.raises(ConnectionError, match=r"scheduler at \S+ is gone; finished solves are kept")
-    with lost, meanwhile(scheduler.kill, lambda: len(list(store.glob("*.npz"))) >= 3):
-        Engine(store=store, executor=address).map(slow, problems)
-    assert len(list(store.glob("*.npz"))) >= 3
-
-
-@dataclass(frozen=True)
-class Deadly:
-    number: int
-
-
-def deadly(problem):
-    os._exit(1)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("cluster", [{"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"}], indirect=True)
-def test_a_solve_that_kills_every_worker_is_given_up(cluster, tmp_path):
-    """The scheduler gives it to two, one after the other."""
-    address, worker, _ = cluster
-    for _ in range(2):
-        worker()
-    with pytest.raises(ensemble.WorkerLostError, match="has killed every worker"):
-        Engine(executor=address).map(deadly, [Deadly(0)])
-
-
-@pytest.mark.slow
-def test_a_scheduler_without_workers(problems, cluster, monkeypatch):
-    address, _, scheduler = cluster
-    host, port = address.removeprefix("dask://").split(":")
-
-    def answers():
-        with socket.socket() as caller:
-            return caller.connect_ex((host, int(port))) == 0
-
-    wait_until(answers, scheduler)
-    client = pytest.importorskip("distributed").Client
-    wait = client.wait_for_workers
-    # to be found is left its time, workers that will not come are not
-    monkeypatch.setattr(client, "wait_for_workers", lambda self, count, timeout: wait(self, count, timeout=1))
-    with pytest.raises(ValueError, match="executor must have workers"):
-        Engine(executor=address).map(toy, problems)
-
-
-def test_workers_with_other_numerics_are_refused(problems):
-    with pytest.raises(ValueError, match="another version of the numerics"):
-        ensemble._solve(toy, problems[0], 0, "another digest")
 
 
 def test_progress_in_a_log(problems, tmp_path, capsys, monkeypatch):

@@ -10,6 +10,8 @@ from scipy import stats
 
 from tests.analysis import (
     test_error_bars,
+    test_error_bars_of_grids,
+    test_error_bars_of_rolling,
     test_evidence,
     test_judged_claims,
     test_multilevel,
@@ -259,7 +261,7 @@ FAULTS = {
     ),
     "two standard errors of a sample of three": (
         (statistics.Estimate, "half_width", property(two_standard_errors)),
-        functools.partial(test_error_bars.test_variance_and_mean_of_the_rolling_force_cover_their_truth, 3),
+        functools.partial(test_error_bars_of_rolling.test_variance_and_mean_of_the_rolling_force_cover_their_truth, 3),
     ),
     "a whole interval for its half": (
         (statistics.Estimate, "half_width", property(ends_apart)),
@@ -274,8 +276,8 @@ FAULTS = {
         functools.partial(test_error_bars.test_the_interval_of_a_mean_of_estimates, (1.0, 0.05, 0.05)),
     ),
     "half of the way to cells of no size": (
-        (test_error_bars, "extrapolated", half_of_the_way),
-        test_error_bars.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
+        (test_error_bars_of_grids, "extrapolated", half_of_the_way),
+        test_error_bars_of_grids.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
     ),
     "steps between grids taken the wrong way": (
         (multilevel.Moments, "with_step", lambda mine, fine, coarse: moments_with_step(mine, coarse, fine)),
@@ -303,23 +305,23 @@ FAULTS = {
     ),
     "profiles and surfaces taken for the same realisations": (
         (multilevel.Linearised, "beside", lambda mine, other: mine - other),
-        test_error_bars.test_the_sample_interval_of_fig_14_1,
+        test_error_bars_of_grids.test_the_sample_interval_of_fig_14_1,
     ),
     "sample and grid exchanged": (
         (difference_module, "Number", sample_for_grid),
-        test_error_bars.test_intervals_of_where_mdr_must_fail,
+        test_error_bars_of_grids.test_intervals_of_where_mdr_must_fail,
     ),
     "sample and grid of Fig. 14.1 exchanged": (
         (fractal_punch_decades, "Number", sample_for_grid),
-        test_error_bars.test_the_grid_interval_of_fig_14_1,
+        test_error_bars_of_grids.test_the_grid_interval_of_fig_14_1,
     ),
     "the signed mean over bands for the worst of them, in rolling": (
         (rolling_numbers, "worst", mean_of_the_range),
-        test_error_bars.test_levels_of_rolling_are_powers_in_decibels,
+        test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
     ),
     "decibels of an amplitude for those of a power, in rolling": (
         (rolling_numbers, "difference", functools.partial(difference, scale=statistics.DECIBEL)),
-        test_error_bars.test_levels_of_rolling_are_powers_in_decibels,
+        test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
     ),
     "a line at the upper edge of a band counted in it": (
         (spectra.Bands, "sums", both_edges),

@@ -30,6 +30,7 @@ from tests.bem3d import (
     test_load_paths,
     test_operator_against_dense_twin,
     test_rolling_contact,
+    test_rolling_frame,
     test_transverse_profile,
     test_windows_and_starts,
 )
@@ -217,7 +218,7 @@ FAULTS = {
     ),
     "a bound four times as large": (
         (Frame, "_moments", four_times_the_force),
-        test_rolling_contact.test_cells_that_a_frame_rules_out_are_open,
+        test_rolling_frame.test_cells_that_a_frame_rules_out_are_open,
     ),
     "a residual of rolling that is not looked at": (
         (wheel_on_strip, "residual", lambda *_: 0.0),

@@ -5,7 +5,7 @@ import functools
 
 import numpy as np
 
-from tests.benchmarks import test_peers
+from tests.benchmarks import test_chart_errors, test_fronts, test_peers
 from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
 from validation.benchmarks import timing
@@ -45,8 +45,8 @@ FAULTS = {
     "a time beside that of a method that is not as close": (
         (precision_claims, "_cheapest_as_close", fastest_of_all),
         functools.partial(
-            test_precision.test_the_cheapest_is_claimed_of_times,
-            test_precision.timed_point(test_precision.FILTER_1D, 0.3, 1e-6),
+            test_fronts.test_the_cheapest_is_claimed_of_times,
+            test_fronts.timed_point(test_fronts.FILTER_1D, 0.3, 1e-6),
             ("holds", "holds"),
             "Yes: they are the cheapest on 1 of 1 charts",
         ),
@@ -56,24 +56,24 @@ FAULTS = {
         test_peers.test_the_median_lies_between_order_statistics,
     ),
     "nothing left open by a reference": (
-        (test_precision.Point, "rank", property(lambda point: point.error + point.half_width)),
-        test_precision.test_the_front_is_what_nothing_beats_and_ends_in_the_band,
+        (test_fronts.Point, "rank", property(lambda point: point.error + point.half_width)),
+        test_fronts.test_the_front_is_what_nothing_beats_and_ends_in_the_band,
     ),
     "errors ranked without their intervals": (
-        (test_precision.Point, "rank", property(lambda point: max(point.error, point.band))),
-        test_precision.test_errors_are_ranked_by_their_upper_ends,
+        (test_fronts.Point, "rank", property(lambda point: max(point.error, point.band))),
+        test_fronts.test_errors_are_ranked_by_their_upper_ends,
     ),
     "the same surfaces taken for others": (
-        (test_precision, "error", as_if_alone),
-        test_precision.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
+        (test_chart_errors, "error", as_if_alone),
+        test_chart_errors.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
     ),
     "first order for second in an extrapolation": (
         (precision_error.MethodValues, "log", at_first_order),
-        functools.partial(test_precision.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
+        functools.partial(test_chart_errors.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
     ),
     "decibels of an amplitude for those of a power": (
         (precision.Quantity, "distance", scaled(precision.Quantity.distance, 2.0)),
-        test_precision.test_levels_differ_by_the_root_mean_square_of_decibels,
+        test_chart_errors.test_levels_differ_by_the_root_mean_square_of_decibels,
     ),
     "an approach under a wave without its logarithm": (
         (test_precision, "westergaard_approach", without_its_logarithm),

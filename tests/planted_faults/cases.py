@@ -19,6 +19,7 @@ from tests.cases import (
     test_from_force_to_roughness_and_stiffness,
     test_limits,
     test_wheel_cases,
+    test_wheel_ensembles,
     test_wheel_regions,
     test_wheel_stability,
 )
@@ -215,12 +216,12 @@ FAULTS = {
     ),
     "a wheel of half of its circumference": (
         (wheel_scene.WheelScene, "circumference_points", property(half_of_the_circumference)),
-        test_wheel_cases.test_the_roughness_of_a_wheel_repeats_after_its_circumference,
+        test_wheel_ensembles.test_the_roughness_of_a_wheel_repeats_after_its_circumference,
     ),
     "a periodic track taken as open": (
         (wheel_ensemble.WheelEnsemble, "places", property(always_open)),
         functools.partial(
-            test_wheel_cases.test_periodic_tracks_take_whole_natural_periods,
+            test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods,
             "steady-state",
             0.5,
             0.16,
@@ -247,15 +248,15 @@ FAULTS = {
     ),
     "Geike's spectrum for the rolling-equivalent one": (
         (wheel_ensemble.WheelEnsemble, "heights", by_geike),
-        test_wheel_cases.test_the_rolling_spectrum_has_long_waves_and_geikes_has_none,
+        test_wheel_ensembles.test_the_rolling_spectrum_has_long_waves_and_geikes_has_none,
     ),
     "no resonator in the linear spectrum": (
         (wheel_theory, "acceleration_over_force", without_resonance),
-        test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+        test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
     "factor 2 pi lost over frequency, seen in an ensemble": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
-        test_wheel_cases.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+        test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
     "factor 2 lost in the second-order force": (
         (rolling_theory, "second_order_force_spectrum", scaled(rolling_theory.second_order_force_spectrum, 0.5)),

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.test_engine import ENVIRONMENT, ROOT
+from tests.engine.toys import ENVIRONMENT, ROOT
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
 from validation.engine import files

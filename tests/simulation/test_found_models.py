@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from tests.benchmarks.test_work_precision import use_a_clock_of_its_own
+from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.benchmarks import timing
 from validation.benchmarks.found_models import TimedProblem, all_methods
 from validation.benchmarks.solvers import case as comparison

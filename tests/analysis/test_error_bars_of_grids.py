@@ -1,0 +1,190 @@
+"""Error bars of pairs of grids, and of methods on a chart, on populations with a known answer."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from tests.analysis.intervals import covered, holds, t
+from validation.analysis.multilevel import Linearised
+from validation.analysis.statistics import (
+    DECIBEL,
+    Estimate,
+    at_level,
+    difference_of_halves,
+    extrapolated,
+    jackknife_error,
+    log_mean,
+    paired_samples,
+    sample,
+    student,
+)
+from validation.benchmarks.work_precision.errors import MethodValues, error
+from validation.benchmarks.work_precision.problem import Quantity, logarithm
+from validation.cases.punch import fractal_punch_decades
+from validation.cases.punch.area_gap_rolloff_numbers import RollOffSamples
+from validation.cases.punch.ensembles import interval_columns
+from validation.simulation.rough_punch import BEM, MDR
+
+
+def test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it():
+    """To cells of no size it is twice the change from one grid to the next."""
+    coarse, finer = Estimate(1.0, 0.2, 20), Estimate(-0.1, 0.03, 4)
+    value, left = extrapolated(coarse, finer)
+    assert value == Estimate(0.8, 0.2, 20)
+    assert left == pytest.approx(0.1 + 2 * t(4) * 0.03)
+    assert extrapolated(coarse, finer, among=5)[1] == pytest.approx(0.1 + 2 * stats.t.ppf(0.995, 3) * 0.03)
+
+
+def on_grids(rng, surfaces, slope=0.1, scatter=0.02):
+    """Stiffness on cells of size 1 and 1/2 of surfaces whose error is of first order, their own slope each."""
+    true = 1 + 0.1 * rng.standard_normal((surfaces, 1))
+    own = slope + scatter * rng.standard_normal((surfaces, 1))
+    return true * np.exp(own), true * np.exp(own / 2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("refined", [3, 6])
+def test_sample_and_grid_together_hold_cells_of_no_size(refined):
+    """Few of twelve surfaces on the finer grid: added as if they went the same way, the two hold more than 95 %."""
+    rng = np.random.default_rng(refined)
+
+    def drawn():
+        coarse, fine = on_grids(rng, 12)
+        value, left = extrapolated(
+            sample(coarse, rng).estimate(at_level(0, log_mean)),
+            paired_samples(coarse[:refined], fine[:refined], rng).estimate(difference_of_halves(at_level(0, log_mean))),
+        )
+        return value.value, value.half_width + left
+
+    assert covered(drawn, 0.0, trials=200) >= 0.95
+
+
+@pytest.mark.slow
+def test_what_a_grid_leaves_open_shrinks_with_the_cells_and_with_the_surfaces():
+    rng = np.random.default_rng(5)
+
+    def left(surfaces, **changes):
+        coarse, fine = on_grids(rng, surfaces, **changes)
+        finer = paired_samples(coarse, fine, rng).estimate(difference_of_halves(at_level(0, log_mean)))
+        return extrapolated(Estimate(0.0, 0.0, 9), finer)[1]
+
+    # cells half as wide, all alike: half of it
+    assert left(5, scatter=0.0, slope=0.05) == pytest.approx(left(5, scatter=0.0) / 2)
+    # surfaces that differ: the root of their number, and Student's quantile
+    few, many = (np.mean([left(n, slope=0.0) - 0.01 / math.sqrt(n) for _ in range(60)]) for n in (4, 16))
+    assert few / many == pytest.approx(2 * t(4) / t(16), rel=0.2)
+
+
+def steps(*values, error=0.01, n=50):
+    """A statistic on grids, coarse to fine, from the same realisations; the steps between grids have no error."""
+    influence = np.zeros(n)
+    influence[:2] = error / math.sqrt(2)
+    return {8 * 2**i: Linearised(value, influence) for i, value in enumerate(values)}
+
+
+def compared(bem, springs, *, name="mean stiffness", among=4):
+    resolved = fractal_punch_decades.on_finest(springs), fractal_punch_decades.extrapolated(bem)
+    return fractal_punch_decades.PointComparison(name, 0.7, 0.1, *resolved, among=among).number
+
+
+def test_the_grid_interval_of_fig_14_1():
+    """Cells of no size lie f beyond the finest grid by the two finest, and c beyond the middle one by the next two:
+    what both differ by, and what doubling the springs changes. Nothing of that is the sample's."""
+    number = compared(steps(0.2, 0.25, 0.27), steps(0.504, 0.5))
+    assert number.grid == pytest.approx(DECIBEL * (abs(2 * 0.02 - 0.05) + 0.004))
+    assert number.value == pytest.approx(DECIBEL * (0.5 - 0.27 - 0.02))
+    for worse in (
+        compared(steps(0.2, 0.24, 0.27), steps(0.504, 0.5)),
+        compared(steps(0.1, 0.25, 0.27), steps(0.504, 0.5)),
+        compared(steps(0.2, 0.25, 0.27), steps(0.51, 0.5)),
+    ):
+        assert worse.grid > number.grid
+        assert worse.sample == number.sample
+    exponent = compared(steps(0.2, 0.25, 0.27), steps(0.504, 0.5), name="exponent")
+    assert (exponent.grid, exponent.value) == pytest.approx((0.014, 0.21))
+
+
+def test_the_sample_interval_of_fig_14_1():
+    """Root of the sum of squares of surfaces and profiles, at once for all forces of the decade."""
+    one, four = (compared(steps(0.2, 0.25, 0.27), steps(0.5, 0.5, error=0.02), among=n) for n in (1, 4))
+    freedom = Linearised(0.0, np.array([0.02, 0.02, 0.01, 0.01])).freedom
+    assert one.sample == pytest.approx(DECIBEL * student(freedom) * math.hypot(0.01, 0.02))
+    assert four.sample / one.sample == pytest.approx(student(freedom, 1 - 0.05 / 4) / student(freedom))
+
+
+def test_intervals_of_where_mdr_must_fail():
+    """Area, gap and stiffness in decibels; on the page as ratios about their value, the gap over h."""
+    rng = np.random.default_rng(1)
+    coarse, fine = on_grids(rng, 12)
+    other = 2.0 + 0.2 * rng.standard_normal((40, 1))
+    mine = RollOffSamples(
+        1,
+        {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
+        {"gap": np.stack([coarse[:4], fine[:4]], axis=1)},
+    )
+    statistic = at_level(0, log_mean)
+    number = mine.over_bem("mean gap", "gap", statistic, 0.1, among=3)
+    change = np.log([np.delete(fine[:4], i).mean() / np.delete(coarse[:4], i).mean() for i in range(4)])
+    finer = Estimate(float(np.log(fine[:4].mean() / coarse[:4].mean())), float(jackknife_error(change)), 4)
+    bem, springs = (mine.by_method[method, "gap"].estimate(statistic) for method in (BEM, MDR))
+    assert number.grid == pytest.approx(DECIBEL * (abs(finer.value) + 2 * finer.half_width))
+    assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width_among(3))
+    assert number.value == pytest.approx(DECIBEL * (springs.value - bem.value - 2 * finer.value))
+    row = interval_columns("gap", bem, lambda log: math.exp(log) / 1e-3)
+    assert row["gap"] == pytest.approx(1e3 * coarse.mean())
+    assert row["gap high"] / row["gap"] == pytest.approx(row["gap"] / row["gap low"])
+    assert math.log(row["gap high"] / row["gap"]) == pytest.approx(bem.half_width)
+
+
+MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
+LEVEL = Quantity(name="level", log=logarithm("k"), needs=("k",), decibel=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("size", "short"), [(4, 0.0), (12, 0.0)])
+@pytest.mark.parametrize("paired", [True, False])
+@pytest.mark.parametrize("quantity", [MEAN, LEVEL])
+def test_the_error_of_an_answer_covers_its_truth(size, short, paired, quantity):
+    """1.5 times the reference: the distance |ratio - 1| or 10 lg of it. Alone, hypot of two quantiles is wide."""
+    rng = np.random.default_rng(size)
+    truth = 0.5 if quantity is MEAN else 10 * math.log10(1.5)
+
+    def drawn():
+        reference = 1 + 0.1 * rng.standard_normal(size)
+        own = reference if paired else 1 + 0.1 * rng.standard_normal(size)
+        mine = 1.5 * own * (1 + 0.05 * rng.standard_normal(size))
+        one = error(quantity, MethodValues({"k": mine}, paired=paired), MethodValues({"k": reference}))
+        return one.value, one.half_width
+
+    assert holds(covered(drawn, truth, trials=400), trials=400, short=short, wide=0.0 if paired else 0.04)
+
+
+@pytest.mark.parametrize("paired", [True, False])
+def test_the_error_of_an_answer_has_the_quantile_of_its_sample(paired):
+    """Of a mean of n: t s / sqrt(n) over the mean of the reference, on both sides where they are not paired."""
+    x = np.random.default_rng(0).lognormal(0, 0.1, 5)
+    exact = {"k": np.full(5, 2.0)}
+    one = error(MEAN, MethodValues({"k": x}, paired=paired), MethodValues(exact))
+    assert one.half_width == pytest.approx(t(5) * x.std(ddof=1) / math.sqrt(5) / 2)
+    # half of it extrapolated the same way leaves the same; twice the change leaves more
+    more = error(MEAN, MethodValues({"k": x}, {"k": np.full(5, 1.0)}, 2.0, paired=paired), MethodValues(exact))
+    assert more.half_width > 1.5 * one.half_width
+
+
+def test_two_realisations_have_an_error_bar_and_one_has_none():
+    x, exact = np.array([1.0, 1.2]), {"k": np.array([1.0, 1.0])}
+    assert error(MEAN, MethodValues({"k": x}), MethodValues(exact)).half_width == pytest.approx(t(2) * 0.1)
+    assert error(MEAN, MethodValues({"k": x[:1]}), MethodValues({"k": np.ones(1)})).half_width == 0.0
+    alone = error(MEAN, MethodValues({"k": np.ones(1)}, paired=False), MethodValues({"k": x}))
+    assert alone.half_width == pytest.approx(t(2) * 0.1 / 1.1**2, rel=0.01)
+
+
+def test_two_realisations_tell_nothing_of_how_a_deviation_scatters():
+    deviation = Quantity(
+        name="s", log=lambda a: np.log(np.atleast_1d(a["k"].std(ddof=1) if a["k"].size > 1 else 0.0)), needs=("k",)
+    )
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found_ = error(deviation, MethodValues({"k": np.array([1.0, 1.2])}), MethodValues({"k": np.array([1.0, 1.3])}))
+    assert found_.half_width == math.inf

@@ -1,0 +1,114 @@
+"""Error bars of levels along a rolling track, on populations with a known answer."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from tests.analysis.intervals import TRIALS, holds, t
+from validation.analysis.statistics import POWER_DECIBEL, log_ratio_of_means, nearest
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
+from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.rolling.force_spectrum_levels import SPRINGS, LevelsAtHeight, level_3d
+from validation.cases.rolling.input_spectrum_numbers import punch_number
+
+ROLLING = rolling.ForceSpectrum(heights=(0.1,), last=4.0, lowest=0.5, length=32.0, strips=4, refined=3, tracks=30)
+
+
+def rolled(rng, *, springs=1.2, finer=0.98, scatter=0.03, case=ROLLING):
+    """A result with known levels: boundary elements at linear theory, springs at `springs` times its power."""
+    exact_3d = 0.01 * level_3d(case.spectrum, case.bands)
+    bands = exact_3d.size
+
+    def outcome(level, own, size):
+        common = rng.lognormal(0, 0.3, (size, bands))
+        mine = level * common * (1 + own * rng.standard_normal((size, bands)))
+        moments = {"mean": 1 + 0.01 * rng.standard_normal(size), "linear variance": common.mean(axis=1)}
+        moments["variance"] = moments["linear variance"] * (1 + 0.05 * rng.standard_normal(size))
+        cross = np.stack([common * level, 0 * common])
+        return {"level": mine, "linear level": level * common, "cross": cross, **moments}
+
+    bem = outcome(exact_3d, scatter, case.strips)
+    refined = {name: values[..., : case.refined, :] if values.ndim > 1 else values for name, values in bem.items()}
+    refined["level"] = finer * refined["level"]
+    tracks = {name: outcome(springs * np.maximum(exact_3d, 1e-12), 0.1, case.tracks) for name in rolling.INPUT_SPECTRA}
+    return rolling.RollingResult(
+        case, {0.1: bem}, {0.1: refined}, {(name, 0.1): one for name, one in tracks.items()}, {}, ()
+    )
+
+
+@pytest.mark.slow
+def test_levels_of_rolling_are_powers_in_decibels():
+    """10 lg of a ratio of powers: 1.2 of springs, 0.98 from one grid to the next, which are 0.98^2 to no cells."""
+    rng = np.random.default_rng(0)
+    mine = LevelsAtHeight(rolled(rng, scatter=1e-9), 0.1)
+    region = 1.0, 4.0
+    bands = mine.bands_in(region)
+    each = [mine.model_level(SPRINGS, mine.single_bands[band]) for band in bands]
+    worst, rms = rolling_numbers.over_bem(mine, SPRINGS, region)
+    at = each[list(mine.case.bands.centres[bands]).index(worst.where["worst at"])]
+    assert abs(10 * math.log10(1.2) - POWER_DECIBEL * at.value) <= 2 * POWER_DECIBEL * at.half_width
+    assert worst.value == pytest.approx(POWER_DECIBEL * (at.value - 2 * math.log(0.98)), abs=1e-6)
+    assert worst.grid == pytest.approx(-10 * math.log10(0.98), abs=1e-4)
+    assert worst.sample == pytest.approx(POWER_DECIBEL * at.half_width_among(len(bands)), rel=0.01)
+    off = [POWER_DECIBEL * (one.value - 2 * math.log(0.98)) for one in each]
+    assert rms.value == pytest.approx(math.sqrt(np.mean(np.square(off))), abs=1e-6)
+    departure, _ = rolling_numbers.nonlinear(mine, region)
+    assert departure.reference == pytest.approx(POWER_DECIBEL * 2 * math.log(0.98), abs=1e-6)
+    assert departure.grid == pytest.approx(worst.grid)
+
+
+@pytest.mark.parametrize("strips", [4, 6])
+def test_ratios_of_levels_cover_their_truth(strips):
+    """ln of 1.5, in the mean over bands of unequal scatter that share their surfaces; a row that is lost counts not."""
+    rng, weights, covered = np.random.default_rng(strips), np.array([0.5, 0.5, 0.0]), 0
+    for _ in range(TRIALS):
+        linear = rng.lognormal(0, 0.3, (strips + 1, 3)) * [1.0, 10.0, 0.0]
+        levels = 1.5 * linear * (1 + [0.1, 0.02, 0.1] * rng.standard_normal(linear.shape))
+        levels[-1] = np.nan
+        estimate = log_ratio_of_means(levels, linear, weights)
+        assert estimate.samples == strips
+        covered += abs(estimate.value - math.log(1.5)) <= estimate.half_width
+    assert holds(covered / TRIALS, short=0.02, wide=0.02)
+
+
+@pytest.mark.parametrize("strips", [3, 6])
+def test_variance_and_mean_of_the_rolling_force_cover_their_truth(strips):
+    """Both are of a few strips beside many tracks."""
+    rng = np.random.default_rng(strips)
+    shares = np.zeros(3)
+    for _ in range(TRIALS):
+        outcomes = [
+            {
+                "linear variance": (linear := rng.lognormal(0, 0.2, n)),
+                "variance": 1.1 * linear * (1 + 0.05 * rng.standard_normal(n)),
+                "mean": 1.0 + 0.01 * rng.standard_normal(n),
+            }
+            for n in (strips, 40)
+        ]
+        mine = SimpleNamespace(height=0.1, bem=outcomes[0], springs=outcomes[1])
+        numbers = rolling_numbers.moments(mine)
+        truths = (1.1, 1.1, numbers[2].reference)
+        shares += [abs(n.value - truth) <= n.sample for n, truth in zip(numbers, truths, strict=True)]
+    assert all(holds(share, short=0.01, wide=0.01) for share in shares / TRIALS)
+
+
+def test_an_interval_of_a_ratio_is_that_of_its_logarithm_times_the_ratio():
+    """MDR over boundary elements as a part: exp(x) - 1, whose interval is exp(x) times that of x."""
+    case = rolling_input.RollingInput(surfaces=20, profiles=30)
+    rng = np.random.default_rng(0)
+    punches = {"stiffness": 1 + 0.1 * rng.standard_normal((20, len(case.forces)))}
+    springs = {"stiffness": 3 + 0.1 * rng.standard_normal((30, len(case.forces)))}
+    result = SimpleNamespace(case=case, profiles=dict.fromkeys(rolling_input.INPUT_SPECTRA, springs), punches=punches)
+    number = punch_number(result, "geike")
+    assert number.value == pytest.approx(2.0, rel=0.1)
+    level = nearest(case.forces, 0.1)
+    relative = math.hypot(
+        *(
+            x[:, level].std(ddof=1) / x[:, level].mean() / math.sqrt(len(x))
+            for x in (*springs.values(), *punches.values())
+        )
+    )
+    assert number.sample == pytest.approx(t(25) * (1 + number.value) * relative, rel=0.06)

@@ -1,0 +1,86 @@
+"""A quantity, configurations and a clock that are made up."""
+
+import dataclasses
+import os
+from concurrent.futures import Future
+from contextlib import nullcontext
+
+import numpy as np
+
+from validation.benchmarks import timing
+from validation.benchmarks.found_models import TimedProblem
+from validation.benchmarks.timing import Configuration, RunLimits
+from validation.benchmarks.work_precision.problem import Quantity, logarithm
+from validation.simulation.method import Result, Solve
+
+MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
+
+
+def k(values):
+    return {"k": np.array(values, dtype=float)}
+
+
+@dataclasses.dataclass(frozen=True)
+class Acting:
+    """For a test: what it does, by name."""
+
+    name: str = "right"
+
+    def prepare(self, scene, resolution):
+        if self.name == "refuses":
+            raise ValueError("springs must be more, got 3")
+        if self.name == "dies at once":
+            os._exit(1)
+
+        def run():
+            if self.name == "dies":
+                os._exit(1)
+            if self.name == "raises":
+                raise RuntimeError("lost its way")
+            return 2.0
+
+        return lambda realisation: Solve(run, lambda found: Result({"k": np.array(found + realisation)}, 10.0))
+
+
+@dataclasses.dataclass(frozen=True)
+class Made:
+    """For a test: a problem of such configurations."""
+
+    tried: tuple[Configuration, ...]
+    name = "made"
+    quantities = (MEAN,)
+    scene, served = None, ()
+
+    def configurations(self):
+        return self.tried
+
+    def reference(self):
+        return k([2.0])
+
+    def pairs(self):
+        return ()
+
+
+def named(act, worker=timing.OURS, **settings):
+    name = "right" if act == "again" else act
+    return Configuration(
+        method=Acting(name), scene=None, label=act, parameter="#", value=1.0, worker=worker, **settings
+    )
+
+
+def timed_problem(*tried, slow=1.0, enough=0.0):
+    return TimedProblem(Made(tried), RunLimits(slow=slow, enough=enough))
+
+
+class Inline:
+    """A process that is this one."""
+
+    def submit(self, function, *arguments):
+        done = Future()
+        done.set_result(function(*arguments))
+        return done
+
+
+def use_a_clock_of_its_own(monkeypatch):
+    monkeypatch.setattr(timing, "isolated_process", lambda: nullcontext(Inline()))
+    monkeypatch.setattr(timing, "timed", lambda function: (function(), 0.01))

@@ -1,0 +1,127 @@
+"""The cheapest method and the front of all, of hand-made points; claims and words about them."""
+
+import dataclasses
+import math
+
+import pytest
+
+from validation.benchmarks.timing import FINISHED
+from validation.benchmarks.work_precision.claims import claims_of, time_numbers
+from validation.benchmarks.work_precision.pareto import Point, break_even, cheapest, front, work
+from validation.benchmarks.work_precision.problem import BEM, CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING
+
+
+def point(line, off, seconds, **settings):
+    settings = {"status": FINISHED, "band": 0.001, "unit": "%", "parameter": "# cells", "value": 8.0, **settings}
+    return Point(
+        scene="scene",
+        quantity="force",
+        method=line,
+        error=off,
+        seconds=(0.9 * seconds, seconds, 1.2 * seconds),
+        **settings,
+    )
+
+
+CHART = [
+    point("MDR", 0.13, 1e-5, value=16, work=16.0),
+    point("MDR", 0.12, 2e-5, value=32, work=32.0),
+    point("BEM", 0.2, 1e-4, value=4, work=1000.0),
+    point("BEM", 0.03, 1e-3, value=8, work=9000.0),
+    point("BEM", 0.0005, 1e-2, value=16, work=80000.0),
+    point("BEM", 0.0001, 1e-1, value=32, work=800000.0),
+    point("plain", 0.03, 2e-3, value=8, work=8000.0),
+]
+
+
+def names(found):
+    return [(p.method, p.value) for p in found]
+
+
+def test_the_front_is_what_nothing_beats_and_ends_in_the_band():
+    """BEM with 32 cells is closer than with 16, but below what the reference can tell."""
+    assert names(front(CHART)) == [("MDR", 16), ("MDR", 32), ("BEM", 8), ("BEM", 16)]
+    assert names(front(CHART[::-1])) == names(front(CHART))
+    assert names(front(CHART, work)) == [("MDR", 16), ("MDR", 32), ("plain", 8), ("BEM", 16)]
+
+
+def test_of_equals_the_first_stands_on_the_front():
+    twins = [point("one", 0.1, 1.0), point("other", 0.1, 1.0)]
+    assert names(front(twins)) == [("one", 8.0)]
+    assert names(front(twins[::-1])) == [("other", 8.0)]
+    # as wrong and dearer, or as dear and worse, is beaten
+    assert names(front([*twins[:1], point("dearer", 0.1, 2.0), point("worse", 0.2, 1.0)])) == [("one", 8.0)]
+
+
+@pytest.mark.parametrize("status", ["failed: RuntimeError: lost", "out of range: too few cells"])
+def test_who_has_not_finished_is_not_on_the_front(status):
+    lost = point("lost", math.nan, 1e-9, status=status)
+    assert names(front([lost, *CHART])) == names(front(CHART))
+    assert front([lost]) == []
+
+
+def test_whose_cost_nobody_counts_has_no_place_among_counts():
+    uncounted = point("peer", 0.01, 1e-6, work=math.nan)
+    assert names(front([uncounted, *CHART]))[0] == ("peer", 8.0)
+    assert ("peer", 8.0) not in names(front([uncounted, *CHART], work))
+
+
+def test_errors_are_ranked_by_their_upper_ends():
+    sure, unsure = point("sure", 0.02, 1.0), point("unsure", 0.01, 0.5, half_width=0.5)
+    assert cheapest([sure, unsure], 0.1).method == "sure"
+    assert cheapest([sure, dataclasses.replace(unsure, half_width=0.05)], 0.1).method == "unsure"
+
+
+def test_the_cheapest_within_a_tolerance():
+    assert [cheapest(CHART, t).value for t in (0.3, 0.125, 0.1, 0.01)] == [16, 32, 8, 16]
+    assert cheapest(CHART, 1e-3).value == 16
+    assert cheapest(CHART, 1e-4) is None
+    assert cheapest(CHART[:3], 0.01) is None
+
+
+def test_levels_are_asked_for_in_decibels():
+    level = point("MDR", 2.0, 1.0, unit="dB", band=0.1)
+    assert cheapest([level], 0.3) is level
+    assert cheapest([level], 0.1) is None
+
+
+def timed_point(line, off, seconds):
+    return point(line, off, seconds, runs=100, unit="%")
+
+
+BESIDE_SPRINGS = [
+    timed_point(CLOSED, 0.5, 1e-6),
+    timed_point(MDR, 0.2, 1e-5),
+    timed_point(MDR_ROLLING, 0.1, 1e-4),
+    timed_point(BEM, 0.05, 1e-2),
+    timed_point(BEM, 0.01, 1e-1),
+]
+
+
+@pytest.mark.parametrize(
+    ("another", "statuses", "words"),
+    [
+        # cheaper, but not as close
+        (timed_point(FILTER_1D, 0.3, 1e-6), ("holds", "holds"), "Yes: they are the cheapest on 1 of 1 charts"),
+        # as close as the closest springs, and cheaper than these alone
+        (timed_point(FILTER_1D, 0.1, 5e-5), ("contradicted", "holds"), "2 times the time of linear filter, 1D"),
+        (timed_point(FILTER_3D, 0.05, 1e-3), ("holds", "contradicted"), "10 times the time of linear filter, 3D"),
+        # times whose intervals overlap
+        (timed_point(FILTER_1D, 0.1, 0.99e-4), ("open", "holds"), "Not decided: they are the cheapest on 0 of 1"),
+    ],
+)
+def test_the_cheapest_is_claimed_of_times(another, statuses, words):
+    """At every error that springs reach, and at every smaller one; one error decides."""
+    found = claims_of(time_numbers([[*BESIDE_SPRINGS, another]]), (), (), ())
+    assert tuple(claim.status for claim in found) == statuses
+    assert words in " ".join(claim.answer for claim in found)
+
+
+def test_break_even_in_words():
+    reference = point(CLOSED, 0.0, 1e-6, is_reference=True)
+    assert break_even([reference, *CHART]) == (
+        "scene, force: down to 13 % MDR (16 cells, 10 µs) is the cheapest; beyond, down to 0.1 % BEM "
+        "(8 to 16 cells, 1 ms to 10 ms); below 0.1 % the reference cannot tell. "
+        "The closed form itself takes 1 µs."
+    )
+    assert break_even(CHART[:2]).endswith("; no method gets below 12 %.")

@@ -1,0 +1,273 @@
+"""Wheels on springs: tracks that are drawn, equal bits in batches of any size, linear theory."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.cases.wheel_scenes import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
+from validation.analysis import spectra
+from validation.cases.wheel import features as wheel_features
+from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
+from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.motion import natural_periods, simulate
+from validation.simulation.wheel_on_springs import simulate_ensemble
+from validation.theory import wheel as wheel_theory
+
+
+@pytest.mark.parametrize("track", TRACKS)
+def test_tracks_have_their_rms(track):
+    """Amplitudes are fixed: of each wheel, to rounding."""
+    height = rides(count=3, track=track).heights()
+    assert height.std(axis=0) == pytest.approx(np.full(3, SMALL.rail.rms), rel=ROUNDING)
+    assert np.abs(height.mean(axis=0)).max() <= ROUNDING * SMALL.rail.rms
+
+
+@pytest.mark.parametrize("scene", [SMALL, BOTH, LITTLE], ids=["rail", "both", "wheel"])
+def test_a_number_is_one_track_in_every_ensemble(scene):
+    some, alone = rides(scene, count=4).heights(), rides(scene, first=2).heights()
+    np.testing.assert_array_equal(some[:, [2]], alone)
+    assert np.abs(np.corrcoef(some.T) - np.eye(4)).max() < 0.9
+    assert not np.allclose(rides(scene, first=2, seed=6).heights(), alone)
+
+
+@pytest.mark.parametrize("distance", [0.03, 0.16, 0.1851])
+def test_open_tracks_are_longer_than_what_is_rolled(distance):
+    """By four longest waves, of rail or wheel: their end has nothing to do with their beginning."""
+    ride = rides(replace(BOTH, distance=distance))
+    assert ride.steps == ride.scene.points >= distance / ride.scene.spacing
+    assert ride.heights().shape == (ride.places, 1)
+    assert (ride.places - ride.steps) * ride.scene.spacing >= 4 * 10e-3
+
+
+@pytest.mark.parametrize("distance", [0.03, 0.16, 0.1851])
+@pytest.mark.parametrize(("track", "half"), [("periodic", 0.0), ("steady-state", 0.5)])
+def test_periodic_tracks_take_whole_natural_periods(track, half, distance):
+    """To half a cell, and as long as asked for to half a period, one where that would be none."""
+    ride = rides(replace(SMALL, distance=distance), track=track)
+    assert ride.places == ride.steps == len(ride.heights())
+    wheel, cell = SMALL.body, SMALL.spacing
+    found = natural_periods(wheel, ride.steps * cell, SMALL.speed)
+    assert (found - half) == pytest.approx(
+        round(found - half), abs=0.5 * natural_periods(wheel, cell, SMALL.speed) + 1e-9
+    )
+    assert found == pytest.approx(max(natural_periods(wheel, distance, SMALL.speed), 1.0 - half), abs=0.55)
+
+
+def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
+    """Two pi R, to half a cell; not after half of it, and its rms is that of one turn."""
+    around = round(2 * math.pi * LITTLE.radius / LITTLE.spacing)
+    ride = rides(LITTLE)
+    height = ride.heights()[: ride.steps, 0]
+    assert height.size > 2 * around
+    np.testing.assert_array_equal(height[around:], height[:-around])
+    assert height[:around].std() == pytest.approx(LITTLE.wheel.rms, rel=ROUNDING)
+    half = around // 2
+    assert np.std(height[half:] - height[:-half]) > LITTLE.wheel.rms
+
+
+@pytest.mark.slow
+def test_rail_and_wheel_add_as_spectra():
+    """Heights add to the last bit; where they are independent the cross terms of 40 pairs are below four standard
+    errors of a mean of products of independent waves."""
+    count = 40
+    steps = rides(BOTH).steps
+    both = rides(BOTH, count=count).heights()[:steps]
+    rail = rides(replace(BOTH, wheel=None), count=count).heights()[:steps]
+    wheel_alone = replace(BOTH, rail=None)
+    around = wheel_ensemble.WheelEnsemble._drawn
+    of_wheel = np.stack(
+        [
+            np.resize(
+                around(rides(wheel_alone), BOTH.wheel, BOTH.circumference_points, wheel_ensemble.WHEEL, i), len(rail)
+            )
+            for i in range(count)
+        ],
+        axis=1,
+    )
+    assert both == pytest.approx(rail + of_wheel, abs=1e-18)
+    found = power(both).sum(axis=0) - power(rail).sum(axis=0) - power(of_wheel).sum(axis=0)
+    assert abs(found.mean()) <= 4 * found.std() / math.sqrt(count)
+    q = np.linspace(0.5 * BOTH.rail.q_min, 1.5 * BOTH.rail.q_max, 999)
+    total = wheel_features.roughness(BOTH)(q)
+    np.testing.assert_array_equal(total, BOTH.rail.spectrum.c1d(q) + BOTH.wheel.spectrum.c1d(q))
+    assert wheel_features.roughness(SMALL)(q) == pytest.approx(SMALL.rail.spectrum.c1d(q), rel=ROUNDING)
+
+
+def test_the_rolling_spectrum_has_long_waves_and_geikes_has_none():
+    """Below q_min, what crosses the track aslant; above, Geike's has more in every wave."""
+    tracks = {feed: rides(track="steady-state", input_spectrum=feed) for feed in ("geike", "rolling")}
+    found = {feed: power(ride.heights())[:, 0] for feed, ride in tracks.items()}
+    steps = tracks["geike"].places
+    q = 2 * np.pi * np.arange(1, steps // 2 + 1) / (steps * SMALL.spacing)
+    below, inside = q < SMALL.rail.q_min, (q > SMALL.rail.q_min) & (q < SMALL.rail.q_max)
+    assert below.sum() >= 10
+    assert found["geike"][below].sum() <= 1e-24 * found["geike"].sum()
+    assert (found["rolling"][below] > 1e-6 * found["rolling"].sum()).all()
+    assert (found["rolling"][inside] < found["geike"][inside]).all()
+    beyond = q > SMALL.rail.q_max
+    assert found["rolling"][beyond].sum() <= 1e-24 * found["rolling"].sum()
+
+
+@pytest.mark.parametrize("linear", [False, True], ids=["springs", "linear"])
+@pytest.mark.parametrize("track", TRACKS)
+def test_batches_of_any_size_give_equal_bits(track, linear):
+    settings = {"track": track, "linear": linear}
+    short = replace(SMALL, distance=0.06)
+    together = simulate_ensemble(rides(short, count=6, groups=6, **settings))
+    for first, count in ((0, 1), (1, 2), (3, 3)):
+        part = simulate_ensemble(rides(short, first=first, count=count, groups=count, **settings))
+        own = slice(first, first + count)
+        for name in ("jump", "lowest", "highest", "airborne", "plain", "hann"):
+            np.testing.assert_array_equal(part[name], together[name][own], err_msg=name)
+        np.testing.assert_array_equal(part["levels"], together["levels"][:, own])
+        # sums over a record in another order
+        rms = np.sqrt(together["square"][own])
+        assert part["square"] == pytest.approx(together["square"][own], rel=ROUNDING)
+        assert np.abs(part["mean"] - together["mean"][own]).max() <= ROUNDING * rms.max()
+
+
+def test_groups_are_means_of_their_wheels():
+    apart = simulate_ensemble(rides(count=6, groups=6))
+    groups = simulate_ensemble(rides(count=6, groups=2))
+    for name in ("plain", "hann"):
+        means = np.stack([apart[name][:3].mean(axis=0), apart[name][3:].mean(axis=0)])
+        assert groups[name] == pytest.approx(means, rel=1e-9), name
+    with pytest.raises(ValueError, match="count must be a multiple of groups, got 5 and 2"):
+        rides(count=5, groups=2)
+
+
+@pytest.mark.parametrize("linear", [False, True], ids=["springs", "linear"])
+@pytest.mark.parametrize(("track", "release"), [("open", 0.0), ("periodic", 0.0), ("steady-state", 0.0), ("open", 0.4)])
+def test_the_balance_of_forces_holds_to_rounding(track, release, linear):
+    """Of a sum of N values in their rms: N^(1/2) roundings, of the load beside which the acceleration may be small."""
+    ride = rides(count=3, groups=1, track=track, release=release, linear=linear)
+    outcome = simulate_ensemble(ride)
+    gravity = SMALL.load / SMALL.mass
+    room = 8 * 2.0**-53 * max(gravity / float(np.sqrt(outcome["square"].min())), 1.0) * math.sqrt(ride.steps)
+    assert np.abs(outcome["balance"]).max() <= room < 1e-11
+
+
+def test_a_force_of_another_load_is_out_of_balance():
+    """Negative control: a velocity that is a thousandth off."""
+    heights = rides(count=2).heights()
+    law = wheel_ensemble.SpringsLaw(SMALL.body, heights, SMALL.spacing)
+    motion = simulate(SMALL.body, law, time_step=SMALL.time_step, steps=300)
+    assert np.abs(wheel_ensemble.balance(motion)).max() < 1e-13
+    assert np.abs(wheel_ensemble.balance(replace(motion, velocity=1.001 * motion.velocity))).min() > 1e-8
+
+
+def closed_form(scene, omega, length):
+    """A of (14.17) at waves of a track: that of each wave alone, whose amplitude is scaled to the rms of the sum."""
+    q = omega / scene.speed
+    c1d = scene.rail.spectrum.c1d(q)
+    waves = 2 * np.pi * np.arange(1, 1 + int(scene.rail.q_max * length / (2 * np.pi) + 2)) / length
+    scale = scene.rail.rms**2 / (2 * np.sum(2 * np.pi / length * scene.rail.spectrum.c1d(waves)))
+    a, modulus = scene.contact_radius, scene.modulus
+    force = scale * c1d * (2 * modulus * np.sin(q * a) / q) ** 2
+    with np.errstate(divide="ignore"):
+        resonator = 1 / (scene.mass * (1 - (scene.eigenfrequency / omega) ** 2)) ** 2
+    return force * 2 * np.pi / scene.speed * resonator
+
+
+def test_the_linear_contact_has_its_closed_form_wave_by_wave():
+    """A steady record is one period of its track, so waves are lines. Leapfrog sees 2 sin(omega dt / 2) / dt for omega,
+    by which the resonator is known to be off; where a wave is too weak for its rounding, to that."""
+    ride = rides(count=2, groups=2, track="steady-state", linear=True)
+    outcome = simulate_ensemble(ride)
+    omega, length = outcome["omega"], ride.places * SMALL.spacing
+    stepped = 2 * np.sin(omega * SMALL.time_step / 2) / SMALL.time_step
+    leapfrog = ((1 - (SMALL.eigenfrequency / omega) ** 2) / (1 - (SMALL.eigenfrequency / stepped) ** 2)) ** 2
+    exact = closed_form(SMALL, omega, length) * leapfrog
+    for one in outcome["plain"]:
+        assert one == pytest.approx(exact, rel=1e-6, abs=1e-15 * exact.max())
+    # and the closed form of the case, but for the sum over waves in place of the integral
+    spectrum = Spectrum.of(SMALL, [outcome])
+    inside = exact > 1e-9 * exact.max()
+    ratio = outcome["plain"].mean(axis=0)[inside] / (spectrum.linear * leapfrog)[inside]
+    assert np.ptp(ratio) <= 1e-6
+    assert ratio.mean() == pytest.approx(1, rel=2 * np.pi / (SMALL.rail.q_min * length))
+
+
+def test_the_linear_contact_on_open_tracks_has_its_closed_form_band_by_band():
+    """Within four standard errors over wheels, and a band's part of the sum over waves in place of the integral."""
+    ride = rides(count=40, groups=40, linear=True)
+    outcome = simulate_ensemble(ride)
+    spectrum = Spectrum.of(SMALL, [outcome])
+    edges = spectra.one_third_octaves(1.1 * SMALL.jump, 0.9 * SMALL.cutoff)
+    found = spectra.band_levels(spectrum.omega, spectrum.hann.T, edges)
+    exact = spectra.band_levels(spectrum.omega, spectrum.linear, edges)
+    error = found.std(axis=1, ddof=1) / math.sqrt(40)
+    whole = 2 * np.pi / (SMALL.rail.q_min * ride.places * SMALL.spacing)
+    assert exact.size >= 10
+    assert (np.abs(found.mean(axis=1) - exact) <= 4 * error + whole * exact).all()
+
+
+def test_a_steady_linear_contact_has_nothing_outside_of_its_waves():
+    """Rounding: 1e-16 of its size in each step, squared; open tracks leak there."""
+    for track, most in (("steady-state", 1e-24), ("open", 1.0)):
+        outcome = simulate_ensemble(rides(count=2, track=track, linear=True))
+        omega, density = outcome["omega"], outcome["plain"][0]
+        outside = (omega < 0.99 * SMALL.jump) | (omega > 1.01 * SMALL.cutoff)
+        share = density[outside].max() / density.max()
+        assert share <= most
+        assert track == "steady-state" or share > 1e-4
+
+
+def test_the_floor_of_an_open_record_is_its_jump():
+    """J^2 / (omega^2 T) of the linear contact, wheel by wheel. A jump J' of the slope adds J'^2 / omega^4: in the mean
+    of spectra ~ omega^-p from omega_1 on (p - 1) / (p - 3) (omega_1 / omega)^2 of it, three times which is room; and a
+    wave near the end of the band, at 1 / 1.3 of where the floor begins, has 1 / (1 - 1 / 1.3)^2 = 19 shares."""
+    ride = rides(count=40, groups=10, linear=True)
+    spectrum = Spectrum.of(SMALL, [simulate_ensemble(ride)])
+    value = wheel_features.measured(spectrum)[FLOOR + PREDICTED]
+    slopes = 3 * 3.4 / 1.4 * (SMALL.jump / (1.3 * SMALL.cutoff)) ** 2
+    near = 19 * (SMALL.jump / SMALL.cutoff) ** 3.4
+    assert value.value == pytest.approx(1, abs=slopes + near)
+    assert slopes + near < 0.02
+    # and not that of Hann's window, which has no jump
+    of_hann = Spectrum(**{**vars(spectrum), "plain": spectrum.hann})
+    assert wheel_features.measured(of_hann)[FLOOR + PREDICTED].value < 0.01
+
+
+def jump_of_waves(scene, ride):
+    """<J^2> of the linear contact from rest, over the phases of the waves of the track; forced <a^2>.
+
+    a(T) = sum of a_j (exp(i omega_j T) - cos(omega_0 T) + omega_0 / (i omega_j) sin(omega_0 T)), since free vibration
+    takes away the acceleration and the velocity with which the forced motion begins; a(0) = 0.
+    """
+    length, duration = ride.places * scene.spacing, ride.steps * scene.time_step
+    waves = 2 * np.pi / length * np.arange(1, math.ceil(scene.rail.q_max * length / (2 * np.pi)))
+    omega = waves[waves > scene.rail.q_min * (1 - 1e-9)] * scene.speed
+    squares = 2 * closed_form(scene, omega, length) / (length / scene.speed)
+    turn = scene.eigenfrequency * duration
+    factor = np.exp(1j * omega * duration) - math.cos(turn)
+    factor = factor + scene.eigenfrequency / (1j * omega) * math.sin(turn)
+    return float(squares @ np.abs(factor) ** 2), float(squares.sum()), turn
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("quarters", "theory"), [(1, 1.0), (2, 2.0), (3, 1.0), (4, 2.0)])
+def test_the_mean_square_jump_is_that_of_linear_theory(quarters, theory):
+    """Of 400 wheels from rest on the linear contact, within three standard errors of the sum over waves. The theorem
+    leaves out the velocity, (omega_0 / omega_1)^2 of it at quarters of a period, and what a band that begins sharply
+    still knows of itself x further, 3.4 / (q_min x), twice, x being the thirty longest waves that are left."""
+    distance = quarters / 4 * 2 * math.pi * SMALL.speed / SMALL.eigenfrequency
+    scene = replace(SMALL, springs=12, distance=distance, rail=replace(SMALL.rail, shortest=1e-3))
+    ride = rides(scene, count=400, groups=1, linear=True)
+    outcome = simulate_ensemble(ride)
+    squares = outcome["jump"] ** 2
+    exact, forced, turn = jump_of_waves(scene, ride)
+    error = 3 * float(squares.std(ddof=1)) / math.sqrt(400)
+    assert squares.mean() == pytest.approx(exact, abs=error)
+    said = wheel_theory.mean_square_jump(
+        forced, eigenfrequency=scene.eigenfrequency, duration=ride.steps * scene.time_step
+    )
+    # a record ends on a cell, and is as long as an FFT is fast at
+    assert said / forced == pytest.approx(1 + math.cos(turn) ** 2, rel=ROUNDING)
+    assert said / forced == pytest.approx(theory, abs=0.05)
+    left_out = (scene.eigenfrequency / scene.jump) ** 2 + 2 * 3.4 / (60 * math.pi)
+    assert squares.mean() == pytest.approx(said, abs=error + left_out * forced)
+    # which tells whole periods from quarters
+    assert error + left_out * forced < 0.8 * forced

@@ -1,0 +1,86 @@
+"""Boundary elements in the time loop: strips, the linear contact, what does not converge."""
+
+import functools
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.cases.wheel_scenes import BOTH, LOW, QUICK_3D, ROUNDING
+from validation.cases.wheel import half_space as wheel_3d
+from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
+from validation.engine.convergence import NotConvergedError
+from validation.simulation.motion import natural_periods
+from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
+
+
+def strip(scene=LOW, **settings):
+    given = {"realisation": 0, "natural_periods": 0, "width": 2, "cells": 4, "shared": 2, "tolerance": 1e-8, "seed": 1}
+    return WheelStrip(scene=scene, **{**given, **settings})
+
+
+def test_strips_are_the_same_surface_on_grids_with_a_divisor():
+    """Cells of a third: the coarse centres are among the fine ones; as long, and as wide."""
+    coarse, fine = strip(cells=4, shared=4), strip(cells=12, shared=4)
+    assert fine.surface()[1::3, 1::3] == pytest.approx(coarse.surface(), abs=1e-10 * LOW.rail.rms)
+    assert fine.shape[0] * fine.spacing == pytest.approx(coarse.shape[0] * coarse.spacing, rel=ROUNDING)
+    assert coarse.surface().std() == pytest.approx(LOW.rail.rms, rel=ROUNDING)
+    turn = natural_periods(LOW.body, coarse.shape[0] * coarse.spacing, LOW.speed)
+    assert turn == pytest.approx(0.5, abs=0.5 * natural_periods(LOW.body, LOW.contact_radius / 4, LOW.speed))
+    with pytest.raises(ValueError, match="cells must be a multiple of shared, got 5 and 2"):
+        strip(cells=5)
+
+
+@pytest.mark.parametrize("scene", [replace(LOW, rail=None), BOTH], ids=["smooth", "rough wheel"])
+def test_a_strip_is_that_of_a_rough_rail_alone(scene):
+    with pytest.raises(ValueError, match="scene must have a rough rail and a smooth wheel"):
+        strip(scene)
+
+
+@pytest.mark.slow
+def test_a_low_strip_is_the_linear_contact():
+    """At h / d = 1e-3, step by step: what is left is of the grid, first order in the cells: a circle whose radius is
+    known to half a cell answers the force of a wave with as much error, 1 / (2 cells)."""
+    worst = {}
+    for cells in (4, 8):
+        outcome = simulate_strip(strip(cells=cells))
+        assert outcome["failed"] == 0
+        worst[cells] = np.abs(outcome["bem"] - outcome["linear"]).max() / outcome["linear"].std()
+        assert worst[cells] <= 0.5 / cells
+    assert worst[8] < 0.6 * worst[4]
+
+
+def losing(*realisations):
+    """Rolls, with a residual that nothing reaches for some."""
+
+    @functools.wraps(simulate_strip)
+    def roll(one):
+        return simulate_strip(replace(one, tolerance=1e-18) if one.realisation in realisations else one)
+
+    return roll
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")
+def test_a_strip_that_does_not_converge_is_lost_and_the_case_goes_on(monkeypatch):
+    monkeypatch.setattr(wheel_3d, "simulate_strip", losing(3))
+    case = replace(QUICK_3D, strips=4)
+    result = wheel_3d.run(case)
+    lost = result.strips[wheel_3d.FINEST][3]
+    assert lost["failed"] == 1
+    assert np.isnan(lost["bem"]).all()
+    assert np.isfinite(lost["linear"]).all()
+    assert result.unconverged == ("strip 3, 4 cells to a radius, residual 0.0001",)
+    found = wheel_3d_evidence.evidence(result)
+    assert found.unconverged == result.unconverged
+    assert all(math.isfinite(number.value) and number.met for number in found.numbers)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")
+def test_too_few_strips_are_no_evidence(monkeypatch):
+    monkeypatch.setattr(wheel_3d, "simulate_strip", losing(1))
+    with pytest.raises(NotConvergedError, match="2 strips converged on 4 cells to a radius, 3 are needed") as caught:
+        wheel_3d.run(QUICK_3D)
+    assert caught.value.unconverged == ("strip 1, 4 cells to a radius, residual 0.0001",)
