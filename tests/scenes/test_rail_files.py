@@ -8,6 +8,7 @@ import pytest
 from validation import compare
 from validation.__main__ import main
 from validation.scenes.description import describe
+from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
@@ -299,3 +300,8 @@ def test_heights_must_hold_the_contact(tmp_path, shape, spacing, said):
 def test_a_quantity_that_a_rail_has_not_is_a_sentence():
     with pytest.raises(ValueError, match=re.escape("scene 'Wheel on a rail'")):
         compare(load_scene("rail"), "force-rms")
+
+
+def test_a_rail_is_no_dynamic_wheel():
+    with pytest.raises(ValueError, match="must be those of a dynamic wheel, got a wheel on a rail"):
+        load_wheel_scene("rail")

@@ -12,6 +12,7 @@ from scipy.fft import next_fast_len
 from mdr.checks import count, positive
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.material import Material, material_of
+from validation.scenes.rail_file import is_rail
 from validation.scenes.reader import (
     FORCE,
     LENGTH,
@@ -238,6 +239,8 @@ def load_wheel_scene(scene: str | Path) -> WheelScene:
     path = path_of(scene)
     tables = tables_of(path)
     with file_named_in_errors(path):
+        if is_rail(tables):
+            raise ValueError("wheel and rail must be those of a dynamic wheel, got a wheel on a rail with two radii")
         return wheel_of(tables)
 
 

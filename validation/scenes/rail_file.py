@@ -20,7 +20,7 @@ from validation.scenes.reader import FORCE, LENGTH, MASS, NUMBER, SPEED, WHOLE, 
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.units import in_unit, quantity
 
-OF_WHEEL = ("diameter", "transverse_radius", "axle_load", "levels", "lines")
+OF_WHEEL = ("transverse_radius", "axle_load", "levels", "lines")
 OF_RAIL = ("crown_radius", "across", "alpha", "levels", "lines")
 """What stands in the scene of a rail alone, of its wheel and of its rail."""
 GROUNDS = ("levels", "lines", "heights")

@@ -154,11 +154,11 @@ class Comparison:
 
 
 def quantities_of(scene: Scene) -> tuple[str, ...]:
-    """The quantities that a scene has; the first is the default."""
+    """The quantities that a scene has; the first is the default. Raises ValueError where it has none."""
     if isinstance(scene, IndentationScene):
         return PRESSED
     if isinstance(scene, RailScene):
-        return ()
+        raise ValueError(f"scene {scene.name!r}, a wheel on a rail, has no quantity to compare")
     return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
 
 
@@ -235,8 +235,6 @@ def compare(
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
-    if not quantities_of(scene):
-        raise ValueError(f"scene {scene.name!r}, a wheel on a rail, has no quantity to compare, got {quantity}")
     asked = quantities_of(scene)[0] if quantity is None else quantity
     wanted = tolerance_of(tolerance)
     models = models_of(scene, asked, wanted.relative, seed)
