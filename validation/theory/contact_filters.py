@@ -35,6 +35,15 @@ def spring_bed_filter(along: ArrayLike, across: ArrayLike, *, semi_axes: tuple[f
     return np.asarray(np.where(phase > 0, 2 * special.j1(phase) / np.where(phase > 0, phase, 1.0), 1.0))
 
 
+def row_of_means_filter(along: ArrayLike, across: ArrayLike, *, semi_axes: tuple[float, float]) -> FloatArray:
+    """sin(k_x a_x) / (k_x a_x) sin(k_y a_y) / (k_y a_y): a row of springs on the mean of the heights over 2 a_y.
+
+    The contact is a rectangle of equal weights; a row of springs on a single line has the first factor alone.
+    """
+    first, second = (_phase(k, 0.0, (a, 1.0)) for k, a in zip((along, across), semi_axes, strict=True))
+    return np.asarray(np.sinc(first / np.pi) * np.sinc(second / np.pi))
+
+
 def remington_filter(wavenumber: ArrayLike, *, radius: float, alpha: float) -> FloatArray:
     """|H|^2 = 4 / (alpha (k b)^2) int_0^{atan alpha} J_1(k b sec x)^2 dx: Remington's closed form, as a power.
 

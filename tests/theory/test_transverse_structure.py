@@ -1,0 +1,143 @@
+"""What lies across a track: the surface of a line, and means of filters, beside adaptive quadrature."""
+
+import math
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import integrate
+
+from validation.theory.contact_filters import (
+    half_space_filter,
+    remington_filter,
+    row_of_means_filter,
+    spring_bed_filter,
+)
+from validation.theory.line_spectrum import LineSpectrum
+from validation.theory.transverse_structure import IsotropicGround, Ridges, WaveBand
+
+AXES = (5.7e-3, 4.3e-3)
+RAIL = LineSpectrum((10.0, 100.0, 1e3, 4e3), (1e-12, 3e-14, 2e-16, 3e-17))
+"""Three laws; the last continues."""
+SMOOTH = LineSpectrum((1.0, 10.0), (1e-9, 1e-9 * 10**-2.4))
+"""One law, q^-2.4."""
+
+
+def test_a_line_passes_through_its_points_and_falls_beyond_them():
+    np.testing.assert_allclose(RAIL(RAIL.wavenumbers), RAIL.densities, rtol=1e-12)
+    np.testing.assert_allclose(RAIL([-1e3, 1e3]), RAIL(1e3), rtol=1e-12)
+    assert float(RAIL(math.sqrt(10 * 100))) == pytest.approx(math.sqrt(1e-12 * 3e-14))
+    rising = LineSpectrum((1.0, 2.0), (1.0, 8.0))
+    assert float(rising(0.5)) == pytest.approx(1 / 8)
+    assert float(rising(4.0)) == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize(
+    "given_", [((1.0,), (1.0,)), ((2.0, 1.0), (1.0, 1.0)), ((1.0, 2.0), (1.0, 0.0)), ((1.0, 2.0), (1.0,))]
+)
+def test_a_line_needs_ascending_points_with_power(given_):
+    with pytest.raises(ValueError, match=r"wavenumbers|densities"):
+        LineSpectrum(*given_)
+
+
+@pytest.mark.parametrize("s", [0.3, 3.0, 30.0])
+def test_the_surface_of_a_power_law(s):
+    """C_2D = C_line p Gamma(p/2 + 1/2) / (2 sqrt(pi) Gamma(p/2 + 1) s), everywhere."""
+    p = 2.4
+    ratio = p * math.gamma(p / 2 + 0.5) / (2 * math.sqrt(math.pi) * math.gamma(p / 2 + 1))
+    assert float(SMOOTH.isotropic(s)) == pytest.approx(ratio * float(SMOOTH(s)) / s, rel=1e-11)
+
+
+@pytest.mark.parametrize("q", [3.0, 50.0, 700.0, 2e4])
+def test_a_line_over_its_surface_is_that_line(q):
+    """int C_2D dk by another quadrature, over t with k = q tan t, law by law."""
+    bends = [math.acos(q / node) for node in RAIL.wavenumbers if node > q]
+    found = integrate.quad(
+        lambda t: float(RAIL.isotropic(q / math.cos(t))) * q / math.cos(t) ** 2,
+        *(0, math.pi / 2),
+        points=bends or None,
+        limit=400,
+        epsabs=0,
+        epsrel=1e-9,
+    )[0]
+    assert 2 * found == pytest.approx(float(RAIL(q)), rel=1e-7)
+
+
+def test_a_spectrum_that_rises_too_steeply_has_no_isotropic_surface():
+    with pytest.raises(ValueError, match="no isotropic surface has this line"):
+        IsotropicGround(LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0)))
+
+
+@pytest.mark.parametrize("q", [5.0, 150.0, 2500.0])
+def test_the_mean_over_isotropic_ground(q):
+    """Adaptive quadrature of |H|^2 C_2D over k_y, to the accuracy of the table of C_2D."""
+    transfer = partial(half_space_filter, semi_axes=AXES)
+    ends = [0.0, *np.geomspace(0.1, 3e4, 60)]
+    passed = sum(
+        integrate.quad(lambda k: float(transfer(q, k)) ** 2 * float(RAIL.isotropic(math.hypot(q, k))), a, b)[0]
+        for a, b in pairwise(ends)
+    )
+    found = IsotropicGround(RAIL).mean_square(q, transfer, semi_axis=AXES[1])
+    assert float(found) == pytest.approx(2 * passed / float(RAIL(q)), rel=3e-3)
+
+
+def test_ground_without_its_shortest_waves_has_the_line_that_is_left():
+    """A cut at q_max takes waves from the line below it too, and the mean is over what is left."""
+    ground = IsotropicGround(RAIL, q_max=2e3)
+    q = 900.0
+    end = math.sqrt(ground.q_max**2 - q**2)
+    line = 2 * integrate.quad(lambda k: float(RAIL.isotropic(math.hypot(q, k))), 0, end)[0]
+    assert float(ground.line_power(q)) == pytest.approx(line, rel=1e-3)
+    assert line < 0.9 * float(RAIL(q))
+    passed = ground.mean_square(q, lambda x, y: np.ones(np.broadcast(x, y).shape), semi_axis=AXES[1])
+    assert float(passed) == pytest.approx(1.0, rel=2e-3)
+    assert float(ground.c2d(2.001e3)) == 0.0
+
+
+@given(kb=st.floats(0.01, 40), alpha=st.floats(0.05, 3))
+def test_remington_is_a_band_of_waves_on_a_circle_of_springs(kb, alpha):
+    transfer = partial(spring_bed_filter, semi_axes=(1.0, 1.0))
+    band = WaveBand(alpha).mean_square(kb, transfer, semi_axis=1.0)
+    assert float(band) == pytest.approx(float(remington_filter(kb, radius=1.0, alpha=alpha)), rel=1e-7, abs=1e-12)
+
+
+def test_a_narrow_band_is_ridges_and_its_density_has_the_line():
+    transfer = partial(half_space_filter, semi_axes=AXES)
+    q = np.geomspace(3.0, 1e3, 12)
+    ridges = Ridges().mean_square(q, transfer, semi_axis=AXES[1])
+    np.testing.assert_allclose(ridges, np.sinc(q * AXES[0] / np.pi) ** 2, rtol=1e-12)
+    np.testing.assert_allclose(WaveBand(1e-5).mean_square(q, transfer, semi_axis=AXES[1]), ridges, atol=1e-8)
+    band = WaveBand(0.5)
+    k = (np.arange(4000) + 0.5) / 4000 * 100.0
+    assert 2 * band.density(100.0, k, RAIL).sum() * 100 / 4000 == pytest.approx(float(RAIL(100.0)), rel=1e-12)
+
+
+@pytest.mark.parametrize("structure", [Ridges(), WaveBand(1.0), IsotropicGround(RAIL)])
+def test_bands_of_long_waves_pass_and_powers_of_bands_are_integrals(structure):
+    transfer = partial(half_space_filter, semi_axes=AXES)
+    edges = [5.0, 6.0, 600.0, 700.0]
+    found = structure.band_power(RAIL, transfer, edges=edges, semi_axes=AXES)
+    assert found[0] == pytest.approx(1.0, abs=5e-3)
+    q = np.linspace(600, 700, 4001)
+    power = structure.mean_square(q, transfer, semi_axis=AXES[1]) * RAIL(q)
+    assert found[2] == pytest.approx(integrate.trapezoid(power, q) / integrate.trapezoid(RAIL(q), q), rel=1e-4)
+
+
+def test_the_row_of_means_is_a_uniform_mean_over_a_rectangle():
+    x, y = (np.linspace(-a, a, 801) for a in (2.0, 0.7))
+    mean = np.cos(1.3 * x).mean() * np.cos(2.1 * y).mean()
+    assert float(row_of_means_filter(1.3, 2.1, semi_axes=(2.0, 0.7))) == pytest.approx(mean, abs=2e-3)
+
+
+def test_remingtons_integral_is_the_mean_of_the_bed_of_springs_to_rounding():
+    """2 J_1(S)/S by the mean of a wave over a disc, J_1 by its own integral, over the band by adaptive quadrature."""
+
+    def bed(s):
+        return integrate.quad(lambda u: math.cos(s * u) * math.sqrt(1 - u * u) * 4 / math.pi, 0, 1, epsabs=1e-14)[0]
+
+    for kb, alpha in ((0.3, 1.0), (2.0, 0.5), (5.0, 2.0)):
+        mean = integrate.quad(lambda t, kb=kb: bed(kb * math.hypot(1, t)) ** 2, 0, alpha, epsabs=1e-14)[0] / alpha
+        assert float(remington_filter(kb, radius=1.0, alpha=alpha)) == pytest.approx(mean, rel=1e-9)
