@@ -89,4 +89,4 @@ class LineSpectrum:
 
     def _falling(self, law: int, p: float) -> float:
         """p c_i q_i^p: -C_line' over q^(-p-1)."""
-        return p * self.densities[law] * self.wavenumbers[law] ** p
+        return float(p * self.densities[law] * self.wavenumbers[law] ** p)

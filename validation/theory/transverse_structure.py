@@ -9,6 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,7 +46,7 @@ class TransverseStructure(ABC):
     ) -> FloatArray:
         """int |H|^2 C_line dq over int C_line dq in each band between ascending wavenumbers along the track."""
         ends = np.asarray(edges, dtype=np.float64)
-        return np.array([self._of_band(line, transfer, a, b, semi_axes) for a, b in zip(ends, ends[1:], strict=False)])
+        return np.array([self._of_band(line, transfer, a, b, semi_axes) for a, b in pairwise(ends)])
 
     def _of_band(
         self, line: LineSpectrum, transfer: Filter, first: float, last: float, semi_axes: tuple[float, float]
