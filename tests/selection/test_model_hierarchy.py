@@ -659,12 +659,20 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     assert "± 12 %, 0.99 dB, over all bands (model 10 %, grid 2 %, sample 0.3 %)" in " ".join(
         line.strip() for line in lines[at : at + 2]
     )
-    head = next(i for i, line in enumerate(lines) if line.endswith(f"rms [{unit}]"))
+    head = next(i for i, line in enumerate(lines) if f"rms [{unit}]" in line)
+    assert [word.strip() for word in lines[head].strip().split("  ") if word][-2:] == [
+        f"level [dB re 1 {unit}]",
+        "± [dB]",
+    ]
     rows = [[float(word) for word in line.split()] for line in lines[head + 1 : head + 1 + len(levels)]]
-    for (q, turns, frequency, level), centre, expected in zip(rows, bands.centres, levels, strict=True):
-        assert (q, level) == pytest.approx((centre, expected), rel=1e-3)
+    for (wave, frequency, turns, level, decibels, half), centre, expected in zip(
+        rows, bands.centres, levels, strict=True
+    ):
+        assert (wave, level) == pytest.approx((2e3 * math.pi / centre, expected), rel=1e-3)
         assert turns == pytest.approx(centre * a, abs=0.006)
         assert frequency == pytest.approx(400.0 * centre / (2 * math.pi), rel=1e-3)
+        assert decibels == pytest.approx(20 * math.log10(expected), abs=0.051)
+        assert half == 0.99
 
 
 def outcome(estimated, true, spent, fine, *, met=1.0, every=()):

@@ -121,19 +121,27 @@ def _result(comparison: Comparison, answer: Answer) -> list[str]:
         value = float(answer.value[0])
         number = f"{scaled(value, value * answer.error)} {comparison.unit}"
         return [f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"]
-    assert isinstance(comparison.scene, RollingScene)  # of which alone there are levels
-    radius, unit = comparison.scene.contact_radius, UNITS[comparison.quantity]
-    frequencies = [f"{f:.4g}" for f in comparison.frequency_hz] or [""] * answer.value.size
     decibels = f"{short(20 * math.log10(1 + answer.error))} dB"
     both = decibels if comparison.in_decibels else f"{shown(answer.error)}, {decibels},"
-    lines = [
-        f"{comparison.quantity} by {comparison.model}, one-third octaves, root mean square in each, "
-        f"± {both} over all bands ({parts})",
-        f"{'q [rad/m]':>12s}{'q a':>8s}{'f [Hz]' if comparison.frequency_hz.size else '':>10s}{f'rms [{unit}]':>16s}",
-    ]
-    for q, frequency, level in zip(comparison.wavenumbers, frequencies, answer.value, strict=True):
-        lines.append(f"{q:12.4g}{q * radius:8.2f}{frequency:>10s}{level:16.4g}")
-    return lines
+    head = f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {both} over all bands ({parts})"
+    return [head, *_bands(comparison, answer)]
+
+
+def _bands(comparison: Comparison, answer: Answer) -> Iterator[str]:
+    """A line a band: wavelength, frequency, q a, root mean square, level and its error, where the scene has them."""
+    best, scene, unit = comparison.selection.best, comparison.scene, UNITS[comparison.quantity]
+    assert best is not None  # whose answer that is
+    columns = {"wavelength [mm]": [f"{wave:.4g}" for wave in comparison.wavelength_mm]}
+    if comparison.frequency_hz.size:
+        columns["f [Hz]"] = [f"{frequency:.4g}" for frequency in comparison.frequency_hz]
+    if isinstance(scene, RollingScene):
+        columns["q a"] = [f"{q * scene.contact_radius:.2f}" for q in comparison.wavenumbers]
+        columns[f"rms [{unit}]"] = [f"{value:.4g}" for value in answer.value]
+    columns[f"level [{comparison.unit}]"] = [f"{level:.1f}" for level in comparison.value_of(best)]
+    columns["± [dB]"] = [f"{half:.2g}" for half in comparison.errors_of(best)]
+    yield "  ".join(f"{name:>9s}" for name in columns)
+    for row in zip(*columns.values(), strict=True):
+        yield "  ".join(f"{text:>{max(9, len(name))}s}" for name, text in zip(columns, row, strict=True))
 
 
 def _cost(comparison: Comparison) -> str:
