@@ -9,6 +9,7 @@ from validation import compare
 from validation.__main__ import main
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.level_files import curve
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
@@ -161,6 +162,13 @@ def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     assert scene.levels.bands.nominal[[0, -1]].tolist() == [1.0, 0.02]
     assert dict(describe(scene))["roughness"].endswith("2 measured lines, at -5, 5 mm across")
     assert "are missing and have no answer" in dict(describe(scene))["bands"]
+
+
+def test_lines_and_a_rough_wheel_are_levels_together(tmp_path):
+    line = np.random.default_rng(1).standard_normal(1000) * 1e-6
+    alone = with_lines(tmp_path, line, 'spacing = "1 mm"')
+    both = with_lines(tmp_path, line, 'spacing = "1 mm"', "[wheel.levels]", CURVE)
+    assert both.roughness == alone.levels + curve("iso3095-2013")
 
 
 def test_one_line_needs_no_position(tmp_path):
