@@ -8,7 +8,7 @@ import numpy as np
 
 import mdr
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
-from tests.simulation import test_rough_punches, test_wheel_motion
+from tests.simulation import test_periodic_motion, test_rough_punches, test_time_stepping, test_wheel_motion
 from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
@@ -120,58 +120,58 @@ FAULTS = {
     ),
     "the step of a cell for that of two in Runge and Kutta": (
         (
-            test_wheel_motion,
+            test_time_stepping,
             "SCHEMES",
-            {**test_wheel_motion.SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
+            {**test_time_stepping.SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
         ),
-        functools.partial(test_wheel_motion.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
+        functools.partial(test_time_stepping.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
     ),
     "velocity Verlet with the force of the beginning alone": (
         (
-            test_wheel_motion,
+            test_time_stepping,
             "SCHEMES",
             {
-                **test_wheel_motion.SCHEMES,
+                **test_time_stepping.SCHEMES,
                 "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
             },
         ),
-        functools.partial(test_wheel_motion.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
+        functools.partial(test_time_stepping.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
     ),
     "factor 4 lost in the leakage": (
         (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
-        functools.partial(test_wheel_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
+        functools.partial(test_periodic_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
     ),
     "factor 4 lost in the leakage, seen in a motion": (
         (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
-        test_wheel_motion.test_steady_state_does_not_leak,
+        test_periodic_motion.test_steady_state_does_not_leak,
     ),
     "a period a thousandth too long": (
         (wheel_theory, "hertz_period", scaled(wheel_theory.hertz_period, 1.001)),
-        functools.partial(test_wheel_motion.test_period_of_free_vibration_by_small_steps, 1.5),
+        functools.partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 1.5),
     ),
     "a period without lift-off": (
         (wheel_theory, "_other_turning_point", held_at_the_edge),
-        functools.partial(test_wheel_motion.test_period_of_free_vibration_by_small_steps, 2.2),
+        functools.partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 2.2),
     ),
     "omega / omega_0 for omega_0 / omega": (
         (wheel_theory, "acceleration_over_force", inverted),
-        test_wheel_motion.test_acceleration_over_force_is_that_of_a_steady_motion,
+        test_periodic_motion.test_acceleration_over_force_is_that_of_a_steady_motion,
     ),
     "factor 2 pi lost over frequency": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
-        functools.partial(test_wheel_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
+        functools.partial(test_periodic_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
     ),
     "one-sided spectrum over frequency": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 2.0)),
-        functools.partial(test_wheel_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
+        functools.partial(test_periodic_motion.test_spectra_over_frequency_are_those_of_the_record, 20.0),
     ),
     "a jump that is not there": (
         (wheel_in_motion.Motion, "jump", property(without_a_jump)),
         functools.partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
     ),
     "shooting without a correction": (
-        (test_wheel_motion, "periodic_motion", one_copy),
-        test_wheel_motion.test_the_periodic_motion_of_a_linear_contact_is_its_steady_state,
+        (test_periodic_motion, "periodic_motion", one_copy),
+        test_periodic_motion.test_the_periodic_motion_of_a_linear_contact_is_its_steady_state,
     ),
     "a steady motion in continuous time": (
         (contact_laws.LinearLaw, "steady_state", softer_steady),

@@ -1,0 +1,191 @@
+"""Time stepping: order, energy and limit of every scheme; the period of free vibration on a Hertz contact."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.oracles import free_vibration_by_small_steps
+from tests.simulation.wheels import SCHEMES, SYMPLECTIC, WHEEL, Counted
+from validation.scenes.wheel_body import Wheel
+from validation.simulation.contact_laws import HertzLaw, LinearLaw
+from validation.simulation.integrators import EXPLICIT_EULER, RUNGE_KUTTA
+from validation.simulation.motion import natural_periods, simulate
+from validation.theory import wheel as wheel_theory
+
+
+def after(name, cells, turns):
+    """Approach and velocity after so many small natural periods, on a Hertz contact released at 1.5 d_N."""
+    scheme = SCHEMES[name]
+    dt = 2 * math.pi * turns / cells
+    steps = cells // scheme.cells
+    motion = simulate(WHEEL, HertzLaw(WHEEL), time_step=dt, steps=steps, approach=np.array([1.5]), integrator=scheme)
+    assert motion.duration == pytest.approx(2 * math.pi * turns, rel=1e-12)
+    return np.array([motion.approach[0], motion.velocity[0]])
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_order_of_a_scheme_on_a_free_vibration(name):
+    """At a place that is no turning point, where symplectic Euler would be better than it is."""
+    exact = free_vibration_by_small_steps(1.5, turns=0.8)
+    cells = {1: (400, 800, 1600, 3200), 2: (100, 200, 400, 800), 4: (40, 80, 160, 320)}[SCHEMES[name].order]
+    errors = [np.abs(after(name, n, 0.8) - exact).max() for n in cells]
+    assert -np.diff(np.log2(errors)) == pytest.approx(SCHEMES[name].order, abs=0.2)
+
+
+@pytest.mark.parametrize(("name", "order"), [("velocity Verlet", 2), ("Runge-Kutta", 4), ("symplectic Euler", 2)])
+def test_after_its_period_a_free_vibration_is_back(name, order):
+    """Symplectic Euler is velocity Verlet seen half a step later, so that over a whole period it is of second order."""
+    period = wheel_theory.hertz_period(1.5)
+    errors = [np.abs(after(name, n, period) - [1.5, 0]).max() for n in (80, 160, 320)]
+    assert -np.diff(np.log2(errors)) == pytest.approx(order, abs=0.2)
+
+
+def energies(name, turn, steps, highest):
+    """v^2 / 2 + V(d) of a free vibration on a Hertz contact, on and on."""
+
+    def acceleration(_, d):
+        return 2 / 3 * (1 - d * math.sqrt(d)) if d > 0 else 2 / 3
+
+    states = SCHEMES[name].march(acceleration, highest, 0.0, turn)
+    state = np.array([next(states)[:2] for _ in range(steps)])
+    return state[:, 1] ** 2 / 2 + 2 / 3 * (0.4 * np.maximum(state[:, 0], 0) ** 2.5 - state[:, 0])
+
+
+@pytest.mark.parametrize("name", SYMPLECTIC)
+@pytest.mark.parametrize("highest", [1.5, 2.5])
+def test_symplectic_schemes_keep_the_energy(name, highest):
+    """They swing about it by their order in omega dt, with or without lift-off, however long."""
+    turn, order = 0.02, SCHEMES[name].order
+    energy = energies(name, turn, 100_000, highest)
+    off = np.abs(energy - energy[0])
+    depth = energy[0] + 0.4
+    early, late = off[:2000].max(), off[-2000:].max()
+    assert early <= turn**order * depth
+    assert late <= 1.2 * early
+    # and no drift within what the swing leaves
+    assert abs(energy[-50_000:].mean() - energy[:50_000].mean()) <= 0.1 * early
+
+
+def test_explicit_euler_gains_energy_at_its_rate():
+    """(1 + (omega dt)^2) a step on a linear contact, exactly."""
+    dt, steps = 0.01, 3000
+    motion = simulate(
+        WHEEL,
+        LinearLaw(WHEEL, np.zeros((1, 1))),
+        time_step=dt,
+        steps=steps,
+        approach=np.array([1.001]),
+        integrator=EXPLICIT_EULER,
+    )
+    energy = (motion.approach - 1) ** 2 + motion.velocity**2
+    assert energy / 1e-6 == pytest.approx((1 + dt**2) ** steps, rel=1e-10)
+
+
+@pytest.mark.parametrize("name", SYMPLECTIC)
+def test_a_step_below_the_limit_is_bounded_and_one_above_is_not(name):
+    """Bounded by an ellipse whose axes differ as 1 / sqrt(1 - omega dt / 2); beyond, by acosh((omega dt)^2 / 2 - 1)."""
+    limit = SCHEMES[name].limit
+    assert limit == 2.0
+    law = LinearLaw(WHEEL, np.zeros((1, 1)))
+    below = simulate(WHEEL, law, time_step=1.999, steps=20_000, approach=np.array([1.01]), integrator=SCHEMES[name])
+    # from the invariant x^2 + v^2 - omega dt x v of symplectic Euler
+    ratio = 1 / (1 - 1.999**2 / 4)
+    assert max(below.highest[0] - 1, 1 - below.lowest[0]) <= 0.01 * math.sqrt(ratio) * 1.001
+    states = SCHEMES[name].march(lambda _, x: -x, 1.0, 0.0, 2.01)
+    size = np.array([abs(next(states)[0]) for _ in range(101)])
+    assert math.log(size[100] / size[60]) / 40 == pytest.approx(math.acosh(2.01**2 / 2 - 1), rel=0.01)
+
+
+def test_runge_kutta_is_bounded_up_to_its_limit():
+    """A step of two cells: |R(i omega dt)| = 1 at 2 sqrt(2)."""
+    assert RUNGE_KUTTA.limit == pytest.approx(2 * math.sqrt(2))
+    for factor, bounded in ((0.99, True), (1.01, False)):
+        states = RUNGE_KUTTA.march(lambda _, x: -x, 1.0, 0.0, factor * math.sqrt(2))
+        size = np.array([abs(next(states)[0]) for _ in range(500)])
+        assert (size.max() <= 1.0) == bounded
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_a_step_at_the_limit_is_refused_before_it_begins(name):
+    """Explicit Euler, which has none, where all would miss the resonance."""
+    limit = max(SCHEMES[name].limit, 2.0)
+    cell = limit / SCHEMES[name].cells
+    for time_step in (cell, 1.5 * cell, 1e9):
+        law = Counted(HertzLaw(WHEEL))
+        with pytest.raises(ValueError, match="time_step must be below"):
+            simulate(WHEEL, law, time_step=time_step, steps=5, integrator=SCHEMES[name])
+        assert not law.places
+    law = Counted(HertzLaw(WHEEL))
+    simulate(WHEEL, law, time_step=0.999 * cell, steps=5, integrator=SCHEMES[name])
+    assert law.places
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_the_track_is_met_a_cell_a_step(name):
+    """And two cells a step of Runge and Kutta, with its middle in the one between."""
+    scheme, law = SCHEMES[name], Counted(HertzLaw(WHEEL))
+    motion = simulate(WHEEL, law, time_step=0.1, steps=4, approach=np.ones(1), integrator=scheme)
+    evaluations, cells = scheme.evaluations, scheme.cells
+    assert len(law.places) == 4 * evaluations + 1
+    middle = {1: [], 4: [1, 1, 2]}[evaluations]
+    assert law.places == [cells * n + more for n in range(4) for more in (0, *middle)] + [4 * cells]
+    assert motion.time_step == pytest.approx(cells * 0.1)
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        *[({"time_step": value}, "time_step") for value in (0.0, -0.1, np.nan, np.inf)],
+        ({"steps": 0}, "steps"),
+        ({"approach": np.array([np.nan, 1.0])}, "approach"),
+        ({"approach": np.ones(2), "velocity": np.array([np.inf, 0.0])}, "velocity"),
+        ({"approach": np.ones(2), "velocity": np.zeros(3)}, "alike"),
+    ],
+)
+def test_motions_that_are_refused(changes, named):
+    law = Counted(HertzLaw(WHEEL, 2))
+    with pytest.raises(ValueError, match=named):
+        simulate(WHEEL, law, **{"time_step": 0.1, "steps": 5, **changes})
+    assert not law.places
+
+
+@pytest.mark.parametrize("highest", [1.1, 1.5, 1.84, 1.845, 2.0, 2.2, 3.0, 10.0, 100.0])
+def test_period_of_free_vibration_by_small_steps(highest):
+    """Lifted off from (5/2)^(2/3) = 1.842 on, where V = 0."""
+    assert wheel_theory.hertz_period(highest) == pytest.approx(free_vibration_by_small_steps(highest), rel=1e-9)
+
+
+@pytest.mark.parametrize("above", [0.05, 1e-2, 1e-4, 1e-7, 1e-12])
+def test_the_period_of_the_smallest_vibrations(above):
+    """Differences of the potential cancel there; the period does not, 1 + A^2 / 24 (Landau, Lifshitz, section 28)."""
+    assert wheel_theory.hertz_period(1 + above) == pytest.approx(1 + above**2 / 24, abs=1e-10 + above**3 / 100)
+
+
+@pytest.mark.parametrize("off", [-1e-3, -1e-7, -1e-12, 0.0, 1e-12, 1e-7, 1e-3])
+def test_the_period_of_a_wheel_that_just_lifts_off(off):
+    """Continuous and smooth: that of (5/2)^(2/3), by a slope of order one."""
+    touch = 2.5 ** (2 / 3)
+    expected = free_vibration_by_small_steps(touch)
+    slope = (free_vibration_by_small_steps(touch + 0.01) - expected) / 0.01
+    assert wheel_theory.hertz_period(touch + off) == pytest.approx(
+        expected + slope * off, abs=1e-8 + off**2 + 0.05 * abs(off)
+    )
+
+
+@pytest.mark.parametrize("highest", [1.0, 0.5, -1.0, np.nan])
+def test_no_period_without_a_vibration(highest):
+    with pytest.raises(ValueError, match="highest"):
+        wheel_theory.hertz_period(highest)
+
+
+def test_eigenfrequency():
+    wheel = Wheel(radius=0.5, mass=500.0, modulus=236.25e9, load=4905.0)
+    found = wheel_theory.eigenfrequency(contact_radius=wheel.contact_radius, modulus=wheel.modulus, mass=wheel.mass)
+    assert found == pytest.approx(wheel.eigenfrequency, rel=1e-14)
+    # the stiffness of Hertz is the derivative of its force, by a central difference of error (e / d)^2 / 24
+    e = 1e-3 * wheel.approach
+    rise = np.diff(HertzLaw(wheel).force(0, wheel.approach + np.array([-e, e]))) / (2 * e)
+    assert math.sqrt(rise[0] / wheel.mass) == pytest.approx(found, rel=1e-6)
+    assert HertzLaw(wheel).force(0, np.array([wheel.approach])) == pytest.approx(4905.0, rel=1e-14)
+    assert natural_periods(wheel, 2.0, 20.0) == pytest.approx(found * 0.1 / (2 * math.pi), rel=1e-14)
