@@ -161,7 +161,10 @@ def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     assert scene.levels.levels[at] == pytest.approx(20 * np.log10(3 / 2), abs=0.05)
     assert scene.levels.bands.nominal[[0, -1]].tolist() == [1.0, 0.02]
     assert dict(describe(scene))["roughness"].endswith("2 measured lines, at -5, 5 mm across")
-    assert "are missing and have no answer" in dict(describe(scene))["bands"]
+    assert scene.diagnose() == (
+        "roughness is known in bands of 1000 to 20 mm: the others of 2000 to 0.8 mm are missing and have no answer.",
+    )
+    assert dict(describe(scene))["bands"] == "18 one-third octaves, 1000 to 20 mm"
 
 
 def test_lines_and_a_rough_wheel_are_levels_together(tmp_path):
@@ -235,7 +238,7 @@ def test_files_are_refused_by_key(tmp_path, old, new, said):
         ("100,1\n80,2\n", "columns must be named"),
         (f"{HEADER}\n100,-110\n80,-115\n", "levels must lie between .* got -110 dB at 100 mm: is the unit another"),
         (f"{HEADER}\n100,64.9\n80,62.9\n", "levels must lie between .* got 64.9 dB at 100 mm: is the unit another"),
-        (f"{HEADER}\n0.1,4.9\n0.08,2.9\n", "from 2000 mm to 0.8 mm, got 0.1 mm: is it in metres"),
+        (f"{HEADER}\n0.1,4.9\n0.08,2.9\n", "from 2000 to 0.8 mm, got 0.1 mm: is it in metres"),
         (f"{HEADER}\n100,1\n63,2\n80,3\n", "no 80 mm behind 100 mm"),
         (f"{HEADER}\n100,1\n125,2\n80,3\n", "sorted, got 125 mm behind 100 mm"),
         (f"{HEADER}\n100,1\n80,2\n80,3\n", "got 80 mm twice"),

@@ -71,6 +71,11 @@ class NominalBands:
         return np.array([nominal_wavelength(n) for n in self.numbers])
 
     @property
+    def span(self) -> str:
+        """The names of the first and the last band, as "2000 to 0.8 mm"."""
+        return f"{1000 * self.nominal[0]:g} to {1000 * self.nominal[-1]:g} mm"
+
+    @property
     def wavelengths(self) -> FloatArray:
         """Exact centres 10^(n/10) [m]."""
         return np.asarray(10 ** (np.array(self.numbers) / 10))
@@ -143,9 +148,10 @@ def band_number(wavelength: float) -> int:
         number = round(10 * math.log10(wavelength))
         if LONGEST >= number >= SHORTEST and abs(wavelength / 10 ** (number / 10) - 1) < OFF:
             return number
-    ends = f"{_in_mm(nominal_wavelength(LONGEST))} to {_in_mm(nominal_wavelength(SHORTEST))}"
     hint = ": is it in metres?" if 0 < wavelength < nominal_wavelength(SHORTEST) else ""
-    raise ValueError(f"a wavelength must be nominal, of one-third octaves from {ends}, got {_in_mm(wavelength)}{hint}")
+    raise ValueError(
+        f"a wavelength must be nominal, of one-third octaves from {NominalBands().span}, got {_in_mm(wavelength)}{hint}"
+    )
 
 
 def _in_mm(wavelength: float) -> str:

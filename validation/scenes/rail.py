@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Literal
 
 from mdr.checks import positive
+from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.measured_lines import MeasuredLines
@@ -142,6 +143,11 @@ class RailScene:
                     f"the contact is wider than the crown of the bodies: {semi_axis / radius:.3g} of the radius {side} "
                     f"the track, {in_unit(radius, 'length')}, more than a tenth: no half-space."
                 )
+        if (known := self.levels.bands) != NominalBands():
+            yield (
+                f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing and have "
+                "no answer."
+            )
         if isinstance(self.roughness, MeasuredHeights):
             yield from self.roughness.notes()
 

@@ -2,7 +2,6 @@
 
 import math
 
-from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.rail import RailScene
@@ -55,12 +54,7 @@ def _source(scene: RailScene) -> str:
 
 
 def _bands(scene: RailScene) -> str:
-    bands, all_bands = scene.levels.bands, NominalBands()
-    known = f"{len(bands)} one-third octaves, {1000 * bands.nominal[0]:g} to {1000 * bands.nominal[-1]:g} mm"
-    if bands == all_bands:
-        return known
-    longest, shortest = 1000 * all_bands.nominal[[0, -1]]
-    return f"{known}; the others of {longest:g} to {shortest:g} mm are missing and have no answer"
+    return f"{len(scene.levels.bands)} one-third octaves, {scene.levels.bands.span}"
 
 
 def _structure(scene: RailScene) -> str:
