@@ -162,7 +162,7 @@ def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     assert scene.levels.bands.nominal[[0, -1]].tolist() == [1.0, 0.02]
     assert dict(describe(scene))["roughness"].endswith("2 measured lines, at -5, 5 mm across")
     assert scene.diagnose() == (
-        "roughness is known in bands of 1000 to 20 mm: the others of 2000 to 0.8 mm are missing and have no answer.",
+        "roughness is known in bands of 1000 to 20 mm: the others of 2000 to 0.8 mm are missing, and have no answer.",
     )
     assert dict(describe(scene))["bands"] == "18 one-third octaves, 1000 to 20 mm"
 

@@ -145,8 +145,8 @@ class RailScene:
                 )
         if (known := self.levels.bands) != NominalBands():
             yield (
-                f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing and have "
-                "no answer."
+                f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing, and "
+                "have no answer."
             )
         if isinstance(self.roughness, MeasuredHeights):
             yield from self.roughness.notes()
