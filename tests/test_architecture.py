@@ -63,7 +63,7 @@ MAY_IMPORT = {
     "benchmarks": BASE | {"simulation"},
     "cases": BASE | {"simulation", "selection"},
     "report": {"cases", "benchmarks", "scenes", "analysis", "engine"},
-    "commands": {"report", "selection", "scenes", "engine"},
+    "commands": {"report", "selection", "scenes", "analysis", "engine"},
     "__main__": {"commands", "scenes", "engine"},
 }
 """The table of ARCHITECTURE.md."""

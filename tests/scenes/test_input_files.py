@@ -200,8 +200,9 @@ def test_control_characters_do_not_reach_the_terminal(tmp_path, capsys):
         assert is_printable(line)
     assert r"\x1b[31m" in refused(capsys, "compare", "no\x1b[31mscene")
     assert is_printable(refused(capsys, "compare", "no\n\x1b[31m/scene"))
+    assert r"\x1b[31m" in refused(capsys, "compare", "sphere", "\x1b[31mmore")
     with pytest.raises(SystemExit):
-        main(["compare", "sphere", "\x1b[31mmore"])
+        main(["compare", "sphere", "--\x1b[31mmore"])
     assert "\x1b" not in capsys.readouterr().err
 
 

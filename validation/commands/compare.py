@@ -4,15 +4,17 @@ import argparse
 import sys
 from pathlib import Path
 
+from validation.analysis.contents import as_csv
 from validation.commands.arguments import at_least
 from validation.commands.exit_status import Exit
 from validation.engine.files import write_whole
-from validation.scenes.load import bundled_for_compare, load_scene
+from validation.scenes.load import Scene, bundled_for_compare, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.selection.compare import QUANTITIES, Comparison, check_quantity, quantities_of
 from validation.selection.compare import compare as compared
-from validation.selection.exported import levels_of_models, to_csv, to_json
+from validation.selection.exported import levels_of_models, to_json
 from validation.selection.hierarchy import ContactModel
+from validation.selection.several import overview, selected_of_several, table_of_several
 from validation.selection.summary import findings, format_seconds, heading
 from validation.selection.tolerance import tolerance_of
 
@@ -22,8 +24,12 @@ FIGURES = (".svg", ".png", ".pdf")
 def describe(comparing: argparse.ArgumentParser) -> None:
     comparing.add_argument(
         "scene",
+        nargs="+",
         metavar="SCENE",
-        help=f"a TOML file, or the name of an example scene ({', '.join(bundled_for_compare())})",
+        help=f"a TOML file, or the name of an example scene ({', '.join(bundled_for_compare())}); several: one table",
+    )
+    comparing.add_argument(
+        "--sweep", type=_sweep, metavar="KEY=A,B,C", help='the scene with each value, as wheel.load="5 kN,10 kN"'
     )
     comparing.add_argument(
         "--tolerance", type=_tolerance, default="10%", metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
@@ -50,22 +56,39 @@ def describe(comparing: argparse.ArgumentParser) -> None:
 
 def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
-    scene, seed = load_scene(arguments.scene), arguments.seed or 0
+    scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments.sweep)]
+    _check_figure(arguments.figure)
+    found = [_compared(scene, arguments, alone=len(scenes) == 1) for scene in scenes]
+    if len(found) > 1:
+        print("\n".join(overview(found)))
+    _write(found, arguments)
+    return Exit.MET if all(one.met for one in found) else Exit.NOT_CONVERGED
+
+
+def _scenes_of(name: str, sweep: tuple[str, list[str]] | None) -> list[Scene]:
+    if sweep is None:
+        return [load_scene(name)]
+    key, values = sweep
+    return [load_varied(name, key, value) for value in values]
+
+
+def _compared(scene: Scene, arguments: argparse.Namespace, *, alone: bool) -> Comparison:
+    """alone: whether all about it is printed, what was understood before it is solved."""
     quantity = arguments.quantity or quantities_of(scene)[0]
     check_quantity(scene, quantity)
-    _check_figure(arguments.figure)
-    print(heading(scene, quantity, tolerance_of(arguments.tolerance)), flush=True)
+    if alone:
+        print(heading(scene, quantity, tolerance_of(arguments.tolerance)), flush=True)
     found = compared(
         scene,
         quantity=quantity,
         tolerance=arguments.tolerance,
-        seed=seed,
+        seed=arguments.seed or 0,
         solve_all=arguments.all,
         callback=_announce,
     )
-    print(findings(found))
-    _write(found, arguments)
-    return Exit.MET if found.met else Exit.NOT_CONVERGED
+    if alone:
+        print(findings(found))
+    return found
 
 
 def _announce(model: ContactModel) -> None:
@@ -80,17 +103,28 @@ def _check_figure(path: Path | None) -> None:
         raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(path)}")
 
 
-def _write(found: Comparison, arguments: argparse.Namespace) -> None:
-    """The files that are asked for, each of them whole."""
+def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
+    """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
+    several = len(found) > 1
     if arguments.json is not None:
-        write_whole(arguments.json, to_json(found).encode())
+        objects = ",\n".join(to_json(one).rstrip() for one in found)
+        write_whole(arguments.json, (f"[{objects}]\n" if several else f"{objects}\n").encode())
+    table = table_of_several(found) if several else levels_of_models(found[0])
     if arguments.csv is not None:
-        write_whole(arguments.csv, to_csv(found).encode())
+        write_whole(arguments.csv, as_csv(table))
     if arguments.figure is not None:
         from validation.report.compared import figure_of_models  # which takes half a second to import
 
-        title = f"{found.scene.name}: {found.quantity}"
-        write_whole(arguments.figure, figure_of_models(title, levels_of_models(found), arguments.figure.suffix[1:]))
+        title = table.name if several else f"{found[0].scene.name}: {table.name}"
+        drawn = selected_of_several(table) if several else table
+        write_whole(arguments.figure, figure_of_models(title, drawn, arguments.figure.suffix[1:]))
+
+
+def _sweep(word: str) -> tuple[str, list[str]]:
+    key, _, values = word.partition("=")
+    if not key.strip() or not all(value.strip() for value in values.split(",")):
+        raise argparse.ArgumentTypeError(f'must be as wheel.load="5 kN,10 kN", got {word!r}')
+    return key.strip(), [value.strip() for value in values.split(",")]
 
 
 def _tolerance(word: str) -> str:

@@ -1,5 +1,6 @@
 """The scene of a file: a sphere, a punch, a wheel on rough ground with or without a mass, or one on a rail."""
 
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.height_files import heights_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material, material_of
+from validation.scenes.printable import printable
 from validation.scenes.rail import RailScene
 from validation.scenes.rail_file import is_rail, rail_of
 from validation.scenes.reader import (
@@ -61,6 +63,36 @@ def load_scene(scene: str | Path) -> Scene:
     tables = tables_of(path)
     with file_named_in_errors(path):
         return _scene_of(tables, path.parent)
+
+
+def load_varied(scene: str | Path, key: str, value: str) -> Scene:
+    """The scene of a file with another value of one key, as "wheel.load" and "60 kN", and both in its name.
+
+    value: as in a scene file, a text without its quotation marks. Raises ValueError, too, for a key that is no value of
+    the file.
+    """
+    path = path_of(scene)
+    tables = tables_of(path)
+    with file_named_in_errors(path):
+        *rooms, last = key.split(".")
+        inner: Any = tables
+        for room in rooms:
+            inner = inner.get(room)
+            if not isinstance(inner, dict):
+                raise ValueError(f"{printable(key)} must be a key in a table of the scene, as wheel.load")
+        if isinstance(inner.get(last), dict):
+            raise ValueError(f"{printable(key)} must be a key with a value, got a table")
+        inner[last] = _value(value)
+        tables["name"] = f"{tables.get('name')}, {last} = {value}"
+        return _scene_of(tables, path.parent)
+
+
+def _value(text: str) -> object:
+    """A number, or a text."""
+    for read in (int, float):
+        with suppress(ValueError):
+            return read(text)
+    return text
 
 
 def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
