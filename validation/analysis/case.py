@@ -17,6 +17,7 @@ class Chapter(StrEnum):
     EXACT = "What is known exactly"
     PRESSED = "Rough punches: the stiffness and its fluctuation"
     ROLLING = "Rolling: the force along the track"
+    RAIL = "The wheel on a real rail"
     WHEEL = "The dynamic wheel"
     LIMITS = "Where each method fails"
     SPEED = "Speed against accuracy"

@@ -1,0 +1,1 @@
+"""The wheel on a real rail."""
