@@ -6,6 +6,7 @@ import math
 from types import SimpleNamespace
 
 import numpy as np
+import scipy
 from scipy import stats
 
 from tests.analysis import (
@@ -220,7 +221,7 @@ FAULTS = {
         test_nominal_bands.test_power_of_a_wave_is_in_its_band_alone,
     ),
     "lines that keep their slope": (
-        (nominal_bands, "detrend", lambda heights: heights),
+        (scipy.signal, "detrend", lambda heights: heights),
         test_nominal_bands.test_power_of_a_record_is_that_of_its_waves,
     ),
     "a third of the interval, seen by its coverage": (
