@@ -74,7 +74,7 @@ class CheapRollingModel(Model):
             expected = self._by_envelope(target, expected.reason)
         reasons = [expected.reason, self.on_rms if quantity.name == FORCE_RMS else self.on_bands]
         own = self.own if single else 0.0
-        if own:
+        if own and expected.in_range:
             reasons.append(f"one track scatters {own:.0%} about the mean of its spectrum")
         return replace(expected, model=expected.model + own, reason="; ".join(filter(None, reasons)))
 

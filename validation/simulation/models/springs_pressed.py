@@ -62,7 +62,7 @@ class SpringsPressed(Model):
                 f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}"
             )
         expected = calibrated(self, target)
-        if ground.is_single:
+        if ground.is_single and expected.in_range:
             own = 2 * SCATTER
             reason = f"{expected.reason}; one surface scatters {own:.0%} about the mean of its spectrum"
             expected = replace(expected, model=expected.model + own, reason=reason)

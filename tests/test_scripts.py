@@ -1,0 +1,49 @@
+"""The scripts of `validation/examples`: each runs, asserts its result, and draws one picture."""
+
+import ast
+import re
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import validation
+
+EXAMPLES = Path(validation.__file__).parent / "examples"
+NAMES = sorted(path.stem for path in EXAMPLES.glob("*.py"))
+SECONDS = {"sphere", "own_rail"}
+"""Those that take next to none; the others are slow."""
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in SECONDS else pytest.mark.slow) for name in NAMES]
+)
+def test_an_example_asserts_its_result_and_draws_a_picture(name, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(EXAMPLES / f"{name}.py"), run_name="__main__")
+    assert capsys.readouterr().out
+    assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_an_example_is_short_and_can_fail(name):
+    text = (EXAMPLES / f"{name}.py").read_text(encoding="utf-8")
+    tree = ast.parse(text)
+    assert ast.get_docstring(tree)
+    assert sum(isinstance(node, ast.Assert) for node in ast.walk(tree)) >= 1
+    assert len(text.splitlines()) <= 60
+
+
+def test_all_examples_are_listed():
+    readme = (EXAMPLES.parents[1] / "README.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"examples/(\w+)\.py", readme)) == set(NAMES)
+
+
+def test_a_wrong_result_ends_an_example(tmp_path):
+    """The assertions of an example are those of a test: with E for E* a sphere is not that of Hertz."""
+    wrong = (EXAMPLES / "sphere.py").read_text(encoding="utf-8").replace("modulus=modulus)", "modulus=0.9 * modulus)")
+    (tmp_path / "sphere.py").write_text(wrong, encoding="utf-8")
+    run = subprocess.run([sys.executable, "sphere.py"], cwd=tmp_path, capture_output=True, text=True)
+    assert "AssertionError" in run.stderr
