@@ -105,7 +105,7 @@ def test_a_position_that_does_not_converge_has_no_force(monkeypatch):
 
 @pytest.mark.slow
 def test_both_ways_over_ridges_are_counted(monkeypatch):
-    case = ridges.Ridges(length=8, shortest=4.0, cells=(4,))
+    case = ridges.RollingOverRidges(length=8, shortest=4.0, cells=(4,))
     rolled = ridges.RidgesTrack(case=case, method="bem3d", cells=4)
     assert ridges.roll_over(rolled)["failed"] == 0
     calls = iter([False, True])
@@ -209,7 +209,7 @@ LOST = {
     ),
     "ridges": (
         ridges.run,
-        ridges.Ridges(cells=(4, 6), springs=(8.5,)),
+        ridges.RollingOverRidges(cells=(4, 6), springs=(8.5,)),
         lambda p: p.method == "bem3d" and p.cells == 6,
         "bem3d, 6 cells to a radius: 3 positions",
     ),

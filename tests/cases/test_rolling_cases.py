@@ -196,7 +196,7 @@ def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
 
 @pytest.mark.slow
 def test_ridges_agree_and_a_lost_factor_does_not(monkeypatch):
-    case = ridges.Ridges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5))
+    case = ridges.RollingOverRidges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5))
     result = ridges.run(case)
     numbers = ridges_evidence.evidence(result).numbers
     assert all(number.met for number in numbers)

@@ -60,7 +60,7 @@ SMALL = {
     "mdr_limits": mdr_limits.MdrLimits(
         roll_offs=(1, 2), cells=16, surfaces=6, refined=3, profiles=40, points=64, decades=(-1, 0)
     ),
-    "ridges": ridges.Ridges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
+    "ridges": ridges.RollingOverRidges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
     "rolling": rolling.ForceSpectrum(
         heights=(0.01, 0.3),
         last=6.0,

@@ -19,7 +19,7 @@ CONTACT: dict[str, mdr.rolling.Contact] = {FILTER: "linear", FULL: "full", SPRIN
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ridges:
+class RollingOverRidges:
     """A wheel, a = d = E* = 1, over many ridges at once, so low that only the first power of their height counts.
 
     length: of the track over a, the longest wave; shortest: q a of the last; cells: to a contact radius, of boundary
@@ -59,7 +59,7 @@ class Ridges:
 class RidgesTrack:
     """One track, rolled by one method, at the prescribed approach or at the force that belongs to it."""
 
-    case: Ridges
+    case: RollingOverRidges
     method: str
     cells: float
     prescribed: str = "approach"
@@ -69,7 +69,7 @@ class RidgesTrack:
 class RidgesResult:
     """Responses over 2 E* a, by method, cells and what was prescribed."""
 
-    case: Ridges
+    case: RollingOverRidges
     responses: dict[tuple[str, float, str], NDArray[np.complex128]]
     unconverged: tuple[str, ...]
 
@@ -100,7 +100,7 @@ def _roll(track: RidgesTrack, height: FloatArray, settings: dict[str, Any]) -> b
     return bem3d.roll(strip, tolerance=track.case.tolerance, raise_on_failure=False, **settings)
 
 
-def run(case: Ridges, engine: Engine = SERIAL) -> RidgesResult:
+def run(case: RollingOverRidges, engine: Engine = SERIAL) -> RidgesResult:
     """Roll by every method on every grid; on the coarsest grid of boundary elements under a force too."""
     keys = [
         *((BEM, float(n), "approach") for n in case.cells),

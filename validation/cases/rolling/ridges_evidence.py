@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Role, Table, columns
-from validation.cases.rolling.ridges import BEM, FILTER, FULL, SPRINGS, Ridges, RidgesResult, run
+from validation.cases.rolling.ridges import BEM, FILTER, FULL, SPRINGS, RidgesResult, RollingOverRidges, run
 from validation.theory import rolling as rolling_theory
 
 FloatArray = NDArray[np.float64]
@@ -81,7 +81,7 @@ def exact(q: FloatArray) -> FloatArray:
     return np.asarray(rolling_theory.response(q, contact_radius=1.0, modulus=1.0) / 2)
 
 
-def _envelope(case: Ridges) -> FloatArray:
+def _envelope(case: RollingOverRidges) -> FloatArray:
     return np.asarray(np.minimum(1.0, 1 / case.wavenumbers))
 
 
@@ -192,8 +192,8 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Ridges across the track: rolling force where the 1D model is exact in 3D, (14.11)",
-    quick=Ridges(),
-    full=Ridges(cells=(8, 16, 32), springs=(8.5, 16.5, 32.5, 64.5)),
+    quick=RollingOverRidges(),
+    full=RollingOverRidges(cells=(8, 16, 32), springs=(8.5, 16.5, 32.5, 64.5)),
     run=run,
     evidence=evidence,
     needs="linear filter, 1D",
