@@ -9,11 +9,13 @@ import numpy as np
 import bem3d
 import mdr
 from tests import test_face
+from tests.cases import test_edge_scenes
 from tests.planted_faults.wrong import scaled, with_math
 from tests.selection import test_claims, test_selection, test_what_compare_says
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
+from validation.cases.selection import edge_evidence
 from validation.engine import engine as ensemble
 from validation.scenes import measured
 from validation.selection import compare, hierarchy, scene_model, side_by_side, summary
@@ -255,6 +257,14 @@ FAULTS = {
     "a tolerance of the face that is always met": (
         (hierarchy.Selection, "met", property(lambda selection: True)),
         test_face.test_a_missed_tolerance_leaves_the_best_value,
+    ),
+    "measured points between the cells of a wheel's grid": (
+        (rolled, "grids_of_points", lambda heights, radius: tuple(n * radius / heights.spacing[0] for n in (2, 4))),
+        functools.partial(test_edge_scenes.test_every_grid_under_a_wheel_has_all_measured_points, 0),
+    ),
+    "an answer at the edge that always holds": (
+        (edge_evidence, "_held", lambda table: np.isfinite(table["true error"])),
+        test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
     ),
     "a punch without the error at its edge": (
         (boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0),

@@ -43,6 +43,12 @@ RESONANCES = (0.6, 6.0)
 """Frequency of the longest wave over the resonance; below one there is no steady answer."""
 POINTS, TRACK, TO_A_RADIUS = (40, 128), (256, 64), (4, 5, 6, 8, 12)
 """Points along the sides of a measured face, of a measured track, and to a contact radius under a sphere or wheel."""
+RANGES = (
+    "F / (E* h L) of punches 1e-6 to 100, one to 32 of the longest waves on a side, Hurst exponent 0.2 to 1.2, h/d to "
+    "10 under spheres, to 2 under rolling and to 0.5 under dynamic wheels, the longest wave half to 20 contact radii, "
+    "and measured heights: Gaussian, ridges, honed, log-normal, outliers, pits"
+)
+"""In words."""
 
 
 def edge_scene(kind: str, number: int, seed: int) -> tuple[Scene, str]:

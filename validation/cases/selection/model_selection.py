@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, ROLLING, SPHERE
+from validation.cases.selection.edge_test import OTHER_SEED, REFERENCE_TOLERANCE, EdgeTrial, edge_trials, solve_edge
 from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -15,14 +17,12 @@ from validation.selection.hierarchy import ContactModel, select_model, try_to_so
 from validation.simulation.model import GridModel, all_models
 from validation.simulation.sampling import distance
 
-OTHER_SEED = 1_000_003
-"""Added to the seed of the tested models: the reference has surfaces of its own."""
-REFERENCE_TOLERANCE = 0.05
-"""Tolerance of the reference."""
 EVERY_TOLERANCE = 0.1
 """Of the models that are solved whatever error they expect."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
 CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel)))
+CHEAP_EDGES = (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE)
+"""Kinds of scenes at the edges whose references take seconds."""
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 
@@ -31,15 +31,22 @@ MODELS = (*CHEAP, COARSE, FINE)
 class CalibrationTest:
     """Random scenes of each kind, for each of which a model is selected at each tolerance.
 
-    punches, spheres, rolling, wheels: how many; tolerances: relative; seed: zero or positive.
+    punches, spheres, rolling, wheels: how many; edges: scenes at the edges of the ranges, of each of edge_kinds;
+    tolerances: relative; seed: zero or positive.
     """
 
     punches: int = 8
     spheres: int = 2
     rolling: int = 1
     wheels: int = 0
+    edges: int = 0
+    edge_kinds: tuple[str, ...] = EDGE_KINDS
     tolerances: tuple[float, ...] = (0.1,)
     seed: int = 14
+
+    @property
+    def edge_trials(self) -> list[EdgeTrial]:
+        return edge_trials(self.edge_kinds, self.edges, self.tolerances, self.seed)
 
     @property
     def trials(self) -> list["CalibrationTrial"]:
@@ -77,6 +84,7 @@ class CalibrationResult:
     case: CalibrationTest
     outcomes: list[Outcome]
     unconverged: tuple[str, ...]
+    edges: list[Outcome] = field(default_factory=list)
 
 
 def run(case: CalibrationTest, engine: Engine = SERIAL) -> CalibrationResult:
@@ -85,7 +93,7 @@ def run(case: CalibrationTest, engine: Engine = SERIAL) -> CalibrationResult:
     failed = tuple(f"{t.kind} {t.number}" for t, o in zip(case.trials, outcomes, strict=True) if o["failed"])
     if len(failed) == len(outcomes):
         raise NotConvergedError("boundary elements converged on no scene", failed)
-    return CalibrationResult(case, outcomes, failed)
+    return CalibrationResult(case, outcomes, failed, engine.map(solve_edge, case.edge_trials))
 
 
 def calibrate(trial: CalibrationTrial) -> Outcome:

@@ -11,7 +11,17 @@ from scipy import stats
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
-from validation.cases.selection.model_selection import CHEAP, MODELS, CalibrationResult, CalibrationTest, run
+from validation.cases.selection.edge_evidence import edge_answer, edge_number, edge_table, edges_by_kind
+from validation.cases.selection.edge_scenes import RANGES as EDGE_RANGES
+from validation.cases.selection.edge_test import DRAWN
+from validation.cases.selection.model_selection import (
+    CHEAP,
+    CHEAP_EDGES,
+    MODELS,
+    CalibrationResult,
+    CalibrationTest,
+    run,
+)
 from validation.cases.selection.random_scenes import KINDS, RANGES
 from validation.engine.engine import Outcome, random_generator
 
@@ -27,6 +37,7 @@ SAVED = 2.0
 RESAMPLED = 400
 """Bootstrap samples of scenes, for the interval of a saving."""
 NONE = "none"
+EDGES = "At the edges of the ranges, too, an answer holds or is refused."
 Row = dict[str, object]
 
 
@@ -35,7 +46,9 @@ def evidence(result: CalibrationResult) -> Evidence:
     case, scenes, estimates = result.case, _scenes(result), _estimates(result)
     known = [(tolerance, _known(scenes.where(tolerance=tolerance))) for tolerance in case.tolerances]
     known = [(tolerance, table) for tolerance, table in known if table["kind"].size]
+    edges = edge_table(case.edge_trials, result.edges) if result.edges else None
     numbers = tuple(number for tolerance, table in known for number in _numbers(tolerance, table))
+    at_edges = tuple(edge_number(edges, tolerance) for tolerance in case.tolerances) if edges else ()
     return Evidence(
         title="Calibration test of model selection",
         method=(
@@ -46,11 +59,17 @@ def evidence(result: CalibrationResult) -> Evidence:
             "blind to what both share: the finest grid, its shortest wave, the quadratures of linear theory. Costs are "
             "counts of operations times "
             "the time of one, so that they are the same on every machine. The cost of a selection includes all "
-            "models that were solved."
+            "models that were solved. "
+            f"{case.edges} scenes more of each of {len(case.edge_kinds)} kinds lie at the edges of all ranges and "
+            f"beyond: {EDGE_RANGES}; of {DRAWN} times as many those whose reference costs least. There a "
+            "measured face is its own reference, and an answer on the grid of the reference is not tested."
         ),
-        numbers=numbers,
-        claims=_claims(known, numbers),
-        tables=(scenes, estimates),
+        numbers=(*numbers, *at_edges),
+        claims=(
+            *_claims(known, numbers),
+            *((JudgedClaim(claim=EDGES, answer=edge_answer(edges), numbers=at_edges),) if edges else ()),
+        ),
+        tables=(scenes, estimates, *((edges,) if edges else ())),
         conclusions=tuple(_conclusion(tolerance, scenes, table) for tolerance, table in known),
         captions={
             "ladder": (
@@ -61,7 +80,7 @@ def evidence(result: CalibrationResult) -> Evidence:
             )
         },
         unconverged=result.unconverged,
-        page_tables=(_by_kind(case, scenes), _by_model(estimates)),
+        page_tables=(_by_kind(case, scenes), _by_model(estimates), *((edges_by_kind(edges),) if edges else ())),
     )
 
 
@@ -281,8 +300,8 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Calibration test of model selection on random scenes: estimated and true error, and the time saved",
-    quick=CalibrationTest(),
-    full=CalibrationTest(punches=90, spheres=30, rolling=30, wheels=20, tolerances=(0.03, 0.1, 0.3)),
+    quick=CalibrationTest(edges=1, edge_kinds=CHEAP_EDGES),
+    full=CalibrationTest(punches=90, spheres=30, rolling=30, wheels=20, edges=8, tolerances=(0.03, 0.1, 0.3)),
     run=run,
     evidence=evidence,
     needs="chosen scene by scene",
