@@ -84,16 +84,9 @@ def test_a_stiffness_that_does_not_converge_loses_its_load(monkeypatch):
 
 
 def test_a_position_that_does_not_converge_has_no_force(monkeypatch):
-    strip = rolling_strip.Strip(
-        spectrum=self_affine(0.7, 1.0, 4.0),
-        height=0.1,
-        realisation=0,
-        length=8.0,
-        width=6.0,
-        cells=4,
-        tolerance=1e-6,
-        seed=1,
-    )
+    spectrum = self_affine(0.7, 1.0, 4.0)
+    scene = rolling_strip.RoughStrip(spectrum=spectrum, height=0.1, length=8.0, width=6.0, seed=1)
+    (strip,) = scene.strips(4, 1e-6, 1)
     assert rolling_strip.roll_strip(strip)["failed"] == 0
     monkeypatch.setattr(bem3d, "roll", cut(bem3d.roll, lambda: True))
     found = rolling_strip.roll_strip(strip)
@@ -156,7 +149,7 @@ def pressed(problem, lost):
         found = dict.fromkeys(("stiffness", "area", "approach", "gap"), values)
         return {**found, "residual": 0.5 * ones, "failed": np.array(float(lost)), "gradient": np.array(1.0)}
     if isinstance(problem, rolling_strip.Strip):
-        cells = round(problem.length * problem.cells)
+        cells = round(problem.scene.length * problem.cells)
         force = np.random.default_rng(problem.realisation).standard_normal(cells)
         return {"force": np.nan * force if lost else force, "linear": force, "failed": np.array(7.0 * lost)}
     if isinstance(problem, ridges.RidgesTrack):
@@ -178,7 +171,7 @@ def one_surface(realisation, **settings):
 
 def one_strip(realisation, height, cells):
     return lambda p: (
-        isinstance(p, rolling_strip.Strip) and (p.realisation, p.height, p.cells) == (realisation, height, cells)
+        isinstance(p, rolling_strip.Strip) and (p.realisation, p.scene.height, p.cells) == (realisation, height, cells)
     )
 
 
@@ -228,7 +221,7 @@ LOST = {
     "rolling input, strips": (
         rolling_input.run,
         rolling_input.RollingInput(heights=(0.03,), strips=4, cells=4, surfaces=3),
-        lambda p: one_strip(2, 0.03, 4)(p) and p.spectrum == rolling_input.RollingInput().spectra["H = 0.7"],
+        lambda p: one_strip(2, 0.03, 4)(p) and p.scene.spectrum == rolling_input.RollingInput().spectra["H = 0.7"],
         "strip 2, h/d = 0.03",
     ),
     "rolling input, punches": (

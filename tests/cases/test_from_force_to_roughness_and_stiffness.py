@@ -127,8 +127,8 @@ SMALL = track_stiffness.TrackStiffness(forces=(1.0,), length=16, strips=3, refin
 @pytest.mark.parametrize("height", [0.0, 0.3])
 def test_the_stiffness_along_a_track_is_the_change_of_force_with_approach(height):
     """Beside a finite difference; on a smooth track 2 E* a, to an edge some tenths of a cell out of place."""
-    strip = replace(SMALL.strips_of(1.0, 8)[0].strip, height=height)
-    track = bem3d.Track(height=np.ascontiguousarray(strip.surface()), spacing=1 / 8, radius=1.0, modulus=1.0)
+    surface = replace(SMALL.rough_strip(1.0), height=height).surface(8, 0)
+    track = bem3d.Track(height=np.ascontiguousarray(surface), spacing=1 / 8, radius=1.0, modulus=1.0)
     wheel = bem3d.RollingContact(track, tolerance=1e-9)
     stiffness = track_stiffness.tangent_stiffness(wheel, 5)
     approach, step = wheel.carry(5, 4 / 3).approach, 1e-4
@@ -139,7 +139,8 @@ def test_the_stiffness_along_a_track_is_the_change_of_force_with_approach(height
 
 
 def test_low_tracks_have_the_stiffness_of_the_smooth_wheel():
-    tracks = replace(SMALL.tracks_of(1.0, "geike"), height=1e-6)
+    tracks = SMALL.tracks_of(1.0, "geike")
+    tracks = replace(tracks, scene=replace(tracks.scene, height=1e-6))
     along = track_stiffness.roll_loaded_tracks(tracks)
     assert along["mean"] == pytest.approx(1, abs=2 / tracks.springs)
     assert np.sqrt(along["variance"]).max() < 1 / tracks.springs

@@ -17,7 +17,7 @@ from validation.cases.rolling.force_spectrum_evidence import CASE, evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, LevelsAtHeight, coherence, correlation
 from validation.cases.rolling.force_spectrum_numbers import LEVEL
 from validation.simulation import rolling_strip
-from validation.simulation.rolling_strip import Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
+from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance, linear_force
 
@@ -31,9 +31,9 @@ def rolled():
     return rolling.run(SMALL)
 
 
-def strip(**changes):
-    settings = {"spectrum": SMALL.spectrum, "height": 0.1, "realisation": 1, "length": 16.0, "width": 8.0}
-    return Strip(**{**settings, "cells": 8, "tolerance": 1e-6, "seed": 3, **changes})
+def rough(**changes):
+    settings = {"spectrum": SMALL.spectrum, "height": 0.1, "length": 16.0, "width": 8.0, "seed": 3}
+    return RoughStrip(**{**settings, **changes})
 
 
 @pytest.mark.parametrize(
@@ -64,18 +64,18 @@ def test_a_spectrum_needs_an_exponent_a_piece():
 
 def test_a_strip_of_parts_of_cells_is_refused():
     with pytest.raises(ValueError, match=r"length must be a whole number of cells, got 50\.26"):
-        strip(length=2 * math.pi)
+        rough(length=2 * math.pi).surface(8, 0)
 
 
 def test_strips_are_the_same_surface_on_finer_cells():
     """The same waves: the coarse heights are those of the fine surface, half a fine cell between its centres."""
-    coarse, fine = strip(cells=8).surface(), strip(cells=24).surface()
+    coarse, fine = rough().surface(8, 1), rough().surface(24, 1)
     assert fine[1::3, 1::3] == pytest.approx(coarse, abs=1e-10)
     assert coarse.std() == pytest.approx(0.1, rel=1e-12)
 
 
 def test_what_is_rolled_over_is_the_middle_of_the_surface():
-    surface = strip().surface()
+    surface = rough().surface(8, 1)
     part = crop_to_reach(surface, 1 / 8)
     cut = (surface.shape[1] - part.shape[1]) / 2
     assert cut == int(cut) > 0
@@ -87,7 +87,7 @@ def test_what_is_rolled_over_is_the_middle_of_the_surface():
 @pytest.mark.slow
 def test_a_low_strip_is_rolled_as_linear_theory_has_it():
     """Position by position, to the grid: a few per cent of the fluctuation with 12 cells to a radius."""
-    outcome = roll_strip(strip(height=1e-3, cells=12, tolerance=1e-8))
+    outcome = roll_strip(Strip(scene=rough(height=1e-3), realisation=1, cells=12, tolerance=1e-8))
     force, linear = outcome["force"] - outcome["force"].mean(), outcome["linear"] - outcome["linear"].mean()
     assert np.abs(force - linear).max() <= 0.06 * linear.std()
     assert outcome["failed"] == 0
@@ -96,14 +96,11 @@ def test_a_low_strip_is_rolled_as_linear_theory_has_it():
 def test_tracks_have_the_variance_of_linear_theory():
     """Of Geike's spectrum: to the part of the band that a wave has, 2 pi / L, for a sum in place of the integral."""
     tracks = Tracks(
-        spectrum=SMALL.spectrum,
+        scene=rough(height=1e-3, length=256.0, seed=5),
         input_spectrum="geike",
-        height=1e-3,
         realisations=5,
-        length=256.0,
         springs=12,
         bands=SMALL.bands,
-        seed=5,
     )
     outcome = roll_tracks(tracks)
     exact = 1e-6 * force_variance(SMALL.spectrum.c2d, edges=SMALL.spectrum.edges, contact_radius=1.0, modulus=1.0)

@@ -32,38 +32,75 @@ TRACKS, STRIPS = 1, 2
 
 
 @dataclass(frozen=True, kw_only=True)
-class Strip:
-    """One realisation of a rough strip, rolled over at d = 1.
+class RoughStrip:
+    """A rough strip under the wheel, the scene of both methods: a surface on any grid, and tracks of springs for it.
 
     spectrum; height: rms, over d; length, width: of the periodic surface that is drawn, over a, of which the wheel
-    rolls along the middle; cells: to a contact radius; tolerance: residual of the solver; seed: zero or positive.
+    rolls along the middle; seed: zero or positive.
     """
 
     spectrum: PiecewisePowerLaw
     height: float
-    realisation: int
     length: float
     width: float
-    cells: int
-    tolerance: float
     seed: int
 
-    def __post_init__(self) -> None:
-        for name in ("length", "width"):
-            side = getattr(self, name) * self.cells
+    def surface(self, cells: int, realisation: int) -> FloatArray:
+        """Heights at the centres of all cells, so many to a contact radius; the same surface on every grid."""
+        sides = self.length * cells, self.width * cells
+        for name, side in zip(("length", "width"), sides, strict=True):
             if abs(side - round(side)) > 1e-9 * side:
                 raise ValueError(f"{name} must be a whole number of cells, got {side:g}")
-
-    def surface(self) -> FloatArray:
-        """Heights at the centres of the cells, all of them; the same surface on every grid."""
         unit = draw_surface(
             self.spectrum.c2d,
-            shape=(round(self.length * self.cells), round(self.width * self.cells)),
-            spacing=1 / self.cells,
-            rng=random_generator(self.seed, STRIPS, self.realisation),
+            shape=(round(sides[0]), round(sides[1])),
+            spacing=1 / cells,
+            rng=random_generator(self.seed, STRIPS, realisation),
             rms=1.0,
         )
         return np.asarray(self.height * unit)
+
+    def track(self, input_spectrum: InputSpectrum, springs: int, realisation: int) -> FloatArray:
+        """Heights of so many springs to a contact radius."""
+        unit = mdr.rough_profile(
+            TrackSpectrum(self.spectrum, input_spectrum),
+            length=self.length,
+            points=round(self.length * springs),
+            rng=random_generator(self.seed, TRACKS, realisation),
+            rms=1.0 if input_spectrum == "geike" else None,
+        )
+        return np.asarray(self.height * unit)
+
+    def strips(self, cells: int, tolerance: float, count: int) -> list["Strip"]:
+        """The first so many realisations on a grid."""
+        return [Strip(scene=self, realisation=i, cells=cells, tolerance=tolerance) for i in range(count)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Strip:
+    """One realisation, rolled over at d = 1 by boundary elements. cells: to a contact radius; tolerance: residual."""
+
+    scene: RoughStrip
+    realisation: int
+    cells: int
+    tolerance: float
+
+    def surface(self) -> FloatArray:
+        return self.scene.surface(self.cells, self.realisation)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tracks:
+    """The first so many tracks, rolled over at d = 1 on springs, so many to a contact radius. bands: of the levels."""
+
+    scene: RoughStrip
+    input_spectrum: InputSpectrum
+    realisations: int
+    springs: int
+    bands: Bands
+
+    def heights(self) -> list[FloatArray]:
+        return [self.scene.track(self.input_spectrum, self.springs, i) for i in range(self.realisations)]
 
 
 def roll_strip(strip: Strip) -> Outcome:
@@ -93,8 +130,8 @@ def roll_strips(groups: Mapping[K, Sequence[Strip]], engine: Engine) -> tuple[di
     """
     outcomes = engine.map_groups(roll_strip, groups)
     unconverged = tuple(
-        f"strip {s.realisation}, h/d = {s.height:g}, {s.cells} cells to a radius: {int(o['failed'])} positions, "
-        f"{s.spectrum}"
+        f"strip {s.realisation}, h/d = {s.scene.height:g}, {s.cells} cells to a radius: {int(o['failed'])} positions, "
+        f"{s.scene.spectrum}"
         for key, strips in groups.items()
         for s, o in zip(strips, outcomes[key], strict=True)
         if o["failed"]
@@ -114,57 +151,27 @@ def crop_to_reach(surface: FloatArray, spacing: float) -> FloatArray:
     return surface[:, middle - side : surface.shape[1] - middle + side]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Tracks:
-    """The first so many rough tracks on springs, rolled over at d = 1.
-
-    spectrum: of the surface; input_spectrum: that of the tracks made for it; height: rms of the surface,
-    over d; length: over a; springs: to a contact radius; bands: of the levels; seed: zero or positive.
-    """
-
-    spectrum: PiecewisePowerLaw
-    input_spectrum: InputSpectrum
-    height: float
-    realisations: int
-    length: float
-    springs: int
-    bands: Bands
-    seed: int
-
-    def track(self, realisation: int) -> FloatArray:
-        points = round(self.length * self.springs)
-        unit = mdr.rough_profile(
-            TrackSpectrum(self.spectrum, self.input_spectrum),
-            length=self.length,
-            points=points,
-            rng=random_generator(self.seed, TRACKS, realisation),
-            rms=1.0 if self.input_spectrum == "geike" else None,
-        )
-        return np.asarray(self.height * unit)
-
-
 def roll_tracks(tracks: Tracks) -> Outcome:
     """One-sided springs and the linear filter on the same tracks: their `levels_beside_linear`.
 
     examined: springs examined one by one at a position, mean of each track; wavenumber, spectrum: C_F itself of
     one-sided springs, the mean of all tracks.
     """
-    points, spacing = round(tracks.length * tracks.springs), 1 / tracks.springs
-    force, linear = np.empty((2, tracks.realisations, points))
-    examined = np.empty(tracks.realisations)
-    for i in range(tracks.realisations):
-        roll = partial(mdr.roll, tracks.track(i), spacing=spacing, **SMOOTH)
+    spacing, examined = 1 / tracks.springs, []
+    force, linear = np.empty((2, tracks.realisations, round(tracks.scene.length * tracks.springs)))
+    for i, height in enumerate(tracks.heights()):
+        roll = partial(mdr.roll, height, spacing=spacing, **SMOOTH)
         found = roll()
         with warnings.catch_warnings():
             # the range of the filter is under test
             warnings.simplefilter("ignore", mdr.LinearityWarning)
             force[i], linear[i] = found.force / HERTZ, roll(contact="linear").force / HERTZ
-        examined[i] = found.examined.mean()
+        examined.append(found.examined.mean())
     narrow = waves(force, spacing=spacing)
     known = narrow.q < tracks.bands.edges[-1]
     return {
         **levels_beside_linear(force, linear, spacing, tracks.bands),
-        "examined": examined,
+        "examined": np.array(examined),
         "wavenumber": narrow.q[known],
         "spectrum": narrow.spectrum.mean(axis=0)[known],
     }

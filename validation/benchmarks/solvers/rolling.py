@@ -10,7 +10,7 @@ from validation.benchmarks.isolation import measure_alone, timed
 from validation.benchmarks.work_precision.rolling import moving_window
 from validation.engine.engine import Engine, Outcome
 from validation.simulation.method import FloatArray
-from validation.simulation.rolling_strip import Strip, crop_to_reach
+from validation.simulation.rolling_strip import RoughStrip, Strip, crop_to_reach
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 
 WARM = 40
@@ -37,14 +37,10 @@ class RollingThroughput:
         return [
             RolledStrip(
                 strip=Strip(
-                    spectrum=spectrum,
-                    height=height,
+                    scene=RoughStrip(spectrum=spectrum, height=height, length=32.0, width=16.0, seed=self.seed),
                     realisation=0,
-                    length=32.0,
-                    width=16.0,
                     cells=self.cells,
                     tolerance=self.tolerance,
-                    seed=self.seed,
                 ),
                 positions=self.positions,
             )

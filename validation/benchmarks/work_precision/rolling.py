@@ -32,7 +32,7 @@ from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import MOST_ITERATIONS
-from validation.simulation.rolling_strip import HERTZ, Strip, Tracks, crop_to_reach
+from validation.simulation.rolling_strip import HERTZ, RoughStrip, crop_to_reach
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 from validation.theory import rolling as rolling_theory
 
@@ -99,21 +99,11 @@ class RollingProblem(ChartProblem):
         """One-third octaves within the band of the roughness."""
         return Bands.around(np.pi, 1.0, self.last).on(self.length)
 
-    def strip(self, realisation: int, cells: int) -> Strip:
-        """The same on every grid."""
-        return Strip(
-            realisation=realisation, width=float(self.width), cells=cells, tolerance=self.grids.tight, **self._rough
-        )
-
-    def track(self, input_spectrum: InputSpectrum, springs: int, realisation: int) -> FloatArray:
-        tracks = Tracks(
-            input_spectrum=input_spectrum, realisations=self.tracks, springs=springs, bands=self.bands, **self._rough
-        )
-        return tracks.track(realisation)
-
     @property
-    def _rough(self) -> dict[str, Any]:
-        return {"spectrum": self.spectrum, "height": self.height, "length": float(self.length), "seed": self.seed}
+    def rough_strip(self) -> RoughStrip:
+        """The same on every grid."""
+        length, width = float(self.length), float(self.width)
+        return RoughStrip(spectrum=self.spectrum, height=self.height, length=length, width=width, seed=self.seed)
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Linear theory three times, springs with both input spectra, boundary elements."""
@@ -195,10 +185,10 @@ class RollingTracks:
     def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
         """Raises ValueError for waves that springs do not resolve."""
         springs = round(resolution.size)
-        scene.track(self.input_spectrum, springs, 0)
+        scene.rough_strip.track(self.input_spectrum, springs, 0)
 
         def draw(realisation: int) -> Solve:
-            track = scene.track(self.input_spectrum, springs, realisation)
+            track = scene.rough_strip.track(self.input_spectrum, springs, realisation)
             solve = partial(mdr.roll, track, spacing=1 / springs, contact=self.contact, **SMOOTH)
 
             def read(found: mdr.RollingTrack) -> Result:
@@ -227,7 +217,7 @@ class RollingStrips:
         cells = round(resolution.size)
 
         def draw(realisation: int) -> Solve:
-            surface = scene.strip(realisation, cells).surface()
+            surface = scene.rough_strip.surface(cells, realisation)
             linear = rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH) / HERTZ
             mean = scene.mean(surface, 1 / cells)
             roll = ROLLERS[self.name](surface, cells, resolution.residual)

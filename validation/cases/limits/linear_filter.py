@@ -11,7 +11,7 @@ from validation.cases.limits.isotropy import HURST, decibel
 from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
 from validation.engine.engine import Outcome, random_generator
 from validation.simulation.free_vibration import WHEEL
-from validation.simulation.rolling_strip import Strip, roll_strip
+from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strip
 from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, coarsen
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance
@@ -114,16 +114,8 @@ class StripHeights:
         points: list[Point] = []
         failed = 0.0
         for height in self.heights:
-            strip = Strip(
-                spectrum=spectrum,
-                height=height,
-                realisation=0,
-                length=self.length,
-                width=self.width,
-                cells=self.cells,
-                tolerance=1e-4,
-                seed=self.seed,
-            )
+            scene = RoughStrip(spectrum=spectrum, height=height, length=self.length, width=self.width, seed=self.seed)
+            strip = Strip(scene=scene, realisation=0, cells=self.cells, tolerance=1e-4)
             found, message = call_and_record_warnings(partial(roll_strip, strip))
             assert found is not None
             points.append((float(np.nanstd(found["force"] - found["linear"]) / np.std(found["linear"])), message))

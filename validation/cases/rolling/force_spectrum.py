@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from validation.analysis.spectra import Bands
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rolling_strip import Strip, Tracks, roll_strips, roll_tracks, strip_levels
+from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, roll_strips, roll_tracks, strip_levels
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
@@ -38,30 +38,12 @@ class RollingSettings:
         """One-third octaves from the lowest to the last, one of them around the first zero of sin(q a)."""
         return Bands.around(math.pi, self.lowest, self.last).on(self.length)
 
-    def strip(
-        self, spectrum: PiecewisePowerLaw, height: float, realisation: int, cells: int, tolerance: float
-    ) -> Strip:
-        return Strip(
-            spectrum=spectrum,
-            height=height,
-            realisation=realisation,
-            length=self.length,
-            width=self.width,
-            cells=cells,
-            tolerance=tolerance,
-            seed=self.seed,
-        )
+    def rough_strip(self, spectrum: PiecewisePowerLaw, height: float) -> RoughStrip:
+        return RoughStrip(spectrum=spectrum, height=height, length=self.length, width=self.width, seed=self.seed)
 
-    def tracks_on(self, spectrum: PiecewisePowerLaw, height: float, rule: InputSpectrum) -> Tracks:
+    def tracks_on(self, scene: RoughStrip, rule: InputSpectrum) -> Tracks:
         return Tracks(
-            spectrum=spectrum,
-            input_spectrum=rule,
-            height=height,
-            realisations=self.tracks,
-            length=self.length,
-            springs=self.springs,
-            bands=self.bands,
-            seed=self.seed,
+            scene=scene, input_spectrum=rule, realisations=self.tracks, springs=self.springs, bands=self.bands
         )
 
 
@@ -89,7 +71,7 @@ class ForceSpectrum(RollingSettings):
         """On one grid. The lower the roughness, the less the force fluctuates and the smaller the tolerance."""
         strips = self.rough_strips if height >= ROUGH else self.strips
         count = strips if cells == self.cells else min(self.refined, strips)
-        return [self.strip(self.spectrum, height, i, cells, 1e-4 * height) for i in range(count)]
+        return self.rough_strip(self.spectrum, height).strips(cells, 1e-4 * height, count)
 
 
 @dataclass(frozen=True)
@@ -112,7 +94,11 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> RollingResult:
     coarse, fine = case.cells, 2 * case.cells
     groups = {(height, cells): case.strips_of(height, cells) for height in case.heights for cells in (coarse, fine)}
     strips, unconverged = roll_strips(groups, engine)
-    tracks = {(rule, h): case.tracks_on(case.spectrum, h, rule) for h in case.heights for rule in INPUT_SPECTRA}
+    tracks = {
+        (rule, h): case.tracks_on(case.rough_strip(case.spectrum, h), rule)
+        for h in case.heights
+        for rule in INPUT_SPECTRA
+    }
     return RollingResult(
         case,
         {h: strip_levels(strips[h, coarse], 1 / coarse, case.bands) for h in case.heights},

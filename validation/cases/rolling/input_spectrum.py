@@ -134,13 +134,12 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
 
     Raises NotConvergedError where fewer than three strips of a spectrum and height, or surfaces at a force, converge.
     """
-    keys = [(name, height) for name in case.rolled for height in case.heights]
+    scenes = {(name, h): case.rough_strip(spectrum, h) for name, spectrum in case.rolled.items() for h in case.heights}
     groups = {
-        (name, h): [case.strip(case.rolled[name], h, i, case.cells, min(1e-5, 1e-4 * h)) for i in range(case.strips)]
-        for name, h in keys
+        (name, h): scene.strips(case.cells, min(1e-5, 1e-4 * h), case.strips) for (name, h), scene in scenes.items()
     }
     strips, unconverged = roll_strips(groups, engine)
-    tracks = {(name, h, rule): case.tracks_on(case.rolled[name], h, rule) for name, h in keys for rule in INPUT_SPECTRA}
+    tracks = {(*key, rule): case.tracks_on(scene, rule) for key, scene in scenes.items() for rule in INPUT_SPECTRA}
     on_springs = engine.map(roll_tracks, list(tracks.values()))
     surfaces = [
         Surface(roughness=case.punch, realisation=i, cells=case.punch_cells, forces=case.forces, tolerance=1e-4)

@@ -66,7 +66,7 @@ class RoughnessFromForceResult:
 def run(case: RoughnessFromForce, engine: Engine = SERIAL) -> RoughnessFromForceResult:
     """Roll over all strips. Raises NotConvergedError where fewer than three at a height converge."""
     groups = {
-        height: [case.strip(case.spectrum, height, i, case.cells, 1e-4 * height) for i in range(case.strips)]
+        height: case.rough_strip(case.spectrum, height).strips(case.cells, 1e-4 * height, case.strips)
         for height in case.heights
     }
     strips, unconverged = roll_strips(groups, engine)

@@ -13,7 +13,7 @@ import mdr
 from validation.analysis.spectra import Bands, levels, waves
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rolling_strip import HERTZ, Strip, Tracks, crop_to_reach
+from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks, crop_to_reach
 from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
@@ -74,35 +74,22 @@ class TrackStiffness:
         """h/d."""
         return HERTZ / 2 / force
 
+    def rough_strip(self, force: float) -> RoughStrip:
+        return RoughStrip(
+            spectrum=self.spectrum, height=self.height(force), length=self.length, width=self.width, seed=self.seed
+        )
+
     def strips_of(self, force: float, cells: int) -> list["LoadedStrip"]:
-        count = self.strips if cells == self.cells else self.refined
-        return [
-            LoadedStrip(
-                strip=Strip(
-                    spectrum=self.spectrum,
-                    height=self.height(force),
-                    realisation=i,
-                    length=self.length,
-                    width=self.width,
-                    cells=cells,
-                    tolerance=3e-5,
-                    seed=self.seed,
-                ),
-                bands=self.bands,
-            )
-            for i in range(count)
-        ]
+        strips = self.rough_strip(force).strips(cells, 3e-5, self.strips if cells == self.cells else self.refined)
+        return [LoadedStrip(strip=strip, bands=self.bands) for strip in strips]
 
     def tracks_of(self, force: float, rule: InputSpectrum) -> Tracks:
         return Tracks(
-            spectrum=self.spectrum,
+            scene=self.rough_strip(force),
             input_spectrum=rule,
-            height=self.height(force),
             realisations=self.tracks,
-            length=self.length,
             springs=self.springs,
             bands=self.bands,
-            seed=self.seed,
         )
 
 
@@ -160,10 +147,7 @@ def roll_loaded_tracks(tracks: Tracks) -> Outcome:
     with warnings.catch_warnings():
         # the smooth contact has springs enough, which is what the warning is about
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        rolled = [
-            mdr.roll(tracks.track(i), spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ)
-            for i in range(tracks.realisations)
-        ]
+        rolled = [mdr.roll(h, spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ) for h in tracks.heights()]
     return moments(np.array([one.stiffness for one in rolled]) / SMOOTH, spacing, tracks.bands)
 
 

@@ -14,7 +14,7 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_er
 from validation.cases.rolling.force_spectrum_levels import correlation
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.simulation.rolling_strip import Strip, roll_strips, strip_levels
+from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 
 SLOPE, HEIGHT = "h' a/d", "h/d"
@@ -64,19 +64,10 @@ class Validity:
     def strips_of(self, name: str, parameter: str, value: float) -> list[Strip]:
         spectrum = SPECTRA[name]
         height = value / spectrum.slope if parameter == SLOPE else value
-        return [
-            Strip(
-                spectrum=spectrum,
-                height=height,
-                realisation=i,
-                length=self.length_for(spectrum),
-                width=self.width,
-                cells=self.cells_for(spectrum),
-                tolerance=1e-4 * height,
-                seed=self.seed,
-            )
-            for i in range(self.strips)
-        ]
+        scene = RoughStrip(
+            spectrum=spectrum, height=height, length=self.length_for(spectrum), width=self.width, seed=self.seed
+        )
+        return scene.strips(self.cells_for(spectrum), 1e-4 * height, self.strips)
 
 
 Key = tuple[str, str, float]
