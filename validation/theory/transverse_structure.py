@@ -1,7 +1,7 @@
 """What lies across the track of a rough line: how its waves cross it, and the mean of a filter over them.
 
-A line sees the wave (k_x, k_y) as one of k_x. Of all waves with the same k_x, a contact filter H(k_x, k_y) lets pass the
-mean of |H|^2, weighted by their power. Wavenumbers in rad/m; filters as in `contact_filters`.
+A line sees the wave (k_x, k_y) as one of k_x. Of all waves with the same k_x, a contact filter H(k_x, k_y) lets pass
+the mean of |H|^2, weighted by their power. Wavenumbers in rad/m; filters as in `contact_filters`.
 """
 
 import math
