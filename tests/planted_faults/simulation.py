@@ -8,11 +8,17 @@ import numpy as np
 
 import mdr
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
-from tests.simulation import test_periodic_motion, test_rough_punches, test_time_stepping, test_wheel_motion
+from tests.simulation import (
+    test_periodic_motion,
+    test_reduced_models,
+    test_rough_punches,
+    test_time_stepping,
+    test_wheel_motion,
+)
 from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
-from validation.simulation import contact_laws, integrators
+from validation.simulation import contact_laws, integrators, mean_contact, pressed_layer
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import wheel as wheel_theory
@@ -97,6 +103,16 @@ FAULTS = {
     "the punch taken for its interface": (
         (Layer, "log_kappa", lambda layer, stiffness: np.log(stiffness)),
         functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
+    ),
+    "half of the displacement under the mean contact": (
+        (mean_contact, "ring_operator", scaled(mean_contact.ring_operator, 0.5)),
+        test_reduced_models.test_the_mean_contact_of_a_smooth_wheel_is_that_of_hertz,
+    ),
+    "a trial on a pressed layer without its step": (
+        (pressed_layer, "_where_no_step_is_left", lambda forces, steps, approach: forces[len(forces) // 2]),
+        functools.partial(
+            test_reduced_models.test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space, (2, 0)
+        ),
     ),
     "E for E* in the force, not in the approach at rest": (
         (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),

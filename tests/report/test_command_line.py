@@ -24,7 +24,7 @@ from validation.cases.punch import bandwidth, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
-from validation.cases.rolling import ridges, roughness_from_force, track_stiffness, validity
+from validation.cases.rolling import reduced_models, ridges, roughness_from_force, track_stiffness, validity
 from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import stability as wheel_stability
 from validation.cases.wheel import distance as wheel_distance
@@ -88,6 +88,7 @@ SMALL = {
         surfaces=4,
         profiles=10,
     ),
+    "reduced_models": reduced_models.ReducedModels(heights=(0.3,), strips=3, width=6),
     "rolling_validity": validity.Validity(strips=3, width=8, cells=4),
     "roughness_from_force": roughness_from_force.RoughnessFromForce(
         heights=(0.1,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=4, strips=3

@@ -24,6 +24,7 @@ from validation.report.figures import (
     limits,
     normalisation,
     precision,
+    reduced_models,
     rolling_input,
     rolling_validity,
     roughness_from_force,
@@ -325,6 +326,27 @@ def test_coherence_has_its_lines():
         np.testing.assert_allclose(
             departure.get_lines()[2 * i + 1].get_ydata(), (mine["springs [dB]"] - mine["linear 1D [dB]"])[2:]
         )
+
+
+def test_lines_of_reduced_models():
+    """Over h' a/d in the order of that parameter; a point a model over its work, but for the reference."""
+    shown = reduced_models.SHOWN
+    names = ["boundary elements", *shown, "a trial"]
+    table = Made({"model": np.repeat(names, 2), "h' a/d": np.tile([0.8, 0.2], len(names))})
+    bands = Made({"model": np.repeat(names, 3), "h' a/d": np.full(3 * len(names), 0.8)})
+    over_slope, level, coherence, cost = reduced_models.draw(made(reduced_models=table, one_third_octaves=bands)).axes
+    drawn(
+        over_slope,
+        {n: (table.where(model=n)["rms [dB]"][::-1], (table.where(model=n)["± rms [dB]"][::-1],) * 2) for n in shown},
+    )
+    for axis, column in ((level, "over bem3d [dB]"), (coherence, "coherence")):
+        for name, line in zip(shown, axis.get_lines()[:: 3 if axis is level else 1], strict=False):
+            np.testing.assert_allclose(line.get_ydata(), bands.where(model=name)[column])
+    there = table.where(**{"h' a/d": 0.8})
+    for name, line in zip(names[1:], cost.get_lines(), strict=False):
+        mine = there.where(model=name)
+        assert line.get_xdata() == mine["work over springs on a line"]
+        assert line.get_ydata() == mine["rms [dB]"]
 
 
 def test_lines_of_where_linear_theory_ends():

@@ -33,7 +33,12 @@ LINEAR_RMS: Rule = (1.2, 0.05, 0.002)
 GEIKE_BANDS: Rule = (2.0, 0.5, 0.55)
 FED_BANDS: Rule = (0.0, 0.6, 0.45)
 SPRINGS_RMS: Rule = (1.0, 0.1, 0.002)
-"""Errors of linear theory, of that with Geike's spectrum in one dimension, and of springs, in bands and in the rms: a
+READ_BANDS: Rule = (1.8, 0.4, 0.02)
+READ_RMS: Rule = (0.8, 0.05, 0.004)
+LAYER_BANDS: Rule = (0.0, 0.1, 0.12)
+LAYER_RMS: Rule = (0.02, 0.03, 0.005)
+"""Errors of linear theory, of that with Geike's spectrum in one dimension, of springs, of springs that read the
+surface, and of the pressed layer, in bands and in the rms: a
 sum over the contact that linear theory loses, h/d, and one. Envelopes of what was measured beside boundary elements on
 random scenes, for scenes that are not in the table of the calibration."""
 FORCE_RMS = "force-rms"

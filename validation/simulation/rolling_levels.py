@@ -107,7 +107,7 @@ def strip_of(quantity: RollingQuantity, cells: float, realisation: int, seed: in
 
 def by_linear_theory(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip, for a contact that keeps its radius."""
-    return _levels(quantity, _linear(quantity, surface, spacing), spacing, quantity.transfer)
+    return levels_of(quantity, _linear(quantity, surface, spacing), spacing, quantity.transfer)
 
 
 def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
@@ -128,7 +128,7 @@ def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing
         return np.full(len(quantity.bands.edges) - 1, np.nan)
     if few := too_few(float(np.median(found.area)) / spacing**2, "cells"):
         raise ValueError(few)
-    return _levels(quantity, found.force, spacing)
+    return levels_of(quantity, found.force, spacing)
 
 
 def on_boundary_elements(quantity: RollingQuantity, cells: float, realisation: int, seed: int) -> FloatArray:
@@ -154,10 +154,10 @@ def on_springs(quantity: RollingQuantity, tracks: int, seed: int) -> FloatArray:
     with warnings.catch_warnings():
         # how far a linear contact is off is what both are compared for
         warnings.simplefilter("ignore", mdr.LinearityWarning)
-        found = _levels(quantity, np.array([roll(track).force for track in height.T]), spacing)
+        found = levels_of(quantity, np.array([roll(track).force for track in height.T]), spacing)
         if quantity.name == "force-rms":
             linear = np.array([roll(track, contact="linear").force for track in height.T])
-            return np.asarray(np.log(found) - np.log(_levels(quantity, linear, spacing)))
+            return np.asarray(np.log(found) - np.log(levels_of(quantity, linear, spacing)))
     return np.asarray(np.log(found) - np.log(quantity.expected(one_dimensional=False)))
 
 
@@ -194,7 +194,7 @@ def _springs_accelerated(quantity: RollingQuantity, height: FloatArray, spacing:
         found = _rolled_on(quantity, SpringsLaw(body, height, spacing), linear_law_1d(body, height, spacing), spacing)
     except ArithmeticError:
         return np.full((height.shape[1], len(quantity.bands.edges) - 1), np.nan)
-    return np.asarray(np.log(_levels(quantity, found.T, spacing)) - np.log(quantity.expected(one_dimensional=False)))
+    return np.asarray(np.log(levels_of(quantity, found.T, spacing)) - np.log(quantity.expected(one_dimensional=False)))
 
 
 def _accelerated(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
@@ -206,7 +206,7 @@ def _accelerated(quantity: RollingQuantity, surface: FloatArray, spacing: float)
         found = _rolled_on(quantity, law, linear, spacing)
     except bem3d.ConvergenceError:
         return np.full(len(quantity.bands.edges) - 1, np.nan)
-    return _levels(quantity, found[:, 0], spacing)
+    return levels_of(quantity, found[:, 0], spacing)
 
 
 def _linear(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
@@ -223,7 +223,7 @@ def _rolled_on(
     return simulate_from_linear_motion(law, linear, spacing / quantity.scene.speed, len(linear.change)).acceleration
 
 
-def _levels(
+def levels_of(
     quantity: RollingQuantity,
     series: FloatArray,
     spacing: float,

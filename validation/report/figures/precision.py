@@ -15,6 +15,8 @@ STYLES: dict[str, Style] = {
     "linear filter, 3D": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
     "MDR": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
     "MDR, rolling spectrum": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
+    "springs that read the surface": {"color": "#D55E00", "marker": "v", "linestyle": "--"},
+    "pressed layer": {"color": "#009E73", "marker": "D", "linestyle": "-."},
     "Polonsky-Keer": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "white", "linestyle": ":"},
     "BEM, finer cells": {"color": "#0072B2", "marker": "o", "linestyle": "-"},
     "BEM, looser residual": {"color": "#0072B2", "marker": "d", "markerfacecolor": "white", "linestyle": "--"},

@@ -1,0 +1,116 @@
+"""Reduced models of a rolling wheel: the smooth wheel, low waves by linear theory, ridges, and boundary elements."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from validation.simulation import mean_contact as mean
+from validation.simulation import reduced_models as reduced
+from validation.simulation.pressed_layer import roll_on_layer
+from validation.simulation.rolling_strip import Strip
+from validation.simulation.track_spectrum import self_affine
+from validation.theory.contact_filters import half_space_filter
+
+DX = 1 / 8
+MODELS = (
+    reduced.springs_on_a_line,
+    reduced.linear_theory,
+    reduced.springs_that_read,
+    reduced.radius_by_the_mean_force,
+    reduced.one_sided_in_two_dimensions,
+    reduced.one_sided_bed,
+    reduced.frozen_weights,
+    reduced.pressed_layer,
+    reduced.boundary_elements,
+)
+
+
+def rough_strip(height):
+    settings = {"length": 16.0, "width": 7.0, "cells": 8, "tolerance": 1e-4 * height, "seed": 3}
+    return Strip(spectrum=self_affine(0.7, 1.0, 8.0), height=height, realisation=0, **settings).surface()
+
+
+def test_the_mean_contact_of_a_smooth_wheel_is_that_of_hertz():
+    found = mean.mean_contact(mean.GapLaw(np.array([0.01, 0.1, 1.0]), np.zeros(3)), 1.0)
+    assert found.force == pytest.approx(4 / 3, rel=0.01)
+    assert found.stiffness == pytest.approx(2.0, rel=0.02)
+    r = mean.radii()
+    expected = 2 / math.pi * np.sqrt(np.maximum(1 - r**2, 0.0))
+    np.testing.assert_allclose(found.pressure[r < 0.9], expected[r < 0.9], rtol=0.02)
+
+
+@pytest.mark.parametrize("approach", [-0.5, 0.3, 2.0])
+def test_the_mean_gap_is_that_of_its_pressure(approach):
+    """K p + r^2 / 2 - d = g(p), and its derivative by d."""
+    law = mean.GapLaw(np.geomspace(0.01, 1.0, 8), 0.5 * np.geomspace(0.01, 1.0, 8) ** -0.3 - 0.4)
+    found, more = (mean.mean_contact(law, approach + step) for step in (0.0, 1e-5))
+    touching = found.pressure > 1e-12
+    gap = mean.ring_operator() @ found.pressure + mean.radii() ** 2 / 2 - approach
+    np.testing.assert_allclose(gap[touching], law(np.log(found.pressure[touching]))[0], atol=1e-6)
+    np.testing.assert_allclose(more.force - found.force, 1e-5 * found.stiffness, rtol=1e-2)
+
+
+@pytest.mark.parametrize("r", [0.0, 0.4, 0.999, 1.3, 2.5])
+def test_the_displacement_of_a_disc_is_an_integral_over_its_points(r):
+    """1 / (pi E*) int dA / distance, over chords through the point: 2 sqrt(1 - r^2 sin^2) each inside."""
+
+    def chord(angle):
+        half = math.sqrt(max(1 - (r * math.sin(angle)) ** 2, 0.0))
+        return 2 * half if r >= 1 else half - r * math.cos(angle)
+
+    by_chords = 2 * integrate.quad(chord, 0, math.pi if r < 1 else math.asin(1 / r))[0]
+    assert float(mean.under_disc(r, 1.0)) == pytest.approx(by_chords / math.pi, rel=1e-6)
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+def test_a_smooth_wheel_has_the_force_of_hertz(model):
+    found = model(1e-9 * rough_strip(1.0), DX)
+    assert found.force.mean() == pytest.approx(1.0, rel=0.03)
+    assert np.ptp(found.force) < 1e-6
+    assert found.work > 0
+
+
+@pytest.mark.parametrize("waves", [(2, 0), (3, 2), (0, 3), (6, 1)])
+def test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space(waves):
+    nx, ny = 128, 48
+    along, across = 2 * np.pi * waves[0] / (nx * DX), 2 * np.pi * waves[1] / (ny * DX)
+    x, y = np.arange(nx)[:, np.newaxis] * DX, (np.arange(ny) - (ny - 1) / 2) * DX
+    height = 1e-3
+    force = roll_on_layer(height * np.cos(along * x) * np.cos(across * y), DX).force
+    smooth = roll_on_layer(np.zeros((nx, ny)), DX).force
+    mode = np.fft.rfft(force - smooth)[waves[0]].real / nx * (2 if waves[0] else 1)
+    # force over that of Hertz, 4 / 3, of a stiffness 2
+    expected = 1.5 * height * float(half_space_filter(along, across, semi_axes=(1.0, 1.0)))
+    assert mode == pytest.approx(expected, abs=0.06 * 1.5 * height)
+
+
+def test_over_ridges_weights_across_change_nothing():
+    line = 0.3 * np.random.default_rng(4).standard_normal(96)
+    ridges = np.repeat(line[:, np.newaxis], 40, axis=1)
+    np.testing.assert_allclose(
+        reduced.springs_that_read(ridges, DX).force, reduced.springs_on_a_line(ridges, DX).force, rtol=1e-9
+    )
+
+
+def test_a_pressed_layer_follows_boundary_elements_position_by_position_where_springs_do_not():
+    strip = rough_strip(0.5)
+    truth = reduced.boundary_elements(strip, DX).force
+    off = [np.std(model(strip, DX).force - truth) for model in (reduced.pressed_layer, reduced.springs_that_read)]
+    assert off[0] < 0.5 * off[1]
+    assert np.mean(reduced.pressed_layer(strip, DX).force) == pytest.approx(np.mean(truth), rel=0.03)
+
+
+def test_both_scales_are_the_strip():
+    strip = rough_strip(0.5)
+    long, short = reduced.split(strip, DX)
+    np.testing.assert_allclose(long + short, strip)
+    q = 2 * np.pi * np.fft.rfftfreq(len(strip), DX)
+    assert np.abs(np.fft.rfft(long, axis=0))[q > reduced.SPLIT].max() < 1e-9
+    assert np.abs(np.fft.rfft(long, axis=0)).max() > 1
+
+
+def test_a_strip_no_longer_than_the_contact_is_refused():
+    with pytest.raises(ValueError, match="longer than 5 radii, got 2"):
+        roll_on_layer(np.zeros((16, 48)), DX)

@@ -1,0 +1,145 @@
+"""Reduced models of the wheel and boundary elements on the same strips: which one follows, and what it costs."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.simulation import reduced_models as reduced
+from validation.simulation.rolling_strip import Strip
+from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
+
+FloatArray = NDArray[np.float64]
+
+READ, LAYER, LINE = "springs that read the surface", "pressed layer", "springs on a line"
+LINEAR, BED, COARSE_LAYER = "linear theory, 3D", "one-sided bed (DPRS)", "pressed layer, 1/2 of the cells"
+JUDGE, COARSE, COARSEST = (
+    "boundary elements",
+    "boundary elements, 1/2 of the cells",
+    "boundary elements, 1/3 of the cells",
+)
+MODELS: Mapping[str, tuple[Callable[[FloatArray, float], reduced.Reduced], int]] = {
+    JUDGE: (reduced.boundary_elements, 1),
+    LINE: (reduced.springs_on_a_line, 1),
+    LINEAR: (reduced.linear_theory, 1),
+    READ: (reduced.springs_that_read, 1),
+    "their radius by the mean force": (reduced.radius_by_the_mean_force, 1),
+    "one-sided in two dimensions": (reduced.one_sided_in_two_dimensions, 1),
+    BED: (reduced.one_sided_bed, 1),
+    "two scales, Persson": (reduced.two_scales_by_persson, 1),
+    "two scales, short waves pressed": (reduced.two_scales_pressed, 1),
+    "weights of some positions": (reduced.frozen_weights, 1),
+    LAYER: (reduced.pressed_layer, 1),
+    COARSE_LAYER: (reduced.pressed_layer, 2),
+    COARSE: (reduced.boundary_elements, 2),
+    COARSEST: (reduced.boundary_elements, 3),
+}
+"""With the cells to a contact radius, of which it has one in so many."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReducedModels:
+    """A wheel at the approach d, contact radius a, over strips of several spectra and heights.
+
+    spectra: Hurst exponent, q a of the longest and of the shortest wave; heights: rms over d, ascending; strips:
+    realisations; waves: of the longest on the length of a strip; width: over a, in waves at least one; cells: to a
+    contact radius, divisible by six; seed: zero or positive.
+    """
+
+    spectra: tuple[tuple[float, float, float], ...] = ((0.7, 1.0, 10.0),)
+    heights: tuple[float, ...] = (0.1, 0.3)
+    strips: int = 6
+    waves: int = 4
+    width: int = 8
+    cells: int = 12
+    seed: int = 20
+
+    def __post_init__(self) -> None:
+        if self.cells % 6:
+            raise ValueError(f"cells must be a multiple of 6, got {self.cells}")
+
+    def strips_of(self, spectrum: tuple[float, float, float], height: float) -> list[Strip]:
+        longest = 2 * math.pi / spectrum[1]
+        return [
+            Strip(
+                spectrum=self_affine(*spectrum),
+                height=height,
+                realisation=i,
+                length=math.ceil(self.waves * longest),
+                width=max(self.width, math.ceil(longest)),
+                cells=self.cells,
+                tolerance=reduced.TOLERANCE * height,
+                seed=self.seed,
+            )
+            for i in range(self.strips)
+        ]
+
+
+Key = tuple[tuple[float, float, float], float]
+"""Spectrum, and h/d."""
+
+
+@dataclass(frozen=True)
+class ReducedResult:
+    """Outcomes of all strips by spectrum and height."""
+
+    case: ReducedModels
+    strips: dict[Key, list[Outcome]]
+    unconverged: tuple[str, ...]
+
+
+def run(case: ReducedModels, engine: Engine = SERIAL) -> ReducedResult:
+    """All models over all strips."""
+    groups = {
+        (spectrum, height): case.strips_of(spectrum, height) for spectrum in case.spectra for height in case.heights
+    }
+    found = engine.map_groups(roll_by_all, groups)
+    unconverged = tuple(
+        f"strip {i}, h/d = {key[1]:g}: a position of boundary elements did not converge"
+        for key, outcomes in found.items()
+        for i, outcome in enumerate(outcomes)
+        if not np.isfinite(outcome["level"]).all()
+    )
+    return ReducedResult(case, found, unconverged)
+
+
+def bands_of(spectrum: PiecewisePowerLaw) -> Bands:
+    """One-third octaves from the longest wave on, whole octaves of them."""
+    first, last = spectrum.edges[0], spectrum.edges[-1]
+    return Bands(tuple(first * 2 ** (k / 3) for k in range(3 * math.floor(math.log2(last / first) + 1e-9) + 1)))
+
+
+def roll_by_all(strip: Strip) -> Outcome:
+    """Models in the order of `MODELS`: level in each band, cross level with boundary elements, mean force, and work.
+
+    level, cross (complex): (models, bands), of the force over that of Hertz; mean, work of the whole strip: (models,).
+    """
+    bands = bands_of(strip.spectrum)
+    rolled = [_roll(strip, solve, coarser) for solve, coarser in MODELS.values()]
+    of_waves = [
+        _waves(one.force, coarser / strip.cells, bands)
+        for one, (_, coarser) in zip(rolled, MODELS.values(), strict=True)
+    ]
+    cross = np.array([cross_levels(one, of_waves[0], bands) for one in of_waves])
+    return {
+        "level": np.array([levels(one, bands) for one in of_waves]),
+        "cross": np.stack([cross.real, cross.imag]),
+        "mean": np.array([one.force.mean() for one in rolled]),
+        "work": np.array([one.work for one in rolled]),
+    }
+
+
+def _roll(strip: Strip, solve: Callable[[FloatArray, float], reduced.Reduced], coarser: int) -> reduced.Reduced:
+    cells = strip.cells // coarser
+    return solve(replace(strip, cells=cells).surface(), 1 / cells)
+
+
+def _waves(force: FloatArray, spacing: float, bands: Bands) -> Waves:
+    """Of a force at the centres of cells, from the beginning of the strip on, up to the last band."""
+    found = waves(force, spacing=spacing)
+    known = found.q < bands.edges[-1]
+    return Waves(found.q[known], (found.amplitude * np.exp(-0.5j * found.q * spacing))[known])
