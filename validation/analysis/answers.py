@@ -1,7 +1,8 @@
 """Answers to claims, which begin with their status, so that the first word changes sides with the numbers."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import takewhile
 
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
 
@@ -11,6 +12,16 @@ SHORT = {
     ClaimStatus.CONTRADICTED: "No",
     ClaimStatus.OPEN: "Not decided",
 }
+
+
+def agreeing_from_the_first(groups: Iterable[Sequence[Number]]) -> tuple[Number, ...]:
+    """Numbers of all groups before the first that has one which does not agree.
+
+    groups: along a range, from the end where theory expects agreement: limits then are one piece of it, never a choice
+    of what agrees.
+    """
+    agreeing = takewhile(lambda group: all(number.verdict is Verdict.AGREE for number in group), groups)
+    return tuple(number for group in agreeing for number in group)
 
 
 def answered(

@@ -49,11 +49,12 @@ class Linearised:
     def freedom(self) -> float:
         """Degrees of freedom of the error, 2 <e^2>^2 / var(e^2), by the fourth moment of what realisations contribute.
 
-        Few realisations that contribute most leave few of them (Satterthwaite 1946).
+        Few realisations that contribute most leave few of them (Satterthwaite 1946); n leave n - 1 at most.
         """
         squares = self.influence[self.influence != 0] ** 2
         spread = (squares**2).sum() - squares.sum() ** 2 / max(squares.size, 1)
-        return 2 * float(squares.sum()) ** 2 / float(spread) if spread > 0 else math.inf
+        most = float(max(squares.size - 1, 1))
+        return min(2 * float(squares.sum()) ** 2 / float(spread), most) if spread > 0 else most
 
     def half_width_among(self, points: int) -> float:
         """Of an interval that holds at 95 % together with those of the other points of a range, by Bonferroni."""

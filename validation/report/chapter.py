@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from validation.analysis.answers import answered
 from validation.analysis.evidence import (
     ClaimStatus,
     Evidence,
@@ -54,7 +55,7 @@ class ChapterTest:
         numbers = tuple(number for number in found if number.role is not Role.IDENTITY)
         if not numbers:
             return None
-        return JudgedClaim(claim=statement, answer=_answer(numbers), numbers=numbers, confirmed_by=self.confirmed_by)
+        return answered(statement, numbers, _answer(numbers), confirmed_by=self.confirmed_by)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,8 +126,8 @@ def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Chapt
 def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[ChapterAnswer]]]:
     """Each entry that this report answers, with its answers; what nothing tests, too, beside any answer."""
     rows = [(entry, answers(entry, sections)) for entry in ENTRIES]
-    answered = any(found for _, found in rows)
-    return [(entry, found) for entry, found in rows if found or (answered and entry.untested)]
+    any_answer = any(found for _, found in rows)
+    return [(entry, found) for entry, found in rows if found or (any_answer and entry.untested)]
 
 
 def chapter_results(sections: Sequence[Section]) -> list[dict[str, object]]:

@@ -121,8 +121,14 @@ def _worst(
     mean, _ = mine.by_method[MDR, measured].moments
     springs = {i: mine.by_method[MDR, measured].estimate(at_level(i, statistic)) for i in levels}
     kept = [i for i in levels if mean[i] > ZERO_GAP and math.isfinite(springs[i].value + springs[i].error)]
-    points = [mine.over_bem(quantity, measured, at_level(i, statistic), case.forces[i], len(kept)) for i in kept]
+    among = len(kept) * _cells(case)
+    points = [mine.over_bem(quantity, measured, at_level(i, statistic), case.forces[i], among) for i in kept]
     return [worst(points, FORCE)] if len(points) > 1 else []
+
+
+def _cells(case: MdrLimits) -> int:
+    """Numbers of a claim, whose intervals hold at once: decades and roll-offs, of area and gap."""
+    return 2 * len(case.first_forces) * len(case.roll_offs)
 
 
 def _exponent(case: MdrLimits, mine: RollOffSamples, layer: Layer, method: str, first: float) -> Number | None:
@@ -143,7 +149,7 @@ def _exponent(case: MdrLimits, mine: RollOffSamples, layer: Layer, method: str, 
         tolerance=0.115,
         reason="half of the distance to 0.77, the largest exponent published for roughness without a roll-off",
         grid=grid,
-        sample=found.half_width,
+        sample=found.half_width_among(_cells(case)),
         role=Role.FINDING,
     )
 

@@ -115,11 +115,16 @@ def _worst(
             reason=tolerance[1],
             scale=DECIBEL,
             grid=left,
-            among=len(kept),
+            among=len(kept) * _ranges(case),
         )
         for force, one, left in kept
     ]
     return [worst(points, FORCE)] if len(points) > 1 else []
+
+
+def _ranges(case: Bandwidth) -> int:
+    """Numbers of a claim at most, whose intervals hold at once: decades of all bandwidths, of mean and deviation."""
+    return 2 * len(case.first_forces) * max(len(case.bandwidths) - 1, 1)
 
 
 def fitted(case: Bandwidth) -> list[float]:

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Sequence
 
-from validation.analysis.answers import answered
-from validation.analysis.evidence import JudgedClaim, Number, Verdict
+from validation.analysis.answers import agreeing_from_the_first, answered
+from validation.analysis.evidence import JudgedClaim, Number
 from validation.analysis.statistics import DECIBEL
 from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGIN, MEAN, DecadeComparison, numbers_of
 from validation.cases.punch.fractal_punch_numbers import PUBLISHED
@@ -25,17 +25,16 @@ def claims(comparisons: Sequence[DecadeComparison], laws: Sequence[Number]) -> t
     return (*(_judged(*part) for part in parts if part[2]), *_law(laws))
 
 
-def _judged(claim: str, what: str, mine: Sequence[DecadeComparison]) -> JudgedClaim:
-    """Within the decades of force in which all Hurst exponents agree, if there are any."""
+def _judged(claim: str, what: str, cells: Sequence[DecadeComparison]) -> JudgedClaim:
+    """By all cells at once; up to the force at which one of the Hurst exponents does not agree."""
+    mine = [cell.together_with(len(cells)) for cell in cells]
     answer = f"at its worst force of a decade, MDR is off the {what} by {_by_decade(mine)}, judged within {MARGIN}."
-    agreed = [first for first in _firsts(mine) if _agree(numbers_of(c for c in mine if c.first == first))]
-    limits = ", ".join(f"Fbar = {first:g} to {10 * first:g}" for first in agreed)
-    inside = numbers_of(c for c in mine if c.first in agreed)
+    # the faces of a punch touch all over under large forces, where springs are softer than a square
+    decades = {first: numbers_of(c for c in mine if c.first == first) for first in sorted(_firsts(mine))}
+    inside = agreeing_from_the_first(decades.values())
+    highest = max((10 * first for first, numbers in decades.items() if numbers[0] in inside), default=0.0)
+    limits = f"Fbar up to {highest:g}" if inside else ""
     return answered(claim, numbers_of(mine), answer, limits=limits, inside=inside)
-
-
-def _agree(numbers: Sequence[Number]) -> bool:
-    return all(number.verdict is Verdict.AGREE for number in numbers)
 
 
 def _firsts(mine: Sequence[DecadeComparison]) -> list[float]:

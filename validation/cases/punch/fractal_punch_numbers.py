@@ -117,12 +117,12 @@ def law_decade(case: FractalPunch) -> float:
 
 
 def laws(case: FractalPunch, comparisons: Sequence[DecadeComparison]) -> list[Number]:
-    """Exponents beside 1 / (1 + H)."""
+    """Exponents beside 1 / (1 + H), whose intervals hold at once for all H."""
     mine = [c for c in comparisons if c.name == EXPONENT and c.hurst is not None and c.first == law_decade(case)]
-    return [_law(c.points[0], method) for c in mine for method in (BEM, MDR)]
+    return [_law(c.points[0], method, among=len(mine)) for c in mine for method in (BEM, MDR)]
 
 
-def _law(point: PointComparison, method: str) -> Number:
+def _law(point: PointComparison, method: str, among: int) -> Number:
     found = point.bem if method == BEM else point.springs
     assert point.hurst is not None
     return Number(
@@ -135,6 +135,6 @@ def _law(point: PointComparison, method: str) -> Number:
         tolerance=QUANTITIES[EXPONENT].tolerance,
         reason=QUANTITIES[EXPONENT].reason,
         grid=found.grid,
-        sample=found.value.half_width,
+        sample=found.value.half_width_among(among),
         role=Role.FINDING,
     )

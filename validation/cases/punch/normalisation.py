@@ -216,8 +216,9 @@ def _numbers(found: Fluctuations) -> list[Number]:
 
 
 def _points(found: Fluctuations, name: str, hurst: float, method: str, first: float) -> list[Number]:
-    """At the forces of a decade, where there is a fluctuation; all intervals hold at once."""
-    forces = found.result.case.forces
+    """At the forces of a decade, where there is a fluctuation; the intervals of a change hold at once everywhere."""
+    case = found.result.case
+    forces, cells = case.forces, len(case.first_forces) * len(case.hursts) * len(METHODS)
     inside = decade_weights(forces, first) > 0
     changes = [
         (force, CHANGES[name](found, hurst, method, at_level(level, log_relative_deviation)))
@@ -235,7 +236,7 @@ def _points(found: Fluctuations, name: str, hurst: float, method: str, first: fl
             tolerance=THREE_PER_CENT,
             reason="3 %, as in Fig. 14.1",
             scale=DECIBEL,
-            among=len(kept),
+            among=len(kept) * cells,
         )
         for force, change in kept
     ]

@@ -79,8 +79,8 @@ def nonlinear(mine: LevelsAtHeight, region: Region) -> list[Number]:
 def _judged(
     mine: LevelsAtHeight, region: Region, level: Callable[[FloatArray], Estimate], **settings: Any
 ) -> list[Number]:
-    """The intervals of the worst band hold together with those of all others, those of the mean square alone."""
-    bands = mine.bands_in(region)
+    """The worst band and the mean square over bands, whose intervals hold at once for all heights and regions."""
+    bands, together = mine.bands_in(region), 2 * len(mine.case.heights) * len(regions(mine.case))
 
     def points(among: int) -> list[Number]:
         found = []
@@ -101,8 +101,10 @@ def _judged(
             )
         return found
 
-    rms = replace(root_mean_square(points(1), "q a", ONE_DECIBEL, REPEATABLE), role=Role.FINDING)
-    return [replace(one, where={**one.where, "q a": region}) for one in (worst(points(len(bands)), "q a"), rms)]
+    rms = replace(root_mean_square(points(together), "q a", ONE_DECIBEL, REPEATABLE), role=Role.FINDING)
+    return [
+        replace(one, where={**one.where, "q a": region}) for one in (worst(points(len(bands) * together), "q a"), rms)
+    ]
 
 
 def _levels(mine: LevelsAtHeight) -> list[Number]:
@@ -131,7 +133,7 @@ def moments(mine: LevelsAtHeight) -> list[Number]:
             source="Geike's rule keeps the variance of the force at one position",
             tolerance=0.1,
             reason="10 %: 0.4 dB of a variance",
-            sample=ratio.half_width,
+            sample=ratio.half_width_among(2 * len(mine.case.heights)),
             role=Role.FINDING,
         )
         for model, outcome in (("bem3d", mine.bem), (SPRINGS, mine.springs))
@@ -149,6 +151,7 @@ def moments(mine: LevelsAtHeight) -> list[Number]:
         tolerance=0.02,
         unit="-",
         reason="2 %: uncertainty of the load of a wheel",
+        among=len(mine.case.heights),
     )
     return [*variances, mean]
 

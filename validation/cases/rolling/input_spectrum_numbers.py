@@ -129,8 +129,11 @@ class InputLevels:
 
     @property
     def numbers(self) -> list[Number]:
-        """Springs over boundary elements in the band of the spectrum: the worst one-third octave, and the rms."""
-        return judged(self._points(self.inside.size), self._points(1))
+        """Springs over boundary elements in the band of the spectrum: the worst one-third octave, and the rms.
+
+        The intervals of the worst ones hold at once for all spectra and heights.
+        """
+        return judged(self._points(self.inside.size * len(self.result.bem)), self._points(1))
 
     def _points(self, among: int) -> list[Number]:
         centres = self.result.case.bands.centres

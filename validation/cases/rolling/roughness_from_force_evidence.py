@@ -69,7 +69,7 @@ def evidence(result: RoughnessFromForceResult) -> Evidence:
 
 
 def _points(result: RoughnessFromForceResult, height: float, by: str) -> list[Number]:
-    """Each band inside, with intervals that hold at once."""
+    """Each band inside, with intervals that hold at once for all heights."""
     case = result.case
     where = zip(case.bands.centres[case.inside], case.zeros[case.inside], strict=True)
     found = recovered(case, result.levels[height], by)
@@ -82,7 +82,7 @@ def _points(result: RoughnessFromForceResult, height: float, by: str) -> list[Nu
             source="the surface itself",
             tolerance=THREE_DECIBELS,
             reason=FORD_THOMPSON,
-            among=len(found),
+            among=len(found) * len(case.heights),
         )
         for estimate, (q, zero) in zip(found, where, strict=True)
     ]
@@ -109,7 +109,7 @@ def _below(result: RoughnessFromForceResult, height: float, by: str) -> Number:
         source="the surface itself, over the mean square of its whole height",
         tolerance=0.05,
         reason="5 %: 0.2 dB of the mean square height",
-        sample=estimate.half_width,
+        sample=estimate.half_width_among(len(result.case.heights) * len(FILTERS)),
         role=Role.FINDING,
     )
 

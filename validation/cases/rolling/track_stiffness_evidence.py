@@ -108,20 +108,21 @@ def evidence(result: TrackStiffnessResult) -> Evidence:
 
 
 def _at_force(result: TrackStiffnessResult, force: float) -> list[Number]:
-    numbers = []
+    numbers, together = [], len(result.case.forces) * len(INPUT_SPECTRA)
     for rule in INPUT_SPECTRA:
         springs = result.springs[force, rule]
         for quantity in (MEAN, DEVIATION):
             bem, grid = of_bem(result, quantity, force)
-            numbers.append(_relative(quantity, over(rule), force, statistic(quantity, springs).minus(bem), grid))
+            apart = statistic(quantity, springs).minus(bem)
+            numbers.append(_relative(quantity, over(rule), force, apart, grid, together))
         numbers += _levels(result, force, rule)
     bem, grid = of_bem(result, DEVIATION, force)
     punch = of_punches(result.punches[force], DEVIATION)
-    return [*numbers, _relative(DEVIATION, PUNCH_OVER_WHEEL, force, punch.minus(bem), grid)]
+    return [*numbers, _relative(DEVIATION, PUNCH_OVER_WHEEL, force, punch.minus(bem), grid, together)]
 
 
-def _relative(quantity: str, model: str, force: float, apart: Estimate, grid: float) -> Number:
-    """exp(x) - 1 of the difference x of two logarithms."""
+def _relative(quantity: str, model: str, force: float, apart: Estimate, grid: float, among: int) -> Number:
+    """exp(x) - 1 of the difference x of two logarithms; among: numbers whose intervals hold at once."""
     ratio = math.exp(apart.value)
     return Number(
         quantity=quantity,
@@ -133,14 +134,14 @@ def _relative(quantity: str, model: str, force: float, apart: Estimate, grid: fl
         tolerance=0.1,
         reason="10 %: the margin of Fig. 14.1",
         grid=ratio * grid,
-        sample=ratio * apart.half_width,
+        sample=ratio * apart.half_width_among(among),
         role=Role.FINDING,
     )
 
 
 def _levels(result: TrackStiffnessResult, force: float, rule: InputSpectrum) -> list[Number]:
-    """Worst one-third octave, and root mean square over all."""
-    centres = result.case.bands.centres
+    """Worst one-third octave, and root mean square over all; intervals hold at once for all forces."""
+    centres, together = result.case.bands.centres, 2 * len(result.case.forces)
 
     def points(among: int) -> list[Number]:
         return [
@@ -161,8 +162,8 @@ def _levels(result: TrackStiffnessResult, force: float, rule: InputSpectrum) -> 
         ]
 
     return [
-        worst(points(centres.size), "q a"),
-        root_mean_square(points(1), "q a", ONE_DECIBEL, REPEATABLE),
+        worst(points(centres.size * together), "q a"),
+        root_mean_square(points(together), "q a", ONE_DECIBEL, REPEATABLE),
     ]
 
 

@@ -153,9 +153,10 @@ def evidence(result: ValidityResult) -> Evidence:
 
 
 def _numbers(result: ValidityResult, name: str, parameter: str, value: float) -> list[Number]:
-    """A spectrum beside the reference at an equal value of one parameter."""
+    """A spectrum beside the reference at an equal value of one parameter; intervals hold at once for all of them."""
     mine, other = (name, parameter, value), (REFERENCE, parameter, value)
     where: dict[str, Place] = {parameter: value, "spectrum": name}
+    among = len(_of(result.case, parameter)) * (len(SPECTRA) - 1)
     return [
         difference(
             result.kept[mine],
@@ -169,6 +170,7 @@ def _numbers(result: ValidityResult, name: str, parameter: str, value: float) ->
             unit="-",
             scale=1.0,
             absolute=True,
+            among=among,
         ),
         difference(
             off_linear(result.levels[mine]),
@@ -181,6 +183,7 @@ def _numbers(result: ValidityResult, name: str, parameter: str, value: float) ->
             reason="1 dB: repeatability of measured one-third octave levels",
             scale=1.0,
             absolute=True,
+            among=among,
         ),
     ]
 

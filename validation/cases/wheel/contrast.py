@@ -48,8 +48,13 @@ def log_contrasts(omega: FloatArray, density: FloatArray, scene: WheelScene) -> 
     return [Estimate(float(v), float(e), len(density)) for v, e in zip(values, errors, strict=True)]
 
 
-def contrast_numbers(model: str, found: list[Estimate], linear: FloatArray, scene: WheelScene) -> list[Number]:
-    """Each contrast beside that of linear theory in the same bands; intervals hold for all at once."""
+def contrast_numbers(
+    model: str, found: list[Estimate], linear: FloatArray, scene: WheelScene, claimed: int = 1
+) -> list[Number]:
+    """Each contrast beside that of linear theory in the same bands; intervals hold for all at once.
+
+    claimed: numbers of the claim, of which the worst contrast is one.
+    """
     return [
         FEATURES["contrast"].number(
             POWER_DECIBEL * estimate.value,
@@ -57,7 +62,7 @@ def contrast_numbers(model: str, found: list[Estimate], linear: FloatArray, scen
             "linear theory in the same bands",
             model=model,
             where={ZERO: float(n)},
-            sample=POWER_DECIBEL * estimate.half_width_among(len(found)),
+            sample=POWER_DECIBEL * estimate.half_width_among(len(found) * claimed),
         )
         for n, estimate, reference in zip(zeros_of(scene), found, linear, strict=True)
     ]

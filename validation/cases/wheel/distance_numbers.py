@@ -84,7 +84,7 @@ def break_law(case: WheelDistance, breaks: Table) -> Number:
         source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
         tolerance=0.1,
         reason="0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
-        sample=estimate.half_width,
+        sample=estimate.half_width_among(3),
     )
 
 
@@ -109,7 +109,10 @@ def jumps(breaks: Table) -> list[Number]:
 
 
 def levels_over_open(result: Result) -> list[Number]:
-    """Regions over springs on open tracks: without a jump at the end, of leakage or nonlinearity alone."""
+    """Regions over springs on open tracks: without a jump at the end, of leakage or nonlinearity alone.
+
+    A claim takes three of them, whose intervals hold at once.
+    """
     ends, bands = result.ends, regions_of(result.case.scene)
 
     def over(model: str, kind: str, region: str, source: str, window: str = "plain", **cause: str) -> Number:
@@ -118,6 +121,7 @@ def levels_over_open(result: Result) -> list[Number]:
             model=f"{model}, over {OPEN}",
             where={"region": region, **cause},
             source=source,
+            among=3,
         )
 
     fourth, plateau = (FOURTH, "no change: what a region 4 without leakage would show"), (PLATEAU, "all of the plateau")
@@ -163,8 +167,8 @@ def mean_square(result: Result) -> Number:
 
 
 def peak_frequencies(result: Result) -> list[Number]:
-    """The peak by the amplitude of free vibration, beside that on a Hertz contact."""
-    frequency = result.case.scene.eigenfrequency
+    """The peak by the amplitude of free vibration, beside that on a Hertz contact; intervals hold at once."""
+    frequency, found = result.case.scene.eigenfrequency, peaks(result)
     return [
         FEATURES[PEAK].number(
             frequency * estimate.value,
@@ -172,9 +176,9 @@ def peak_frequencies(result: Result) -> list[Number]:
             "period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)",
             model=OPEN,
             where={"release / d": release},
-            sample=frequency * estimate.half_width,
+            sample=frequency * estimate.half_width_among(len(found)),
         )
-        for release, estimate in peaks(result).items()
+        for release, estimate in found.items()
     ]
 
 

@@ -4,13 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from validation.analysis.answers import answered
+from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import (
     Evidence,
     JudgedClaim,
     Number,
-    Verdict,
     if_confirmed,
     numbers_with,
     with_reference,
@@ -64,8 +63,9 @@ def _claims(numbers: Sequence[Number], bands: Sequence[Number]) -> tuple[JudgedC
     also += [f"maxima of region 3 are {n.value:.1f} dB over zero {n.where['worst at']:g}" for n in contrast]
 
     def by_model(claim: str, model: str) -> JudgedClaim:
-        inside = [number for number in of(model) if number.verdict is Verdict.AGREE]
-        limits = "in " + ", ".join(str(n.where["range"]) for n in inside) if inside else ""
+        # linear theory ends at short waves, along which contact is lost
+        inside = agreeing_from_the_first([number] for number in of(model))
+        limits = f"up to {inside[-1].where['range']}" if inside else ""
         return answered(claim, of(model), f"over boundary elements, {found(model)}.", limits=limits, inside=inside)
 
     return (

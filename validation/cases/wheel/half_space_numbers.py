@@ -15,6 +15,8 @@ from validation.cases.wheel.half_space import FINEST
 from validation.cases.wheel.half_space_levels import LINEAR_3D, MODELS, WheelLevels
 
 LEVEL, OMEGA = FEATURES["level"].quantity, "ω [rad/s]"
+OF_FIGURE = 5
+"""Numbers of the claim of Fig. 14.4, whose intervals hold at once: levels of three ranges, slope, contrast."""
 OVER_BEM = {model: f"{model}, over bem3d" for model in MODELS}
 CONTACTS = {"bem3d": "bem", LINEAR_3D: "linear"}
 
@@ -65,9 +67,9 @@ def mean_of_steady_state(levels: WheelLevels) -> Number:
 
 
 def levels_over_bem(levels: WheelLevels) -> list[Number]:
-    """Each one-third octave of each range, whose intervals hold at once; not of a model that has nothing there."""
+    """Each one-third octave of each range, whose intervals hold at once; none of a model that has nothing there."""
     return [
-        _over_bem(levels, model, name, int(band), among=int(inside.sum()))
+        _over_bem(levels, model, name, int(band), among=OF_FIGURE * int(inside.sum()))
         for name, inside in levels.ranges.items()
         for model in MODELS
         for band in np.flatnonzero(inside & np.isfinite(levels.over_bem(model)))
@@ -106,7 +108,7 @@ def slopes(levels: WheelLevels) -> Iterator[Number]:
             "-2 H - 3, (14.13); the same in linear theory in 3D",
             model=model,
             where={"region": "region 3"},
-            sample=value.half_width,
+            sample=value.half_width_among(OF_FIGURE),
         )
 
 
@@ -116,4 +118,5 @@ def contrasts_beside_linear(levels: WheelLevels) -> list[Number]:
     if not zeros_of(scene).size:
         return []
     omega, density = levels.spectra("bem")
-    return contrast_numbers("bem3d", log_contrasts(omega, density, scene), linear_contrasts(omega, scene), scene)
+    found = log_contrasts(omega, density, scene)
+    return contrast_numbers("bem3d", found, linear_contrasts(omega, scene), scene, claimed=OF_FIGURE)

@@ -20,6 +20,8 @@ from validation.theory import wheel as wheel_theory
 OMEGA, RATIO, MAXIMUM = "ω [rad/s]", "q_min v₀ / ω_eigen", "maximum of cos²(q a)"
 FIRST, LAST = 3.0, 0.9
 """Region 2 begins at this multiple of the eigenfrequency and ends at this of q_min v_0."""
+OF_SECOND_ORDER = 3
+"""Numbers of its claim, whose intervals hold at once: two levels and a contrast."""
 RESOLVED = 2
 """Lines between two tones of equal height that Hann's window keeps apart: the width of its main lobe at half height."""
 APART = 3.0
@@ -57,7 +59,7 @@ def levels_over_second_order(result: RegionsResult, name: str) -> list[Number]:
             model=f"{name}, over the second-order force",
             where={"region": "region 2", OMEGA: float(centre)},
             source="(E* R / 2a)² cos²(q a) 2 int C_1D(k) C_1D(q - k) dk, through the resonator",
-            among=theory.size,
+            among=OF_SECOND_ORDER * theory.size,
         )
         for centre, one_band in zip(np.sqrt(edges[1:] * edges[:-1]), np.eye(theory.size), strict=True)
     ]
@@ -93,7 +95,7 @@ def contrast_numbers(result: RegionsResult, name: str) -> list[Number]:
             "no substructure" if leaks else "the second-order force in the same bands",
             model=name,
             where={"region": "region 2", MAXIMUM: float(n)},
-            sample=POWER_DECIBEL * Estimate(0.0, error, len(groups)).half_width_among(values.size),
+            sample=POWER_DECIBEL * Estimate(0.0, error, len(groups)).half_width_among(OF_SECOND_ORDER * values.size),
         )
         for n, value, reference, error in zip(
             maxima_of(scene), values, expected, jackknife_error(np.array(without)), strict=True

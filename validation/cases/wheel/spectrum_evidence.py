@@ -15,6 +15,7 @@ from validation.cases.wheel.spectrum import WheelResult, WheelSpectrum, run
 from validation.cases.wheel.spectrum_numbers import (
     FEATURES,
     IDENTITIES,
+    OF_FIGURE,
     OMEGA,
     contrasts_beside_linear,
     feature_numbers,
@@ -38,7 +39,7 @@ def evidence(result: WheelResult) -> Evidence:
     case = result.case
     spectra = {name: Spectrum.of(varied, result.batches[name]) for name, varied in case.variations().items()}
     base = case.scene.name
-    mine = feature_numbers(base, spectra[base])
+    mine = feature_numbers(base, spectra[base], among=OF_FIGURE)
     varied = {n: feature_numbers(n, s, among=len(spectra) - 1) for n, s in spectra.items() if n != base}
     levels, contrasts = levels_over_linear(spectra[base]), contrasts_beside_linear(spectra[base])
     ranges = _over_ranges(levels, contrasts)

@@ -63,6 +63,10 @@ FEATURES = {
 }
 
 
+OF_FIGURE = 5
+"""Numbers of the claim of Fig. 14.4, whose intervals hold at once: four features, and the level of region 3."""
+
+
 def feature_numbers(name: str, spectrum: Spectrum, among: int = 1) -> dict[str, Number]:
     """The features that the spectrum of a scene has, beside theory; among: scenes whose intervals hold at once."""
     values, theory = features.measured(spectrum), features.expected(spectrum)
@@ -105,7 +109,7 @@ def levels_over_linear(spectrum: Spectrum) -> list[Number]:
             model="springs over linear theory",
             where={"region": "region 3", OMEGA: float(centre)},
             source="(14.12) through the resonator: a contact of fixed radius",
-            among=linear.size,
+            among=OF_FIGURE * linear.size,
         )
         for centre, one_band in zip(np.sqrt(edges[1:] * edges[:-1]), np.eye(linear.size), strict=True)
     ]
