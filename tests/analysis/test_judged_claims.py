@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from validation.analysis.answers import agreeing_from_the_first
 from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict, if_confirmed
 from validation.analysis.features import JudgedFeature
 from validation.analysis.over_range import root_mean_square, signed_mean, worst
@@ -150,6 +151,15 @@ def test_ranges_of_nothing_and_of_names_are_refused(over):
         over([], "q a")
     with pytest.raises(ValueError, match="with values"):
         over([point(0.0, where={"q a": "low"})], "q a")
+
+
+@given(verdicts)
+def test_limits_are_the_first_piece_of_a_range(found):
+    """What agrees behind a counterexample is outside of the limits."""
+    inside = agreeing_from_the_first([number] for number in points_with(found))
+    assert all(number.verdict is AGREE for number in inside)
+    assert list(inside) == list(points_with(found))[: len(inside)]
+    assert len(inside) == len(found) or found[len(inside)] is not AGREE
 
 
 def test_intervals_of_a_range_hold_at_once():

@@ -125,6 +125,14 @@ def test_degrees_of_freedom_are_of_those_that_contribute():
     assert Linearised(0.0, uneven).half_width > 1.1 * student(4000) * Linearised(0.0, uneven).error
 
 
+def test_a_sample_of_two_has_one_degree_of_freedom():
+    """Its two contributions are always alike, as if nothing scattered; the interval of the mean holds in 95 %."""
+    drawn = np.random.default_rng(9).standard_normal((2000, 2))
+    means = [moments(values, np.ones(2, dtype=bool)).mean for values in drawn]
+    assert {mean.freedom for mean in means} == {1.0}
+    assert np.mean([abs(mean.value) < mean.half_width for mean in means]) == pytest.approx(0.95, abs=0.015)
+
+
 def test_no_deviation_is_minus_infinity_and_a_negative_variance_is_none():
     equal = moments(np.full(9, 1 / 3), np.ones(9, dtype=bool)).log_relative_deviation
     assert equal.value == -math.inf and equal.half_width == 0

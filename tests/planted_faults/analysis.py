@@ -129,6 +129,10 @@ def unpaired(values, references, weights):
     return mine.minus(other)
 
 
+def all_that_agree(groups):
+    return tuple(number for group in groups for number in group if number.verdict is Verdict.AGREE)
+
+
 def of_one_tail(estimate):
     """The quantile of 90 %."""
     return float(stats.t.ppf(0.95, estimate.samples - 1)) * estimate.error
@@ -295,6 +299,14 @@ FAULTS = {
     "the quantile of 90 % for that of 95": (
         (multilevel, "student", lambda freedom, confidence=0.95: 1.6),
         functools.partial(test_multilevel.test_intervals_hold_as_often_as_they_say, (300, 60), (0.95,), 0.93),
+    ),
+    "degrees of freedom that two surfaces do not have": (
+        (multilevel.Linearised, "freedom", property(lambda mine: math.inf)),
+        test_multilevel.test_a_sample_of_two_has_one_degree_of_freedom,
+    ),
+    "limits of whatever agrees": (
+        (test_judged_claims, "agreeing_from_the_first", all_that_agree),
+        test_judged_claims.test_limits_are_the_first_piece_of_a_range,
     ),
     "intervals of single points for those of a range": (
         (multilevel, "student", lambda freedom, confidence=0.95: statistics.student(freedom)),
