@@ -90,7 +90,7 @@ def test_intervals_of_a_change_hold_it_as_often_as_they_say(quantity):
     assert np.mean(held) == pytest.approx(0.95, abs=4 * np.sqrt(0.95 * 0.05 / 400))
 
 
-def planted(*, wide=1.0, rolled_off=1.0, size=0.5, mdr=1.0, surfaces=4000):
+def planted(*, wide=1.0, rolled_off=1.0, size=0.5, mdr=1.0, surfaces=16000):
     """Boundary elements with the stiffness of the fit and MDR `mdr` times as stiff; in the widest band MDR `wide` times
     more, with a roll-off `rolled_off` times more, and there with `size` times the deviation."""
     case = Bandwidth(surfaces=surfaces, pairs=(40, 40), refined=surfaces, rolled_off=surfaces, profiles=surfaces)

@@ -199,9 +199,11 @@ def test_of_many_numbers_the_farthest_is_printed():
     numbers = tuple(number(v, where={"H": float(i)}, role=Role.FINDING) for i, v in enumerate(values))
     section = section_of(JudgedClaim(claim="It is so.", answer="It is.", numbers=numbers))
     (answer,) = answers(entry(quantity="x"), [section])
-    assert answer.answer.startswith("4 numbers: 3 agree, 1 differ; farthest from its reference: x, H = 2: 8.5 beside")
+    assert answer.answer.startswith(
+        "No: 4 numbers: 3 agree, 1 differ; farthest from its reference: x, H = 2: 8.5 beside"
+    )
     (some,) = answers(entry(quantity="x", where={"H": 1.0}), [section])
-    assert (some.status, some.answer) == (ClaimStatus.HOLDS, "x, H = 1: 1.05 beside 1 dB (agree within 0.1).")
+    assert (some.status, some.answer) == (ClaimStatus.HOLDS, "Yes: x, H = 1: 1.05 beside 1 dB (agree within 0.1).")
 
 
 @pytest.mark.parametrize(

@@ -25,9 +25,8 @@ def claims(comparisons: Sequence[DecadeComparison], laws: Sequence[Number]) -> t
     return (*(_judged(*part) for part in parts if part[2]), *_law(laws))
 
 
-def _judged(claim: str, what: str, cells: Sequence[DecadeComparison]) -> JudgedClaim:
-    """By all cells at once; up to the force at which one of the Hurst exponents does not agree."""
-    mine = [cell.together_with(len(cells)) for cell in cells]
+def _judged(claim: str, what: str, mine: Sequence[DecadeComparison]) -> JudgedClaim:
+    """Up to the force at which one of the Hurst exponents does not agree."""
     answer = f"at its worst force of a decade, MDR is off the {what} by {_by_decade(mine)}, judged within {MARGIN}."
     # the faces of a punch touch all over under large forces, where springs are softer than a square
     decades = {first: numbers_of(c for c in mine if c.first == first) for first in sorted(_firsts(mine))}

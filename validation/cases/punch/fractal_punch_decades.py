@@ -200,10 +200,6 @@ class DecadeComparison:
     first: float
     points: tuple[PointComparison, ...]
 
-    def together_with(self, cells: int) -> "DecadeComparison":
-        """With intervals that hold at once for so many cells, this one included."""
-        return replace(self, points=tuple(replace(point, among=point.among * cells) for point in self.points))
-
     @cached_property
     def numbers(self) -> list[Number]:
         """At each force; their intervals hold at once."""
