@@ -82,7 +82,7 @@ def edge_answer(table: Table) -> str:
     held, answers = _held(table)[tested], np.isfinite(table["estimated error"])
     refused = int((~answers & (table["answerable"] == 1)).sum())
     return (
-        f"At the edges of the ranges and beyond, {np.count_nonzero(held)} of {held.size} answers hold, and {refused} "
+        f"at the edges of the ranges and beyond, {np.count_nonzero(held)} of {held.size} answers hold, and {refused} "
         f"of {np.count_nonzero(table['answerable'] == 1)} questions that fine boundary elements answer are refused."
     )
 

@@ -67,7 +67,7 @@ def evidence(result: CalibrationResult) -> Evidence:
         numbers=(*numbers, *at_edges),
         claims=(
             *_claims(known, numbers),
-            *((JudgedClaim(claim=EDGES, answer=edge_answer(edges), numbers=at_edges),) if edges else ()),
+            *((answered(EDGES, at_edges, edge_answer(edges)),) if edges else ()),
         ),
         tables=(scenes, estimates, *((edges,) if edges else ())),
         conclusions=tuple(_conclusion(tolerance, scenes, table) for tolerance, table in known),
