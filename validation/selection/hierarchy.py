@@ -135,8 +135,8 @@ def select_model(
     models: in the order of their cost; tolerance: relative, positive; callback: called with each model
     before its solve; solve_all: whether those that were not needed or skipped are solved, too, which selects no other
     model. A model without an estimate is out of range and not solved; one that expects to miss the tolerance
-    is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, if that is below the
-    errors of the others. A solve that raises one of `REFUSALS` has failed.
+    is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as long as that is below
+    the errors of the others. A solve that raises one of `REFUSALS` has failed.
     Raises ValueError for a tolerance that is not finite and positive.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
@@ -187,7 +187,9 @@ def _with_least_estimate(selection: Selection, callback: Callable[[ContactModel]
         return selection
     callback(candidates[least].model)
     solved = _solved(candidates[least].model, candidates[least].estimate, selection.tolerance)
-    return Selection(selection.tolerance, (*candidates[:least], solved, *candidates[least + 1 :]))
+    # what it found may be more than another claims
+    more = Selection(selection.tolerance, (*candidates[:least], solved, *candidates[least + 1 :]))
+    return _with_least_estimate(more, callback)
 
 
 def _with_all_solved(selection: Selection, callback: Callable[[ContactModel], None]) -> Selection:

@@ -77,10 +77,12 @@ class CheapRollingModel(Model):
         expected = calibrated(self, target)
         if not expected.in_range:
             expected = self._by_envelope(target, expected.reason)
-        reasons = [expected.reason, self.on_rms if quantity.name == FORCE_RMS else self.on_bands]
+        if not expected.in_range:
+            return expected
+        reasons = [self.on_rms if quantity.name == FORCE_RMS else self.on_bands, expected.reason]
         own = self.own if single else 0.0
-        if own and expected.in_range:
-            reasons.append(f"one track scatters {own:.0%} about the mean of its spectrum")
+        if own:
+            reasons.insert(0, f"one track scatters {own:.0%} about the mean of its spectrum")
         return replace(expected, model=expected.model + own, reason="; ".join(filter(None, reasons)))
 
     def shape(self, target: Target) -> float:

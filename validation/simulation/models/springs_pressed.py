@@ -64,7 +64,7 @@ class SpringsPressed(Model):
         expected = calibrated(self, target)
         if ground.is_single and expected.in_range:
             own = 2 * SCATTER
-            reason = f"{expected.reason}; one surface scatters {own:.0%} about the mean of its spectrum"
+            reason = f"one surface scatters {own:.0%} about the mean of its spectrum; {expected.reason}"
             expected = replace(expected, model=expected.model + own, reason=reason)
         return replace(expected, sample=target.tolerance / 5)
 
