@@ -9,7 +9,7 @@ from scipy import integrate
 from validation.simulation import mean_contact as mean
 from validation.simulation import reduced_models as reduced
 from validation.simulation.pressed_layer import roll_on_layer
-from validation.simulation.rolling_strip import Strip
+from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.track_spectrum import self_affine
 from validation.theory.contact_filters import half_space_filter
 
@@ -28,8 +28,8 @@ MODELS = (
 
 
 def rough_strip(height):
-    settings = {"length": 16.0, "width": 7.0, "cells": 8, "tolerance": 1e-4 * height, "seed": 3}
-    return Strip(spectrum=self_affine(0.7, 1.0, 8.0), height=height, realisation=0, **settings).surface()
+    scene = RoughStrip(spectrum=self_affine(0.7, 1.0, 8.0), height=height, length=16.0, width=7.0, seed=3)
+    return scene.surface(8, 0)
 
 
 def test_the_mean_contact_of_a_smooth_wheel_is_that_of_hertz():

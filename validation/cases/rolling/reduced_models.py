@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation import reduced_models as reduced
-from validation.simulation.rolling_strip import Strip
+from validation.simulation.rolling_strip import RoughStrip, Strip
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 
 FloatArray = NDArray[np.float64]
@@ -64,19 +64,14 @@ class ReducedModels:
 
     def strips_of(self, spectrum: tuple[float, float, float], height: float) -> list[Strip]:
         longest = 2 * math.pi / spectrum[1]
-        return [
-            Strip(
-                spectrum=self_affine(*spectrum),
-                height=height,
-                realisation=i,
-                length=math.ceil(self.waves * longest),
-                width=max(self.width, math.ceil(longest)),
-                cells=self.cells,
-                tolerance=reduced.TOLERANCE * height,
-                seed=self.seed,
-            )
-            for i in range(self.strips)
-        ]
+        scene = RoughStrip(
+            spectrum=self_affine(*spectrum),
+            height=height,
+            length=math.ceil(self.waves * longest),
+            width=max(self.width, math.ceil(longest)),
+            seed=self.seed,
+        )
+        return scene.strips(self.cells, reduced.TOLERANCE * height, self.strips)
 
 
 Key = tuple[tuple[float, float, float], float]
@@ -118,7 +113,7 @@ def roll_by_all(strip: Strip) -> Outcome:
 
     level, cross (complex): (models, bands), of the force over that of Hertz; mean, work of the whole strip: (models,).
     """
-    bands = bands_of(strip.spectrum)
+    bands = bands_of(strip.scene.spectrum)
     rolled = [_roll(strip, solve, coarser) for solve, coarser in MODELS.values()]
     of_waves = [
         _waves(one.force, coarser / strip.cells, bands)
