@@ -1,0 +1,99 @@
+"""The ground of a wheel on a rail: a line spectrum with what lies across it, and strips of it to roll over."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.rail import RailScene
+from validation.simulation.rail_strip import RailStrip
+from validation.theory.line_spectrum import LineSpectrum
+from validation.theory.transverse_structure import IsotropicGround, Ridges, TransverseStructure, WaveBand
+
+FloatArray = NDArray[np.float64]
+StatedAcross = Literal["ridges", "isotropic"] | float
+
+LONGEST, SHORTEST = 10.0, 0.45
+"""Wavelengths over a_x between which strips are rough: longer waves lift the wheel as a whole, shorter ones need cells
+of a tenth of a_x and less."""
+LENGTH, WIDTH = 60, 12
+"""Of a strip, in larger semi-axes."""
+
+
+def structure_of(across: StatedAcross, line: LineSpectrum) -> TransverseStructure:
+    """Raises ValueError where no isotropic surface has such a line."""
+    if across == "ridges":
+        return Ridges()
+    return IsotropicGround(line) if across == "isotropic" else WaveBand(float(across))
+
+
+def line_of(scene: RailScene) -> LineSpectrum:
+    """C_line of the levels of a scene."""
+    q, density = scene.levels.nodes
+    return LineSpectrum(tuple(q.tolist()), tuple(density.tolist()))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RailGround:
+    """Waves of a line spectrum between two wavenumbers along and in all directions; a `Ground` of a `RailStrip`."""
+
+    line: LineSpectrum
+    across: StatedAcross
+    first: float
+    last: float
+
+    @property
+    def highest(self) -> float:
+        """Of oblique waves too."""
+        return self.last if isinstance(self.across, str) else self.last * math.hypot(1, self.across)
+
+    def variance(self, along: FloatArray, across: FloatArray, steps: tuple[float, float]) -> FloatArray:
+        """Mean square of waves in cells of sides (dk_x, dk_y) [m^2]."""
+        k_x, k_y = np.broadcast_arrays(np.abs(along), np.abs(across))
+        k, (dx, dy) = np.hypot(k_x, k_y), steps
+        if self.across == "isotropic":
+            inside = (k >= self.first) & (k <= self.last)
+            density = IsotropicGround(self.line).c2d(np.where(inside, k, self.last)) * dx * dy
+        else:
+            inside = (k_x >= self.first) & (k_x <= self.last)
+            wave = np.where(inside, k_x, self.last)
+            if self.across == "ridges":
+                density = np.where(k_y == 0, self.line(wave) * dx, 0.0)
+            else:
+                density = WaveBand(float(self.across)).density(wave, k_y, self.line) * dx * dy
+        return np.asarray(np.where(inside, density, 0.0))
+
+
+def strip_bands(scene: RailScene) -> NominalBands:
+    """The bands of its levels that a strip has."""
+    a_x = scene.contact.along
+    return scene.levels.bands.within(LONGEST * a_x, SHORTEST * a_x)
+
+
+def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: int, seed: int) -> RailStrip:
+    """One realisation with so many cells to a_x; the same surface on every grid."""
+    contact, edges = scene.contact, strip_bands(scene).edges
+    larger = max(contact.along, contact.across) / contact.along
+    spacing = contact.along / cells
+    length, width = (math.ceil(sides * larger) * contact.along for sides in (LENGTH, WIDTH))
+    return RailStrip(
+        ground=RailGround(line=line_of(scene), across=across, first=float(edges[0]), last=float(edges[-1])),
+        radii=scene.radii,
+        force=scene.load,
+        modulus=scene.modulus,
+        length=length,
+        width=width,
+        spacing=spacing,
+        realisation=realisation,
+        seed=seed,
+    )
+
+
+def lost_contact_number(scene: RailScene) -> float:
+    """h' a_x / d [-], h' the rms slope along of the waves that a strip has."""
+    q, weight = strip_bands(scene).quadrature()
+    slope = math.sqrt(float(2 * (weight * q**2 * line_of(scene)(q)).sum()))
+    return slope * scene.contact.along / scene.contact.approach
