@@ -10,7 +10,7 @@ from tests.selection.test_model_hierarchy import PARTS, Fake, Finding, punch, wh
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
 from validation.selection.side_by_side import side_by_side
-from validation.selection.summary import WIDTH, sentences_on_mdr, summary
+from validation.selection.summary import WIDTH, label, sentences_on_mdr, summary
 from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
 
@@ -29,7 +29,7 @@ def test_every_model_has_its_claim_and_every_line_fits(name):
     lines = summary(found).splitlines()
     assert max(map(len, lines)) <= WIDTH
     for one in found.models:
-        (row,) = [line for line in lines if line.startswith(f"{one.name} ")]
+        (row,) = [line for line in lines if line.startswith(f"{label(one):36s}")]
         assert found.tolerance.shown(one.estimate.error) in row
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
-from scipy.interpolate import PchipInterpolator
 
 FloatArray = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ class GapLaw:
     def __init__(self, pressures: FloatArray, gaps: FloatArray) -> None:
         logs = np.log(pressures)
         falling = np.minimum.accumulate(np.maximum(gaps, 0.0)) + SOFTEST * (logs[-1] - logs)
-        self._law = PchipInterpolator(logs, falling)
+        self._law = scipy.interpolate.PchipInterpolator(logs, falling)
         self._slope = self._law.derivative()
         self._ends = logs[[0, -1]]
 
