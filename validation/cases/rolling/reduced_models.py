@@ -1,12 +1,15 @@
 """Reduced models of the wheel and boundary elements on the same strips: which one follows, and what it costs."""
 
 import math
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+import bem3d
+import mdr
 from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation import reduced_models as reduced
@@ -59,6 +62,9 @@ class ReducedModels:
     seed: int = 20
 
     def __post_init__(self) -> None:
+        low, high = (height * self_affine(*self.spectra[0]).slope for height in (self.heights[0], self.heights[-1]))
+        if low > 0.3 or not high > 0.5:
+            raise ValueError(f"heights must reach from h' a/d = 0.3 to 0.5 at the least, got {low:.3g} to {high:.3g}")
         if self.cells % 6:
             raise ValueError(f"cells must be a multiple of 6, got {self.cells}")
 
@@ -130,7 +136,11 @@ def roll_by_all(strip: Strip) -> Outcome:
 
 def _roll(strip: Strip, solve: Callable[[FloatArray, float], reduced.Reduced], coarser: int) -> reduced.Reduced:
     cells = strip.cells // coarser
-    return solve(replace(strip, cells=cells).surface(), 1 / cells)
+    with warnings.catch_warnings():
+        # what fewer cells change is compared
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
+        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+        return solve(replace(strip, cells=cells).surface(), 1 / cells)
 
 
 def _waves(force: FloatArray, spacing: float, bands: Bands) -> Waves:

@@ -46,6 +46,7 @@ def _draw_cost(axis: Axes, table: Table) -> None:
         x, y = mine["work over springs on a line"][:1], mine["rms [dB]"][:1]
         axis.plot(x, y, **{**shown, "linestyle": "none"})
         if model not in SHOWN:
-            axis.annotate(str(model), (x[0], y[0]), xytext=(-4, 3), ha="right", textcoords="offset points", fontsize=6)
+            side = {"xytext": (4, 3)} if x[0] < 100 else {"xytext": (-4, 3), "ha": "right"}
+            axis.annotate(str(model), (x[0], y[0]), textcoords="offset points", fontsize=6, **side)
     axis.set(xlabel="work over springs on a line", ylabel="rms over octaves [dB]", title="error over work")
     axis.set(xscale="log", yscale="log")
