@@ -12,8 +12,10 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
+from validation.selection.rail_model import rail_models
 from validation.selection.scene_model import SceneModel, models_on
 from validation.selection.tolerance import Tolerance, tolerance_of
+from validation.simulation.rail_quantity import MICROMETRE, RAIL_QUANTITIES
 from validation.simulation.rolling_quantity import RollingQuantity
 
 FloatArray = NDArray[np.float64]
@@ -21,8 +23,8 @@ FloatArray = NDArray[np.float64]
 PRESSED = ("stiffness",)
 ROLLING = ("force-rms", "force-spectrum")
 MOVING = ("acceleration", "acceleration-rms")
-QUANTITIES = (*PRESSED, *ROLLING, *MOVING)
-LEVELS = ("force-spectrum", "acceleration")
+QUANTITIES = (*PRESSED, *ROLLING, *MOVING, *RAIL_QUANTITIES)
+LEVELS = ("force-spectrum", "acceleration", *RAIL_QUANTITIES)
 """In one-third octaves; the others are one number."""
 UNITS = {
     "stiffness": "N/m",
@@ -30,7 +32,11 @@ UNITS = {
     "force-spectrum": "N",
     "acceleration": "m/s²",
     "acceleration-rms": "m/s²",
+    "contact-filter": "1",
+    "equivalent-roughness": "µm",
 }
+REFERENCES = {"equivalent-roughness": MICROMETRE}
+"""Of levels, in SI units; one of those that are not named."""
 
 
 @dataclass(frozen=True)
@@ -39,10 +45,11 @@ class Comparison:
 
     Attributes
     ----------
-    scene : IndentationScene or RollingScene
+    scene : IndentationScene, RollingScene or RailScene
         The scene.
     quantity : str
-        "stiffness", "force-rms", "force-spectrum", "acceleration" or "acceleration-rms".
+        "stiffness", "force-rms", "force-spectrum", "acceleration", "acceleration-rms", "contact-filter" or
+        "equivalent-roughness".
     selection : Selection
         Models, estimates and answers in full.
     in_decibels : bool
@@ -93,11 +100,14 @@ class Comparison:
     def value_of(self, candidate: Candidate) -> FloatArray:
         """Of a model that was solved, as `value`."""
         assert candidate.answer is not None  # as said
-        return 20 * np.log10(candidate.answer.value) if self.is_level else candidate.answer.value
+        reference = REFERENCES.get(self.quantity, 1.0)
+        return 20 * np.log10(candidate.answer.value / reference) if self.is_level else candidate.answer.value
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
         """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in `unit`."""
         error, value = candidate.error, self.value_of(candidate)
+        if candidate.answer is not None and (bands := candidate.answer.band_errors):
+            return np.asarray(bands["model"] + np.hypot(bands["grid"], bands["sample"]))
         return np.full(value.shape, 20 * math.log10(1 + error)) if self.is_level else error * np.abs(value)
 
     @property
@@ -108,6 +118,8 @@ class Comparison:
 
     @property
     def unit(self) -> str:
+        if self.quantity == "contact-filter":
+            return "dB"
         return f"dB re 1 {UNITS[self.quantity]}" if self.is_level else UNITS[self.quantity]
 
     @property
@@ -120,6 +132,8 @@ class Comparison:
         """Centres of the one-third octaves [rad/m]; empty where the value is one number."""
         if not self.is_level or self._answer is None:
             return np.empty(0)
+        if isinstance(self.scene, RailScene):
+            return 2 * math.pi / self.scene.levels.bands.nominal
         return RollingQuantity(self.scene, self.quantity).bands.centres  # type: ignore[arg-type]  # which a wheel has
 
     @property
@@ -158,7 +172,7 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
     if isinstance(scene, IndentationScene):
         return PRESSED
     if isinstance(scene, RailScene):
-        raise ValueError(f"scene {scene.name!r}, a wheel on a rail, has no quantity to compare")
+        return RAIL_QUANTITIES
     return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
 
 
@@ -173,6 +187,8 @@ def check_quantity(scene: Scene, quantity: str) -> None:
 def models_of(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
     """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not."""
     check_quantity(scene, quantity)
+    if isinstance(scene, RailScene):
+        return rail_models(scene, quantity, tolerance, seed)
     return models_on(scene, quantity, tolerance, seed)
 
 
@@ -189,11 +205,12 @@ def compare(
 
     Parameters
     ----------
-    scene : IndentationScene or RollingScene
+    scene : IndentationScene, RollingScene or RailScene
         What `load_scene` returns.
     quantity : str, optional
         "stiffness" of a sphere or punch; "force-rms" or "force-spectrum" of a wheel; "acceleration" or
-        "acceleration-rms" of a wheel with a mass. By default "stiffness", "force-rms" and "acceleration".
+        "acceleration-rms" of a wheel with a mass; "contact-filter" or "equivalent-roughness" of a wheel on a rail. By
+        default the first of these that the scene has.
     tolerance : float or str, optional
         Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB"; of a spectrum, of the root
         mean square over all bands. Errors are printed in dB where it is given in dB.

@@ -1,8 +1,8 @@
 """The cheapest model that a scene needs, from closed forms to fine boundary elements."""
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Literal, Protocol
 
 import numpy as np
@@ -19,7 +19,8 @@ class Answer:
 
     value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
     of all numbers together, see `distance`; cost: of what was done, not of what was expected; reason: what the error
-    rests on; failed: why it is none, empty where it is one.
+    rests on; failed: why it is none, empty where it is one; band_errors: half-widths of model, grid and sample in each
+    band [dB], empty where they are known of all bands together alone.
     """
 
     value: FloatArray
@@ -29,6 +30,7 @@ class Answer:
     sample: float = 0.0
     reason: str = ""
     failed: str = ""
+    band_errors: Mapping[str, FloatArray] = field(default_factory=dict)
 
     @property
     def error(self) -> float:

@@ -20,7 +20,7 @@ LONGEST, SHORTEST = 10.0, 0.45
 """Wavelengths over a_x between which strips are rough: longer waves lift the wheel as a whole, shorter ones need cells
 of a tenth of a_x and less."""
 LENGTH, WIDTH = 60, 12
-"""Of a strip, in larger semi-axes."""
+"""Of a strip, in larger semi-axes at the least."""
 
 
 def structure_of(across: StatedAcross, line: LineSpectrum) -> TransverseStructure:
@@ -74,11 +74,10 @@ def strip_bands(scene: RailScene) -> NominalBands:
 
 
 def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: int, seed: int) -> RailStrip:
-    """One realisation with so many cells to a_x; the same surface on every grid."""
+    """One realisation with so many cells to the smaller semi-axis; the same surface on every grid."""
     contact, edges = scene.contact, strip_bands(scene).edges
-    larger = max(contact.along, contact.across) / contact.along
-    spacing = contact.along / cells
-    length, width = (math.ceil(sides * larger) * contact.along for sides in (LENGTH, WIDTH))
+    unit = min(contact.along, contact.across)
+    length, width = (math.ceil(sides * max(contact.along, contact.across) / unit) * unit for sides in (LENGTH, WIDTH))
     return RailStrip(
         ground=RailGround(line=line_of(scene), across=across, first=float(edges[0]), last=float(edges[-1])),
         radii=scene.radii,
@@ -86,7 +85,7 @@ def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: in
         modulus=scene.modulus,
         length=length,
         width=width,
-        spacing=spacing,
+        spacing=unit / cells,
         realisation=realisation,
         seed=seed,
     )

@@ -1,0 +1,213 @@
+"""Contact filters of a wheel on a rail as models: what each finds in bands, and the errors that it claims.
+
+Linear theory of the ellipse was measured beside boundary elements on strips of the same ground; the error of any other
+model is its difference from linear theory and that of linear theory. What is not known of the ground comes on top.
+"""
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.spectra import Bands
+from validation.analysis.statistics import POWER_DECIBEL
+from validation.scenes.rail import RailScene
+from validation.simulation.equivalent_displacement import (
+    LINEAR_MODELS,
+    ONE_SIDED,
+    RolledRail,
+    log_over,
+    roll_rail,
+)
+from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.model import Cost, ErrorEstimate, Model, Target
+from validation.simulation.rail_ground import StatedAcross, strip_bands, strip_of
+from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
+from validation.theory.elliptic_contact import EllipticContact
+from validation.theory.transverse_structure import Filter
+
+FloatArray = NDArray[np.float64]
+
+LINEAR_ERROR, PER_LOST_CONTACT = 0.2, 0.85
+"""Error of linear theory beside boundary elements [dB]: 0.2 min(1, q a_x) + 0.85 q a_x h' a_x / d, an envelope of what
+was measured on strips of both curves, at the limit of ISO 3095 and up to 20 dB above."""
+MOST_LOST, LARGEST_WAVE, ASPECTS = 1.0, 11.5, (0.5, 2.0)
+"""h' a_x / d, q a_x and a_y / a_x up to which that was measured."""
+STRIPS = 6
+FINE, COARSE = 12, 8
+"""Cells to the smaller semi-axis."""
+OF_FINE = 0.8
+"""Error of the fine grid over its difference from the coarse one, of second order."""
+CLOSED, POSITION, ITEM = 2e-2, 4e-3, 1e-4
+"""Seconds of a closed filter on one ground, of a position of boundary elements, and of one of springs, about."""
+
+
+@dataclass(frozen=True, eq=False)
+class FoundFilter:
+    """A3 in each band, the middle of both ends where the ground is not stated, and half-widths of 95 % [dB].
+
+    model: infinite in bands of which no error is known.
+    """
+
+    a3: FloatArray
+    model: FloatArray
+    grid: FloatArray
+    sample: FloatArray
+
+    @property
+    def error(self) -> FloatArray:
+        """Of the model, and of a grid and a sample, which are independent."""
+        return np.asarray(self.model + np.hypot(self.grid, self.sample))
+
+
+class RailModel(Model):
+    """A contact filter in bands. closed: A3 without a sample, (ends, bands); find: what a solve makes of it."""
+
+    charted: ClassVar = False
+
+    def serves(self, scene: Any, quantity: str) -> bool:
+        return isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
+
+    @abstractmethod
+    def transfer(self, contact: EllipticContact) -> Filter:
+        """H(k_x, k_y), of a one-sided model that of its linear twin."""
+
+    def closed(self, quantity: RailQuantity) -> FloatArray:
+        """A3 of the linear filter on the stated ground, (ends, bands) [dB]."""
+        return quantity.filtered(self.transfer(quantity.scene.contact))
+
+    def find(self, quantity: RailQuantity, seed: int) -> FoundFilter:
+        """Without a sample."""
+        a3 = self.closed(quantity).mean(axis=0)
+        return FoundFilter(a3, self.model_error(quantity, a3), np.zeros_like(a3), np.zeros_like(a3))
+
+    def model_error(self, quantity: RailQuantity, a3: FloatArray) -> FloatArray:
+        """Half-width that the model and the ground leave in each band [dB]."""
+        apart = np.abs(a3 - quantity.linear.mean(axis=0))
+        return np.asarray(apart + linear_error(quantity) + quantity.half_width)
+
+    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
+        quantity = rail_quantity(target)
+        if reason := quantity.unreal or self.beyond(quantity):
+            return ErrorEstimate.out_of_range(reason)
+        a3 = self.closed(quantity).mean(axis=0)
+        error = self.model_error(quantity, a3)
+        return ErrorEstimate(model=relative(worst(quantity, a3, error)), reason=reason_of(quantity, a3, error))
+
+    def beyond(self, quantity: RailQuantity) -> str:
+        """Why no error is known; empty where one is."""
+        contact = quantity.scene.contact
+        aspect = contact.across / contact.along
+        if quantity.lost > MOST_LOST:
+            return f"h' a_x / d is {quantity.lost:.2g}: errors were measured up to {MOST_LOST:g}"
+        if not ASPECTS[0] <= aspect <= ASPECTS[1]:
+            return f"a_y / a_x is {aspect:.2g}: errors were measured from {ASPECTS[0]:g} to {ASPECTS[1]:g}"
+        return ""
+
+    def cost(self, target: Target, resolution: Resolution) -> Cost:
+        ends = len(rail_quantity(target).ends)
+        return Cost(work=ends, unit="closed filters", seconds=CLOSED * ends)
+
+    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
+        quantity = rail_quantity(target)
+        work = self.cost(target, resolution).work
+
+        def read(found: FoundFilter) -> Result:
+            values = {"a3": found.a3, "model": found.model, "grid": found.grid, "sample": found.sample}
+            failed = "" if np.isfinite(found.a3).all() else "a contact along a strip did not converge"
+            return Result({quantity.name: quantity.amplitude(found.a3), **values}, work, failed=failed)
+
+        return lambda _: Solve(lambda: self.find(quantity, target.seed), read)
+
+
+class LinearRailFilter(RailModel):
+    """A linear filter whose mean over the stated ground is a quadrature."""
+
+    def transfer(self, contact: EllipticContact) -> Filter:
+        return LINEAR_MODELS[self.name](contact)
+
+
+class RolledRailModel(RailModel):
+    """A one-sided model on strips: its linear twin on the stated ground, and what it is over the twin on strips."""
+
+    setting: ClassVar = f"{STRIPS} strips, constant load"
+    cells: ClassVar = (COARSE, FINE)
+    seconds: ClassVar = ITEM
+
+    def transfer(self, contact: EllipticContact) -> Filter:
+        return LINEAR_MODELS[ONE_SIDED[self.name].twin](contact)
+
+    def cost(self, target: Target, resolution: Resolution) -> Cost:
+        quantity = rail_quantity(target)
+        along = [strip_of(quantity.scene, quantity.ends[0], cells, 0, 0).shape[0] for cells in self.cells]
+        positions = STRIPS * len(quantity.ends) * sum(along)
+        return Cost(work=positions, unit="positions", seconds=self.seconds * positions)
+
+    def find(self, quantity: RailQuantity, seed: int) -> FoundFilter:
+        twin, inside = self.closed(quantity), in_strips(quantity)
+        over, grid, sample = np.zeros((3, *twin.shape))
+        for i, across in enumerate(quantity.ends):
+            coarse, fine = (over_twin(quantity.scene, across, self.name, cells, seed) for cells in self.cells)
+            over[i, inside], sample[i, inside] = fine
+            grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
+        a3 = (twin + over).mean(axis=0)
+        return FoundFilter(a3, self.model_error(quantity, a3), grid.max(axis=0), sample.max(axis=0))
+
+
+def rail_quantity(target: Target) -> RailQuantity:
+    """What is asked; kept, since all models of a scene are asked the same."""
+    return _rail_quantity(target.scene, target.quantity)
+
+
+@lru_cache(maxsize=8)
+def _rail_quantity(scene: RailScene, name: Any) -> RailQuantity:
+    return RailQuantity(scene, name)
+
+
+def linear_error(quantity: RailQuantity) -> FloatArray:
+    """Of linear theory of the ellipse beside boundary elements, infinite for waves shorter than were measured [dB]."""
+    wave = quantity.wave
+    error = LINEAR_ERROR * np.minimum(1.0, wave) + PER_LOST_CONTACT * wave * quantity.lost
+    return np.where(wave <= LARGEST_WAVE, error, np.inf)
+
+
+def in_strips(quantity: RailQuantity) -> NDArray[np.bool_]:
+    """Bands that a strip has."""
+    return np.isin(quantity.bands.numbers, strip_bands(quantity.scene).numbers)
+
+
+def over_twin(
+    scene: RailScene, across: StatedAcross, model: str, cells: int, seed: int
+) -> tuple[FloatArray, FloatArray]:
+    """A model over its linear twin on the same strips, in their bands, and what the sample leaves of it [dB]."""
+    strips = [strip_of(scene, across, cells, i, seed) for i in range(STRIPS)]
+    outcomes = [roll_rail(RolledRail(strip=strip, models=(model,))) for strip in strips]
+    bands = Bands(tuple(strip_bands(scene).edges.tolist()))
+    if any(outcome["failed"] for outcome in outcomes):
+        return np.full((2, len(bands.centres)), np.nan)  # type: ignore[return-value]
+    found = log_over(model, ONE_SIDED[model].twin, outcomes, strips[0].spacing, bands)
+    values, errors = zip(*((one.value, one.half_width) for one in found), strict=True)
+    return POWER_DECIBEL * np.array(values), POWER_DECIBEL * np.array(errors)
+
+
+def worst(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> float:
+    """The largest error in bands that count [dB]."""
+    return float(error[quantity.counted(a3)].max(initial=0.0))
+
+
+def relative(decibels: float) -> float:
+    """Of an amplitude."""
+    return float(10 ** (decibels / 20) - 1)
+
+
+def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
+    """What the error rests on, and the band in which it is largest."""
+    counted = quantity.counted(a3)
+    at = int(np.argmax(np.where(counted, error, -1.0)))
+    rest = f"h' a_x / d = {quantity.lost:.2g}; largest at {1e3 * quantity.bands.nominal[at]:g} mm"
+    if quantity.scene.across is None:
+        rest += f", where ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart: across is not given"
+    return rest
