@@ -9,7 +9,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Candidate
+from validation.selection.hierarchy import Answer, Candidate
 
 
 def to_json(comparison: Comparison) -> str:
@@ -43,6 +43,7 @@ def to_json(comparison: Comparison) -> str:
         "model": comparison.model or None,
         "value": _numbers(comparison.value),
         "error": [None] if best is None else _numbers(comparison.errors_of(best)),
+        "error_parts": {} if best is None or best.answer is None else _parts(best.answer),
         "wavelength_mm": _numbers(comparison.wavelength_mm),
         "frequency_hz": _numbers(comparison.frequency_hz),
         "assumed": assumed(comparison.scene),
@@ -121,6 +122,11 @@ def _became(comparison: Comparison, one: Candidate) -> dict[str, object]:
         "reason": one.reason,
         "value": _numbers(comparison.value_of(one)) if solved else None,
     }
+
+
+def _parts(answer: Answer) -> dict[str, list[float | None]]:
+    """Half-widths of model, grid and sample in each band [dB], where they are known of each."""
+    return {name: _numbers(halves) for name, halves in answer.band_errors.items()}
 
 
 def _numbers(values: Iterable[float]) -> list[float | None]:

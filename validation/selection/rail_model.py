@@ -45,6 +45,7 @@ class RailSceneModel(SceneModel):
             grid=relative(float(grid[at])),
             sample=relative(float(sample[at])),
             reason=reason_of(self.quantity, a3, error),
+            counted=counted_wavelengths(self.quantity, a3),
             band_errors={"model": model, "grid": grid, "sample": sample},
         )
 
@@ -60,9 +61,8 @@ def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int) ->
     return sorted(found, key=lambda one: one.cost().seconds)
 
 
-def counted_wavelengths(scene: RailScene, quantity: str, a3: FloatArray) -> str:
+def counted_wavelengths(asked: RailQuantity, a3: FloatArray) -> str:
     """The bands in which the tolerance counts, in words."""
-    asked = rail_quantity(Target(scene, quantity))
     nominal = 1e3 * asked.bands.nominal[asked.counted(a3)]
     left = 1e3 * asked.bands.nominal[~asked.counted(a3)]
     between = [f"{wave:g}" for wave in left if wave > nominal.min(initial=np.inf)]

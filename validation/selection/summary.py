@@ -123,8 +123,9 @@ def _result(comparison: Comparison, answer: Answer) -> list[str]:
         return [f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"]
     decibels = f"{short(20 * math.log10(1 + answer.error))} dB"
     both = decibels if comparison.in_decibels else f"{shown(answer.error)}, {decibels},"
-    head = f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {both} over all bands ({parts})"
-    return [head, *_bands(comparison, answer)]
+    where = "in the bands that count" if answer.band_errors else "over all bands"
+    head = f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {both} {where} ({parts})"
+    return [head, *([answer.counted] if answer.counted else []), *_bands(comparison, answer)]
 
 
 def _bands(comparison: Comparison, answer: Answer) -> Iterator[str]:
@@ -138,7 +139,8 @@ def _bands(comparison: Comparison, answer: Answer) -> Iterator[str]:
         columns["q a"] = [f"{q * scene.contact_radius:.2f}" for q in comparison.wavenumbers]
         columns[f"rms [{unit}]"] = [f"{value:.4g}" for value in answer.value]
     columns[f"level [{comparison.unit}]"] = [f"{level:.1f}" for level in comparison.value_of(best)]
-    columns["± [dB]"] = [f"{half:.2g}" for half in comparison.errors_of(best)]
+    for name, halves in {"± [dB]": comparison.errors_of(best), **answer.band_errors}.items():
+        columns[name] = [f"{half:.2g}" if math.isfinite(half) else "unknown" for half in halves]
     yield "  ".join(f"{name:>9s}" for name in columns)
     for row in zip(*columns.values(), strict=True):
         yield "  ".join(f"{text:>{max(9, len(name))}s}" for name, text in zip(columns, row, strict=True))
