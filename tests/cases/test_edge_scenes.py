@@ -13,6 +13,7 @@ from validation.cases.selection import edge_evidence, edge_scenes
 from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, QUANTITIES, ROLLING, SPHERE, edge_scene
 from validation.cases.selection.edge_test import EdgeTrial, edge_trials, solve_edge
 from validation.scenes.indentation import IndentationScene
+from validation.scenes.measured import MeasuredHeights
 from validation.selection.compare import compare, models_of, quantities_of
 from validation.simulation import rolling_levels
 from validation.simulation.model import GridModel
@@ -170,3 +171,16 @@ def test_a_scene_at_the_edge_is_solved_beside_its_reference():
     assert 0 < found["true"][0] <= math.hypot(found["estimated"][0], float(found["reference"]))
     (measured,) = edge_trials((MEASURED + PUNCH,), 1, (0.3,), 14)
     assert np.isnan(solve_edge(measured)["true"][0])
+
+
+@pytest.mark.parametrize("number", [14, 32, 35, 37])
+def test_points_under_a_sphere_claim_what_splitting_them_changes(number):
+    """h/d = 1.3 to 7: coarser grids claimed 1.8 % and 11 % for 2.1 % and 14 %, and nothing where they do not shrink."""
+    scene, quantity = edge_scene(MEASURED + SPHERE, number, 5)
+    (model,) = (one for one in models_of(scene, quantity, 0.3, 0) if one.kind == GridModel.name)
+    found = model.solve()
+    height = np.kron(scene.ground.height, np.ones((4, 4)))
+    parts = MeasuredHeights(height=height, spacing=tuple(d / 4 for d in scene.ground.spacing))
+    stiffness, _ = pressed(replace(scene, ground=parts))
+    assert not found.failed
+    assert distance(found.value, stiffness) <= found.error

@@ -358,7 +358,7 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
     scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
 
     def left(cells, *changes):
-        return boundary_elements_pressed.grid_error_of_one(scene, cells, np.array(changes))
+        return boundary_elements_pressed.grid_error_of_one(scene, cells, np.array(changes), np.empty(0))
 
     assert [left(cells, 0.1, 0.15, 0.2) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
     assert left(64, -0.01, 0.1, 0.2) == pytest.approx(0.075)

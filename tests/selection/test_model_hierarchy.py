@@ -532,7 +532,7 @@ def test_faces_of_more_points_than_any_grid_answer_for_the_summits_that_a_mean_h
 def test_changes_of_one_face_that_cancel_leave_no_less_than_those_before_and_its_edge():
     height = np.random.default_rng(0).normal(size=(64, 64))
     scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)), load=1.0)
-    left = partial(boundary_elements_pressed.grid_error_of_one, scene, 64)
+    left = partial(boundary_elements_pressed.grid_error_of_one, scene, 64, split=np.empty(0))
     assert left(np.array([1e-4, 1e-4, 0.4])) == pytest.approx(1.5 * 0.1)
     assert left(np.array([1e-5, 1e-5, 1e-4])) == pytest.approx(1.5 * 0.35 / 64)
     assert left(np.array([0.2, 0.1, 0.1])) == math.inf

@@ -106,10 +106,13 @@ def shortest_held(scene: IndentationScene, cells: int) -> float:
 def height_of(scene: IndentationScene, cells: int, realisation: int, seed: int) -> FloatArray:
     """Heights at the centres of cells: the same waves on every grid that holds them, or the measured ones [m].
 
-    Of measured heights, the mean of their points in each cell.
+    Of measured heights, the mean of their points in each cell; a point that is split is as high in all of its parts.
     """
     ground, side = ground_of(scene), side_of(scene)
     if isinstance(ground, MeasuredHeights):
+        points = cells_wanted(scene)
+        if cells > points:
+            return np.kron(height_of(scene, points, realisation, seed), np.ones((cells // points,) * 2))
         return ground.mean_over_cells((cells, cells), side / cells)
     return _drawn(ground, shortest_held(scene, cells), cells, side, random_generator(seed, SURFACES, realisation))
 

@@ -36,6 +36,8 @@ SPHERE_SCATTER = 0.3
 """Relative deviation of the stiffness of one rough sphere, over h/d, about."""
 EDGE = 0.35
 """Error of the stiffness of a flat square punch times its cells a side."""
+SPLIT, MOST_SPLIT = 3, 1024
+"""Parts of a measured point along each side, and cells a side of the grid of such parts at the most."""
 FEWEST, MOST = 8, 1000
 """Surfaces: of which a deviation is estimated, and that are drawn at the most."""
 
@@ -59,9 +61,11 @@ class BoundaryElementsPressed(GridModel):
         return tuple(on_grid(cells) for cells in sides if cells >= FEW)
 
     def references(self, target: Target, resolution: Resolution) -> tuple[Resolution, ...]:
-        """Each of half as many cells a side: two, of a single surface three."""
-        halvings = 3 if ground_of(target.scene).is_single else 2
-        return tuple(on_grid(round(resolution.size) // 2**i) for i in range(1, halvings + 1))
+        """Each of half as many cells a side: two, of a single surface three; and the points of that, split."""
+        single, cells = ground_of(target.scene).is_single, round(resolution.size)
+        coarser = tuple(on_grid(cells // 2**i) for i in range(1, 4 if single else 3))
+        on_points = single and cells == cells_wanted(target.scene)
+        return (*coarser, on_grid(SPLIT * cells)) if on_points and SPLIT * cells <= MOST_SPLIT else coarser
 
     def sampling(self, target: Target) -> Sampling:
         """A single surface, or so many that they leave half of the tolerance."""
@@ -75,7 +79,7 @@ class BoundaryElementsPressed(GridModel):
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
         """The sample's part: only a solve tells what the grid leaves."""
-        coarsest = round(self.references(target, resolution)[-1].size)
+        coarsest = round(min(grid.size for grid in self.references(target, resolution)))
         if not holds_waves(target.scene, coarsest):
             return ErrorEstimate.out_of_range(
                 f"a grid of {coarsest}² cells, the reference of its grid error, resolves no wave"
@@ -96,10 +100,13 @@ class BoundaryElementsPressed(GridModel):
     ) -> tuple[float, str]:
         """Of the changes of the logarithm from grid to grid, the same surfaces on each."""
         cells, compared = round(resolution.size), others.shape[1]
-        levels = np.log([values[:compared, 0], *others[:, :, 0]])
+        finer = [grid.size > cells for grid in self.references(target, resolution)]
+        levels = np.log([values[:compared, 0], *others[np.logical_not(finer), :, 0]])
         changes = levels[:-1] - levels[1:]
         if ground_of(target.scene).is_single:
-            grid = grid_error_of_one(target.scene, cells, changes[:, 0]) + hidden(target, resolution, values[0, 0])
+            split = np.log(others[finer, 0, 0] / values[0, 0])
+            grid = grid_error_of_one(target.scene, cells, changes[:, 0], split)
+            grid += hidden(target, resolution, values[0, 0])
         else:
             # the waves that a grid leaves out may hide the error at the edge of a punch in its change
             grid = max(grid_error(changes[1], changes[0]), edge_error(target.scene, cells))
@@ -135,16 +142,18 @@ def _result(solve: Solve, at_edge: bool) -> Result:
     return found
 
 
-def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray) -> float:
+def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray, split: FloatArray) -> float:
     """The largest of the last changes, those before halved for each doubling since, with half as much again.
 
-    One face may hide any of them, but not the edge of a punch; and as much for each doubling that is left to the
-    points of the face, which have waves that this one has not. Infinite where the last change is the largest.
+    One face may hide any of them, but not the edge of a punch, nor what its points leave when they are split; and as
+    much for each doubling that is left to the points of the face, which have waves that this one has not. Where the
+    last change is the largest, coarser grids have other summits, and all of it is left beside what splitting changes;
+    infinite where the points are too many to be split.
     """
     last, *before = np.abs(changes)
-    if last >= max(before):
+    if last >= max(before) and not split.size:
         return math.inf if last > 0 else 0.0
-    change = max(last, before[0] / 2, before[1] / 4, edge_error(scene, cells))
+    change = max(last, before[0] / 2, before[1] / 4, edge_error(scene, cells), *np.abs(split))
     return float(1.5 * change * (1 + math.log2(cells_wanted(scene) / cells)))
 
 
