@@ -112,7 +112,8 @@ def height_of(scene: IndentationScene, cells: int, realisation: int, seed: int) 
     if isinstance(ground, MeasuredHeights):
         points = cells_wanted(scene)
         if cells > points:
-            return np.kron(height_of(scene, points, realisation, seed), np.ones((cells // points,) * 2))
+            parts = np.ones((cells // points, cells // points))
+            return np.asarray(np.kron(height_of(scene, points, realisation, seed), parts), dtype=np.float64)
         return ground.mean_over_cells((cells, cells), side / cells)
     return _drawn(ground, shortest_held(scene, cells), cells, side, random_generator(seed, SURFACES, realisation))
 
