@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from validation.analysis.contents import as_csv
+from validation.analysis.evidence import Table
 from validation.commands.arguments import at_least
 from validation.commands.exit_status import Exit
 from validation.engine.files import write_whole
@@ -13,6 +14,7 @@ from validation.scenes.printable import printable
 from validation.selection.compare import QUANTITIES, Comparison, check_quantity, quantities_of
 from validation.selection.compare import compare as compared
 from validation.selection.exported import levels_of_models, to_json
+from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import ContactModel
 from validation.selection.several import overview, selected_of_several, table_of_several
 from validation.selection.summary import findings, format_seconds, heading
@@ -48,6 +50,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     for name, what in (
         ("--json", "write the result for other programs; the keys are in reports/README.md"),
         ("--csv", "write a row a number or a band, of each model that was solved"),
+        ("--cnossos", "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
         ("--figure", "draw the models that were solved, in a .svg, .png or .pdf"),
     ):
         comparing.add_argument(name, type=Path, metavar="FILE", help=what)
@@ -58,6 +61,8 @@ def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
     scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments.sweep)]
     _check_figure(arguments.figure)
+    if arguments.cnossos is not None and arguments.quantity not in (None, "contact-filter"):
+        raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {arguments.quantity}")
     found = [_compared(scene, arguments, alone=len(scenes) == 1) for scene in scenes]
     if len(found) > 1:
         print("\n".join(overview(found)))
@@ -112,6 +117,10 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     table = table_of_several(found) if several else levels_of_models(found[0])
     if arguments.csv is not None:
         write_whole(arguments.csv, as_csv(table))
+    if arguments.cnossos is not None:
+        filters = [filter_table(one) for one in found]
+        rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
+        write_whole(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
         from validation.report.compared import figure_of_models  # which takes half a second to import
 

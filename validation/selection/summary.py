@@ -138,7 +138,9 @@ def _bands(comparison: Comparison, answer: Answer) -> Iterator[str]:
     if isinstance(scene, RollingScene):
         columns["q a"] = [f"{q * scene.contact_radius:.2f}" for q in comparison.wavenumbers]
         columns[f"rms [{unit}]"] = [f"{value:.4g}" for value in answer.value]
-    columns[f"level [{comparison.unit}]"] = [f"{level:.1f}" for level in comparison.value_of(best)]
+    columns[f"level [{comparison.unit}]"] = [
+        f"{round(float(level), 1) + 0.0:.1f}" for level in comparison.value_of(best)
+    ]
     for name, halves in {"± [dB]": comparison.errors_of(best), **answer.band_errors}.items():
         columns[name] = [f"{half:.2g}" if math.isfinite(half) else "unknown" for half in halves]
     yield "  ".join(f"{name:>9s}" for name in columns)

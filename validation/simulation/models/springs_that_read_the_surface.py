@@ -17,6 +17,7 @@ class SpringsThatReadTheSurface(RollingStripModel):
 
     name: ClassVar = "springs that read the surface"
     setting: ClassVar = "24 strips"
+    is_mdr: ClassVar = True
     strips: ClassVar = 24
     per_cell: ClassVar = 1.5e-7
     bands: ClassVar = READ_BANDS
