@@ -8,10 +8,11 @@ import numpy as np
 
 import mdr
 from tests.planted_faults.wrong import one_sided_spectrum, scaled
-from tests.theory import test_closed_forms, test_rolling_theory
+from tests.theory import test_closed_forms, test_rolling_theory, test_transverse_structure
 from validation.analysis import spectra
-from validation.theory import closed_forms
+from validation.theory import closed_forms, transverse_structure
 from validation.theory import rolling as rolling_theory
+from validation.theory.line_spectrum import LineSpectrum
 
 
 def half_of_the_slope(pressure, *, gradient):
@@ -65,5 +66,17 @@ FAULTS = {
     "one-sided spectrum of a track": (
         (spectra.Waves, "spectrum", property(one_sided_spectrum)),
         test_rolling_theory.test_spectra_of_profiles_are_the_ones_they_are_drawn_from,
+    ),
+    "half of Abel's inverse": (
+        (LineSpectrum, "isotropic", scaled(LineSpectrum.isotropic, 0.5)),
+        functools.partial(test_transverse_structure.test_a_line_over_its_surface_is_that_line, 50.0),
+    ),
+    "ridges for isotropic ground": (
+        (transverse_structure.IsotropicGround, "mean_square", transverse_structure.Ridges.mean_square),
+        functools.partial(test_transverse_structure.test_the_mean_over_isotropic_ground, 150.0),
+    ),
+    "a line that keeps the waves which its surface has lost": (
+        (transverse_structure.IsotropicGround, "line_power", lambda ground, q: ground.line(q)),
+        test_transverse_structure.test_ground_without_its_shortest_waves_has_the_line_that_is_left,
     ),
 }

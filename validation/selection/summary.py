@@ -7,12 +7,14 @@ from collections.abc import Iterator
 from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
 from validation.scenes.load import Scene
+from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
 from validation.selection.compare import MOVING, UNITS, Comparison
 from validation.selection.hierarchy import Answer, Candidate, Status
 from validation.selection.side_by_side import side_by_side
 from validation.selection.tolerance import Tolerance, short
+from validation.simulation.rail_models import MEASURED_ON_STRIPS
 
 WIDTH = 100
 """Columns of a terminal."""
@@ -66,7 +68,7 @@ def findings(comparison: Comparison) -> str:
     if best is None or best.answer is None:
         lines += ["no model has a result", *_what_would_help(comparison)]
     else:
-        lines += [*_result(comparison, best.answer), *side_by_side(comparison), calibration_age(), _cost(comparison)]
+        lines += [*_result(comparison, best.answer), *side_by_side(comparison), _age(comparison), _cost(comparison)]
         if not selection.met:
             left = comparison.tolerance.shown(best.error)
             lines.append(f"not reached: the tolerance of {comparison.tolerance}; the smallest error is {left}")
@@ -146,6 +148,11 @@ def _bands(comparison: Comparison, answer: Answer) -> Iterator[str]:
     yield "  ".join(f"{name:>9s}" for name in columns)
     for row in zip(*columns.values(), strict=True):
         yield "  ".join(f"{text:>{max(9, len(name))}s}" for name, text in zip(columns, row, strict=True))
+
+
+def _age(comparison: Comparison) -> str:
+    """Where the errors of the models are from."""
+    return MEASURED_ON_STRIPS if isinstance(comparison.scene, RailScene) else calibration_age()
 
 
 def _cost(comparison: Comparison) -> str:

@@ -73,11 +73,22 @@ def strip_bands(scene: RailScene) -> NominalBands:
     return scene.levels.bands.within(LONGEST * a_x, SHORTEST * a_x)
 
 
+def positions_along(scene: RailScene, cells: int) -> int:
+    """Of a strip with so many cells to the smaller semi-axis."""
+    return cells * _sides_of_strip(scene)[0]
+
+
+def _sides_of_strip(scene: RailScene) -> tuple[int, int]:
+    """Length and width over the smaller semi-axis."""
+    smaller, larger = sorted((scene.contact.along, scene.contact.across))
+    return math.ceil(LENGTH * larger / smaller), math.ceil(WIDTH * larger / smaller)
+
+
 def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: int, seed: int) -> RailStrip:
     """One realisation with so many cells to the smaller semi-axis; the same surface on every grid."""
     contact, edges = scene.contact, strip_bands(scene).edges
     unit = min(contact.along, contact.across)
-    length, width = (math.ceil(sides * max(contact.along, contact.across) / unit) * unit for sides in (LENGTH, WIDTH))
+    length, width = (sides * unit for sides in _sides_of_strip(scene))
     return RailStrip(
         ground=RailGround(line=line_of(scene), across=across, first=float(edges[0]), last=float(edges[-1])),
         radii=scene.radii,

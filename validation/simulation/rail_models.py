@@ -16,6 +16,7 @@ from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import (
+    LINEAR,
     LINEAR_MODELS,
     ONE_SIDED,
     RolledRail,
@@ -24,7 +25,7 @@ from validation.simulation.equivalent_displacement import (
 )
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target
-from validation.simulation.rail_ground import StatedAcross, strip_bands, strip_of
+from validation.simulation.rail_ground import StatedAcross, positions_along, strip_bands, strip_of
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.theory.elliptic_contact import EllipticContact
 from validation.theory.transverse_structure import Filter
@@ -36,6 +37,10 @@ LINEAR_ERROR, PER_LOST_CONTACT = 0.2, 1.1
 was measured on strips of both curves, at the limit of ISO 3095 and up to 20 dB above."""
 MOST_LOST, LARGEST_WAVE, ASPECTS = 1.0, 9.5, (0.5, 2.0)
 """h' a_x / d, q a_x and a_y / a_x up to which that was measured."""
+MEASURED_ON_STRIPS = (
+    f"errors of models: measured beside boundary elements on strips, h' a_x / d up to {MOST_LOST:g}, "
+    f"q a_x up to {LARGEST_WAVE:g}, a_y / a_x from {ASPECTS[0]:g} to {ASPECTS[1]:g}"
+)
 STRIPS = 6
 FINE, COARSE = 12, 8
 """Cells to the smaller semi-axis."""
@@ -142,7 +147,7 @@ class RolledRailModel(RailModel):
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
         quantity = rail_quantity(target)
-        along = [strip_of(quantity.scene, quantity.ends[0], cells, 0, 0).shape[0] for cells in self.cells]
+        along = [positions_along(quantity.scene, cells) for cells in self.cells]
         positions = STRIPS * len(quantity.ends) * sum(along)
         return Cost(work=positions, unit="positions", seconds=self.seconds * positions)
 
@@ -204,10 +209,14 @@ def relative(decibels: float) -> float:
 
 
 def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
-    """What the error rests on, and the band in which it is largest."""
-    counted = quantity.counted(a3)
-    at = int(np.argmax(np.where(counted, error, -1.0)))
-    rest = f"h' a_x / d = {quantity.lost:.2g}; largest at {1e3 * quantity.bands.nominal[at]:g} mm"
+    """The band in which the error is largest, and what it is due to there."""
+    at = int(np.argmax(np.where(quantity.counted(a3), error, -1.0)))
+    shortest = 1e3 * strip_bands(quantity.scene).nominal[-1]
+    causes = [f"h' a_x / d = {quantity.lost:.2g} of waves down to {shortest:g} mm"]
+    if (apart := abs(a3[at] - quantity.linear.mean(axis=0)[at])) > LINEAR_ERROR:
+        causes.insert(0, f"{apart:.2g} dB off {LINEAR}, on this ground")
     if quantity.scene.across is None:
-        rest += f", where ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart: across is not given"
-    return rest
+        causes.insert(
+            0, f"across is not given, ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
+        )
+    return f"largest at {1e3 * quantity.bands.nominal[at]:g} mm: {'; '.join(causes)}"

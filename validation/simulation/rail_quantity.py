@@ -55,9 +55,9 @@ class RailQuantity:
 
     @cached_property
     def unreal(self) -> str:
-        """Why the stated ground cannot be; empty where it can."""
+        """Why the stated ground cannot be, or has no wave of the contact's length; empty where all is well."""
         try:
-            _ = self.structures
+            _ = self.structures, self.lost
         except ValueError as reason:
             return str(reason)
         return ""
