@@ -159,7 +159,7 @@ def test_answers_at_the_edges_are_counted_with_those_that_are_none():
     row = edge_evidence.edges_by_kind(table).columns
     assert [values[0] for values in row.values()][1:-1] == [5, 3, 3, 1, 2, 1]
     assert row["true over estimated error, worst"][0] == f"{0.2 / math.hypot(0.05, 0.01):.2g}"
-    number = edge_evidence.edge_number(table, 0.1)
+    (number,) = edge_evidence.edge_numbers(table)
     assert number.value == 0.5
     assert "1 of 2 answers hold, and 1 of 4 questions" in edge_evidence.edge_answer(table)
 

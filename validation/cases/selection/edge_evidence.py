@@ -34,9 +34,13 @@ def edge_table(trials: Sequence[EdgeTrial], outcomes: Sequence[Outcome]) -> Tabl
     return table_of("edges", rows)
 
 
-def edge_number(table: Table, tolerance: float) -> Number:
-    """Over all kinds."""
-    mine = table.where(tolerance=tolerance)
+def edge_numbers(table: Table) -> tuple[Number, ...]:
+    """One a tolerance, over all kinds, where an answer was tested."""
+    tested = table["tolerance"][np.isfinite(table["true error"])]
+    return tuple(_number(table.where(tolerance=tolerance), tolerance) for tolerance in np.unique(tested).tolist())
+
+
+def _number(mine: Table, tolerance: float) -> Number:
     held = _held(mine)[np.isfinite(mine["true error"])]
     interval = stats.binomtest(int(held.sum()), held.size).proportion_ci()
     return Number(

@@ -11,7 +11,7 @@ from scipy import stats
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
-from validation.cases.selection.edge_evidence import edge_answer, edge_number, edge_table, edges_by_kind
+from validation.cases.selection.edge_evidence import edge_answer, edge_numbers, edge_table, edges_by_kind
 from validation.cases.selection.edge_scenes import RANGES as EDGE_RANGES
 from validation.cases.selection.edge_test import DRAWN
 from validation.cases.selection.model_selection import (
@@ -48,7 +48,7 @@ def evidence(result: CalibrationResult) -> Evidence:
     known = [(tolerance, table) for tolerance, table in known if table["kind"].size]
     edges = edge_table(case.edge_trials, result.edges) if result.edges else None
     numbers = tuple(number for tolerance, table in known for number in _numbers(tolerance, table))
-    at_edges = tuple(edge_number(edges, tolerance) for tolerance in case.tolerances) if edges else ()
+    at_edges = edge_numbers(edges) if edges else ()
     return Evidence(
         title="Calibration test of model selection",
         method=(
@@ -67,7 +67,7 @@ def evidence(result: CalibrationResult) -> Evidence:
         numbers=(*numbers, *at_edges),
         claims=(
             *_claims(known, numbers),
-            *((answered(EDGES, at_edges, edge_answer(edges)),) if edges else ()),
+            *((answered(EDGES, at_edges, edge_answer(edges)),) if edges and at_edges else ()),
         ),
         tables=(scenes, estimates, *((edges,) if edges else ())),
         conclusions=tuple(_conclusion(tolerance, scenes, table) for tolerance, table in known),
