@@ -10,6 +10,7 @@ import mdr
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import (
     test_periodic_motion,
+    test_rail_filters,
     test_reduced_models,
     test_rough_punches,
     test_time_stepping,
@@ -18,7 +19,7 @@ from tests.simulation import (
 from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
-from validation.simulation import contact_laws, integrators, mean_contact, pressed_layer
+from validation.simulation import contact_laws, integrators, mean_contact, pressed_layer, rail_models, rail_quantity
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import wheel as wheel_theory
@@ -200,5 +201,21 @@ FAULTS = {
         functools.partial(
             test_wheel_motion.test_boundary_elements_in_the_loop_follow_linear_theory_in_three_dimensions, 6
         ),
+    ),
+    "20 lg of a ratio of powers": (
+        (rail_quantity.RailQuantity, "filtered", scaled(rail_quantity.RailQuantity.filtered, 2.0)),
+        test_rail_filters.test_over_ridges_models_are_sinc_squared_above_the_first_zero,
+    ),
+    "a ground that is not given taken for known": (
+        (rail_quantity.RailQuantity, "half_width", 0.0),
+        test_rail_filters.test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground,
+    ),
+    "errors of contact filters claimed beyond where they were measured": (
+        (rail_models, "MOST_LOST", 10.0),
+        test_rail_filters.test_beyond_what_was_measured_no_error_is_claimed,
+    ),
+    "the error of linear theory claimed by every contact filter": (
+        (rail_models.RailModel, "model_error", lambda model, quantity, a3: rail_models.linear_error(quantity)),
+        test_rail_filters.test_a_model_that_differs_from_linear_theory_says_by_how_much,
     ),
 }
