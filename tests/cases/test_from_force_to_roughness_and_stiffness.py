@@ -14,6 +14,8 @@ from validation.cases.rolling.force_spectrum_levels import level_1d, level_3d
 from validation.cases.rolling.roughness_from_force import FILTER_1D, FILTER_3D, MEAN_FILTER, RoughnessFromForce
 from validation.cases.rolling.track_stiffness_evidence import DEVIATION, MEAN, evidence, of_punches, over, statistic
 from validation.cases.rolling.validity import HEIGHT, REFERENCE, SLOPE, SPECTRA, Validity, ValidityResult
+from validation.cases.rolling.validity_reduced import LAYER, MODELS, over_boundary_elements, roll_reduced
+from validation.simulation.rolling_strip import roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
 RNG = np.random.default_rng(0)
@@ -108,11 +110,27 @@ def test_the_parameter_that_counts_is_found(parameter):
             kept[name, given, value] = Estimate(1 - 0.3 * x, 0.001, 4)
             cross = np.stack([linear, 0 * linear])
             levels[name, given, value] = {"level": linear * 10 ** (-0.8 * x), "linear level": linear, "cross": cross}
-    slope, height, slope_level, height_level = validity.evidence(ValidityResult(case, levels, kept, ())).claims
+    reduced = {(model, key): Estimate(0.1 if model == LAYER else 3.0, 0.01, 4) for model in MODELS for key in levels}
+    claims = validity.evidence(ValidityResult(case, levels, kept, reduced, ())).claims
+    slope, height, slope_level, height_level, read, layer = claims
+    assert [read.status, layer.status] == [CONTRADICTED, HOLDS]
     right, wrong = (slope, height) if parameter == SLOPE else (height, slope)
     assert [right.status, wrong.status] == [HOLDS, CONTRADICTED]
     right, wrong = (slope_level, height_level) if parameter == SLOPE else (height_level, slope_level)
     assert [right.status, wrong.status] == [HOLDS, CONTRADICTED]
+
+
+def test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself():
+    """Low roughness, whatever the cells: both have the level of linear theory within half of a decibel."""
+    case = Validity(waves=3, width=7, cells=8)
+    strip = case.strips_of(REFERENCE, HEIGHT, 0.01)[0]
+    bands, truth = case.bands_for(SPECTRA[REFERENCE]), roll_strip(strip)
+    beside = strip_levels([truth], 1 / strip.cells, bands)
+    rolled = [roll_reduced(strip)]
+    for model in MODELS:
+        found = over_boundary_elements(model, rolled, strip, beside, bands)
+        off = 10 * np.log10(found["level"].sum() / found["linear level"].sum())
+        assert off == pytest.approx(0, abs=0.5)
 
 
 def test_the_spectrum_of_reference_is_not_judged_beside_itself():

@@ -27,11 +27,12 @@ from tests.planted_faults.wrong import scaled
 from validation.analysis import multilevel, statistics
 from validation.analysis.evidence import Verdict
 from validation.analysis.over_range import signed_mean
+from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
-from validation.cases.rolling import roughness_from_force, track_stiffness, validity
+from validation.cases.rolling import roughness_from_force, track_stiffness, validity, validity_reduced
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
 from validation.engine import engine as ensemble
@@ -238,6 +239,10 @@ FAULTS = {
     "contact kept beside a wheel of another force": (
         (validity, "contact_kept", area_whatever_the_force),
         test_from_force_to_roughness_and_stiffness.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
+    ),
+    "amplitudes of a reduced model twice as large": (
+        (validity_reduced, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
+        test_from_force_to_roughness_and_stiffness.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
     ),
     "stiffness of the frame for that of the contact": (
         (track_stiffness, "tangent_stiffness", whole_frame_in_contact),

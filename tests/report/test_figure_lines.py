@@ -352,10 +352,11 @@ def test_lines_of_reduced_models():
 def test_lines_of_where_linear_theory_ends():
     """Over h/d and over h' a/d, each spectrum in the order of that parameter."""
     table = Made({"spectrum": np.repeat(["one", "two"], 3)})
-    kept, kept_too, off, off_too = rolling_validity.draw(made(validity=table)).axes
+    kept, kept_too, off, off_too, layer, layer_too = rolling_validity.draw(made(validity=table)).axes
     for axes, value, bar in (
         ((kept, kept_too), "contact kept", "± contact"),
         ((off, off_too), "rms over linear [dB]", "± rms [dB]"),
+        ((layer, layer_too), "pressed layer over bem3d [dB]", "± pressed layer [dB]"),
     ):
         for axis, parameter in zip(axes, ("h/d", "h' a/d"), strict=True):
             expected = {}

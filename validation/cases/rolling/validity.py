@@ -12,6 +12,14 @@ from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, T
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
 from validation.cases.rolling.force_spectrum_levels import correlation
+from validation.cases.rolling.validity_reduced import (
+    FOLLOWS,
+    MODELS,
+    OFF_REDUCED,
+    number_of,
+    over_boundary_elements,
+    roll_reduced,
+)
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
@@ -76,11 +84,12 @@ Key = tuple[str, str, float]
 
 @dataclass(frozen=True)
 class ValidityResult:
-    """Levels beside linear theory; and of each strip the mean area of contact, and that of smooth wheels alike."""
+    """Levels beside linear theory; area of contact over that of smooth wheels; reduced models over bem3d [dB]."""
 
     case: Validity
     levels: dict[Key, Outcome]
     kept: dict[Key, Estimate]
+    reduced: dict[tuple[str, Key], Estimate]
     unconverged: tuple[str, ...]
 
 
@@ -92,7 +101,16 @@ def run(case: Validity, engine: Engine = SERIAL) -> ValidityResult:
         key: strip_levels(found, 1 / case.cells_for(SPECTRA[key[0]]), case.bands_for(SPECTRA[key[0]]))
         for key, found in strips.items()
     }
-    return ValidityResult(case, levels, {key: contact_kept(found) for key, found in strips.items()}, unconverged)
+    rolled = engine.map_groups(roll_reduced, groups)
+    reduced = {
+        (model, key): off_linear(
+            over_boundary_elements(model, rolled[key], mine[0], levels[key], case.bands_for(SPECTRA[key[0]]))
+        )
+        for key, mine in groups.items()
+        for model in MODELS
+    }
+    kept = {key: contact_kept(found) for key, found in strips.items()}
+    return ValidityResult(case, levels, kept, reduced, unconverged)
 
 
 def contact_kept(strips: list[Outcome]) -> Estimate:
@@ -124,6 +142,10 @@ def evidence(result: ValidityResult) -> Evidence:
         if name != REFERENCE
         for number in _numbers(result, name, parameter, value)
     ]
+    numbers += [
+        number_of(model, found, {key[1]: key[2], "spectrum": key[0]}, len(SPECTRA) * len(_of(case, key[1])))
+        for (model, key), found in result.reduced.items()
+    ]
     table = _table(result)
     return Evidence(
         title="Where linear theory ends: h' a/d against h/d, over bands and Hurst exponents",
@@ -134,7 +156,8 @@ def evidence(result: ValidityResult) -> Evidence:
             "shortest wave. The share of contact kept is the mean area over that of a smooth wheel under the same "
             "force; cells at its edge may make it a little more than one. The level over linear theory on the "
             "same surfaces is taken in one-third octaves of the band; its root mean square over bands counts. Each "
-            f"spectrum is judged beside {REFERENCE}."
+            f"spectrum is judged beside {REFERENCE}. Springs that read the surface and a pressed layer, on half of the "
+            "cells, roll over the same surfaces and are judged beside boundary elements."
         ),
         numbers=tuple(numbers),
         tables=(table,),
@@ -143,8 +166,9 @@ def evidence(result: ValidityResult) -> Evidence:
         captions={
             "rolling_validity": (
                 "(a), (b) Share of contact kept on boundary elements, over h/d and over h' a/d, by spectrum. (c), (d) "
-                "Root mean square over one-third octaves of the level over linear theory; dotted: 1 dB. Bars: 95 % "
-                "intervals. The curves that lie on each other show the parameter that counts."
+                "Root mean square over one-third octaves of the level over linear theory; dotted: 1 dB. (e), (f) "
+                "The same of reduced models over boundary elements; solid: pressed layer, dashed: springs that read "
+                "the surface. Bars: 95 % intervals. The curves that lie on each other show the parameter that counts."
             )
         },
         unconverged=result.unconverged,
@@ -204,9 +228,20 @@ def _table(result: ValidityResult) -> Table:
                 "rms over linear [dB]": round(off.value, 3),
                 "± rms [dB]": round(off.half_width, 3),
                 "correlation with linear": round(correlation(levels)[0], 4),
+                **_over_bem3d(result, (name, parameter, value)),
             }
         )
     return table_of("validity", rows)
+
+
+def _over_bem3d(result: ValidityResult, key: Key) -> dict[str, float]:
+    """Of reduced models, with half-widths."""
+    found = {model: result.reduced[model, key] for model in MODELS}
+    return {
+        name: round(number, 3)
+        for model, off in found.items()
+        for name, number in ((f"{model} over bem3d [dB]", off.value), (f"± {model} [dB]", off.half_width))
+    }
 
 
 def _rounded(value: float) -> float:
@@ -228,7 +263,18 @@ def _claims(case: Validity, numbers: list[Number], table: Table) -> tuple[Judged
         claim(other, KEPT, kept, HEIGHT),
         claim(level.format(SLOPE), OFF, off, SLOPE),
         claim(level.format(HEIGHT), OFF, off, HEIGHT),
+        *(_follows(case, model, numbers) for model in MODELS),
     )
+
+
+def _follows(case: Validity, model: str, numbers: list[Number]) -> JudgedClaim:
+    mine = [number for number in numbers_with(numbers, OFF_REDUCED, model) if SLOPE in number.where]
+    parts = [
+        f"at {SLOPE} = {value:g} the rms over one-third octaves is {min(of):.2f} to {max(of):.2f} dB"
+        for value in case.slopes
+        if (of := [number.value for number in mine if number.where[SLOPE] == value])
+    ]
+    return answered(FOLLOWS[model].format(max(case.slopes)), mine, f"{'; '.join(parts)}, over all spectra.")
 
 
 def _of(case: Validity, parameter: str) -> tuple[float, ...]:
