@@ -32,8 +32,8 @@ def draw(evidence: Evidence) -> Figure:
             axis, [x for x in (0.03, 0.1, 0.3, 1, 2) if table[parameter].min() <= 1.1 * x <= 2 * table[parameter].max()]
         )
     axes[0].set_ylabel("share of contact kept")
-    axes[2].set(ylabel="rms level over linear theory [dB]", ylim=(0, None))
-    axes[4].set(ylabel="rms level over boundary elements [dB]", ylim=(0, None))
+    axes[2].set(ylabel="rms over linear theory [dB]", ylim=(0, None))
+    axes[4].set(ylabel="rms over bem3d [dB]", ylim=(0, None))
     for axis in axes[2:]:
         axis.axhline(1.0, **GUIDE)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
