@@ -207,7 +207,7 @@ FAULTS = {
         test_rail_filters.test_over_ridges_models_are_sinc_squared_above_the_first_zero,
     ),
     "a ground that is not given taken for known": (
-        (rail_quantity.RailQuantity, "half_width", 0.0),
+        (rail_quantity.RailQuantity, "half_width", property(lambda quantity: 0 * quantity.wave)),
         test_rail_filters.test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground,
     ),
     "errors of contact filters claimed beyond where they were measured": (

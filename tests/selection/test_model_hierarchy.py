@@ -696,7 +696,9 @@ def test_answers_at_the_edges_are_a_claim_of_the_calibration_test():
     case = ladder.CalibrationTest(punches=1, spheres=0, rolling=0, edges=2, edge_kinds=("punch",))
     edge = {"estimated": np.array([0.1]), "met": np.ones(1), "reference": np.array(0.0), "failed": np.array(0.0)}
     edges = [{**edge, "true": np.array([true])} for true in (0.05, 0.3)]
-    found = calibration.evidence(ladder.CalibrationResult(case, [outcome(0.1, 0.05, 5.0, 10.0, every=(0.1, 0.2))], (), edges))
+    found = calibration.evidence(
+        ladder.CalibrationResult(case, [outcome(0.1, 0.05, 5.0, 10.0, every=(0.1, 0.2))], (), edges)
+    )
     claim = found.claims[-1]
     assert claim.claim == calibration.EDGES and "1 of 2 answers hold" in claim.answer
     assert [number.value for number in claim.numbers] == [0.5]
