@@ -16,7 +16,7 @@ from validation.selection.calibrate import CalibrationRun, CalibrationScene, cal
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
 from validation.simulation.calibration import MeasuredErrors, calibrated, conditions_by_kind
-from validation.simulation.model import GridModel, Target, all_models, models_serving
+from validation.simulation.model import Target, models_serving
 
 PUNCH = {LOAD: 1.0, WAVES: 1.0, RATIO: 8.0, HURST: 0.7}
 NAMES = {"punch": (LOAD, WAVES, RATIO, HURST), "sphere": (HEIGHT, LONG, RATIO, HURST)}
@@ -144,7 +144,7 @@ def test_the_table_says_when_how_and_with_which_code_it_was_measured():
 
 
 def test_every_cheap_model_is_in_the_table_with_scenes_enough():
-    cheap = {model.name for model in all_models() if not isinstance(model, GridModel)}
+    cheap = {model.name for point in CalibrationRun().points for model in point.cheap}
     assert {model for _, _, model in calibration.table()} == cheap
     for (kind, _, _), table in calibration.table().items():
         assert len(table.errors) >= (12 if kind == "rolling" else 24)
