@@ -30,6 +30,7 @@ LINEAR_ON_LINE, LINEAR_ON_MEAN = "linear, on the line", "linear, on the mean acr
 BEM, ONE_SIDED_BED = "boundary elements", "spring bed (DPRS), one-sided"
 SPRINGS_ON_LINE, SPRINGS_ON_MEAN = "springs on the line", "springs on the mean across"
 SPRINGS_THAT_READ = "springs that read the surface"
+AREA = "area in contact"
 MOST_NUMBERS = 2**21
 """Springs of a bed times positions that are sorted at once."""
 
@@ -52,7 +53,12 @@ LINEAR_MODELS: Mapping[str, Callable[[EllipticContact], Transfer]] = {
 
 def boundary_elements(strip: RailStrip, tolerance: float) -> FloatArray:
     """The half-space, one-sided; NaN where it has not converged."""
-    found = bem3d.roll(
+    return _lifted_by(roll_boundary_elements(strip, tolerance))
+
+
+def roll_boundary_elements(strip: RailStrip, tolerance: float) -> bem3d.Rolling:
+    """Force, approach and area along the strip."""
+    return bem3d.roll(
         strip.surface,
         spacing=strip.spacing,
         radius=strip.radii,
@@ -61,6 +67,9 @@ def boundary_elements(strip: RailStrip, tolerance: float) -> FloatArray:
         tolerance=tolerance,
         raise_on_failure=False,
     )
+
+
+def _lifted_by(found: bem3d.Rolling) -> FloatArray:
     return lifted(np.where(found.converged, found.approach, np.nan))
 
 
@@ -149,11 +158,15 @@ class RolledRail:
 def roll_rail(problem: RolledRail) -> Outcome:
     """Equivalent displacement along the strip of each model and of all linear ones, by their names [m].
 
-    failed: positions at which boundary elements did not converge, whose displacement is NaN.
+    area in contact: of boundary elements, over that of the smooth wheel; failed: positions at which they did not
+    converge, whose displacement is NaN.
     """
-    strip = problem.strip
-    linear = {name: strip.along_middle(transfer(strip.contact)) for name, transfer in LINEAR_MODELS.items()}
-    found = {name: ONE_SIDED[name].displacement(strip, problem.tolerance) for name in problem.models}
+    strip, contact = problem.strip, problem.strip.contact
+    linear = {name: strip.along_middle(transfer(contact)) for name, transfer in LINEAR_MODELS.items()}
+    found = {name: ONE_SIDED[name].displacement(strip, problem.tolerance) for name in problem.models if name != BEM}
+    if BEM in problem.models:
+        rolled = roll_boundary_elements(strip, problem.tolerance)
+        found |= {BEM: _lifted_by(rolled), AREA: rolled.area / (math.pi * contact.along * contact.across)}
     failed = sum(float(np.isnan(track).sum()) for track in found.values())
     return {**linear, **found, "failed": np.array(failed)}
 

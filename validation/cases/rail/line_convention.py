@@ -1,0 +1,322 @@
+"""One measured line, the energy mean of parallel lines, and the mean of their heights: what each says of a rail."""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.answers import answered
+from validation.analysis.case import Case, Chapter
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
+from validation.analysis.over_range import worst
+from validation.analysis.spectra import Bands, levels, waves
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
+from validation.cases.rail.filters import counted, decibel, linear_filter, scene_of
+from validation.cases.rail.published import RailWheel
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.scenes.rail import RailScene
+from validation.simulation.equivalent_displacement import LINE, LINEAR, LINEAR_MODELS
+from validation.simulation.rail_ground import StatedAcross, strip_bands, strip_of
+from validation.simulation.rail_strip import RailStrip, Transfer
+
+FloatArray = NDArray[np.float64]
+
+GROUNDS: dict[str, StatedAcross] = {
+    "ridges": "ridges",
+    "alpha = 0.25": 0.25,
+    "alpha = 1": 1.0,
+    "isotropic ground": "isotropic",
+}
+ENERGY, HEIGHTS, SCATTER = "energy mean of lines over one line", "mean of heights over one line", "scatter of a level"
+FIELD = "1 dB: a tolerance of the field"
+CELLS = 5
+"""To the smaller semi-axis: the bands that count have waves three times as long as it."""
+CLAIM = "The mean of the heights of parallel lines has the levels of one line within 1 dB."
+CLAIM_ENERGY = "The energy mean of the spectra of parallel lines has the levels of one line within 1 dB."
+CLAIM_SCATTER = "Levels from the energy mean of three lines scatter as those of one line do."
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineConvention:
+    """lines: parallel ones; spacings: of them [m]; strips: realisations of each ground; load of one wheel [kN],
+    diameter [mm]; seed."""
+
+    lines: int = 3
+    spacings: tuple[float, ...] = (0.005, 0.010)
+    strips: int = 100
+    load: float = 50.0
+    diameter: float = 920.0
+    seed: int = 22
+
+    @property
+    def scene(self) -> RailScene:
+        return scene_of(RailWheel(self.load, self.diameter))
+
+    @property
+    def bands(self) -> Bands:
+        return Bands(tuple(strip_bands(self.scene).edges.tolist()))
+
+    def places(self, spacing: float) -> FloatArray:
+        """Of the lines across, about the middle [m]."""
+        return np.asarray((np.arange(self.lines) - (self.lines - 1) / 2) * spacing)
+
+    def strip(self, ground: str, realisation: int = 0) -> RailStrip:
+        return strip_of(self.scene, GROUNDS[ground], CELLS, realisation, self.seed)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredLines:
+    """One strip of a ground, measured along parallel lines."""
+
+    case: LineConvention
+    ground: str
+    realisation: int
+
+
+@dataclass(frozen=True)
+class LineConventionResult:
+    """Band powers of strips, by ground: (strips, bands), by convention and spacing."""
+
+    case: LineConvention
+    found: dict[str, dict[str, FloatArray]]
+
+
+def measure_lines(problem: MeasuredLines) -> Outcome:
+    """Band powers of one line, and of both means at each spacing [m^2]."""
+    case, strip = problem.case, problem.case.strip(problem.ground, problem.realisation)
+    found = {LINE: _powers(case, strip, _line_at(0.0))}
+    for spacing in case.spacings:
+        each = [_powers(case, strip, _line_at(place)) for place in case.places(spacing)]
+        found[f"{ENERGY} {spacing:g}"] = np.mean(each, axis=0)
+        found[f"{HEIGHTS} {spacing:g}"] = _powers(case, strip, mean_of_lines(case.places(spacing)))
+    return found
+
+
+def _powers(case: LineConvention, strip: RailStrip, transfer: Transfer) -> FloatArray:
+    return levels(waves(strip.along_middle(transfer), spacing=strip.spacing), case.bands)
+
+
+def _line_at(place: float) -> Transfer:
+    """H = exp(i k_y y): the line at y in place of the middle one."""
+    return lambda along, across: np.exp(1j * (across + 0 * along) * place)
+
+
+def mean_of_lines(places: FloatArray) -> Transfer:
+    """H = mean of cos(k_y y_j) over lines that lie symmetrically about the middle."""
+    return lambda along, across: np.mean([np.cos((across + 0 * along) * place) for place in places], axis=0)
+
+
+def run(case: LineConvention, engine: Engine = SERIAL) -> LineConventionResult:
+    """Measure the lines of all strips."""
+    groups = {
+        ground: [MeasuredLines(case=case, ground=ground, realisation=i) for i in range(case.strips)]
+        for ground in GROUNDS
+    }
+    outcomes = engine.map_groups(measure_lines, groups)
+    return LineConventionResult(
+        case,
+        {
+            ground: {name: np.array([one[name] for one in found]) for name in found[0]}
+            for ground, found in outcomes.items()
+        },
+    )
+
+
+def evidence(result: LineConventionResult) -> Evidence:
+    """Both means over one line, ground by ground, and their scatter."""
+    case = result.case
+    pairs = [(ground, spacing) for ground in GROUNDS for spacing in case.spacings]
+    numbers = [
+        worst(_over_line(result, quantity, ground, spacing), "wavelength [mm]")
+        for quantity in (ENERGY, HEIGHTS)
+        for ground, spacing in pairs
+    ]
+    scatter = [_scatter(result, ground, spacing) for ground, spacing in pairs]
+    claim = partial(_claim, numbers)
+    table = _table(result)
+    return Evidence(
+        title="Which line: one, the energy mean of parallel lines, or the mean of their heights",
+        method=(
+            f"{case.strips} strips of each ground, whose lines have the levels of ISO 3095:2013, are measured along "
+            f"{case.lines} parallel lines, {' or '.join(f'{1000 * s:g}' for s in case.spacings)} mm apart. The levels "
+            "of the energy mean of their spectra and of the mean of their heights are compared with those of one "
+            "line in the mean of all realisations, which is known without a sample; only the energy mean is found on "
+            f"strips. Bands are those in which the filter of {case.scene.name} counts. Waves with |k_y| < alpha k_x "
+            "lie between ridges and isotropic ground."
+        ),
+        numbers=(*numbers, *scatter),
+        tables=(table,),
+        conclusions=(_double(result),),
+        claims=(
+            claim(CLAIM, HEIGHTS),
+            claim(CLAIM_ENERGY, ENERGY),
+            _scatter_claim(scatter),
+        ),
+        captions={
+            "line_convention": (
+                "(a), (b) Levels of the mean of heights over those of one line, lines 5 and 10 mm apart; dotted: A3 "
+                "of linear theory of the ellipse over that of a row of springs on one line, isotropic ground. "
+                "Points: energy mean of the spectra, isotropic ground, with 95 % intervals; shaded: within 1 dB. "
+                "(c) Deviation of a level from strip to strip, one line and the energy mean, isotropic ground."
+            )
+        },
+    )
+
+
+def _over_line(result: LineConventionResult, quantity: str, ground: str, spacing: float) -> list[Number]:
+    """In the bands that count; the mean of heights is exact, the energy mean is found on strips."""
+    case, strip = result.case, result.case.strip(ground)
+    one = strip.expected_power(LINEAR_MODELS[LINE](strip.contact), case.bands)
+    keep = _counted(case)
+    if quantity == HEIGHTS:
+        value = decibel(strip.expected_power(mean_of_lines(case.places(spacing)), case.bands) / one)
+        half = np.zeros(value.size)
+    else:
+        found = _energy_mean(result, ground, spacing)
+        value = POWER_DECIBEL * np.array([estimate.value for estimate in found])
+        half = POWER_DECIBEL * np.array([estimate.half_width_among(keep.size) for estimate in found])
+    wave = strip_bands(case.scene).nominal
+    return [
+        Number(
+            quantity=quantity,
+            where={
+                "across": ground,
+                "spacing [mm]": 1000 * spacing,
+                "wavelength [mm]": round(1000 * float(wave[i]), 2),
+            },
+            value=float(value[i]),
+            reference=0.0,
+            source="one line, mean of all realisations",
+            tolerance=1.0,
+            reason=FIELD,
+            unit="dB",
+            sample=float(half[i]),
+            role=Role.FINDING,
+        )
+        for i in keep
+    ]
+
+
+def _energy_mean(result: LineConventionResult, ground: str, spacing: float) -> list[Estimate]:
+    """ln of the energy mean over one line in the mean of all realisations."""
+    strip = result.case.strip(ground)
+    one = strip.expected_power(LINEAR_MODELS[LINE](strip.contact), result.case.bands)
+    return jackknifed(lambda rows: np.log(rows.mean(axis=0) / one), result.found[ground][f"{ENERGY} {spacing:g}"])
+
+
+def _counted(case: LineConvention) -> NDArray[np.int64]:
+    """Numbers of the bands of the strips that count over isotropic ground."""
+    scene = case.scene
+    first = scene.levels.bands.longest - strip_bands(scene).longest
+    return np.flatnonzero(counted(linear_filter(scene, LINEAR, "isotropic"))[first : first + len(strip_bands(scene))])
+
+
+def _scatter(result: LineConventionResult, ground: str, spacing: float) -> Number:
+    """rms over bands of the deviation of a level from strip to strip, energy mean over one line, with a jackknife."""
+    keep = _counted(result.case)
+    rows = np.stack([result.found[ground][f"{ENERGY} {spacing:g}"], result.found[ground][LINE]], axis=1)[:, :, keep]
+
+    def ratio(some: FloatArray) -> FloatArray:
+        deviation = np.sqrt(np.mean(np.var(decibel(some), axis=0, ddof=1), axis=-1))
+        return np.asarray(deviation[0] / deviation[1] if deviation[1] > 1e-6 else 1.0)
+
+    estimate = jackknifed(ratio, rows)[0]
+    return Number(
+        quantity=SCATTER,
+        model="energy mean over one line",
+        where={"across": ground, "spacing [mm]": 1000 * spacing},
+        value=estimate.value,
+        reference=1.0,
+        source="one line on the same strips",
+        tolerance=0.15,
+        reason="15 %: a third less would be that of three independent lines, 1 / sqrt(3) = 0.58",
+        sample=estimate.half_width,
+        role=Role.FINDING,
+    )
+
+
+def _claim(numbers: list[Number], sentence: str, quantity: str) -> JudgedClaim:
+    mine = numbers_with(numbers, quantity)
+    off = max(mine, key=lambda number: abs(number.value))
+    good = [g for g in GROUNDS if all(n.verdict == "agree" for n in mine if n.where["across"] == g)]
+    inside = [n for n in mine if n.where["across"] in good] if len(good) < len(GROUNDS) else []
+    return answered(
+        sentence,
+        mine,
+        f"off by {off.value:+.1f} ± {off.uncertainty:.1f} dB at {off.where['worst at']:g} mm, {off.where['across']}, "
+        f"lines {off.where['spacing [mm]']:g} mm apart.",
+        limits=", ".join(good) if inside else "",
+        inside=inside,
+    )
+
+
+def _scatter_claim(numbers: list[Number]) -> JudgedClaim:
+    least = min(numbers, key=lambda number: number.value)
+    inside = [number for number in numbers if number.where["across"] == "ridges"]
+    return answered(
+        CLAIM_SCATTER,
+        numbers,
+        f"their scatter is {least.value:.2f} ± {least.uncertainty:.2f} of that of one line over "
+        f"{least.where['across']}, lines {least.where['spacing [mm]']:g} mm apart.",
+        limits="ridges, of which all lines are alike",
+        inside=inside,
+    )
+
+
+def _double(result: LineConventionResult) -> str:
+    """What is counted twice if a mean of heights is fed to a filter of the whole contact."""
+    parts = []
+    for spacing in result.case.spacings:
+        off = _over_line(result, HEIGHTS, "isotropic ground", spacing)[-2:]
+        waves_off = " and ".join(f"{n.value:+.1f} dB at {n.where['wavelength [mm]']:g} mm" for n in off)
+        parts.append(f"{1000 * spacing:g} mm apart, {waves_off}")
+    return (
+        "Over isotropic ground the mean of the heights of lines is itself a filter: "
+        f"{'; '.join(parts)}. A filter of the ellipse that is applied to it counts this twice."
+    )
+
+
+def _table(result: LineConventionResult) -> Table:
+    case = result.case
+    scene, keep = case.scene, set(_counted(case).tolist())
+    first = scene.levels.bands.longest - strip_bands(scene).longest
+    line, ellipse = (linear_filter(scene, name, "isotropic") for name in ("linear, on the line", LINEAR))
+    rows = []
+    for ground in GROUNDS:
+        strip = case.strip(ground)
+        one = strip.expected_power(LINEAR_MODELS[LINE](strip.contact), case.bands)
+        spread = decibel(result.found[ground][LINE]).std(axis=0, ddof=1)
+        for spacing in case.spacings:
+            heights = decibel(strip.expected_power(mean_of_lines(case.places(spacing)), case.bands) / one)
+            energy = result.found[ground][f"{ENERGY} {spacing:g}"]
+            found = _energy_mean(result, ground, spacing)
+            for i in sorted(keep):
+                rows.append(
+                    {
+                        "across": ground,
+                        "spacing [mm]": 1000 * spacing,
+                        "wavelength [mm]": round(1000 * float(strip_bands(scene).nominal[i]), 2),
+                        "mean of heights [dB]": float(heights[i]),
+                        "energy mean [dB]": POWER_DECIBEL * found[i].value,
+                        "energy mean ± [dB]": POWER_DECIBEL * found[i].half_width,
+                        "scatter of one line [dB]": float(spread[i]),
+                        "scatter of energy mean [dB]": float(decibel(energy).std(axis=0, ddof=1)[i]),
+                        "ellipse over line [dB]": float((ellipse - line)[first + i]),
+                    }
+                )
+    return table_of("lines", rows)
+
+
+CASE = Case(
+    name="line_convention",
+    chapter=Chapter.RAIL,
+    place=4,
+    claim=CLAIM,
+    answers="whether lines are averaged as energies or as heights, and what lies across a rail",
+    quick=LineConvention(),
+    full=LineConvention(strips=400),
+    run=run,
+    evidence=evidence,
+    needs="linear theory of the ellipse, with what lies across the track",
+)

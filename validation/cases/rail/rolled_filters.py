@@ -1,0 +1,120 @@
+"""Strips of rough rail under a wheel of constant load, by boundary elements and by one-sided springs."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.spectra import Bands
+from validation.analysis.statistics import Estimate
+from validation.cases.rail.filters import ACROSS, scene_of
+from validation.cases.rail.published import RailWheel
+from validation.engine.convergence import NotConvergedError
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.scenes.rail import RailScene
+from validation.simulation.equivalent_displacement import (
+    BEM,
+    ONE_SIDED,
+    ONE_SIDED_BED,
+    SPRINGS_ON_LINE,
+    SPRINGS_ON_MEAN,
+    SPRINGS_THAT_READ,
+    RolledRail,
+    log_over,
+    roll_rail,
+)
+from validation.simulation.rail_ground import strip_bands, strip_of
+
+FloatArray = NDArray[np.float64]
+Key = tuple[RailWheel, float, str]
+"""Wheel, dB over the levels, and what lies across, by its name."""
+
+RIVALS = (SPRINGS_THAT_READ, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, ONE_SIDED_BED)
+FEWEST = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class RolledFilters:
+    """Strips of rail under wheels of constant load, rolled over by boundary elements and by one-sided springs.
+
+    wheels: load of one wheel [kN] and diameter [mm]; crown: of the rail [m]; offsets: dB over ISO 3095:2013; across:
+    what lies across; strips; cells: to the smaller semi-axis, two grids; seed.
+    """
+
+    wheels: tuple[tuple[float, float], ...] = ((50.0, 920.0),)
+    crown: float = 0.3
+    offsets: tuple[float, ...] = (0.0,)
+    across: tuple[str, ...] = tuple(ACROSS)
+    strips: int = 4
+    cells: tuple[int, int] = (6, 9)
+    seed: int = 20
+
+    @property
+    def keys(self) -> list[Key]:
+        return [
+            (RailWheel(*wheel), offset, name)
+            for wheel in self.wheels
+            for offset in self.offsets
+            for name in self.across
+        ]
+
+    def scene(self, key: Key) -> RailScene:
+        wheel, offset, _ = key
+        return scene_of(wheel, crown=self.crown, offset=offset)
+
+    def problems(self, key: Key, cells: int) -> list[RolledRail]:
+        """Strips of one kind on one grid."""
+        scene, across = self.scene(key), ACROSS[key[2]]
+        return [
+            RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=(BEM, *RIVALS))
+            for i in range(self.strips)
+        ]
+
+
+@dataclass(frozen=True)
+class RolledFiltersResult:
+    """Tracks of all models along each strip, by kind of strip and by cells."""
+
+    case: RolledFilters
+    outcomes: dict[tuple[Key, int], list[Outcome]]
+    unconverged: tuple[str, ...]
+
+    def over_twin(self, key: Key, model: str, cells: int | None = None) -> list[Estimate]:
+        """ln of the band power of a one-sided model over that of its linear twin on the same strips."""
+        return self.over(key, model, ONE_SIDED[model].twin, cells)
+
+    def over(self, key: Key, model: str, other: str, cells: int | None = None) -> list[Estimate]:
+        """The same over any other track; on the finer grid unless told."""
+        cells = cells or self.case.cells[1]
+        spacing = self.case.problems(key, cells)[0].strip.spacing
+        found = [outcome for outcome in self.outcomes[key, cells] if not outcome["failed"]]
+        bands = Bands(tuple(strip_bands(self.case.scene(key)).edges.tolist()))
+        return log_over(model, other, found, spacing, bands)
+
+    def left_by_grid(self, key: Key, model: str, other: str) -> FloatArray:
+        """Half-width that cells leave, to first order: what is left of the way from the coarse grid to the fine one."""
+        coarse, fine = self.case.cells
+        change = [
+            b.value - a.value
+            for a, b in zip(self.over(key, model, other, coarse), self.over(key, model, other, fine), strict=True)
+        ]
+        return np.abs(change) * coarse / (fine - coarse)
+
+
+def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersResult:
+    """Roll on both grids. Raises NotConvergedError where fewer than three strips of a kind converge."""
+    groups: dict[tuple[Key, int], Sequence[RolledRail]] = {
+        (key, cells): case.problems(key, cells) for key in case.keys for cells in case.cells
+    }
+    outcomes = engine.map_groups(roll_rail, groups)
+    lost = tuple(
+        f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: {int(one['failed'])} positions"
+        for ((wheel, offset, name), cells), found in outcomes.items()
+        for i, one in enumerate(found)
+        if one["failed"]
+    )
+    for ((wheel, offset, name), _), found in outcomes.items():
+        if sum(not one["failed"] for one in found) < FEWEST:
+            raise NotConvergedError(f"fewer than {FEWEST} strips of {wheel.label}, {offset:+g} dB, {name}", lost)
+    return RolledFiltersResult(case, outcomes, lost)
