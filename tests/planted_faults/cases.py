@@ -18,6 +18,7 @@ from tests.cases import (
     test_fractal_punch,
     test_from_force_to_roughness_and_stiffness,
     test_limits,
+    test_rail_cases,
     test_wheel_cases,
     test_wheel_ensembles,
     test_wheel_regions,
@@ -32,18 +33,24 @@ from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
+from validation.cases.rail import ellipse as rail_ellipse
+from validation.cases.rail import filters as rail_filters
+from validation.cases.rail import line_convention, published
 from validation.cases.rolling import roughness_from_force, track_stiffness, validity, validity_reduced
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
 from validation.engine import engine as ensemble
 from validation.engine.engine import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
-from validation.simulation import free_vibration, indentation, integrators, rough_punch
+from validation.simulation import equivalent_displacement, free_vibration, indentation, integrators, rough_punch
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.rail_strip import PowerLawGround
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
+
+REAL_SCENE, REAL_WEIGHTING = rail_filters.scene_of, rail_filters.a_weighting
 
 
 def in_the_case(attribute, wrong):
@@ -298,5 +305,33 @@ FAULTS = {
     "the reference on the surfaces of the tested models": (
         (calibration, "OTHER_SEED", 0),
         test_flags.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
+    ),
+    "one of two elastic bodies taken for rigid": (
+        (rail_ellipse.PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
+        test_rail_cases.test_contact_of_the_program_contact_is_reproduced,
+    ),
+    "the load of an axle for that of a wheel": (
+        (rail_filters, "scene_of", lambda wheel: REAL_SCENE(wheel._replace(load=2 * wheel.load))),
+        test_rail_cases.test_linear_theory_of_the_ellipse_over_isotropic_ground_is_the_published_table_within_a_decibel,
+    ),
+    "A-weighting that is not zero at 1 kHz": (
+        (rail_filters, "a_weighting", lambda frequency: REAL_WEIGHTING(frequency) - 2),
+        test_rail_cases.test_a_weighting_is_that_of_the_standard,
+    ),
+    "the masked value of the published table compared": (
+        (published, "MASKED", set()),
+        test_rail_cases.test_published_table_has_five_columns_of_all_bands_and_one_masked_value,
+    ),
+    "a wheel that bumps let down": (
+        (equivalent_displacement, "lifted", lambda approach: approach - np.mean(approach)),
+        test_rail_cases.test_a_strip_of_ridges_has_the_filter_of_a_row_of_springs_in_boundary_elements,
+    ),
+    "a strip with half of its power": (
+        (PowerLawGround, "variance", scaled(PowerLawGround.variance, 0.5)),
+        test_rail_cases.test_line_of_a_drawn_strip_has_the_rms_of_its_ground,
+    ),
+    "one line for the mean of heights": (
+        (line_convention, "mean_of_lines", lambda places: lambda along, across: np.ones_like(along + across)),
+        test_rail_cases.test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less,
     ),
 }

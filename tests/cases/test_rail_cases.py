@@ -1,0 +1,107 @@
+"""The wheel on a rail: published contact and table, filters of the field, and what a strip must give."""
+
+import math
+
+import numpy as np
+import pytest
+
+from validation.analysis.evidence import Verdict, numbers_with
+from validation.cases.rail import ellipse, filters, line_convention, published, rolled_filters
+from validation.engine.engine import SERIAL
+from validation.simulation import equivalent_displacement as displacement
+from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, ONE_SIDED, SPRINGS_THAT_READ
+from validation.simulation.rail_strip import PowerLawGround, RailStrip
+
+WHEEL = published.RailWheel(50, 920)
+SMALL = {"length": 0.12, "width": 0.04, "spacing": 1e-3, "realisation": 0, "seed": 3}
+
+
+def strip_of(across, rms=1e-9):
+    ground = PowerLawGround(rms=rms, exponent=2.0, first=2 * math.pi / 0.06, last=2 * math.pi / 4e-3, across=across)
+    return RailStrip(ground=ground, radii=(0.46, 0.3), force=5e4, modulus=filters.STEEL, **SMALL)
+
+
+def test_contact_of_the_program_contact_is_reproduced():
+    evidence = ellipse.evidence(ellipse.run(ellipse.Ellipse(cells=(16, 32), crowns=(0.3, 0.46)), SERIAL))
+    for quantity in ellipse.CONTACT:
+        found = numbers_with(evidence.numbers, quantity)
+        assert len(found) == 2
+        assert all(number.verdict is Verdict.AGREE for number in found)
+
+
+def test_circle_is_right_where_both_radii_are_equal_and_wrong_by_two_decibels_on_a_crown_of_300_mm():
+    case = ellipse.Ellipse()
+    wave = filters.scene_of(WHEEL).levels.bands.nominal == 0.016
+    for crown, excess in ((0.46, 0.0), (0.3, 2.3)):
+        mine, circle = ellipse.circle_excess(case, crown, "isotropic")
+        assert float((circle - mine)[wave][0]) == pytest.approx(excess, abs=0.1)
+
+
+def test_published_table_has_five_columns_of_all_bands_and_one_masked_value():
+    table = published.columns_of_table()
+    bands = filters.scene_of(WHEEL).levels.bands
+    for wheel, column in table.items():
+        assert np.allclose(list(column), 1000 * bands.nominal, rtol=1e-12), wheel
+    assert len(table) == 5
+    assert table[WHEEL][40.0] == -1.3
+    masked = published.compared(WHEEL)[list(table[WHEEL]).index(40.0)]
+    assert not masked and published.compared(WHEEL)[list(table[WHEEL]).index(50.0)]
+
+
+def test_a_weighting_is_that_of_the_standard():
+    # IEC 61672-1, table of nominal frequencies, exact base-ten ones
+    for nominal, exact, level in ((31.5, 10**1.5, -39.4), (100, 100, -19.1), (1000, 1000, 0.0), (8000, 10**3.9, -1.1)):
+        assert filters.a_weighting(exact) == pytest.approx(level, abs=0.06), nominal
+
+
+def test_linear_theory_of_the_ellipse_over_isotropic_ground_is_the_published_table_within_a_decibel():
+    for wheel in published.columns_of_table():
+        keep = published.compared(wheel)
+        found = filters.linear_filter(filters.scene_of(wheel), LINEAR, "isotropic") - published.a3_of_table(wheel)
+        assert np.sqrt(np.mean(found[keep] ** 2)) < 1.0, wheel
+
+
+def test_a_strip_of_ridges_has_the_filter_of_a_row_of_springs_in_boundary_elements():
+    strip = strip_of("ridges")
+    rolled = displacement.roll_rail(displacement.RolledRail(strip=strip, models=(BEM,), tolerance=1e-9))
+    expected = strip.along_middle(displacement.LINEAR_MODELS[LINEAR_ON_LINE](strip.contact))
+    # six cells to the semi-axis: the error of the grid is a twentieth of the track
+    assert np.abs(rolled[BEM] - expected).max() < 0.05 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("model", [SPRINGS_THAT_READ, displacement.SPRINGS_ON_LINE, displacement.ONE_SIDED_BED])
+def test_one_sided_models_follow_their_linear_twin_on_low_roughness(model):
+    strip = strip_of("isotropic")
+    found = ONE_SIDED[model].displacement(strip, 1e-6)
+    twin = strip.along_middle(displacement.LINEAR_MODELS[ONE_SIDED[model].twin](strip.contact))
+    assert np.abs(found - twin).max() < 0.05 * np.abs(twin).max()
+
+
+def test_line_of_a_drawn_strip_has_the_rms_of_its_ground():
+    for across in ("ridges", "isotropic"):
+        strip = strip_of(across, rms=2e-6)
+        # waves of a strip of two longest waves, in place of an integral: the first counts whole
+        assert strip.surface.std() == pytest.approx(2e-6, rel=0.2)
+
+
+def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less():
+    case = line_convention.LineConvention(strips=3)
+    result = line_convention.run(case, SERIAL)
+    claim = line_convention.evidence(result).claims[0]
+    ridges = [n for n in claim.numbers if n.where["across"] == "ridges"]
+    isotropic = [n for n in claim.numbers if n.where["across"] == "isotropic ground"]
+    assert all(number.verdict is Verdict.AGREE for number in ridges)
+    assert all(number.value < -3 for number in isotropic)
+
+
+def test_left_by_grid_vanishes_where_grids_agree():
+    case = rolled_filters.RolledFilters(strips=3, across=("ridges",))
+    key = case.keys[0]
+    outcomes = {}
+    for cells in case.cells:
+        points = case.problems(key, cells)[0].strip.shape[0]
+        tracks = [np.cos(2 * np.pi * np.outer(np.arange(points) / points, np.arange(1, 90))).sum(axis=1)] * 3
+        outcomes[key, cells] = [{BEM: 0.5 * t, LINEAR: t, "failed": np.array(0.0)} for t in tracks]
+    result = rolled_filters.RolledFiltersResult(case, outcomes, ())
+    assert np.abs(result.left_by_grid(key, BEM, LINEAR)).max() < 1e-9
+    assert [one.value for one in result.over_twin(key, BEM)] == pytest.approx([2 * math.log(0.5)] * 13)
