@@ -15,11 +15,12 @@ from tests.simulation import (
     test_rough_punches,
     test_time_stepping,
     test_wheel_motion,
+    test_wheel_on_rail,
 )
 from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
-from validation.simulation import contact_laws, integrators, mean_contact, pressed_layer, rail_models, rail_quantity
+from validation.simulation import contact_laws, integrators, mean_contact, pressed_layer, rail_models, rail_quantity, wheel_on_rail
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import wheel as wheel_theory
@@ -82,6 +83,12 @@ def softer_steady(law, time_step):
 
 
 other_turning_point = wheel_theory._other_turning_point
+
+
+def middle_line(half_widths, points, step):
+    weights = np.zeros((points, half_widths.size))
+    weights[points // 2] = 1.0
+    return weights
 
 
 FAULTS = {
@@ -195,6 +202,18 @@ FAULTS = {
         functools.partial(
             test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1
         ),
+    ),
+    "a linear spring for Hertz in what lifts a wheel": (
+        (
+            wheel_on_rail,
+            "lift",
+            lambda wheel, force, approach: wheel.approach + (force - wheel.load) / wheel.stiffness - approach,
+        ),
+        test_wheel_on_rail.test_a_wheel_that_vibrates_on_a_smooth_rail_is_not_lifted,
+    ),
+    "springs in a time step that read one line": (
+        (wheel_on_rail, "weights_across", middle_line),
+        test_wheel_on_rail.test_springs_in_a_time_step_are_those_of_a_track,
     ),
     "factor 2 lost in linear theory, seen by boundary elements in the loop": (
         (test_wheel_motion, "linear_force", scaled(test_wheel_motion.linear_force, 0.5)),
