@@ -20,7 +20,15 @@ from tests.simulation import (
 from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
-from validation.simulation import contact_laws, integrators, mean_contact, pressed_layer, rail_models, rail_quantity, wheel_on_rail
+from validation.simulation import (
+    contact_laws,
+    integrators,
+    mean_contact,
+    pressed_layer,
+    rail_models,
+    rail_quantity,
+    wheel_on_rail,
+)
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import wheel as wheel_theory

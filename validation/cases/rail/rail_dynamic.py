@@ -29,9 +29,9 @@ class RailDynamic:
     """Wheels of a mass over isotropic rails of a level curve, and the same contacts at constant load.
 
     curve: of a line; offsets: of its levels [dB]; radii: along and across [m]; load [N]; modulus: E* [Pa]; mass [kg];
-    speed [m/s]; longest, shortest: nominal wavelengths of the bands [m]; periods: whole natural periods of a strip, before
-    a half, so that no wave has the resonance; width: of the strips over the longest wave; cells, coarse: to the semi-axis
-    along; strips; compared: of them on the coarse grid too; tolerance: of each contact.
+    speed [m/s]; longest, shortest: nominal wavelengths of the bands [m]; periods: whole natural periods of a strip,
+    before a half, so that no wave has the resonance; width: of the strips over the longest wave; cells, coarse: to the
+    semi-axis along; strips; compared: of them on the coarse grid too; tolerance: of each contact.
     """
 
     curve: str = "iso3095-2013"
