@@ -49,7 +49,6 @@ ROOMS = (
     "benchmarks",
     "cases",
     "report",
-    "commands",
 )
 BASE = {"theory", "analysis", "engine", "scenes", "mdr", "bem3d"}
 MAY_IMPORT = {
@@ -63,9 +62,8 @@ MAY_IMPORT = {
     "selection": BASE | {"simulation"},
     "benchmarks": BASE | {"simulation"},
     "cases": BASE | {"simulation", "selection"},
-    "report": {"cases", "benchmarks", "scenes", "analysis", "engine"},
-    "commands": {"report", "selection", "scenes", "analysis", "engine"},
-    "__main__": {"commands", "scenes", "engine"},
+    "report": {"cases", "benchmarks", "selection", "scenes", "analysis", "engine"},
+    "__main__": {"report", "scenes", "engine"},
 }
 """The table of ARCHITECTURE.md."""
 

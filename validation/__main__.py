@@ -9,9 +9,9 @@ from contextlib import suppress
 from importlib import import_module, metadata
 from typing import Any, NoReturn
 
-from validation.commands.exit_status import Exit
 from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLostError, terminable
+from validation.report.commands.exit_status import Exit
 from validation.scenes.input_files import SceneError
 from validation.scenes.printable import printable
 
@@ -24,7 +24,7 @@ COMMANDS = {
     "race": "our solver and the other packages that are installed; the full size takes half an hour",
     "cases": "list the cases and what each shows",
 }
-"""A module of `validation.commands` each, imported when its command is given."""
+"""A module of `validation.report.commands` each, imported when its command is given."""
 
 
 def main(words: Sequence[str] | None = None) -> int:
@@ -79,7 +79,7 @@ class _CommandParser(_Parser):
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         command = self.prog.split()[-1]
-        import_module(f"validation.commands.{command}").describe(self)
+        import_module(f"validation.report.commands.{command}").describe(self)
         return super().parse_known_args(args, namespace)
 
 

@@ -291,6 +291,6 @@ def test_exponents_are_those_of_the_measurements(result):
 def test_report_runs_the_race_where_there_are_peers(installed, tmp_path, monkeypatch):
     asked = []
     monkeypatch.setattr(contents, "peers_installed", lambda: installed)
-    monkeypatch.setattr("validation.commands.report.build", lambda names, **settings: asked.extend(names) or [])
+    monkeypatch.setattr("validation.report.commands.report.build", lambda names, **settings: asked.extend(names) or [])
     command.main(["report", "--out", str(tmp_path)])
     assert ("race" in asked) == installed

@@ -12,7 +12,7 @@ from scipy import stats
 import bem3d
 import mdr
 from validation.__main__ import main
-from validation.commands import compare as command_compare
+from validation.report.commands import compare as command_compare
 from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene

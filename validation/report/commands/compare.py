@@ -6,9 +6,9 @@ from pathlib import Path
 
 from validation.analysis.contents import as_csv
 from validation.analysis.evidence import Table
-from validation.commands.arguments import at_least
-from validation.commands.exit_status import Exit
 from validation.engine.files import write_whole
+from validation.report.commands.arguments import at_least
+from validation.report.commands.exit_status import Exit
 from validation.scenes.load import Scene, bundled_for_compare, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.selection.compare import QUANTITIES, Comparison, check_quantity, quantities_of

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
-from validation.commands.arguments import add_profile, at_least
-from validation.commands.exit_status import Exit
 from validation.engine.engine import LOCAL
 from validation.report.build import build
+from validation.report.commands.arguments import add_profile, at_least
+from validation.report.commands.exit_status import Exit
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.section import Section, total_of
 from validation.report.terminal import lines_of

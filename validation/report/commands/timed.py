@@ -3,10 +3,10 @@
 import argparse
 from pathlib import Path
 
-from validation.commands.arguments import add_profile, at_least
-from validation.commands.exit_status import Exit
-from validation.commands.report import built
 from validation.engine.engine import LOCAL
+from validation.report.commands.arguments import add_profile, at_least
+from validation.report.commands.exit_status import Exit
+from validation.report.commands.report import built
 
 
 def describe(timing: argparse.ArgumentParser, name: str) -> None:

@@ -4,9 +4,9 @@ import argparse
 import os
 from pathlib import Path
 
-from validation.commands.arguments import at_least
-from validation.commands.exit_status import Exit
 from validation.engine.engine import Engine
+from validation.report.commands.arguments import at_least
+from validation.report.commands.exit_status import Exit
 from validation.selection.calibrate import CalibrationRun, calibration_lines, write_calibration
 
 

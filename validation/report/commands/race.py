@@ -2,6 +2,6 @@
 
 from functools import partial
 
-from validation.commands import timed
+from validation.report.commands import timed
 
 describe = partial(timed.describe, name="race")
