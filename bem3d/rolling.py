@@ -100,22 +100,17 @@ def roll(
     >>> print(f"{rolled.force.mean():.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
     534 N, by Hertz 533 N
     """
-    track = Track(
-        height=cast(FloatArray, height),
-        spacing=spacing,
-        radius=radius,
-        modulus=modulus,
-        transverse_profile=cast(FloatArray | None, transverse_profile),
-    )
+    heights, profile = cast(FloatArray, height), cast(FloatArray | None, transverse_profile)
+    track = Track(height=heights, spacing=spacing, radius=radius, modulus=modulus, transverse_profile=profile)
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
     prescribed = positive("approach" if force is None else "force", approach if force is None else force)
     smooth = prescribed if force is None else track.smooth.approach(prescribed / track.modulus)
     _wide_enough(track, smooth)
     warn(track.diagnose(smooth))
-    stop = track.height.shape[0] if positions is None else count("positions", positions)
     wheel = RollingContact(track, tolerance=tolerance, max_iterations=max_iterations)
     press = wheel.press if force is None else wheel.carry
+    stop = len(track.height) if positions is None else count("positions", positions)
     return _joined([_accepted(press(i, prescribed), i, wheel, raise_on_failure) for i in range(stop)])
 
 

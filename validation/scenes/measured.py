@@ -11,6 +11,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import positive
+from validation.scenes.known_heights import known_heights, real_numbers
 from validation.scenes.printable import shortened
 from validation.scenes.units import UNITS, in_unit, quantity
 
@@ -262,7 +263,7 @@ def measured(surface: Any) -> MeasuredHeights:
     """
     if not (hasattr(surface, "heights") and hasattr(surface, "physical_sizes")):
         raise TypeError(f"surface must have heights and physical_sizes, got {type(surface).__name__}")
-    height = _numbers(surface.heights() if callable(surface.heights) else surface.heights)
+    height = real_numbers(surface.heights() if callable(surface.heights) else surface.heights)
     metres, sizes = _metres(surface), surface.physical_sizes
     if not isinstance(sizes, (Sequence, np.ndarray)) or height.ndim != 2 or len(sizes) != 2:
         raise ValueError(
@@ -285,35 +286,6 @@ def _metres(surface: Any) -> float:
         raise ValueError(
             f"unit of the surface must be one of {', '.join(UNITS['length'])}, got {shortened(unit)}"
         ) from None
-
-
-def _numbers(height: ArrayLike) -> FloatArray:
-    """Real numbers without a mask."""
-    if isinstance(height, np.ma.MaskedArray) and np.ma.is_masked(height):
-        raise ValueError(_undefined("masked", np.ma.getmaskarray(height)))
-    try:
-        values = np.asarray(height)
-    except ValueError:
-        raise ValueError("heights must be a regular array of numbers, got rows of different length") from None
-    if values.dtype.kind not in "fiu":
-        raise TypeError(f"heights must be real numbers, got dtype {values.dtype}")
-    return values.astype(np.float64)
-
-
-def _undefined(what: str, places: NDArray[np.bool_]) -> str:
-    count, first = int(places.sum()), np.argwhere(places)[0].tolist()
-    return (
-        f"heights must be known everywhere, got {count} of {places.size} ({100 * count / places.size:.3g} %) {what}, "
-        f"the first at {first}: cut out a part that is known, or fill them in from their neighbours"
-    )
-
-
-def known_heights(height: ArrayLike) -> FloatArray:
-    """Real numbers, all of them there. Raises ValueError for masked ones and ones that are not finite, or TypeError."""
-    values = _numbers(height)
-    if not np.isfinite(values).all():
-        raise ValueError(_undefined("not finite", ~np.isfinite(values)))
-    return values
 
 
 def _grid(height: ArrayLike) -> FloatArray:

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from mdr.checks import finite, positive
 from validation.analysis.nominal_bands import NominalBands
-from validation.scenes.measured import MeasuredHeights, known_heights
+from validation.scenes.known_heights import known_heights
+from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.units import in_unit
 

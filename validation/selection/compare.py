@@ -229,17 +229,14 @@ def compare(
 
     Raises
     ------
-    TypeError
-        If ``scene`` is not a scene.
-    ValueError
-        If the scene has no such quantity, or another argument is out of range.
+    TypeError, ValueError
+        If ``scene`` is not a scene or has no such quantity, or if another argument is out of range.
 
     Notes
     -----
-    Models are tried from the cheapest on: closed form or fit, linear filter, springs, boundary elements on finer and
-    finer grids. Each has an a-priori estimate of its error, calibrated against boundary elements on random scenes. A
-    model is skipped where the estimate exceeds the tolerance, and accepted where model, grid and sample error of its
-    solve add up to no more than the tolerance.
+    Models are tried from the cheapest on: closed form or fit, linear filter, springs, boundary elements on ever finer
+    grids. Each has an estimate of its error, from its calibration beside boundary elements. A model is skipped where
+    that exceeds the tolerance, and accepted where model, grid and sample error of its solve add up to no more.
 
     Examples
     --------
@@ -252,8 +249,7 @@ def compare(
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
-    asked = quantities_of(scene)[0] if quantity is None else quantity
-    wanted = tolerance_of(tolerance)
+    asked, wanted = quantity or quantities_of(scene)[0], tolerance_of(tolerance)
     models = models_of(scene, asked, wanted.relative, seed)
     selection = select_model(models, wanted.relative, callback=callback, solve_all=solve_all)
     return Comparison(scene, asked, selection, wanted.in_decibels)
