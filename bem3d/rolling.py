@@ -102,9 +102,7 @@ def roll(
     """
     heights, profile = cast(FloatArray, height), cast(FloatArray | None, transverse_profile)
     track = Track(height=heights, spacing=spacing, radius=radius, modulus=modulus, transverse_profile=profile)
-    if (approach is None) == (force is None):
-        raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
-    prescribed = positive("approach" if force is None else "force", approach if force is None else force)
+    prescribed = _prescribed(approach, force)
     smooth = prescribed if force is None else track.smooth.approach(prescribed / track.modulus)
     _wide_enough(track, smooth)
     warn(track.diagnose(smooth))
@@ -112,6 +110,13 @@ def roll(
     press = wheel.press if force is None else wheel.carry
     stop = len(track.height) if positions is None else count("positions", positions)
     return _joined([_accepted(press(i, prescribed), i, wheel, raise_on_failure) for i in range(stop)])
+
+
+def _prescribed(approach: float | None, force: float | None) -> float:
+    """The one of the two that is given; ValueError for both or neither."""
+    if (approach is None) == (force is None):
+        raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
+    return positive("approach" if force is None else "force", approach if force is None else force)
 
 
 def _accepted(contact: WheelContact, position: int, wheel: RollingContact, raise_on_failure: bool) -> WheelContact:
