@@ -224,8 +224,7 @@ def compare(
     Returns
     -------
     Comparison
-        The quantity with its error, and what became of each model. ``met`` is false where no model reaches the
-        tolerance.
+        The quantity with its error, and what became of each model. ``met``: whether one reaches the tolerance.
 
     Raises
     ------
