@@ -264,9 +264,9 @@ FAULTS = {
         (statistics.Estimate, "half_width", property(of_one_tail)),
         functools.partial(test_error_bars.test_the_interval_of_a_mean_is_students, 2),
     ),
-    "two standard errors of a sample of three": (
+    "two standard errors of a sample of four": (
         (statistics.Estimate, "half_width", property(two_standard_errors)),
-        functools.partial(test_error_bars_of_rolling.test_variance_and_mean_of_the_rolling_force_cover_their_truth, 3),
+        functools.partial(test_error_bars_of_rolling.test_ratios_of_levels_cover_their_truth, 4),
     ),
     "a whole interval for its half": (
         (statistics.Estimate, "half_width", property(ends_apart)),

@@ -1,6 +1,7 @@
 """A wheel with a mass on a rough rail: its contact in each time step, and what the roughness lifts it by."""
 
 import math
+import warnings
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -97,13 +98,16 @@ class SurfaceSpringsLaw:
     @cached_property
     def rolled(self) -> mdr.RollingTrack:
         """Under a constant force."""
-        return mdr.roll_surface(
-            self.strip.surface,
-            spacing=self.strip.spacing,
-            radius=self.strip.radii,
-            modulus=self.strip.modulus,
-            force=self.wheel.load,
-        )
+        with warnings.catch_warnings():
+            # two grids are compared
+            warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
+            return mdr.roll_surface(
+                self.strip.surface,
+                spacing=self.strip.spacing,
+                radius=self.strip.radii,
+                modulus=self.strip.modulus,
+                force=self.wheel.load,
+            )
 
 
 def roll_and_move(case: WheelOnRail) -> Outcome:

@@ -15,12 +15,13 @@ from validation.scenes.indentation import IndentationScene
 from validation.selection.compare import models_of
 from validation.selection.hierarchy import ContactModel, select_model, try_to_solve
 from validation.simulation.model import GridModel, all_models
+from validation.simulation.rail_models import RailModel
 from validation.simulation.sampling import distance
 
 EVERY_TOLERANCE = 0.1
 """Of the models that are solved whatever error they expect."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
-CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel)))
+CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel | RailModel)))
 CHEAP_EDGES = (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE)
 """Kinds of scenes at the edges whose references take seconds."""
 MODELS = (*CHEAP, COARSE, FINE)
