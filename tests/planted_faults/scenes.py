@@ -36,7 +36,7 @@ FAULTS = {
         test_measured_heights.test_note_of_plateaus_that_neither_skewness_nor_kurtosis_shows,
     ),
     "heights behind a mask": (
-        (measured, "_numbers", behind_the_mask),
+        (measured, "real_numbers", behind_the_mask),
         test_measured_heights.test_points_without_data_are_refused,
     ),
     "a surface in micrometres taken for one in metres": (
