@@ -22,6 +22,10 @@ from validation.cases.limits import limits
 from validation.cases.punch import area_gap_rolloff as mdr_limits
 from validation.cases.punch import bandwidth, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
+from validation.cases.rail.line_convention import LineConvention
+from validation.cases.rail.rail_dynamic import RailDynamic
+from validation.cases.rail.rolled_filters import RolledFilters
+from validation.cases.rail.rough_rail import GROUND
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import reduced_models, ridges, roughness_from_force, track_stiffness, validity
@@ -122,6 +126,10 @@ SMALL = {
     "wheel_stability": wheel_stability.WheelStability(
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
+    "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
+    "rough_rail": RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=3, cells=(4, 5)),
+    "line_convention": LineConvention(strips=6),
+    "rail_dynamic": RailDynamic(longest=0.05, periods=2, strips=3, compared=2),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
     "limits": limits.Limits(
         cells=16, surfaces=2, profiles=10, resolved=1, length=8.0, strip_cells=6, track=32.0, grids=(32, 64), judged=32
