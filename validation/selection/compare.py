@@ -139,7 +139,8 @@ class Comparison:
     @property
     def wavelength_mm(self) -> FloatArray:
         """The same as wavelengths [mm]."""
-        return 2e3 * math.pi / self.wavenumbers
+        # twelve digits: nominal wavelengths have theirs again, 2000 and not 1999.9999999999998
+        return np.array([float(f"{wave:.12g}") for wave in 2e3 * math.pi / self.wavenumbers])
 
     @property
     def frequency_hz(self) -> FloatArray:

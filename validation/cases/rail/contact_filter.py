@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.answers import answered
+from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, Role, numbers_with
 from validation.analysis.over_range import root_mean_square, worst
@@ -183,20 +183,16 @@ def evidence(result: RolledFiltersResult) -> Evidence:
 
 
 def _claim(numbers: list[Number], sentence: str, model: str) -> JudgedClaim:
-    """With the worst band of each wheel and ground; confirmed for part of the grounds, it holds within these limits."""
+    """With the worst band of each wheel and ground; limits reach from ridges, which one line knows whole."""
     mine = numbers_with(numbers, OVER_BEM, model)
     off = max(mine, key=lambda number: abs(number.value))
-    inside = [
-        number
-        for number in mine
-        if all(one.verdict == "agree" for one in mine if one.where["across"] == number.where["across"])
-    ]
-    partly = inside if len(inside) < len(mine) else []
+    inside = agreeing_from_the_first([n for n in mine if n.where["across"] == across] for across in ACROSS)
+    partly = inside if len(inside) < len(mine) else ()
     return answered(
         sentence,
         mine,
-        f"it is off by {off.value:+.1f} ± {off.uncertainty:.1f} dB at {off.where['worst at']:g} mm over "
-        f"{off.where['across']}, {off.where['wheel']}.",
+        f"it is off by {round(off.value, 1) + 0.0:+.1f} ± {off.uncertainty:.1f} dB at {off.where['worst at']:g} mm "
+        f"over {off.where['across']}, {off.where['wheel']}.",
         limits=", ".join(dict.fromkeys(str(number.where["across"]) for number in partly)),
         inside=partly,
     )

@@ -1,12 +1,13 @@
 """The smooth contact of a wheel with two radii: a published example, and what a circle in its place costs."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.analysis.answers import answered
+from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, table_of
 from validation.analysis.over_range import worst
@@ -111,7 +112,7 @@ def evidence(result: EllipseResult) -> Evidence:
     case = result.case
     grids = _grids(result)
     rows = [row for crown in case.crowns for row in _crown(case, crown)]
-    circle = [_worst_of_crown(rows, crown, name) for crown in case.crowns for name in ACROSS]
+    circle = [_worst_of_crown(rows, case, crown, name) for crown in case.crowns for name in ACROSS]
     speeds = [_weighted(case, crown, name) for crown in case.crowns for name in ACROSS]
     contact = [number for number in grids if number.role is Role.CRITERION]
     finest = max(case.cells)
@@ -130,7 +131,7 @@ def evidence(result: EllipseResult) -> Evidence:
         conclusions=(
             f"With {finest} cells to the semi-axis along, the grid leaves {_grid_share(grids):.1e} of the two values.",
         ),
-        claims=(answered(CLAIM, contact, _contact_answer(contact)), _circle_claim(circle)),
+        claims=(answered(CLAIM, contact, _contact_answer(contact)), _circle_claim(circle, case)),
         captions={
             "ellipse": (
                 f"(a) Semi-axes of the contact of {case.wheel.label} over the radius of the rail's crown; dotted: "
@@ -207,8 +208,9 @@ def _crown(case: Ellipse, crown: float) -> list[dict[str, object]]:
     return rows
 
 
-def _worst_of_crown(rows: list[dict[str, object]], crown: float, across: str) -> Number:
-    """The worst of the bands that count."""
+def _worst_of_crown(rows: list[dict[str, object]], case: Ellipse, crown: float, across: str) -> Number:
+    """The worst of the bands that count; where the ellipse is a circle, there is nothing to find."""
+    is_circle = math.isclose(1000 * crown, case.wheel.diameter / 2)
     points = [
         Number(
             quantity=EXCESS,
@@ -219,7 +221,7 @@ def _worst_of_crown(rows: list[dict[str, object]], crown: float, across: str) ->
             tolerance=1.0,
             reason="1 dB: a tolerance of the field",
             unit="dB",
-            role=Role.FINDING,
+            role=Role.IDENTITY if is_circle else Role.FINDING,
         )
         for row in rows
         if row["crown [mm]"] == 1000 * crown and row["across"] == across and row["counted"]
@@ -268,27 +270,21 @@ def _contact_answer(numbers: list[Number]) -> str:
     return f"they differ by {found:.1e} of its printed values at the most, of which the fourth digit is 2e-4."
 
 
-def _circle_claim(numbers: list[Number]) -> JudgedClaim:
-    off = max(numbers, key=lambda number: abs(number.value))
+def _circle_claim(numbers: list[Number], case: Ellipse) -> JudgedClaim:
+    """Limits are crowns about that of a circular contact, at which both are the same and nothing is tested."""
+    mine = [number for number in numbers if number.role is not Role.IDENTITY]
+    off = max(mine, key=lambda number: abs(number.value))
+    circle = case.wheel.diameter / 2
+    crowns = sorted((1000 * crown for crown in case.crowns), key=lambda crown: abs(math.log(crown / circle)))
+    inside = agreeing_from_the_first([n for n in mine if n.where["crown [mm]"] == crown] for crown in crowns)
+    kept = dict.fromkeys(f"{number.where['crown [mm]']:g}" for number in inside)
     return answered(
         CIRCLE,
-        numbers,
+        mine,
         f"it is off by up to {off.value:+.1f} dB in a band with A3 > {COUNTED:g} dB ({off.conditions}).",
-        limits=_near_circle(numbers),
-        inside=_inside(numbers),
+        limits=f"crowns of {', '.join(kept)} mm" if kept else "",
+        inside=inside,
     )
-
-
-def _inside(numbers: list[Number]) -> list[Number]:
-    """Of the crowns at which all bands of both ends agree."""
-    failing = {number.where["crown [mm]"] for number in numbers if abs(number.value) > number.tolerance}
-    inside = [number for number in numbers if number.where["crown [mm]"] not in failing]
-    return inside if failing else []
-
-
-def _near_circle(numbers: list[Number]) -> str:
-    crowns = dict.fromkeys(f"{number.where['crown [mm]']:g}" for number in _inside(numbers))
-    return f"crowns of {', '.join(crowns)} mm" if crowns else ""
 
 
 CASE = Case(

@@ -1,12 +1,13 @@
 """One measured line, the energy mean of parallel lines, and the mean of their heights: what each says of a rail."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.answers import answered
+from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
 from validation.analysis.over_range import worst
@@ -22,8 +23,9 @@ from validation.simulation.rail_strip import RailStrip, Transfer
 
 FloatArray = NDArray[np.float64]
 
+RIDGES = "ridges"
 GROUNDS: dict[str, StatedAcross] = {
-    "ridges": "ridges",
+    RIDGES: "ridges",
     "alpha = 0.5": 0.5,
     "alpha = 1": 1.0,
     "isotropic ground": "isotropic",
@@ -195,7 +197,7 @@ def _over_line(result: LineConventionResult, quantity: str, ground: str, spacing
             reason=FIELD,
             unit="dB",
             sample=float(half[i]),
-            role=Role.FINDING,
+            role=Role.IDENTITY if ground == RIDGES and quantity == HEIGHTS else Role.FINDING,
         )
         for i in keep
     ]
@@ -243,36 +245,41 @@ def _scatter(result: LineConventionResult, ground: str, spacing: float) -> Numbe
         tolerance=0.15,
         reason="15 %: a third less would be that of three independent lines, 1 / sqrt(3) = 0.58",
         sample=estimate.half_width,
-        role=Role.FINDING,
+        role=Role.IDENTITY if ground == RIDGES else Role.FINDING,
     )
 
 
 def _claim(numbers: list[Number], sentence: str, quantity: str) -> JudgedClaim:
-    mine = numbers_with(numbers, quantity)
+    """Limits reach from the narrowest band of waves to isotropic ground."""
+    mine = _tested(numbers_with(numbers, quantity))
     off = max(mine, key=lambda number: abs(number.value))
-    good = [g for g in GROUNDS if all(n.verdict == "agree" for n in mine if n.where["across"] == g)]
-    inside = [n for n in mine if n.where["across"] in good] if len(good) < len(GROUNDS) else []
+    grounds = dict.fromkeys(number.where["across"] for number in mine)
+    inside = agreeing_from_the_first([n for n in mine if n.where["across"] == ground] for ground in grounds)
+    kept = dict.fromkeys(str(number.where["across"]) for number in inside)
     return answered(
         sentence,
         mine,
         f"off by {off.value:+.1f} ± {off.uncertainty:.1f} dB at {off.where['worst at']:g} mm, {off.where['across']}, "
         f"lines {off.where['spacing [mm]']:g} mm apart.",
-        limits=", ".join(good) if inside else "",
-        inside=inside,
+        limits=", ".join(kept) if len(inside) < len(mine) else "",
+        inside=inside if len(inside) < len(mine) else (),
     )
 
 
 def _scatter_claim(numbers: list[Number]) -> JudgedClaim:
-    least = min(numbers, key=lambda number: number.value)
-    inside = [number for number in numbers if number.where["across"] == "ridges"]
+    mine = _tested(numbers)
+    least = min(mine, key=lambda number: number.value)
     return answered(
         CLAIM_SCATTER,
-        numbers,
+        mine,
         f"their scatter is {least.value:.2f} ± {least.uncertainty:.2f} of that of one line over "
         f"{least.where['across']}, lines {least.where['spacing [mm]']:g} mm apart.",
-        limits="ridges, of which all lines are alike",
-        inside=inside,
     )
+
+
+def _tested(numbers: Iterable[Number]) -> list[Number]:
+    """Lines over ridges are all alike, and so are their means."""
+    return [number for number in numbers if number.where["across"] != RIDGES]
 
 
 def _double(result: LineConventionResult) -> str:
