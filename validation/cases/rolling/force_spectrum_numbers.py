@@ -79,8 +79,13 @@ def nonlinear(mine: LevelsAtHeight, region: Region) -> list[Number]:
 def _judged(
     mine: LevelsAtHeight, region: Region, level: Callable[[FloatArray], Estimate], **settings: Any
 ) -> list[Number]:
-    """The worst band and the mean square over bands, whose intervals hold at once for all heights and regions."""
+    """The worst band and the mean square over bands, whose intervals hold at once for all heights and regions.
+
+    A criterion is no part of a claim: its intervals hold at once for its own bands.
+    """
     bands, together = mine.bands_in(region), 2 * len(mine.case.heights) * len(regions(mine.case))
+    if settings.get("role") is Role.CRITERION:
+        together = 1
 
     def points(among: int) -> list[Number]:
         found = []
