@@ -31,6 +31,7 @@ def planted(moving=lambda key, lift: lift, scatter=0.0):
     return RailDynamicResult(CASE, {key: [outcome(key, i) for i in range(n)] for key, n in CASE.keys.items()})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("moving", "status", "limits"),
     [

@@ -129,7 +129,7 @@ SMALL = {
     "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
     "rough_rail": RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=3, cells=(4, 5)),
     "line_convention": LineConvention(strips=6),
-    "rail_dynamic": RailDynamic(longest=0.05, periods=2, strips=3, compared=2),
+    "rail_dynamic": RailDynamic(offsets=(0.0,), longest=0.05, periods=2, strips=3, compared=2),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
     "limits": limits.Limits(
         cells=16, surfaces=2, profiles=10, resolved=1, length=8.0, strip_cells=6, track=32.0, grids=(32, 64), judged=32

@@ -71,6 +71,7 @@ def test_a_spectrum_that_rises_too_steeply_has_no_isotropic_surface():
         IsotropicGround(LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("q", [5.0, 150.0, 2500.0])
 def test_the_mean_over_isotropic_ground(q):
     """Adaptive quadrature of |H|^2 C_2D over k_y, to the accuracy of the table of C_2D."""
