@@ -195,7 +195,8 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
 
     def worst(mine: list[Number]) -> str:
         largest = max(mine, key=lambda one: one.value)
-        return f"{largest.value:.2f} dB at h' a/d = {_slope(largest):g}"
+        reached = max(_slope(one) for one in mine)
+        return f"{largest.value:.2f} dB at the most, at h' a/d = {_slope(largest):g}, of strips up to {reached:g}"
 
     layer, read = below(LAYER, LIMIT), below(READ, LIMIT_OF_READ)
     last = max({_slope(one) for one in numbers if _slope(one) <= SLACK * LIMIT}, default=0.0)
@@ -204,12 +205,11 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
     cheap = below(COARSEST, LIMIT)
     work = partial(_work, table)
     return (
-        answered(CLAIM, layer, f"its rms over octaves is {worst(layer)} at the most."),
+        answered(CLAIM, layer, f"its rms over octaves is {worst(layer)}."),
         answered(
             f"Springs that read the surface follow boundary elements within 1 dB up to h' a/d of {LIMIT_OF_READ:g}.",
             read,
-            f"their rms over octaves is {worst(read)} at the most, at {work(READ):.3g} times the work of springs on a "
-            "line.",
+            f"their rms over octaves is {worst(read)}, for {work(READ):.3g} times the work of springs on a line.",
         ),
         answered(
             f"At h' a/d of {LIMIT:g}, linear theory, springs and the bed of the field are more than 1 dB off boundary "
@@ -221,7 +221,7 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
         answered(
             f"Boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of {LIMIT:g}.",
             cheap,
-            f"their rms over octaves is {worst(cheap)} at the most, at {work(COARSEST):.3g} times the work of springs "
+            f"their rms over octaves is {worst(cheap)}, for {work(COARSEST):.3g} times the work of springs "
             f"on a line, where the pressed layer takes {work(LAYER):.3g} times that, on half of the cells "
             f"{work(COARSE_LAYER):.3g} times.",
         ),
