@@ -17,7 +17,7 @@ import pytest
 
 from tests.engine.toys import ENVIRONMENT, ROOT, Slow, computed, other_toy, same, slow, toy
 from validation.engine import engine as ensemble
-from validation.engine import progress, stored
+from validation.engine import progress, sources, stored
 from validation.engine.engine import Engine, random_generator
 
 
@@ -52,7 +52,7 @@ def test_every_damaged_bit_is_seen(problems, tmp_path):
     whole = Engine(store=store).map(toy, problems[:1])
     (path,) = store.iterdir()
     contents = path.read_bytes()
-    key = f"{toy.__module__}.{toy.__qualname__}({problems[0]!r}) {ensemble._version_of_numerics()}"
+    key = f"{toy.__module__}.{toy.__qualname__}({problems[0]!r}) {sources.version_behind(toy.__module__, problems[0])}"
     assert same([stored.load(path, key)], whole)
     for i in range(len(contents)):
         path.write_bytes(contents[:i] + bytes([contents[i] ^ (1 << i % 8)]) + contents[i + 1 :])
@@ -207,14 +207,14 @@ def test_a_timed_run_that_is_interrupted_goes_on(problems, tmp_path):
 
 def test_results_are_keyed_by_source_that_is_there(monkeypatch):
     """Wherever the engine stands in the house: without a file, every version of the code would have one key."""
-    for package in ensemble.NUMERICS:
-        sources = ensemble.sources_of(package)
-        assert {source.parts[sources[0].parts.index(package)] for source in sources} == {package}
-        assert len(sources) > 10
-        assert not [source for source in sources if "report" in source.parts]
-    assert Path(ensemble.__file__) in ensemble.sources_of("validation")
+    for package in sources.NUMERICS:
+        files = sources.sources_of(package)
+        assert {file.parts[files[0].parts.index(package)] for file in files} == {package}
+        assert len(files) > 10
+        assert not [file for file in files if "report" in file.parts]
+    assert Path(ensemble.__file__) in sources.sources_of("validation")
     with pytest.raises(RuntimeError, match="the source of no_such_package is not to be found"):
-        ensemble.sources_of("no_such_package")
+        sources.sources_of("no_such_package")
 
 
 def explode(problem):
@@ -232,7 +232,7 @@ def test_a_solve_that_raises_is_named(problems, workers):
 def test_other_numerics_do_not_reuse_results(problems, tmp_path, monkeypatch):
     engine = Engine(store=tmp_path / "store")
     engine.map(toy, problems)
-    monkeypatch.setattr(ensemble, "_version_of_numerics", lambda: "another version")
+    monkeypatch.setattr(ensemble, "version_behind", lambda module, problem: "another version")
     engine.map(toy, problems)
     assert len(computed(problems[0].log)) == 10
 
@@ -303,7 +303,7 @@ def test_a_solve_that_fails_is_counted_and_shown():
 
 @pytest.mark.parametrize("library", ["numpy", "scipy", "pyfftw"])
 def test_another_version_of_a_library_is_another_version_of_the_numerics(library):
-    digest, version = ensemble._version_of_numerics.__wrapped__, importlib.metadata.version
+    digest, version = sources.version_of_numerics.__wrapped__, importlib.metadata.version
     here = digest()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(importlib.metadata, "version", lambda name: "9" if name == library else version(name))
@@ -331,6 +331,6 @@ def plain_toy(problem):
 @pytest.mark.slow
 def test_the_source_is_read_when_the_code_is():
     """Whoever edits it while it runs does not make old results new."""
-    code = "from validation.engine import engine; print(engine._version_of_numerics.cache_info().currsize)"
+    code = "from validation.engine import engine, sources; print(sources.version_of_numerics.cache_info().currsize)"
     run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True)
     assert run.stdout == "1\n", run.stderr

@@ -1,16 +1,11 @@
 """Independent solves: their seeds, their workers, their stored results."""
 
-import hashlib
-import importlib.metadata
-import importlib.util
-import json
 import logging
 import re
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -19,16 +14,13 @@ import numpy as np
 from validation.engine import stored
 from validation.engine.convergence import as_not_converged
 from validation.engine.progress import Progress
+from validation.engine.sources import version_behind, version_of_numerics
 from validation.engine.termination import RESUME_NOTE, WorkerLostError
 
 Outcome = stored.Outcome
 P = TypeVar("P")
 K = TypeVar("K")
 
-NUMERICS = ("mdr", "bem3d", "validation")
-NOT_NUMERICS = "report"
-"""The folder of a package that only draws and writes: its source changes no result."""
-LIBRARIES = ("numpy", "scipy", "pyfftw")
 LOCAL = "local"
 TIMEOUT = 10
 """Seconds that a scheduler and its first worker have to answer."""
@@ -48,7 +40,7 @@ class Engine:
 
     workers: processes on this machine; store: folder for finished results, None stores nothing; progress: on stderr;
     executor: "local", or "dask://HOST:PORT", a running scheduler whose workers are used in place of local ones.
-    A stored result is used again only if the solve, its problem, the source of the numerics and their libraries are
+    A stored result is used again only if the solve, its problem, the code that the two import and the libraries are
     the same; damaged or foreign files are computed anew. Each worker writes its result to disk as soon as it is
     computed; results of other machines are written here as they come in. No interruption loses a finished result.
     Raises ValueError for any other executor, fewer workers than one, a file in the store that is none of its own, and
@@ -78,7 +70,8 @@ class Engine:
         if self.timed_solves is not None:
             self.timed_solves.append(solve)
         keys = [
-            f"{solve.__module__}.{solve.__qualname__}({problem!r}) {_version_of_numerics()}" for problem in problems
+            f"{solve.__module__}.{solve.__qualname__}({problem!r}) {version_behind(solve.__module__, problem)}"
+            for problem in problems
         ]
         places = [self._place(solve, key) for key in keys]
         found = [stored.load(place, key) if place else None for place, key in zip(places, keys, strict=True)]
@@ -121,7 +114,7 @@ class Engine:
         if self.executor == LOCAL:
             import joblib  # where workers are needed: it takes a tenth of a second
 
-            calls = [joblib.delayed(_solve_and_save)(task, _version_of_numerics()) for task in tasks]
+            calls = [joblib.delayed(_solve_and_save)(task, version_of_numerics()) for task in tasks]
             try:
                 with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
                     yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
@@ -135,7 +128,7 @@ class Engine:
         with _client(self.executor) as (client, as_completed):
             # not by joblib, which would solve here where there is a single worker
             futures = [
-                client.submit(_solve, t.solve, t.problem, t.index, _version_of_numerics(), pure=False) for t in tasks
+                client.submit(_solve, t.solve, t.problem, t.index, version_of_numerics(), pure=False) for t in tasks
             ]
             for future in as_completed(futures, loop=client.loop):
                 i, outcome = future.result()
@@ -174,7 +167,7 @@ def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome
 
 def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome]:
     """On a worker, perhaps on another machine: only if its numerics are those of the caller."""
-    if _version_of_numerics() != numerics:
+    if version_of_numerics() != numerics:
         raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
     try:
         with as_not_converged():
@@ -225,33 +218,3 @@ def _client(executor: str) -> Iterator[tuple[Any, Any]]:
         raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {RESUME_NOTE}") from None
     finally:
         logger.setLevel(level)
-
-
-@cache
-def _version_of_numerics() -> str:
-    """Digest of all source but that which only draws and writes, and of the libraries under it."""
-    digest = hashlib.sha256()
-    for package in NUMERICS:
-        for source in sources_of(package):
-            digest.update(source.read_bytes())
-    digest.update(json.dumps({name: importlib.metadata.version(name) for name in LIBRARIES}).encode())
-    return digest.hexdigest()
-
-
-def sources_of(package: str) -> list[Path]:
-    """All files of a package whose code may change a result. Raises RuntimeError where it finds none."""
-    found = importlib.util.find_spec(package)
-    folders = [Path(folder) for folder in (found and found.submodule_search_locations) or ()]
-    sources = [
-        source
-        for folder in folders
-        for source in sorted(folder.rglob("*.py"))
-        if NOT_NUMERICS not in source.relative_to(folder).parts
-    ]
-    if not sources:
-        raise RuntimeError(f"the source of {package} is not to be found: stored results could be of any version of it")
-    return sources
-
-
-# read when the code is loaded: an edit during a run does not make old results new
-_version_of_numerics()

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.engine.engine import sources_of
+from validation.engine.sources import sources_of
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.calibrated_range import (
     CONDITIONS,

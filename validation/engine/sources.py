@@ -1,0 +1,193 @@
+"""The source code that a result depends on, and the libraries under it."""
+
+import ast
+import hashlib
+import importlib.metadata
+import importlib.util
+import json
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cache
+from pathlib import Path
+
+NUMERICS = ("mdr", "bem3d", "validation")
+NOT_NUMERICS = "report"
+"""The folder of a package that only draws and writes: its source changes no result."""
+LIBRARIES = ("numpy", "scipy", "pyfftw")
+BY_NAME = {"import_module", "iter_modules", "__import__"}
+"""Functions that import what no statement names."""
+FACE = "validation"
+"""Package that imports by name for its users alone; its modules never do so through it."""
+
+
+@cache
+def version_of_numerics() -> str:
+    """Digest of all source but that which only draws and writes, and of the libraries under it."""
+    return _digest(b"".join(_source(path) for package in NUMERICS for path in sources_of(package)))
+
+
+def version_behind(module: str, problem: object) -> str:
+    """Digest of what may change the result of a solve that this module defines, and of the libraries.
+
+    That is the code of the module, of the classes of the problem and its fields, and of all that these import, with
+    the data files beside a module that asks for its own place. A module that imports by name may import anything.
+    Comments and docstrings change no result.
+    """
+    classes = {type(value).__module__ for value in _values(problem)}
+    return _of_modules(module, tuple(sorted(classes)))
+
+
+def sources_of(package: str) -> list[Path]:
+    """All files of a package whose code may change a result. Raises RuntimeError where it finds none."""
+    found = importlib.util.find_spec(package)
+    folders = [Path(folder) for folder in (found and found.submodule_search_locations) or ()]
+    sources = [
+        source
+        for folder in folders
+        for source in sorted(folder.rglob("*.py"))
+        if NOT_NUMERICS not in source.relative_to(folder).parts
+    ]
+    if not sources:
+        raise RuntimeError(f"the source of {package} is not to be found: stored results could be of any version of it")
+    return sources
+
+
+@cache
+def modules_behind(module: str) -> frozenset[str]:
+    """The module itself and all of the numerics that it imports, directly or not, also inside of functions."""
+    known = _modules()
+    found, left = set[str](), {module}
+    while left:
+        name = left.pop()
+        found.add(name)
+        if _imports_by_name(name):
+            return frozenset(found | set(known))
+        left |= (_imported(name) & set(known)) - found
+    return frozenset(found)
+
+
+@cache
+def _of_modules(module: str, classes: tuple[str, ...]) -> str:
+    behind = {name for root in (module, *classes) for name in modules_behind(root)}
+    paths = sorted({path for name in behind for path in _files_of(name)})
+    if not paths and module not in sys.builtin_module_names:
+        raise RuntimeError(f"the source of {module} is not to be found: stored results could be of any version of it")
+    return _digest(b"".join(_meaning(path) for path in paths))
+
+
+def _digest(source: bytes) -> str:
+    versions = json.dumps({name: importlib.metadata.version(name) for name in LIBRARIES}).encode()
+    return hashlib.sha256(source + versions).hexdigest()
+
+
+def _values(problem: object) -> Iterator[object]:
+    """The problem and all that it is made of."""
+    yield problem
+    if is_dataclass(problem) and not isinstance(problem, type):
+        parts = [getattr(problem, field.name) for field in fields(problem)]
+    elif isinstance(problem, Mapping):
+        parts = [*problem.keys(), *problem.values()]
+    elif isinstance(problem, tuple | list | set | frozenset):
+        parts = list(problem)
+    else:
+        return
+    for part in parts:
+        yield from _values(part)
+
+
+@cache
+def _modules() -> dict[str, Path]:
+    """The files of the numerics by the names of their modules."""
+    return {
+        ".".join([package, *path.relative_to(root).with_suffix("").parts]).removesuffix(".__init__"): path
+        for package in NUMERICS
+        for root in [_root(package)]
+        for path in sources_of(package)
+    }
+
+
+def _root(package: str) -> Path:
+    """The folder of a package, which has its first file."""
+    return min(sources_of(package), key=lambda path: len(path.parts)).parent
+
+
+def _files_of(module: str) -> list[Path]:
+    """Its source, and the data beside it where it asks for its own place. Nothing for a library's module."""
+    path = _path(module)
+    if path is None:
+        return []
+    if "__file__" not in _names(path) and "importlib.resources" not in _imported(module):
+        return [path]
+    data = (file for file in path.parent.rglob("*") if file.is_file() and file.suffix not in (".py", ".pyc"))
+    return [path, *sorted(data)]
+
+
+def _path(module: str) -> Path | None:
+    """Of the numerics, or of the user's own script."""
+    if module in _modules():
+        return _modules()[module]
+    loaded = getattr(sys.modules.get(module), "__file__", None)
+    if loaded is None or "site-packages" in loaded or Path(loaded).is_relative_to(sys.base_prefix):
+        return None
+    return Path(loaded)
+
+
+@cache
+def _source(path: Path) -> bytes:
+    return path.read_bytes()
+
+
+@cache
+def _meaning(path: Path) -> bytes:
+    """Of code: without its comments and docstrings. Of data: the file."""
+    if path.suffix != ".py":
+        return _source(path)
+    tree = ast.parse(_source(path))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            # a constant by itself does nothing
+            node.value = ast.Constant(None)
+    return ast.dump(tree).encode()
+
+
+@cache
+def _names(path: Path) -> frozenset[str]:
+    """All names and attributes that its code uses."""
+    tree = _tree(path)
+    return frozenset(
+        [node.id for node in ast.walk(tree) if isinstance(node, ast.Name)]
+        + [node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
+    )
+
+
+@cache
+def _tree(path: Path) -> ast.Module:
+    return ast.parse(_source(path))
+
+
+def _imports_by_name(module: str) -> bool:
+    path = _path(module)
+    return path is not None and module != FACE and bool(_names(path) & BY_NAME)
+
+
+def _imported(module: str) -> set[str]:
+    """Names that may be modules, and the packages around them."""
+    path = _path(module)
+    if path is None:
+        return set()
+    package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+    found = set[str]()
+    for node in ast.walk(_tree(path)):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            above = package.rsplit(".", node.level - 1)[0] + "." if node.level else ""
+            start = (above + (node.module or "")).rstrip(".")
+            found |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
+    parts = [name.split(".") for name in found | {module}]
+    return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
+
+
+# read when the code is loaded: an edit during a run does not make old results new
+version_of_numerics()
