@@ -29,7 +29,8 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Engine, random_generator
+from validation.engine.engine import Engine
+from validation.engine.random_numbers import random_generator
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation import rolling_strip, rough_punch

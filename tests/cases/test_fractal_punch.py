@@ -13,7 +13,7 @@ from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.cases.punch import fractal_punch, fractal_punch_evidence
 from validation.cases.punch.fractal_punch import LONG, Ensemble, FractalPunch, FractalPunchResult
 from validation.cases.punch.fractal_punch_numbers import CONVEX
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.simulation.rough_punch import BEM, MDR, press_profiles, press_surface
 
 CASE = FractalPunch(

@@ -18,7 +18,8 @@ import pytest
 from tests.engine.toys import ENVIRONMENT, ROOT, Slow, computed, other_toy, same, slow, toy
 from validation.engine import engine as ensemble
 from validation.engine import progress, sources, stored
-from validation.engine.engine import Engine, random_generator
+from validation.engine.engine import Engine
+from validation.engine.random_numbers import random_generator
 
 
 def test_results_come_in_order_and_once(problems, tmp_path):

@@ -40,7 +40,7 @@ from validation.cases.rolling import roughness_from_force, track_stiffness, vali
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
 from validation.engine import engine as ensemble
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import equivalent_displacement, free_vibration, indentation, integrators, rough_punch
 from validation.simulation import spring_tracks as rough_springs

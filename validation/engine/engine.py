@@ -1,4 +1,4 @@
-"""Independent solves: their seeds, their workers, their stored results."""
+"""Independent solves: their workers and their stored results."""
 
 import logging
 import re
@@ -24,14 +24,6 @@ K = TypeVar("K")
 LOCAL = "local"
 TIMEOUT = 10
 """Seconds that a scheduler and its first worker have to answer."""
-
-
-def random_generator(seed: int, *key: int) -> np.random.Generator:
-    """The random numbers of one realisation, independent of all others and of the process that draws them.
-
-    seed: of the whole run, zero or positive; key: address of the realisation, whole numbers.
-    """
-    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=key)))
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,8 @@ NOT_NUMERICS = "report"
 LIBRARIES = ("numpy", "scipy", "pyfftw")
 BY_NAME = {"import_module", "iter_modules", "__import__"}
 """Functions that import what no statement names."""
+ENGINE = "validation.engine.engine"
+"""It hands problems to their solves and keeps what they return: how it does so changes no result."""
 FACE = "validation"
 """Package that imports by name for its users alone; its modules never do so through it."""
 
@@ -55,15 +57,18 @@ def sources_of(package: str) -> list[Path]:
 
 @cache
 def modules_behind(module: str) -> frozenset[str]:
-    """The module itself and all of the numerics that it imports, directly or not, also inside of functions."""
+    """The module itself and all of the numerics that it imports, directly or not, also inside of functions.
+
+    The engine is left out, and what it alone imports.
+    """
     known = _modules()
     found, left = set[str](), {module}
     while left:
         name = left.pop()
         found.add(name)
         if _imports_by_name(name):
-            return frozenset(found | set(known))
-        left |= (_imported(name) & set(known)) - found
+            return frozenset((found | set(known)) - {ENGINE})
+        left |= (_imported(name) & set(known)) - found - {ENGINE}
     return frozenset(found)
 
 

@@ -8,7 +8,8 @@ from scipy import optimize, stats
 
 import mdr
 from validation.analysis.evidence import Number
-from validation.engine.engine import Engine, random_generator
+from validation.engine.engine import Engine
+from validation.engine.random_numbers import random_generator
 
 LOAD = 1.0  # F / (E* h L)
 

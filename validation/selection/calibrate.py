@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.files import write_whole
+from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene

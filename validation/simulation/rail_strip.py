@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import Bands
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.simulation.surface import draw_surface
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 

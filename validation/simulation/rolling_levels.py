@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.analysis.spectra import levels, waves
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.resolution import too_few

@@ -17,7 +17,8 @@ import bem3d
 import mdr
 from validation.analysis.spectra import Bands, cross_levels, levels, waves
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Engine, Outcome, random_generator
+from validation.engine.engine import Engine, Outcome
+from validation.engine.random_numbers import random_generator
 from validation.simulation.surface import draw_surface
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import linear_force

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.surface import draw_surface

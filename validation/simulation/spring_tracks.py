@@ -9,7 +9,8 @@ import scipy
 from numpy.typing import NDArray
 
 import mdr
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import SpringsLaw
 from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL

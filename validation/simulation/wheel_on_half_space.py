@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel

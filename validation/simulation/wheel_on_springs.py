@@ -12,7 +12,8 @@ from scipy.fft import next_fast_len
 
 import mdr
 from validation.analysis.spectra import band_means, record_spectra
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness, RoughSurface
 from validation.scenes.wheel_body import Wheel

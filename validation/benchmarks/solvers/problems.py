@@ -9,7 +9,7 @@ import bem3d
 import mdr
 from validation.benchmarks.peers import SOLVERS, DiscreteProblem, solvers_on_grids
 from validation.benchmarks.timing import Configuration
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.method import FloatArray, Values

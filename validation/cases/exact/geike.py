@@ -10,7 +10,8 @@ from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, columns, number_with
 from validation.cases.exact.spectral_moments import line_moment, mean_power_of_cosine, surface_moment
-from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.random_numbers import random_generator
 from validation.theory import closed_forms
 
 MOMENTS = (0, 1, 2, 3, 4)

@@ -8,7 +8,8 @@ import numpy as np
 
 import mdr
 from validation.cases.limits.sweep import FloatArray, Limit, Point, call_and_record_warnings, swept
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance, response
 

@@ -9,7 +9,8 @@ import numpy as np
 import mdr
 from validation.cases.limits.isotropy import HURST, decibel
 from validation.cases.limits.sweep import Limit, Point, call_and_record_warnings, swept
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strip
 from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, coarsen

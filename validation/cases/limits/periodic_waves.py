@@ -9,7 +9,8 @@ import numpy as np
 import bem3d
 from validation.cases.limits.spheres import RESIDUAL, half_space
 from validation.cases.limits.sweep import FloatArray, Limit, Point, call_and_record_warnings, swept
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
 

@@ -29,7 +29,7 @@ from validation.analysis.statistics import (
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult
 from validation.cases.punch.ensembles import Row, cells_in_contact, interval_columns
 from validation.cases.punch.rough_interface import Layer
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.simulation.rough_punch import BEM, BOOTSTRAP, MDR, METHODS
 from validation.theory import closed_forms
 

@@ -31,7 +31,8 @@ from validation.analysis.statistics import (
     sample,
 )
 from validation.cases.punch.ensembles import PunchEnsembles, press
-from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.random_numbers import random_generator
 from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, BOOTSTRAP, MDR, METHODS, PunchRoughness, require_converged
 

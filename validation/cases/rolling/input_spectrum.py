@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 import mdr
 from validation.cases.rolling.force_spectrum import RollingSettings
-from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.random_numbers import random_generator
 from validation.simulation.rolling_strip import TRACKS, roll_strips, roll_tracks, strip_levels
 from validation.simulation.rough_punch import (
     PunchRoughness,

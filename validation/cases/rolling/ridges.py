@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 import bem3d
 import mdr
-from validation.engine.engine import SERIAL, Engine, Outcome, random_generator
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.random_numbers import random_generator
 
 FloatArray = NDArray[np.float64]
 

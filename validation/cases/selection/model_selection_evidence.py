@@ -23,7 +23,8 @@ from validation.cases.selection.model_selection import (
     run,
 )
 from validation.cases.selection.random_scenes import KINDS, RANGES
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 
 CLAIM = "The cheapest model that a scene needs can be chosen beforehand, with an error estimate that holds."
 TIGHT = "Estimated errors are no more than three times the true ones, in the median."

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 import bem3d
 from mdr import SelfAffine
-from validation.engine.engine import Outcome, random_generator
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 import mdr
-from validation.engine.engine import random_generator
+from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.calibrated_range import SCATTER, WAVES, beyond_spectrum, conditions_of, sphere_shape
 from validation.simulation.calibration import calibrated
