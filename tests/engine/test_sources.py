@@ -52,8 +52,18 @@ def test_the_engine_changes_no_result():
     assert "validation.engine.random_numbers" in behind
 
 
-def test_a_module_that_imports_by_name_rests_on_everything():
-    assert modules_behind("validation.simulation.model") >= set(sources._modules()) - {sources.ENGINE}
+def test_a_module_that_lists_a_package_rests_on_its_modules():
+    behind = modules_behind("validation.simulation.model")
+    models = {name for name in sources._modules() if name.startswith("validation.simulation.models.")}
+    assert len(models) > 10
+    assert models <= behind
+    assert not [name for name in behind if name.startswith("validation.selection")]
+
+
+def test_a_module_that_imports_by_name_rests_on_everything(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(tmp_path))
+    (tmp_path / "by_name.py").write_text("from importlib import import_module\n\nimport_module('math')\n")
+    assert modules_behind(import_module("by_name").__name__) >= set(sources._modules()) - {sources.ENGINE}
 
 
 @pytest.mark.parametrize(

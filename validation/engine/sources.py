@@ -15,8 +15,10 @@ NUMERICS = ("mdr", "bem3d", "validation")
 NOT_NUMERICS = "report"
 """The folder of a package that only draws and writes: its source changes no result."""
 LIBRARIES = ("numpy", "scipy", "pyfftw")
-BY_NAME = {"import_module", "iter_modules", "__import__"}
+BY_NAME = {"import_module", "__import__"}
 """Functions that import what no statement names."""
+LISTS = "iter_modules"
+"""What lists a package; a module that calls it imports by name from packages that its statements name."""
 ENGINE = "validation.engine.engine"
 """It hands problems to their solves and keeps what they return: how it does so changes no result."""
 FACE = "validation"
@@ -33,8 +35,8 @@ def version_behind(module: str, problem: object) -> str:
     """Digest of what may change the result of a solve that this module defines, and of the libraries.
 
     That is the code of the module, of the classes of the problem and its fields, and of all that these import, with
-    the data files beside a module that asks for its own place. A module that imports by name may import anything.
-    Comments and docstrings change no result.
+    the data files beside a module that asks for its own place. A module that imports by name may import anything; one
+    that lists packages imports their modules. Comments and docstrings change no result.
     """
     classes = {type(value).__module__ for value in _values(problem)}
     return _of_modules(module, tuple(sorted(classes)))
@@ -112,6 +114,12 @@ def _modules() -> dict[str, Path]:
     }
 
 
+@cache
+def _packages() -> frozenset[str]:
+    """Those that the numerics are made of."""
+    return frozenset(name for name, path in _modules().items() if path.name == "__init__.py")
+
+
 def _root(package: str) -> Path:
     """The folder of a package, which has its first file."""
     return min(sources_of(package), key=lambda path: len(path.parts)).parent
@@ -173,7 +181,9 @@ def _tree(path: Path) -> ast.Module:
 
 def _imports_by_name(module: str) -> bool:
     path = _path(module)
-    return path is not None and module != FACE and bool(_names(path) & BY_NAME)
+    if path is None or module == FACE:
+        return False
+    return bool(_names(path) & BY_NAME) and LISTS not in _names(path)
 
 
 def _imported(module: str) -> set[str]:
@@ -190,6 +200,8 @@ def _imported(module: str) -> set[str]:
             above = package.rsplit(".", node.level - 1)[0] + "." if node.level else ""
             start = (above + (node.module or "")).rstrip(".")
             found |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
+    if LISTS in _names(path):
+        found |= {name for name in _modules() if name.rpartition(".")[0] in found & _packages() - {package}}
     parts = [name.split(".") for name in found | {module}]
     return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
 
