@@ -287,8 +287,8 @@ CASE = Case(
     answers="Our solver beside other packages that are installed, same problems, same residual",
     quick=SolverComparison(),
     full=SolverComparison(
-        cells=(256, 512, 1024),
-        scaling=(128, 256, 512, 1024, 2048, 4096),
+        cells=(128, 256, 512),
+        scaling=(128, 256, 512, 1024, 2048),
         load_path=LoadPathWorkload(cells=256, sampled=(0, 6, 12, 18, 24), paths=5),
         rolling=RollingThroughput(positions=1600),
         wheel=SteppingThroughput(springs=(12, 25, 50, 100, 200, 400), heights=(0.01, 0.1, 0.3, 1.0), steps=8000),
