@@ -246,8 +246,10 @@ class JudgedClaim:
 class Evidence:
     """What a case shows: its numbers, the tables behind its figures, and what follows from them.
 
-    claims: with the numbers that test them, the claim of the case first; method: how the numbers were found; captions:
-    of each figure, by its name; page_tables: printed on the page as they stand.
+    claims: with the numbers that test them, the claim of the case first; finding: the case in one sentence; method: how
+    the numbers were found; captions: what each figure draws, by its name; headlines: what each figure shows, the
+    finding as its title, by the same names; page_tables: printed on the page as they stand.
+    Raises ValueError for a headline of a figure that has no caption.
     """
 
     title: str
@@ -259,6 +261,8 @@ class Evidence:
     unconverged: tuple[str, ...] = field(default=())
     page_tables: tuple[Table, ...] = ()
     claims: tuple[JudgedClaim, ...] = ()
+    finding: str = ""
+    headlines: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         labels = [number.label for number in self.numbers]
@@ -267,6 +271,8 @@ class Evidence:
         tests = {number.label for claim in self.claims for number in claim.numbers}
         if strangers := tests - set(labels):
             raise ValueError(f"claims of {self.title!r} must be tested by its numbers, got also {sorted(strangers)}")
+        if strangers := set(self.headlines) - set(self.captions):
+            raise ValueError(f"headlines of {self.title!r} must be of its figures, got also {sorted(strangers)}")
 
     def table(self, name: str) -> Table:
         return next(table for table in self.tables if table.name == name)

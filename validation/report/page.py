@@ -1,6 +1,7 @@
-"""The page of a report: sections and pictures into `page.html`."""
+"""The page of a report: sections and pictures into the templates beside it."""
 
 import math
+import re
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -75,6 +76,11 @@ def format_cell(cell: object, *, unsteady: bool = False) -> Markup:
     return Markup("{}<br>{}{}").format(cell.text, badge, after)
 
 
+def first_sentence(text: str) -> str:
+    """Up to the full stop that ends it."""
+    return re.split(r"(?<=[.;]) (?=[A-Z(])", text, maxsplit=1)[0].rstrip(".;")
+
+
 def _address(picture: bytes) -> str:
     """A picture as text of an attribute: a third shorter than in base64."""
     return quote(" ".join(picture.decode().replace('"', "'").split()), safe=SAFE)
@@ -89,7 +95,7 @@ def page(
 ) -> bytes:
     """The whole page. pictures: SVG of each figure; about: the provenance; scene: of the user's own, or None."""
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
@@ -103,6 +109,7 @@ def page(
         "format_status": partial(format_status, unsteady=unsteady),
         "format_counts": format_counts,
         "answer_of": answer_of,
+        "first_sentence": first_sentence,
         "duration": lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s",
         "small": lambda value: f"{value:.2g}",
     }
