@@ -35,8 +35,8 @@ def claim(numbers, **changes):
     return JudgedClaim(claim="It is so.", answer="It is.", numbers=tuple(numbers), **changes)
 
 
-def evidence(numbers, claims):
-    texts = {"title": "t", "method": "m", "conclusions": (), "captions": {}, "tables": ()}
+def evidence(numbers, claims, **changes):
+    texts = {"title": "t", "method": "m", "conclusions": (), "captions": {}, "tables": ()} | changes
     return Evidence(**texts, numbers=tuple(numbers), claims=tuple(claims))
 
 
