@@ -313,3 +313,45 @@ def test_a_factor_lost_in_the_force_is_a_missed_criterion(monkeypatch):
 def test_a_case_that_contradicts_itself_is_refused(wrong, named):
     with pytest.raises(ValueError, match=named):
         replace(CASE, **wrong)
+
+
+@pytest.mark.parametrize(
+    ("known", "finding", "titles"),
+    [
+        (
+            {"spread": 0.01, "surfaces": 4000},
+            "MDR has the mean stiffness of rough punches within 10 %; MDR has the fluctuation of the stiffness of "
+            "rough punches within 10 %.",
+            ("MDR's fluctuation: within 10 % at every force", "agrees within 10 % in 2 of 2", "MDR keeps"),
+        ),
+        (
+            {"apart": 2.0, "forces_apart": (1.2, 1 / 1.3, 1, 1, 1), "spread": 0.01, "surfaces": 1000},
+            "MDR's mean stiffness is more than 10 % off: +20 % at Fbar = 0.1, -23 % at Fbar = 0.32; MDR's "
+            "fluctuation of the stiffness is more than 10 % off: +100 % at Fbar = ",
+            ("MDR's fluctuation: +100 % at Fbar = ", "is over 10 % off in 2 of 2", "MDR keeps"),
+        ),
+        (
+            {"apart": 0.0, "surfaces": 60},
+            "MDR has the mean stiffness of rough punches within 10 %; MDR's fluctuation of the stiffness is more "
+            "than 10 % off: none left at Fbar = ",
+            ("MDR's fluctuation: none left at", "off in 2 of 2", "From Fbar = 0.1 on MDR has no fluctuation; boundary"),
+        ),
+        (
+            {"apart": 1.25, "surfaces": 10},
+            "Whether MDR has the mean stiffness of rough punches within 10 % is open; whether MDR has the fluctuation",
+            ("no force shows a difference of 10 %", "in 0 of 2 decades of single H; others open", "MDR keeps"),
+        ),
+    ],
+)
+def test_titles_change_their_words_with_the_numbers(known, finding, titles):
+    evidence = synthetic(**known)
+    assert evidence.finding.startswith(finding)
+    for name, title in zip(("", "-difference", "-overlay"), titles, strict=True):
+        assert title in evidence.headlines[f"fractal_punch{name}"]
+
+
+def test_the_title_of_the_exponents_has_the_status_of_their_law():
+    """Stiffness as F^(1/2), without scatter of its slope: 1 / (1 + H) at H = 1 and not at 0.4."""
+    for hurst, words in ((1.0, "holds within 0.02"), (0.4, "fails at 1 of 1 H")):
+        title = synthetic(hursts=(hurst,), surfaces=60).headlines["fractal_punch-exponent"]
+        assert title == f"The exponent 1 / (1 + H) {words} (Fbar 0.1 to 1)"

@@ -339,17 +339,6 @@ def test_the_sample_that_would_decide():
     assert str(fractal_punch_text.verdict(n)).endswith(f"undecided; {decided_by(n)}")
 
 
-def test_a_summary_counts_and_ranges_its_numbers():
-    half = 0.01
-    mine = [decade(20 * math.log10(1 + x), half, h=h) for x, h in ((0.01, 0.4), (0.20, 0.5), (-0.15, 0.6))]
-    whole = decade(20 * math.log10(1.02), 1e-4, h=None)
-    other = decade(20 * math.log10(1.9), half, name="mean stiffness")
-    text = fractal_punch_text.summary("relative deviation", [*mine, whole, other])
-    assert "within 10 %" in text and "1 agree, 2 differ" in text
-    assert "range from -15 % to +20 %" in text
-    assert "+2 % (+2 to +2) over Fbar = 0.1 to 1: agree" in text
-
-
 def test_rolling_prints_the_numbers_it_is_given():
     mine = [
         number(v, quantity=VARIANCE, model=model, where={"h/d": 0.1}, sample=0.0123)

@@ -15,6 +15,7 @@ from validation.cases.punch.fractal_punch_decades import (
     comparisons_of,
     numbers_of,
 )
+from validation.cases.punch.fractal_punch_headlines import finding, headlines
 from validation.cases.punch.fractal_punch_numbers import claimed, criteria, laws
 from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, require_converged
@@ -34,11 +35,13 @@ def evidence(result: FractalPunchResult) -> Evidence:
     exponents = laws(case, comparisons)
     curves = [row for ensemble in result.ensembles for row in curve(found, ensemble)]
     by_force = order(found) if len(case.hursts) > 1 else []
-    costs = estimator(found)
+    costs, answers = estimator(found), claims(comparisons, exponents)
     return Evidence(
         title="Fractal punch (Fig. 14.1)",
         method=text.method(case),
-        claims=claims(comparisons, exponents),
+        claims=answers,
+        finding=finding(comparisons, answers),
+        headlines=headlines(comparisons, curves, answers),
         numbers=(
             *criteria(result, comparisons),
             *claimed(comparisons),
@@ -61,8 +64,6 @@ def evidence(result: FractalPunchResult) -> Evidence:
             text.plan(case, costs),
         ),
         conclusions=(
-            *(text.summary(name, comparisons) for name in QUANTITIES),
-            *text.saturation(curves),
             *text.order(by_force),
             *text.cost(result, costs),
         ),

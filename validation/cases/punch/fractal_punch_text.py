@@ -13,7 +13,6 @@ from validation.cases.punch.fractal_punch_decades import (
     MARGINS,
     QUANTITIES,
     DecadeComparison,
-    numbers_of,
 )
 from validation.cases.punch.fractal_punch_numbers import PUBLISHED, law_decade
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
@@ -45,37 +44,34 @@ def method(case: FractalPunch) -> str:
         "the next two, with the change from twice the springs. The rest is the error of the model. The verdict of a "
         "decade is that of its worst force; a deviation below 1 % of the other counts as 1 % of it. An undecided "
         "verdict says how many times the sample would decide it at the "
-        'same value and grid error. With "grid error too large" no sample size would: finer cells lower that error.'
+        'same value and grid error. With "grid error too large" no sample size would: finer cells lower that error. '
+        f"In the figures, boundary elements are extrapolated to cells of no size; symbols are open where the mean "
+        f"contact has fewer than {FEW_CELLS} cells."
     )
 
 
 def captions(case: FractalPunch) -> dict[str, str]:
-    interval, few = "95 % interval of the sample", f"open where the mean contact has fewer than {FEW_CELLS} cells"
-    circles = f"Circles: boundary elements on cells of no size, {interval}; {few}."
-    lines = "Line in a band: MDR with L_1D = L and its interval; dashed: L_1D = 1.1523 L."
+    few = f"open where the mean contact has fewer than {FEW_CELLS} cells"
+    lines = (
+        "Circles: boundary elements. Line: MDR, L_1D = L; dashed: L_1D = 1.1523 L. Bars and band: 95 % of the sample."
+    )
     most = [max(column) for column in zip(*case.surfaces, strict=True)]
     return {
         "fractal_punch": (
-            "Relative standard deviation of the stiffness against force, Fbar = F / (E* h L), with the 95 % interval "
-            f"of the sample as a band. (a) Up to {max(most)} surfaces, boundary elements, extrapolated to cells of "
-            f"no size; {few}. (b) {case.profiles} profiles of springs, L_1D = L; lines end where all "
-            "springs of all profiles are in contact. All H have the same phases."
+            "Relative standard deviation of the stiffness over Fbar = F / (E* h L); bands: 95 % of the sample. "
+            f"(a) Boundary elements, up to {max(most)} surfaces, {few}. (b) {case.profiles} profiles of springs, "
+            "L_1D = L; lines end where all springs touch."
         ),
-        "fractal_punch-overlay": f"The relative standard deviation, both methods in one panel. {circles} {lines}",
+        "fractal_punch-overlay": f"Relative standard deviation of the stiffness over the force. {lines}",
         "fractal_punch-difference": (
-            f"Relative deviation of MDR over that of boundary elements. Circles: at each force, {interval}; {few}; "
-            "ratios below the axis are not drawn. Thick: the worst force of each decade, drawn over the decade. The "
-            "thin box is its interval of sample and grid, which holds for all forces of the decade at once. Grey: the "
-            "tolerance of 10 %; dotted: 3 dB. = agree, ≠ differ, ? undecided."
+            f"Relative deviation of MDR over that of boundary elements. Circles: at each force, {few}. Thick: the "
+            "worst force of each decade; box: its interval of sample and grid. Grey: 10 %; dotted: 3 dB. = agree, "
+            "≠ differ, ? undecided."
         ),
-        "fractal_punch-mean": (
-            f"Mean stiffness kbar = k / (E* L). {circles} {lines} Dotted: slope 1 / (1 + H), through the boundary "
-            "elements at the middle of the forces."
-        ),
+        "fractal_punch-mean": f"Mean stiffness kbar = k / (E* L) over the force. {lines} Dotted: slope 1 / (1 + H).",
         "fractal_punch-exponent": (
-            f"Local exponent d ln k / d ln F of the mean stiffness, between neighbouring forces. {circles} {lines} "
-            f"Dotted: 1 / (1 + H). Grey: the published exponents of fractal dimensions 2 to 3, {PUBLISHED[0]} to "
-            f"{PUBLISHED[1]}."
+            f"Local exponent d ln k / d ln F of the mean stiffness. {lines} Dotted: 1 / (1 + H). Grey: published, "
+            f"{PUBLISHED[0]} to {PUBLISHED[1]}."
         ),
     }
 
@@ -161,39 +157,6 @@ def law_table(case: FractalPunch, laws: Sequence[Number]) -> Table:
     )
 
 
-def summary(name: str, comparisons: Sequence[DecadeComparison]) -> str:
-    """The means over all Hurst exponents; how many of the single comparisons agree, differ, are open; their range."""
-    quantity, mine = QUANTITIES[name], [c for c in comparisons if c.name == name]
-    means = "; ".join(
-        f"{_interval(n)} over Fbar = {_decade(c.first)}: {n.verdict}"
-        for c in mine
-        if c.hurst is None and (n := c.number) is not None
-    )
-    singles = numbers_of(c for c in mine if c.hurst is not None)
-    values = [n.value for n in singles]
-    return (
-        f"{name[0].upper()}{name[1:]}, MDR beside boundary elements within "
-        f"{_text(quantity.tolerance, quantity.unit).lstrip('+')}, by the worst force of a decade. Mean over H: "
-        f"{means}. For single H: {counts(singles)}; they range from {_text(min(values), quantity.unit)} to "
-        f"{_text(max(values), quantity.unit)}."
-    )
-
-
-def saturation(rows: Sequence[Row]) -> tuple[str, ...]:
-    """Where the springs have no fluctuation left and the boundary elements still have."""
-    first = {row["H"]: row for row in reversed(rows) if row["mdr relative deviation"] == 0}
-    if not first:
-        return ()
-    found = ", ".join(
-        f"H = {h:g} from Fbar = {row['Fbar']:.3g} on ({row['bem3d relative deviation']:.2g})"
-        for h, row in sorted(first.items())
-    )
-    return (
-        "Where all springs of all profiles are in contact, MDR has no fluctuation. Boundary elements still have "
-        f"the relative deviation in brackets: {found}.",
-    )
-
-
 def order(rows: Sequence[Row]) -> tuple[str, ...]:
     """Whether the deviation rises or falls with H, force by force."""
     if len(rows) == 0 or not all(math.isfinite(row[f"{BEM} d ln deviation / d H"]) for row in rows):
@@ -239,13 +202,14 @@ def cost(result: FractalPunchResult, rows: Sequence[Row]) -> tuple[str, str]:
 def _interval(number: Number) -> str:
     """Value and ends of the whole interval, decibels as per cent, and where in the decade."""
     half = number.uncertainty
-    middle, low, high = (_text(number.value + end, number.unit) for end in (0.0, -half, half))
+    middle, low, high = (in_words(number.value + end, number.unit) for end in (0.0, -half, half))
     worst = number.where.get("worst at")
     where = "" if worst is None else f" at Fbar = {worst:.2g}"
     return f"{middle} ({low.removesuffix(' %')} to {high.removesuffix(' %')}){where}"
 
 
-def _text(value: float, unit: str) -> str:
+def in_words(value: float, unit: str) -> str:
+    """Decibels as per cent."""
     return f"{100 * math.expm1(value / DECIBEL):+.0f} %" if unit == "dB" else f"{value:+.3f}"
 
 
