@@ -8,14 +8,15 @@ import pytest
 from scipy import integrate
 
 from validation.analysis.answers import SHORT
-from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
+from validation.analysis.evidence import ClaimStatus, Number, Role, Table, Verdict, numbers_with
 from validation.analysis.spectra import Bands
 from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling import force_spectrum_headlines as headlines_of_rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges, ridges_evidence
 from validation.cases.rolling.force_spectrum_evidence import CASE, evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, LevelsAtHeight, coherence, correlation
-from validation.cases.rolling.force_spectrum_numbers import LEVEL
+from validation.cases.rolling.force_spectrum_numbers import LEVEL, regions
 from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
@@ -161,9 +162,56 @@ def test_claims_of_rolling_follow_their_numbers(rolled):
         (claim,) = (claim for claim in evidence(result).claims if claim.claim.startswith("Linear theory in 3D"))
         assert claim.status is status
         assert claim.answer.startswith(SHORT[status])
+        words = (
+            "has the level"
+            if status is ClaimStatus.HOLDS
+            else f"leaves the level of boundary elements at h/d = {SMALL.heights[0]}"
+        )
+        assert words in evidence(result).headlines["rolling-map"]
     geike = evidence(exact).claims[0]
     assert geike.claim == CASE.claim
     assert geike.status is ClaimStatus.CONTRADICTED
+
+
+PLANTED = [
+    ((-30.0, 5.0), (0.1, 0.1), "at worst 30.0 dB too quiet below the band, at worst 5.0 dB too loud in the band"),
+    ((-30.0, 2.0), (0.1, 0.1), "at worst 30.0 dB too quiet below the band, within 3 dB in the band"),
+    ((2.9, -3.1), (0.1, 0.05), "within 3 dB below the band, at worst 3.1 dB too quiet in the band"),
+    ((4.0, 3.0), (2.0, 0.1), "not decided within 3 dB below the band, not decided within 3 dB in the band"),
+]
+
+
+@pytest.mark.parametrize(("values", "halves", "words"), PLANTED)
+def test_the_title_of_springs_has_the_side_of_each_region(values, halves, words):
+    """The worst bands of two heights, of which the lower has nothing to say."""
+    case = rolling.ForceSpectrum()
+    numbers = [
+        Number(
+            quantity=LEVEL,
+            model="springs over bem3d",
+            where={"h/d": height, "q a": region, "worst at": 1.0},
+            value=value * part,
+            reference=0.0,
+            source="s",
+            tolerance=3.0,
+            reason="r",
+            sample=half,
+            role=Role.FINDING,
+        )
+        for region, value, half in zip(regions(case), values, halves, strict=True)
+        for height, part in ((0.01, 0.01), (0.1, 1.0))
+    ]
+    assert headlines_of_rolling._springs(case, numbers) == f"Springs: {words}"
+
+
+def test_the_title_of_the_zeros_and_of_the_coherence():
+    """3 dB below the mean at the least; coherent at the lowest height alone, though at the third again."""
+    spectrum = Table("spectrum", {"(14.14)": [1.0, 2.0, 0.0], LINEAR_3D: [0.5, 4.0, 0.0]})
+    assert "nowhere more than 3 dB" in headlines_of_rolling._zeros(spectrum)
+    coherent = {"h/d": [0.1, 0.1, 0.3, 0.3, 1.0, 1.0], "coherence of bem3d": [0.95, 0.9, 0.95, 0.7, 0.99, 0.99]}
+    assert headlines_of_rolling._coherence(Table("levels", coherent)).endswith("(0.9) up to h/d = 0.1")
+    nowhere = {"h/d": [0.1], "coherence of bem3d": [0.5]}
+    assert headlines_of_rolling._coherence(Table("levels", nowhere)).endswith("at no h/d tried")
 
 
 @pytest.mark.slow

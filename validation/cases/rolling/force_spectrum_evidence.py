@@ -2,16 +2,14 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, number_with, numbers_with, with_reference
-from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.rolling import force_spectrum_levels as levels
 from validation.cases.rolling import force_spectrum_numbers as measured
 from validation.cases.rolling import force_spectrum_tables as tables
 from validation.cases.rolling.claims import answered_up_to, from_to, height_of
 from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
+from validation.cases.rolling.force_spectrum_headlines import LINEAR_CLAIM, finding, headlines
 from validation.selection import model_needed
 
 CLAIM = (
@@ -24,14 +22,17 @@ def evidence(result: RollingResult) -> Evidence:
     case = result.case
     found = [levels.LevelsAtHeight(result, height) for height in case.heights]
     numbers, within, summary = measured.numbers_of(case, found), tables.bands_within(case, found), tables.summary(found)
-    judged = tables.judged_levels(found, numbers)
+    judged, shown, spectrum = tables.judged_levels(found, numbers), tables.levels(found), tables.spectrum(result)
+    claims = _claims(case, found, numbers)
     return Evidence(
         title="Rolling over isotropic roughness: levels of 1D models against boundary elements",
         method=_method(case),
         numbers=tuple(numbers),
-        tables=(tables.levels(found), summary, tables.spectrum(result), tables.forces(result)),
-        conclusions=tuple(_conclusions(found, numbers)),
-        claims=_claims(case, found, numbers),
+        tables=(shown, summary, spectrum, tables.forces(result)),
+        conclusions=(_excess(numbers),),
+        claims=claims,
+        finding=finding(case, numbers, claims),
+        headlines=headlines(case, numbers, claims, spectrum, shown),
         captions=_captions(case),
         unconverged=result.unconverged,
         page_tables=(judged, within, summary),
@@ -108,7 +109,7 @@ def _claims_of_levels(
             f"the mean over the bands of q a = {_named(band)} is {mean(equivalent, band)} off, but "
             f"{at(equivalent, lowest)}",
         ),
-        "Linear theory in 3D has the level of boundary elements in each one-third octave.": (
+        LINEAR_CLAIM: (
             of(linear),
             "; ".join(at(linear, mine) for mine in found),
         ),
@@ -119,35 +120,16 @@ def _claims_of_levels(
     ]
 
 
-def _conclusions(found: list[levels.LevelsAtHeight], numbers: list[Number]) -> list[str]:
+def _excess(numbers: list[Number]) -> str:
     excess = number_with(numbers, measured.EXCESS)
-    return [
+    return (
         f"By linear theory Geike's spectrum is too loud in the mean over one-third octaves, {excess.conditions}: "
-        f"{with_reference(excess)}; the reference is the limit for q a >> 1.",
-        "Linear theory fails position by position at a lower roughness than in its level. "
-        + _by_height(
-            "Bands in which boundary elements have a coherence of 0.9 and more with it, and correlation over all bands",
-            [(mine.height, _coherent(mine)) for mine in found],
-        ),
-        _by_height(
-            "Standard error of the sample in single one-third octaves of boundary elements, largest",
-            [(mine.height, _scatter(mine)) for mine in found],
-        ),
-    ]
+        f"{with_reference(excess)}; the reference is the limit for q a >> 1."
+    )
 
 
 def _named(region: levels.Region) -> str:
     return f"{region[0]:g} to {region[1]:g}"
-
-
-def _by_height(what: str, found: Sequence[tuple[float, str]]) -> str:
-    return f"{what}, by h/d: {'; '.join(f'{height:g}: {text}' for height, text in found)}."
-
-
-def _coherent(mine: levels.LevelsAtHeight) -> str:
-    """Whether the force is that of linear theory position by position, not only in its level."""
-    bands = np.count_nonzero(levels.coherence(mine.bem) >= 0.9)
-    return f"{bands} of {len(mine.single_bands)} bands, correlation {levels.correlation(mine.bem)[0]:.3f}"
 
 
 def _variances(variances: Sequence[Number]) -> str:
@@ -163,36 +145,25 @@ def _means(means: Sequence[Number]) -> str:
     )
 
 
-def _scatter(mine: levels.LevelsAtHeight) -> str:
-    errors = [POWER_DECIBEL * mine.bem_level(weights)[0].error for weights in mine.single_bands]
-    return f"{max(errors):.2f} dB, median {float(np.median(errors)):.2f} dB"
-
-
 def _captions(case: ForceSpectrum) -> dict[str, str]:
     return {
         "rolling-line": (
-            f"Fig. 14.3 of the book, H = {case.hurst:g}: spectrum of the normal force over wavenumber. Line: (14.12); "
-            f"dashed: its mean (14.14); dots: one-sided springs, mean of {case.tracks} tracks at h/d = "
-            f"{case.heights[0]:g}; thick grey: linear theory in 3D of the isotropic surface, in which the zeros are "
-            "filled."
+            f"Fig. 14.3, H = {case.hurst:g}: spectrum of the normal force over wavenumber. Line: (14.12); dashed: its "
+            f"mean (14.14); dots: one-sided springs at h/d = {case.heights[0]:g}; thick grey: linear theory in 3D."
         ),
         "rolling": (
             "Level of the force in one-third octaves, over (h/d)² and the square of Hertz's force. Circles: boundary "
-            "elements with 95 % intervals of sample and grid; squares: one-sided springs with Geike's spectrum; solid "
-            "line: linear theory in 3D; dashed: linear theory in 1D, (14.12), which is zero below the band (shaded)."
+            "elements, 95 % of sample and grid; squares: one-sided springs, Geike's spectrum; solid: linear theory in "
+            "3D; dashed: (14.12), which is zero below the band (shaded)."
         ),
         "rolling-coherence": (
-            "(a) Coherence of the force with linear theory on the same roughness: filled, boundary elements; open, "
-            "springs. (b) Change of the level by nonlinearity: boundary elements over linear theory in 3D (filled), "
-            "springs over (14.12) (open). Dark to light: h/d. (c) Force along a part of one strip at the lowest, a "
-            "middle and the largest h/d, about its mean, in units of h/d: line, boundary elements; dotted, linear "
-            "theory."
+            "(a) Coherence with linear theory: filled, boundary elements; open, springs. (b) Nonlinear over linear "
+            "level. Dark to light: h/d. (c) Force along the track at three h/d, about its mean: line, boundary "
+            "elements; dotted, linear theory."
         ),
         "rolling-map": (
-            "Validity: level of each model over that of boundary elements, in dB, over q a and h/d. The right axis has "
-            "h' a/d of this band, which carries over to other bands (case rolling_validity). Solid lines: ± 1 dB; "
-            "dashed: ± 3 dB; hatched: more than 3 dB too low. Left of the vertical line, below the band, springs "
-            "with Geike's spectrum have almost no power."
+            "Level of each model over that of boundary elements, over q a and h/d; right axis: h' a/d. Solid lines: "
+            "± 1 dB; dashed: ± 3 dB; hatched: more than 3 dB too low. Left of the vertical line: below the band."
         ),
     }
 

@@ -1,6 +1,7 @@
 """What reduced models do beside boundary elements on the same strips: levels, coherence, mean force, work."""
 
 import math
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -10,6 +11,7 @@ from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, numbers_with, table_of
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
+from validation.analysis.wording import by_status, joint_verdict, sentence
 from validation.cases.rolling.reduced_models import (
     BED,
     COARSE,
@@ -48,6 +50,7 @@ def evidence(result: ReducedResult) -> Evidence:
     case = result.case
     numbers = [_number(result, key, model) for key in result.strips for model in MODELS if model != JUDGE]
     table, bands = _table(result), _table_of_bands(result)
+    claims = _claims(result, numbers, table)
     return Evidence(
         title="Reduced models of the wheel on a rough surface, beside boundary elements",
         method=(
@@ -60,14 +63,15 @@ def evidence(result: ReducedResult) -> Evidence:
         ),
         numbers=tuple(numbers),
         tables=(table, bands),
-        conclusions=_conclusions(table),
-        claims=_claims(result, numbers, table),
+        conclusions=(),
+        claims=claims,
+        finding=finding(claims),
+        headlines={"reduced_models": headline(numbers)},
         captions={
             "reduced_models": (
-                "(a) Root mean square over octaves of the level over boundary elements, over h' a/d; dotted: 1 dB. "
-                "(b), (c) Level over boundary elements in one-third octaves, and coherence with them, at the h' a/d "
-                "nearest to 1. (d) The root mean square of (a) there, over counted work; crosses: trials. Bars: 95 % "
-                "intervals."
+                "(a) Root mean square over octaves of the level over boundary elements, over h' a/d; dotted: 1 dB. At "
+                "the h' a/d nearest to 1: (b) that level in one-third octaves, (c) coherence, (d) the root mean "
+                "square over counted work; crosses: trials. Bars: 95 %."
             )
         },
         unconverged=result.unconverged,
@@ -191,7 +195,7 @@ def _rounded(value: float) -> float:
 
 def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple[JudgedClaim, ...]:
     def below(model: str, limit: float) -> list[Number]:
-        return [one for one in numbers_with(numbers, OFF, model) if _slope(one) <= SLACK * limit]
+        return up_to(numbers, model, limit)
 
     def worst(mine: list[Number]) -> str:
         largest = max(mine, key=lambda one: one.value)
@@ -228,6 +232,40 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
     )
 
 
+def up_to(numbers: Sequence[Number], model: str, limit: float) -> list[Number]:
+    """Of a model, up to an h' a/d."""
+    return [one for one in numbers_with(numbers, OFF, model) if _slope(one) <= SLACK * limit]
+
+
+def headline(numbers: Sequence[Number]) -> str:
+    """Which reduced models stay within the tolerance over all strips up to the limit."""
+    of = {model: up_to(numbers, model, LIMIT) for model in (LAYER, *USUAL)}
+    reached = max(_slope(one) for one in of[LAYER])
+    verdicts = {model: joint_verdict(mine) for model, mine in of.items()}
+    follow = [model for model, verdict in verdicts.items() if verdict is Verdict.AGREE]
+    count = list(verdicts.values()).count(Verdict.UNDECIDED)
+    return (
+        f"Within 1 dB up to h' a/d = {reached:.2g}: {', '.join(follow) or 'no reduced model'}"
+        f"{f'; {count} of {len(of)} open' if count else ''}"
+    )
+
+
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    """The layer and springs that read the surface, each up to the roughest strip of its claim."""
+    parts = []
+    for claim, name in zip(claims, (LAYER, READ), strict=False):
+        where = f"up to h' a/d = {max(_slope(one) for one in claim.numbers):.2g}"
+        parts.append(
+            by_status(
+                claim,
+                holds=f"{name}: within 1 dB of boundary elements {where}",
+                fails=f"{name}: not within 1 dB of boundary elements {where}",
+                undecided=f"{name}: whether within 1 dB of boundary elements {where} is open",
+            )
+        )
+    return sentence(*parts)
+
+
 def _slope(number: Number) -> float:
     found = number.where["h' a/d"]
     assert isinstance(found, float)
@@ -237,21 +275,6 @@ def _slope(number: Number) -> float:
 def _work(table: Table, model: str) -> float:
     """Over springs on a line, the mean of all strips."""
     return float(table.where(model=model)["work over springs on a line"].mean())
-
-
-def _conclusions(table: Table) -> tuple[str, ...]:
-    """The order of all models at the roughness that is nearest to the limit."""
-    slopes = table["h' a/d"]
-    near = slopes[np.argmin(np.abs(np.log(slopes / LIMIT)))]
-    mine = table.where(**{"h' a/d": near})
-    order = np.argsort(mine["rms [dB]"])
-    parts = [
-        f"{mine['model'][i]} {mine['rms [dB]'][i]:.2f} dB with a mean force of {mine['mean force over bem3d'][i]:.2f} "
-        f"and {mine['work over springs on a line'][i]:.3g} times the work"
-        for i in order
-        if mine["model"][i] != JUDGE
-    ]
-    return (f"At h' a/d = {near:g}, over boundary elements: {'; '.join(parts)}.",)
 
 
 CASE = Case(

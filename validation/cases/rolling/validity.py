@@ -12,6 +12,7 @@ from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, T
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
 from validation.cases.rolling.force_spectrum_levels import correlation
+from validation.cases.rolling.validity_headlines import finding, headline
 from validation.cases.rolling.validity_reduced import (
     FOLLOWS,
     MODELS,
@@ -147,6 +148,7 @@ def evidence(result: ValidityResult) -> Evidence:
         for (model, key), found in result.reduced.items()
     ]
     table = _table(result)
+    claims = _claims(case, numbers, table)
     return Evidence(
         title="Where linear theory ends: h' a/d against h/d, over bands and Hurst exponents",
         method=(
@@ -161,14 +163,17 @@ def evidence(result: ValidityResult) -> Evidence:
         ),
         numbers=tuple(numbers),
         tables=(table,),
-        conclusions=_conclusions(case, table),
-        claims=_claims(case, numbers, table),
+        conclusions=(_of_table_14_1(case, table),),
+        claims=claims,
+        finding=finding(claims),
+        headlines={"rolling_validity": headline(claims)},
         captions={
             "rolling_validity": (
-                "(a), (b) Share of contact kept on boundary elements, over h/d and over h' a/d, by spectrum. (c), (d) "
-                "Root mean square over one-third octaves of the level over linear theory; dotted: 1 dB. (e), (f) "
-                "The same of reduced models over boundary elements; solid: pressed layer, dashed: springs that read "
-                "the surface. Bars: 95 % intervals. The curves that lie on each other show the parameter that counts."
+                "Over h/d (left) and over h' a/d (right), by spectrum. (a), (b) Share of contact kept on boundary "
+                "elements. (c), (d) Root mean square over one-third octaves of the level over linear theory; dotted: "
+                "1 dB. (e), (f) The same of reduced models over boundary elements; solid: pressed layer, dashed: "
+                "springs that read the surface. Bars: 95 %. Curves that lie on each other show the parameter that "
+                "counts."
             )
         },
         unconverged=result.unconverged,
@@ -286,21 +291,6 @@ def spread(table: Table, column: str, parameter: str, value: float) -> str:
     found = table.where(**{"at equal": parameter, parameter: value})[column]
     what, unit = ("the rms over linear theory is", " dB") if "dB" in column else ("the share kept is", "")
     return f"{what} {found.min():.2f} to {found.max():.2f}{unit}"
-
-
-def _conclusions(case: Validity, table: Table) -> tuple[str, ...]:
-    """By how much each parameter leaves the loss of contact, and the level, to the spectrum."""
-    found = []
-    for parameter in (SLOPE, HEIGHT):
-        value = _of(case, parameter)[-1]
-        mine = table.where(**{"at equal": parameter, parameter: value})
-        lost, off = 1 - mine["contact kept"], mine["rms over linear [dB]"]
-        found.append(
-            f"at {parameter} = {value:g} the share of contact lost is {lost.min():.2f} to {lost.max():.2f} over the "
-            f"spectra, and the rms over linear theory differs by a factor of {off.max() / off.min():.3g}"
-        )
-    sentence = "; ".join(found)
-    return f"{sentence[0].upper()}{sentence[1:]}.", _of_table_14_1(case, table)
 
 
 def _of_table_14_1(case: Validity, table: Table) -> str:

@@ -1,0 +1,76 @@
+"""Titles of figures and first sentences on planted numbers: their words change sides with their numbers."""
+
+import pytest
+
+from tests.analysis.test_judged_claims import point
+from validation.analysis.answers import answered
+from validation.analysis.evidence import Verdict
+from validation.cases.rolling import reduced_models_evidence as reduced
+from validation.cases.rolling import validity_headlines as validity
+from validation.cases.rolling.reduced_models import LAYER
+
+AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
+"""dB and half-width of a number with each verdict within 1 dB."""
+
+
+def number(verdict, quantity="level", model="m", sign=1, **where):
+    value, half = VALUE[verdict]
+    return point(sign * value, half, quantity=quantity, model=model, where=where)
+
+
+def claim_with(verdict, **where):
+    return answered("It is so.", [number(verdict, **where)], "so it is.")
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "words"),
+    [
+        ((AGREE, DIFFER), "different at equal h/d, the same at equal h' a/d"),
+        ((DIFFER, AGREE), "the same at equal h/d, different at equal h' a/d"),
+        ((UNDECIDED, UNDECIDED), "not decided at equal h/d, not decided at equal h' a/d"),
+    ],
+)
+def test_the_parameter_that_counts_is_named_by_its_claims(verdicts, words):
+    """verdicts: at equal h' a/d, at equal h/d."""
+    claims = [claim_with(verdict) for verdict in (*verdicts, *verdicts)]
+    assert validity.headline(claims) == f"Contact kept over all spectra: {words}"
+    assert validity.finding(claims).count(words) == 2
+
+
+def of_models(layer, others, slope=0.8):
+    models = {LAYER: layer} | dict.fromkeys(reduced.USUAL, others)
+    return [
+        number(verdict, quantity=reduced.OFF, model=model, **{"h' a/d": at})
+        for model, verdict in models.items()
+        for at in (0.2, slope)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("layer", "others", "title", "finding"),
+    [
+        (
+            AGREE,
+            DIFFER,
+            "h' a/d = 0.8: pressed layer",
+            "Pressed layer: within 1 dB of boundary elements up to h' a/d = 0.8",
+        ),
+        (DIFFER, DIFFER, "h' a/d = 0.8: no reduced model", "Pressed layer: not within 1 dB"),
+        (UNDECIDED, UNDECIDED, "no reduced model; 5 of 5 open", "Pressed layer: whether within 1 dB"),
+    ],
+)
+def test_reduced_models_that_follow_are_named(layer, others, title, finding):
+    numbers = of_models(layer, others)
+    claims = [
+        answered("It follows.", reduced.up_to(numbers, LAYER, 1.0), "so."),
+        answered("They follow.", reduced.up_to(numbers, reduced.READ, 0.3), "so."),
+    ]
+    assert reduced.headline(numbers).endswith(title)
+    assert reduced.finding(claims).startswith(finding)
+
+
+def test_a_reduced_model_is_said_to_follow_no_farther_than_it_was_rolled():
+    """Strips beyond the limit are not part of it."""
+    numbers = [*of_models(AGREE, AGREE, slope=0.6), number(DIFFER, reduced.OFF, LAYER, **{"h' a/d": 2.0})]
+    assert reduced.headline(numbers).startswith("Within 1 dB up to h' a/d = 0.6: pressed layer, ")
