@@ -26,7 +26,13 @@ from validation.simulation.model import GridModel, Model, Target, models_serving
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import hertz_force
 
-REFERENCE_TOLERANCE = {"stiffness": 0.06, "force-rms": 0.1, "force-spectrum": 0.15}
+REFERENCE_TOLERANCE = {
+    "stiffness": 0.06,
+    "force-rms": 0.1,
+    "force-spectrum": 0.15,
+    "acceleration-rms": 0.1,
+    "acceleration": 0.15,
+}
 """Of the references, by their quantity: half of it is left to their samples."""
 MODEL_TOLERANCE = 0.05
 """Of the models that are measured: their samples leave a fifth of it or less."""
@@ -36,16 +42,24 @@ RADIUS, APPROACH = 1.0, 1e-4
 """Of spheres and wheels: no error depends on units."""
 HEIGHT = 1e-3
 """Of the roughness of punches, over their side."""
-QUANTITIES = {"punch": ("stiffness",), "sphere": ("stiffness",), "rolling": ("force-rms", "force-spectrum")}
+QUANTITIES = {
+    "punch": ("stiffness",),
+    "sphere": ("stiffness",),
+    "rolling": ("force-rms", "force-spectrum"),
+    "wheel": ("acceleration-rms", "acceleration"),
+}
 DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
     "punch": ((-2.2, 2.0), (0.0, math.log10(5.4)), (math.log10(3), math.log10(48)), (0.2, 1.2)),
     "sphere": ((-2.5, 0.0), (math.log10(0.3), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
     "rolling": ((-2.5, 0.0), (math.log10(0.5), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
+    "wheel": ((-2.5, -0.5), (math.log10(0.5), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
 }
 """Ranges of lg Fbar or lg h/d; of lg of the longest waves on a side, or of q a of the longest wave; of lg of the
 longest over the shortest wave; and of the Hurst exponent."""
-SHORTEST = {"punch": 48, "sphere": 16, "rolling": 12}
+SHORTEST = {"punch": 48, "sphere": 16, "rolling": 12, "wheel": 12}
 """Of the shortest wave: as many on a side at the most, and q a."""
+RESONANCES, IN_BAND = (math.log10(1.2), math.log10(6)), 3.5
+"""lg of the frequency of the longest wave over the resonance of a dynamic wheel; of the shortest, at the least."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +91,13 @@ class CalibrationScene:
         )
         if self.kind == "sphere":
             return IndentationScene(name=self.name, shape="sphere", size=RADIUS, load=load, modulus=1.0, ground=ground)
-        return RollingScene(name=self.name, radius=RADIUS, load=load, modulus=1.0, ground=ground)
+        mass = speed = None
+        if self.kind == "wheel":
+            over = max(10 ** rng.uniform(*RESONANCES), IN_BAND * ground.q_min / ground.q_max)
+            mass, speed = 1.0, over * math.sqrt(2 * a) / ground.q_min
+        return RollingScene(
+            name=self.name, radius=RADIUS, load=load, modulus=1.0, ground=ground, mass=mass, speed=speed
+        )
 
     @property
     def name(self) -> str:
@@ -115,17 +135,18 @@ def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class CalibrationRun:
-    """How many scenes of each kind; each of rolling is solved for both quantities of the force."""
+    """How many scenes of each kind; each of a wheel is solved for both of its quantities."""
 
     punches: int = 60
     spheres: int = 120
     rolling: int = 20
+    wheels: int = 16
     seed: int = 19
 
     @property
     def points(self) -> list[CalibrationScene]:
         """All of them; what takes longest first."""
-        counts = {"rolling": self.rolling, "punch": self.punches, "sphere": self.spheres}
+        counts = {"wheel": self.wheels, "rolling": self.rolling, "punch": self.punches, "sphere": self.spheres}
         return [
             CalibrationScene(kind=kind, number=number, quantity=quantity, seed=self.seed)
             for kind, count in counts.items()
@@ -140,7 +161,8 @@ def write_calibration(run: CalibrationRun, engine: Engine = SERIAL, path: Path |
     outcomes = engine.map(measure_errors, points)
     rows = [row for point, outcome in zip(points, outcomes, strict=True) for row in rows_of_point(point, outcome)]
     text = io.StringIO()
-    size = f"--punches {run.punches} --spheres {run.spheres} --rolling {run.rolling} --seed {run.seed}"
+    counts = f"--punches {run.punches} --spheres {run.spheres} --rolling {run.rolling} --wheels {run.wheels}"
+    size = f"{counts} --seed {run.seed}"
     today = datetime.now(tz=UTC).date().isoformat()
     text.write(f"# measured: {today}\n# code: {code_version()}\n")
     text.write(f"# command: mdr-validation calibrate {size}\n")

@@ -32,8 +32,9 @@ Key = tuple[str, str, str]
 TABLE = Path(__file__).with_name("calibration.csv")
 SHARE = 0.95
 """Of the calibrated scenes, whose error a claim covers when they are left out of the table."""
-NEIGHBOURS, NEARBY = 6, 0.15
-"""Scenes of the table that an error is interpolated between, at the least, and their share of all."""
+NEIGHBOURS, NEARBY, NEARBY_IN_SHAPE = 6, 0.15, 0.3
+"""Scenes of the table that an error is interpolated between, at the least, and their share of all: a larger one where
+it goes with a shape that is known, as under spheres and wheels."""
 LEADS = 2.0
 """Weight of the load or the height in the distance between scenes; of every other condition, one."""
 MARGIN = 0.15
@@ -99,7 +100,8 @@ class MeasuredErrors:
         """The nearest scenes weigh the most. A condition that measured heights do not have counts for nothing."""
         weights = np.array([LEADS] + [1.0] * (len(at) - 1))
         apart = np.sqrt(np.nansum((weights * (self.points[of] - at)) ** 2, axis=1))
-        nearest = np.argsort(apart, kind="stable")[: max(NEIGHBOURS, round(NEARBY * len(apart)))]
+        share = NEARBY_IN_SHAPE if self.names[0] == HEIGHT else NEARBY
+        nearest = np.argsort(apart, kind="stable")[: max(NEIGHBOURS, round(share * len(apart)))]
         weight = 1 - 0.9 * (apart[nearest] / (apart[nearest[-1]] + 1e-12)) ** 2
         grown = 10 ** (self.trend * (at[0] - self.points[of][nearest, 0]))
         return math.sqrt(float(np.average(((self.errors / self.shapes)[of][nearest] * grown) ** 2, weights=weight)))
@@ -118,7 +120,7 @@ def conditions_by_kind(target: Target) -> tuple[str, dict[str, float]]:
     """Kind of the scene, and what decides how far cheap models are off."""
     if isinstance(target.scene, IndentationScene):
         return target.scene.shape, conditions_of(target.scene)
-    return "rolling", rolling_conditions(target.rolling)
+    return "wheel" if target.rolling.dynamic else "rolling", rolling_conditions(target.rolling)
 
 
 def _coordinate(name: str, value: float) -> float:

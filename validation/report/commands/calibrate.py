@@ -9,10 +9,17 @@ from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
 from validation.selection.calibrate import CalibrationRun, calibration_lines, write_calibration
 
+COUNTED = {
+    "punches": "rough punches",
+    "spheres": "rough spheres",
+    "rolling": "rolling wheels",
+    "wheels": "dynamic wheels",
+}
+
 
 def describe(calibrating: argparse.ArgumentParser) -> None:
     run = CalibrationRun()
-    for name, what in {"punches": "rough punches", "spheres": "rough spheres", "rolling": "rolling wheels"}.items():
+    for name, what in COUNTED.items():
         default = getattr(run, name)
         calibrating.add_argument(
             f"--{name}", type=at_least(0), default=default, metavar="N", help=f"{what} (default: {default})"
@@ -34,9 +41,7 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
 def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or show those that were measured."""
     if not arguments.show:
-        run = CalibrationRun(
-            punches=arguments.punches, spheres=arguments.spheres, rolling=arguments.rolling, seed=arguments.seed
-        )
+        run = CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
         engine = Engine(workers=arguments.workers, store=arguments.store, progress=True)
         write_calibration(run, engine, arguments.out)
     print("\n".join(calibration_lines(arguments.out)))
