@@ -332,7 +332,7 @@ def test_crossing_is_where_both_are_equal(where, exponent, floor):
     power = floor * where ** (-2 - exponent)
     found = regions.crossing(power, exponent, floor)
     assert found == pytest.approx(where, rel=1e-9)
-    assert power * found**exponent == pytest.approx(floor * found**-2, rel=1e-9)
+    assert power * found**exponent == pytest.approx(floor * found**-2, rel=1e-9, abs=0)
 
 
 def test_the_break_of_a_sum_is_between_its_parts():
@@ -380,7 +380,7 @@ def test_no_place_depends_on_the_level(exponent):
     for name in ("peak", "jump", "slope", "period"):
         assert other[name] == pytest.approx(one[name], rel=1e-9), name
     for name in ("floor", "power"):
-        assert other[name] == pytest.approx(one[name] * 2.0**exponent, rel=1e-9), name
+        assert other[name] == pytest.approx(one[name] * 2.0**exponent, rel=1e-9, abs=0), name
 
 
 @given(exponent=st.integers(-20, 20))
@@ -389,7 +389,7 @@ def test_places_scale_with_frequency(exponent):
     scale = 2.0**exponent
     one, other = all_regions(omega, density), all_regions(omega * scale, density, scale)
     for name in ("peak", "jump", "period"):
-        assert other[name] == pytest.approx(one[name] * scale, rel=1e-9), name
+        assert other[name] == pytest.approx(one[name] * scale, rel=1e-9, abs=0), name
     assert other["slope"] == pytest.approx(one["slope"], abs=1e-9)
-    assert other["floor"] == pytest.approx(one["floor"] * scale**2, rel=1e-9)
-    assert other["power"] == pytest.approx(one["power"] * scale**4.4, rel=1e-9)
+    assert other["floor"] == pytest.approx(one["floor"] * scale**2, rel=1e-9, abs=0)
+    assert other["power"] == pytest.approx(one["power"] * scale**4.4, rel=1e-9, abs=0)

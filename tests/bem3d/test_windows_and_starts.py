@@ -142,10 +142,10 @@ def test_a_first_pressure_lowers_the_energy_most(problem):
         assert np.ptp(p) == 0
         return
     overlap = np.maximum(stated.approach - problem.gap, 0.0)
-    assert p * overlap.max() == pytest.approx(overlap * p.max(), rel=1e-12)
+    assert p * overlap.max() == pytest.approx(overlap * p.max(), rel=1e-12, abs=0)
     # the slope of 1/2 p K p - (d - g) p along p itself
     downhill = (p * overlap).sum()
-    assert (p * problem.half_space.displacement(p)).sum() == pytest.approx(downhill, rel=1e-9)
+    assert (p * problem.half_space.displacement(p)).sum() == pytest.approx(downhill, rel=1e-9, abs=0)
 
 
 @pytest.mark.parametrize("shape", [(64, 64), (65, 47)])

@@ -20,7 +20,7 @@ from validation.theory import wheel as wheel_theory
 def test_tracks_have_their_rms(track):
     """Amplitudes are fixed: of each wheel, to rounding."""
     height = rides(count=3, track=track).heights()
-    assert height.std(axis=0) == pytest.approx(np.full(3, SMALL.rail.rms), rel=ROUNDING)
+    assert height.std(axis=0) == pytest.approx(np.full(3, SMALL.rail.rms), rel=ROUNDING, abs=0)
     assert np.abs(height.mean(axis=0)).max() <= ROUNDING * SMALL.rail.rms
 
 
@@ -62,7 +62,7 @@ def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
     height = ride.heights()[: ride.steps, 0]
     assert height.size > 2 * around
     np.testing.assert_array_equal(height[around:], height[:-around])
-    assert height[:around].std() == pytest.approx(LITTLE.wheel.rms, rel=ROUNDING)
+    assert height[:around].std() == pytest.approx(LITTLE.wheel.rms, rel=ROUNDING, abs=0)
     half = around // 2
     assert np.std(height[half:] - height[:-half]) > LITTLE.wheel.rms
 
@@ -133,7 +133,7 @@ def test_groups_are_means_of_their_wheels():
     groups = simulate_ensemble(rides(count=6, groups=2))
     for name in ("plain", "hann"):
         means = np.stack([apart[name][:3].mean(axis=0), apart[name][3:].mean(axis=0)])
-        assert groups[name] == pytest.approx(means, rel=1e-9), name
+        assert groups[name] == pytest.approx(means, rel=1e-9, abs=0), name
     with pytest.raises(ValueError, match="count must be a multiple of groups, got 5 and 2"):
         rides(count=5, groups=2)
 

@@ -119,7 +119,7 @@ def test_any_object_with_heights_and_sizes_will_do(call):
     found = measured(surface((lambda: height) if call else height, (N * DX, N * DX)))
     assert found.spacing == pytest.approx((DX, 2 * DX))
     assert found.sides == pytest.approx((N * DX, N * DX))
-    assert found.height == pytest.approx(heights(height, (DX, 2 * DX)).height)
+    assert found.height == pytest.approx(heights(height, (DX, 2 * DX)).height, rel=1e-12, abs=0)
 
 
 def test_other_objects_are_refused():
