@@ -15,8 +15,8 @@ from validation.cases.rolling import force_spectrum_headlines as headlines_of_ro
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges, ridges_evidence
 from validation.cases.rolling.force_spectrum_evidence import CASE, evidence
-from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, LevelsAtHeight, coherence, correlation
-from validation.cases.rolling.force_spectrum_numbers import LEVEL, regions
+from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS, LevelsAtHeight, coherence, correlation
+from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE, regions
 from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
@@ -171,6 +171,21 @@ def test_claims_of_rolling_follow_their_numbers(rolled):
     geike = evidence(exact).claims[0]
     assert geike.claim == CASE.claim
     assert geike.status is ClaimStatus.CONTRADICTED
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("factor", "verdict"), [(1.0, Verdict.AGREE), (1.2, Verdict.DIFFER)])
+def test_the_rms_force_of_springs_is_judged_beside_boundary_elements(rolled, factor, verdict):
+    """20 % more of the fluctuation of both grids is 20 % less of springs over them, beyond 10 %."""
+    exact = {h: {**o, "variance": factor**2 * o["linear variance"]} for h, o in rolled.bem.items()}
+    refined = {h: {**o, "variance": exact[h]["variance"][: SMALL.refined]} for h, o in rolled.refined.items()}
+    (number,) = numbers_with(
+        evidence(replace(rolled, bem=exact, refined=refined)).numbers, RMS_FORCE, f"{LINEAR_3D} over bem3d"
+    )
+    assert number.value == pytest.approx(-20 * math.log10(factor), abs=1e-9)
+    assert number.verdict is verdict
+    (springs,) = numbers_with(evidence(rolled).numbers, RMS_FORCE, f"{SPRINGS} over bem3d")
+    assert abs(springs.difference) <= 0.2 + springs.uncertainty
 
 
 PLANTED = [

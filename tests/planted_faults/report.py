@@ -4,11 +4,12 @@ import functools
 
 from markupsafe import Markup
 
-from tests.report import test_claims, test_figure_lines, test_printed
+from tests.report import test_answers, test_claims, test_figure_lines, test_printed
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.cases.punch import fractal_punch_text
 from validation.report import chapter, page
+from validation.report.answers import cells, words
 from validation.report.figures import rolling as rolling_figure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
@@ -23,7 +24,21 @@ def green_by_its_criteria(status, *, unsteady=False):
     return Markup('<span class="verdict holds">✓ holds</span>')
 
 
+def enough_by_most(cell):
+    """A counterexample outvoted."""
+    agree = sum(number.verdict is Verdict.AGREE for number in cell.numbers)
+    return cells.Enough.YES if 2 * agree > len(cell.numbers) else cells.Enough.NO
+
+
 FAULTS = {
+    "a cell that says what most of its numbers say": (
+        (cells.RangeCell, "enough", property(enough_by_most)),
+        test_answers.test_one_counterexample_among_all_exponents_is_a_no,
+    ),
+    "the power of a ratio printed for its amplitude": (
+        (words, "DECIBEL", statistics.POWER_DECIBEL),
+        test_answers.test_decibels_are_printed_as_their_quantity,
+    ),
     "a contradicted claim under a green badge": (
         (page, "format_status", green_by_its_criteria),
         functools.partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),

@@ -12,6 +12,7 @@ from markupsafe import Markup, escape
 
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Verdict, VerdictCell
+from validation.report.answers.first_screen import answered_questions, map_of
 from validation.report.chapter import ERRATA, chapter_of
 from validation.report.section import Section, answer_of, total_of
 from validation.scenes.description import describe
@@ -117,6 +118,8 @@ def page(
         sections=sections,
         book=[] if scene else chapter_of(sections),
         errata=ERRATA,
+        answers=[] if scene else answered_questions(sections),
+        map=map_of(sections),
         total="" if unsteady else total_of(sections),
         chapters=[(c, [s for s in sections if s.entry.chapter == c]) for c in Chapter],
         profile=profile,

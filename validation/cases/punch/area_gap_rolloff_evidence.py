@@ -31,6 +31,7 @@ from validation.cases.punch.area_gap_rolloff_numbers import (
     value_of,
 )
 from validation.cases.punch.rough_interface import SPRINGS, layer_on_half_space
+from validation.cases.punch.work import Worked
 from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, METHODS, require_converged
 
@@ -57,7 +58,10 @@ def evidence(result: MdrLimitsResult) -> Evidence:
         method=_method(case),
         numbers=tuple(numbers),
         claims=claims_of(numbers),
-        tables=(table_of("curves", [row for mine in samples.values() for row in curve(result, mine, layers)]),),
+        tables=(
+            table_of("curves", [row for mine in samples.values() for row in curve(result, mine, layers)]),
+            Worked.of(case.cells, case.points, result.bem.values()).table,
+        ),
         conclusions=tuple(_at_one_force(result, mine) for mine in samples.values()),
         captions=_captions(case),
         unconverged=result.unconverged,

@@ -17,6 +17,7 @@ from validation.cases.punch.fractal_punch_decades import (
 )
 from validation.cases.punch.fractal_punch_headlines import finding, headlines
 from validation.cases.punch.fractal_punch_numbers import claimed, criteria, laws
+from validation.cases.punch.work import Worked
 from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, require_converged
 
@@ -56,6 +57,7 @@ def evidence(result: FractalPunchResult) -> Evidence:
             table_of("estimator", costs),
             *([table_of("order", by_force)] if by_force else []),
             marks(),
+            _worked(result).table,
         ),
         page_tables=(
             *(text.matrix(name, comparisons) for name in QUANTITIES),
@@ -70,6 +72,11 @@ def evidence(result: FractalPunchResult) -> Evidence:
         captions=text.captions(case),
         unconverged=result.unconverged,
     )
+
+
+def _worked(result: FractalPunchResult) -> Worked:
+    case = result.case
+    return Worked.of(case.cells, case.points, [e.outcomes[BEM][case.cells] for e in result.ensembles])
 
 
 CASE = Case(

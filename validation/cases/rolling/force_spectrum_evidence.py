@@ -81,7 +81,7 @@ def _claims_of_levels(
 
     def of(*models: str) -> list[Number]:
         over = [number for model in models for number in numbers_with(numbers, model=f"{model} over bem3d")]
-        return [number for number in over if number.quantity != measured.EXCESS]
+        return [number for number in over if number.quantity not in (measured.EXCESS, measured.RMS_FORCE)]
 
     def mean(model: str, region: levels.Region) -> str:
         return f"{from_to([mine.decibels_over_bem(model, mine.weights(region)) for mine in found])} dB"

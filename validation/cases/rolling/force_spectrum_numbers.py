@@ -5,10 +5,19 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Place, Role
 from validation.analysis.over_range import root_mean_square, worst
-from validation.analysis.statistics import Estimate, mean_estimate, ratio_of_means
+from validation.analysis.statistics import (
+    DECIBEL,
+    Estimate,
+    extrapolated,
+    log_ratio_of_means,
+    mean_estimate,
+    ratio_of_means,
+)
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.force_spectrum_levels import (
     LINEAR_1D,
@@ -26,9 +35,11 @@ RMS = "rms of "
 """Before the name of what the root mean square over a range is taken of."""
 IN_RMS, RMS_NONLINEAR = RMS + LEVEL, RMS + NONLINEAR
 VARIANCE, MEAN = "variance of the force over that of linear theory", "mean force over that of Hertz"
+RMS_FORCE = "rms force over that of boundary elements"
 EXCESS = "mean level over its limit for q a >> 1"
 BOTH = "springs beside bem3d"
 THREE_DECIBELS, FORD_THOMPSON = 3.0, "3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)"
+TEN_PER_CENT, OF_WHOLE = DECIBEL * math.log(1.1), "10 %: 0.8 dB of the whole force, less than what is repeatable"
 ONE_DECIBEL, REPEATABLE = 1.0, "1 dB: repeatability of measured one-third octave levels"
 LINEAR_UP_TO = 0.01
 """h/d up to which boundary elements must agree with linear theory, or something is wrong with them."""
@@ -41,7 +52,7 @@ def regions(case: ForceSpectrum) -> list[Region]:
 
 
 def numbers_of(case: ForceSpectrum, found: list[LevelsAtHeight]) -> list[Number]:
-    numbers = [number for mine in found for number in (*_levels(mine), *moments(mine))]
+    numbers = [number for mine in found for number in (*_levels(mine), *moments(mine), *rms_forces(mine))]
     return [*numbers, _excess(found[0])]
 
 
@@ -159,6 +170,38 @@ def moments(mine: LevelsAtHeight) -> list[Number]:
         among=len(mine.case.heights),
     )
     return [*variances, mean]
+
+
+def rms_forces(mine: LevelsAtHeight) -> list[Number]:
+    """Springs and linear theory over boundary elements, all bands together.
+
+    Geike's rule keeps the variance of linear theory in 3D, over which each one-sided model is taken.
+    """
+    refined = mine.result.refined[mine.height]
+    pairs = [(one["variance"], one["linear variance"]) for one in (mine.bem, mine.springs)]
+    bem, springs = (_log_ratio(*pair) for pair in pairs)
+    finer = _log_ratio(refined["variance"], mine.bem["variance"][: len(refined["variance"])])
+    among = 2 * len(mine.case.heights)
+    whole, grid = extrapolated(bem, finer, among)
+    return [
+        difference(
+            value.minus(whole),
+            quantity=RMS_FORCE,
+            model=f"{model} over bem3d",
+            where={"h/d": mine.height},
+            source="bem3d, extrapolated, all over linear theory on the same roughness",
+            tolerance=TEN_PER_CENT,
+            reason=OF_WHOLE,
+            grid=grid,
+            among=among,
+        )
+        for model, value in ((SPRINGS, springs), (LINEAR_3D, Estimate(0.0, 0.0, bem.samples)))
+    ]
+
+
+def _log_ratio(values: FloatArray, references: FloatArray) -> Estimate:
+    """ln of the ratio of the means over realisations."""
+    return log_ratio_of_means(values[:, np.newaxis], references[:, np.newaxis], np.ones(1))
 
 
 def _excess(mine: LevelsAtHeight) -> Number:

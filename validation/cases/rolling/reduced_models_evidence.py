@@ -29,6 +29,7 @@ from validation.cases.rolling.reduced_models import (
     bands_of,
     run,
 )
+from validation.cases.rolling.reduced_models_map import map_headline
 from validation.simulation.track_spectrum import self_affine
 
 FloatArray = NDArray[np.float64]
@@ -66,13 +67,17 @@ def evidence(result: ReducedResult) -> Evidence:
         conclusions=(),
         claims=claims,
         finding=finding(claims),
-        headlines={"reduced_models": headline(numbers)},
+        headlines={"reduced_models-map": map_headline(numbers), "reduced_models": headline(numbers)},
         captions={
+            "reduced_models-map": (
+                "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
+                "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB."
+            ),
             "reduced_models": (
                 "(a) Root mean square over octaves of the level over boundary elements, over h' a/d; dotted: 1 dB. At "
                 "the h' a/d nearest to 1: (b) that level in one-third octaves, (c) coherence, (d) the root mean "
                 "square over counted work; crosses: trials. Bars: 95 %."
-            )
+            ),
         },
         unconverged=result.unconverged,
         page_tables=(table,),

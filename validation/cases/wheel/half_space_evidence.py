@@ -36,7 +36,12 @@ def evidence(result: Result3D) -> Evidence:
         title="The wheel in three dimensions: boundary elements inside the time loop",
         method=_method(result.case),
         numbers=tuple(numbers),
-        tables=(tables.levels_of(levels), tables.oscillation_of(levels), *tables.contrast_of(levels)),
+        tables=(
+            tables.levels_of(levels),
+            tables.oscillation_of(levels),
+            *tables.contrast_of(levels),
+            tables.wheel_of(levels),
+        ),
         page_tables=(tables.shown_regions(levels, numbers), tables.shown_within(levels)),
         claims=_claims(numbers, bands),
         conclusions=tuple(conclusions(numbers, bands, applications)),

@@ -13,6 +13,7 @@ from validation.cases.wheel.features import SLOPE, linear_force_3d
 from validation.cases.wheel.half_space_levels import GEIKE, LINEAR_1D, LINEAR_3D, MODELS, FloatArray, WheelLevels
 from validation.cases.wheel.half_space_numbers import CONTACTS, LEVEL, OVER_BEM
 
+WHEEL = "wheel"
 ONE_DECIBEL, THREE_DECIBELS = FEATURES["level"].tolerance, 3.0
 
 
@@ -29,6 +30,20 @@ def levels_of(levels: WheelLevels) -> Table:
         **{f"{model} over bem3d [dB]": POWER_DECIBEL * levels.over_bem(model) for model in MODELS},
     }
     return Table("levels", columns(**values))
+
+
+def wheel_of(levels: WheelLevels) -> Table:
+    """Its roughness over the approach, the slope of that over the smooth wheel's, and what a time step takes."""
+    case, scene = levels.result.case, levels.result.case.scene
+    # an isotropic surface has half of its mean square gradient along the track
+    slope = math.sqrt(2) * scene.slope_along * scene.contact_radius / scene.approach
+    values = {
+        "h/d": scene.rms / scene.approach,
+        "h' a/d": slope,
+        "cells to a contact radius": case.cells,
+        "applications a time step": float(np.mean([strip["applications"] for strip in levels.converged])),
+    }
+    return Table(WHEEL, {name: [value] for name, value in values.items()})
 
 
 def oscillation_of(levels: WheelLevels) -> Table:

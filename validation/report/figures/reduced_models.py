@@ -1,5 +1,6 @@
-"""Figure of the reduced models of a rolling wheel: how far each is off boundary elements, and for what work."""
+"""Figures of the reduced models of a rolling wheel: how far each is off boundary elements, and for what work."""
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -50,3 +51,39 @@ def _draw_cost(axis: Axes, table: Table) -> None:
             axis.annotate(str(model), (x[0], y[0]), textcoords="offset points", fontsize=6, **side)
     axis.set(xlabel="work over springs on a line", ylabel="rms over octaves [dB]", title="error over work")
     axis.set(xscale="log", yscale="log")
+
+
+def draw_map(evidence: Evidence) -> Figure:
+    """The error of each model over h' a/d, and the largest up to there."""
+    table = evidence.table("reduced_models")
+    slopes = table["h' a/d"]
+    figure, (axis,) = panels(1, 1, height=4.4)
+    largest = []
+    for i, model in enumerate(SHOWN):
+        mine = table.where(model=model)
+        order = mine["h' a/d"].argsort()
+        x, y, half = (mine[name][order] for name in ("h' a/d", "rms [dB]", "± rms [dB]"))
+        style = graded(i, len(SHOWN))
+        axis.errorbar(x, y, yerr=[np.minimum(half, 0.9 * y), half], capsize=2, **{**style, "linestyle": "none"})
+        axis.plot(x, np.maximum.accumulate(y), color=style["color"], linewidth=1.4)
+        largest.append(float(y.max()))
+    for model, at, error in zip(SHOWN, _apart(largest), largest, strict=True):
+        end, place = (slopes.max(), error), (1.25 * slopes.max(), at)
+        axis.annotate(model, end, place, va="center", fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.5})
+    axis.axhspan(1e-9, 1.0, color="#eeeeee", zorder=0)
+    lowest = min(float(table.where(model=model)["rms [dB]"].min()) for model in SHOWN)
+    axis.set(xscale="log", yscale="log", ylim=(0.6 * lowest, 1.6 * max(_apart(largest))))
+    axis.set(xlim=(slopes.min() / 1.2, 4 * slopes.max()), xlabel="h' a/d", ylabel="rms over octaves [dB]")
+    tick(axis, [x for x in (0.03, 0.1, 0.3, 1, 3, 10) if slopes.min() / 1.2 <= x <= 1.2 * slopes.max()])
+    errors = [y for y in (0.03, 0.1, 0.3, 1, 3, 10, 30) if axis.get_ylim()[0] <= y <= axis.get_ylim()[1]]
+    axis.set_yticks(errors, [f"{error:g}" for error in errors])
+    axis.yaxis.minorticks_off()
+    return figure
+
+
+def _apart(values: list[float], ratio: float = 1.35) -> list[float]:
+    """Places for labels on a logarithmic axis, in the order of the values, each so many times the one below."""
+    places, below = values.copy(), 0.0
+    for i in sorted(range(len(values)), key=values.__getitem__):
+        places[i] = below = max(values[i], ratio * below)
+    return places

@@ -1,0 +1,305 @@
+"""The first screen: a cell has the verdicts of its numbers, a sentence changes its words with them."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from tests.report.test_printed import html_of, number
+from validation.analysis.evidence import Evidence, Role, Table, Verdict
+from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
+from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEAN
+from validation.cases.punch.work import Worked
+from validation.cases.rail import rough_rail
+from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
+from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
+from validation.report.answers import questions, sources
+from validation.report.answers.cells import Enough, RangeCell
+from validation.report.answers.first_screen import answered_questions, plain
+from validation.report.answers.words import from_to, in_decibels, per_cent, times
+from validation.report.contents import CASES
+from validation.report.section import Section
+from validation.simulation import equivalent_displacement
+
+TEN = MARGINS["10 %"]
+WORKED = Worked(128, 2048, 15.2).table
+DECADES = {(0.01, 0.1): "0.01 to 0.1", (0.1, 1.0): "0.1 to 1", (1.0, 10.0): "1 to 10"}
+
+
+def at(decade, value, half=0.0, hurst=0.7, **changes):
+    """MDR over boundary elements in a decade [dB], within 10 %."""
+    where = {"H": hurst, "Fbar": decade, "worst at": decade[0]}
+    settings = {"reference": 0.0, "tolerance": TEN, "sample": half, "model": sources.OVER, "role": Role.FINDING}
+    return number(value, **{"quantity": MEAN, "where": where, "reason": "10 %: reason", **settings, **changes})
+
+
+def section_of(name, numbers, *tables, **settings):
+    evidence = Evidence(title="t", method="m", numbers=tuple(numbers), tables=tables, conclusions=(), captions={})
+    return Section(name, CASES[name], "none", settings, evidence)
+
+
+def punch(*numbers):
+    return section_of("fractal_punch", numbers, WORKED)
+
+
+def row_of(name, *sections):
+    (row,) = (row for row in answered_questions(sections) if row.question.name == name)
+    return row
+
+
+def mean_stiffness(*numbers):
+    return row_of("mean-stiffness", punch(*numbers))
+
+
+def words_of(row):
+    return [cell.word for cell in row.strip]
+
+
+# --- the side of the tolerance ---
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "cell", "begins"),
+    [
+        (0.0, 0.0, "yes", "Enough from"),
+        (0.5 * TEN, 0.5 * TEN, "yes", "Enough from"),
+        (-TEN, 0.0, "yes", "Enough from"),
+        (0.5 * TEN, 0.51 * TEN, "open", "Open from"),
+        (TEN, 0.1, "open", "Open from"),
+        (1.01 * TEN, 0.0, "no", "Not enough from"),
+        (-1.5 * TEN, 0.49 * TEN, "no", "Not enough from"),
+    ],
+)
+def test_cell_and_words_are_those_of_the_verdict(value, half, cell, begins):
+    row = mean_stiffness(at((0.1, 1.0), value, half))
+    assert words_of(row) == ["not measured", cell, "not measured"]
+    assert row.answer.startswith(f"{begins} Fbar = 0.1 to 1 (")
+    assert row.word == {"yes": "Yes", "open": "Open", "no": "No"}[cell]
+
+
+def test_one_counterexample_among_all_exponents_is_a_no():
+    """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
+    row = mean_stiffness(at((0.1, 1.0), 0.1, hurst=0.4), at((0.1, 1.0), 2.0, hurst=0.7), at((0.1, 1.0), 0.2, hurst=1.0))
+    assert words_of(row)[1:-1] == ["no"]
+    assert "1 of 3 numbers differ: +26 %" in row.answer
+
+
+def test_the_mean_over_exponents_decides_nothing():
+    row = mean_stiffness(at((0.1, 1.0), 0.1), at((0.1, 1.0), 5.0, hurst="mean over H"))
+    assert words_of(row)[1:-1] == ["yes"]
+
+
+def test_a_place_without_all_of_its_numbers_is_no_yes():
+    row = mean_stiffness(at((0.1, 1.0), 0.0, hurst=0.4), at((0.1, 1.0), 0.0), at((1.0, 10.0), 0.0))
+    assert words_of(row)[1:-1] == ["yes", "open"]
+    assert "open from Fbar = 1 to 10 (some numbers are missing)" in row.answer
+
+
+# --- a strip and where it ends ---
+
+
+def test_a_sentence_has_a_clause_for_each_side_and_ends_where_it_was_measured():
+    numbers = [at((0.01, 0.1), 1.0, 1.5), at((0.1, 1.0), 0.3, 0.1), at((1.0, 10.0), -1.2, 0.02)]
+    row = mean_stiffness(*reversed(numbers))
+    assert row.word == "In part"
+    assert row.answer == (
+        "Enough from Fbar = 0.1 to 1 (all intervals within +2 to +5 %); not enough from Fbar = 1 to 10 (it "
+        "differs: -13 %); open from Fbar = 0.01 to 0.1 (intervals from -6 to +33 %)."
+    )
+    assert [(cell.place, cell.word) for cell in row.strip] == [
+        ("< 0.01", "not measured"),
+        ("0.01 to 0.1", "open"),
+        ("0.1 to 1", "yes"),
+        ("1 to 10", "no"),
+        ("> 10", "not measured"),
+    ]
+    assert row.measured == "Fbar = 0.01 to 10, H = 0.7"
+    assert row.margin == "10 %: reason"
+
+
+def test_neighbours_of_one_side_are_one_range_and_others_are_not():
+    row = mean_stiffness(*(at(decade, value) for decade, value in zip(DECADES, (0.0, 3.0, 0.1), strict=True)))
+    assert row.answer.startswith("Enough from Fbar = 0.01 to 0.1 and from Fbar = 1 to 10 (")
+    row = mean_stiffness(*(at(decade, 0.0) for decade in DECADES))
+    assert row.answer.startswith("Enough from Fbar = 0.01 to 10 (")
+
+
+# --- what else ---
+
+
+def test_an_alternative_is_offered_where_its_own_numbers_agree():
+    of_fit = {"quantity": "mean stiffness over bem3d", "model": "fit", "tolerance": 0.5}
+
+    def fit(value, half=0.0):
+        where = {"q_max / q_min": 8.0, "Fbar": (0.3, 10.0)}
+        return section_of("bandwidth", [at((0.3, 10.0), value, half, **of_fit | {"where": where})])
+
+    failing = punch(at((1.0, 10.0), -1.2))
+    formula, bem = row_of("mean-stiffness", failing, fit(0.2)).instead
+    assert formula == "the fit 1/kbar = 1/1.1523 + 0.48/Fbar from Fbar = 0.3 to 10, within +6 % (a formula)".replace(
+        "+6", "6"
+    )
+    assert bem.startswith("boundary elements (15 applications of the operator to 128² cells a surface and load")
+    assert row_of("mean-stiffness", failing, fit(0.2, 0.4)).instead == (bem,)
+    assert row_of("mean-stiffness", failing).instead == (bem,)
+    assert row_of("mean-stiffness", punch(at((1.0, 10.0), 0.1)), fit(0.2)).instead == ()
+
+
+# --- what is not there ---
+
+
+def test_a_case_that_was_not_run_or_has_no_number_says_so():
+    found = {row.question.name: row for row in answered_questions([punch(at((0.1, 1.0), 0.0))])}
+    assert found["contact-filter"].word == "Not run"
+    assert "rough_rail" in found["contact-filter"].answer
+    assert found["scatter"].word == "Not measured"
+    assert not found["contact-filter"].strip
+    lost = Section("fractal_punch", CASES["fractal_punch"], "none", {}, None, ("surface 1",))
+    assert row_of("mean-stiffness", lost).word == "No result"
+
+
+def test_a_report_without_any_of_the_cases_has_no_rows():
+    assert answered_questions([section_of("geike", [number()])]) == []
+
+
+# --- every row finds its numbers ---
+
+
+def rolling(quantity, model, value, half=0.1):
+    where = {"h/d": 0.1} | ({"q a": (1.0, 10.0)} if quantity == LEVEL else {})
+    settings = {"reference": 0.0, "tolerance": 3.0, "sample": half, "role": Role.FINDING}
+    planted = number(value, quantity=quantity, model=f"{model} over bem3d", where=where, **settings)
+    summary = Table("summary", {"h / d": [0.03, 0.1], "h' a / d": [0.081, 0.27]})
+    return section_of("rolling", [planted], summary, hurst=0.7)
+
+
+@pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", LEVEL)])
+@pytest.mark.parametrize(("value", "word"), [(0.5, "yes"), (-30.0, "no"), (3.0, "open")])
+def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity, value, word):
+    row = row_of(name, rolling(quantity, SPRINGS, value))
+    assert [(cell.place, cell.word) for cell in row.strip][1] == ("0.27", word)
+    assert row.answer.startswith(
+        {"yes": "Enough at", "no": "Not enough at", "open": "Open at"}[word] + " h' a/d = 0.27"
+    )
+    assert row.measured.endswith("H = 0.7")
+
+
+def test_numbers_of_another_model_are_no_answer():
+    assert row_of("rolling-spectrum", rolling(LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
+
+
+def test_area_and_gap_are_both_needed_and_told_apart():
+    def ratio(quantity, value):
+        where = {rolled_off.ROLL_OFF: 1, "Fbar": (0.1, 1.0)}
+        return at((0.1, 1.0), value, where=where, quantity=quantity)
+
+    found = section_of("mdr_limits", [ratio(rolled_off.AREA, 20.0), ratio(rolled_off.GAP, -6.0)], WORKED, hurst=0.7)
+    assert "contact fraction 10 times, mean gap 0.5 times" in row_of("area-and-gap", found).answer
+    half = section_of("mdr_limits", [ratio(rolled_off.AREA, 0.0), ratio(rolled_off.GAP, -6.0)], WORKED, hurst=0.7)
+    assert words_of(row_of("area-and-gap", half))[1:-1] == ["no"]
+
+
+def test_a_rail_is_judged_over_its_slope_in_the_bands_that_count():
+    def off(offset, waves, value):
+        where = {"offset [dB]": offset, "waves": waves, "wavelength [mm]": (8.0, 100.0)}
+        model, quantity = equivalent_displacement.SPRINGS_ON_LINE, rough_rail.OVER_BEM
+        return at((0.1, 1.0), value, where=where, quantity=quantity, model=model, tolerance=1.0)
+
+    numbers = [off(0.0, rough_rail.LONG, 0.5), off(20.0, rough_rail.LONG, -4.0), off(0.0, rough_rail.SHORT, 9.0)]
+    roughness = Table("roughness and contact", {"offset [dB]": [0.0, 20.0], "h' a_x / d": [0.092, 0.92]})
+    row = row_of("contact-filter", section_of("rough_rail", numbers, roughness))
+    assert [(cell.place, cell.word) for cell in row.strip][1:-1] == [("0.092", "yes"), ("0.92", "no")]
+
+
+def test_models_of_the_rail_are_named_as_in_its_numbers():
+    named = {
+        source.model
+        for question in questions.QUESTIONS
+        for source in (question.source, *(one.source for one in question.alternatives if one.source))
+        if source.case == "rough_rail"
+    }
+    known = {equivalent_displacement.SPRINGS_ON_LINE, equivalent_displacement.LINEAR}
+    assert named == known | {equivalent_displacement.SPRINGS_THAT_READ}
+
+
+def test_the_scatter_has_numbers_of_its_own():
+    found = punch(at((0.1, 1.0), 0.0), at((0.1, 1.0), -30.0, quantity=DEVIATION))
+    assert words_of(row_of("scatter", found))[1:-1] == ["no"]
+    assert words_of(row_of("mean-stiffness", found))[1:-1] == ["yes"]
+
+
+# --- the page ---
+
+
+class Strips(HTMLParser):
+    """Class and text of each cell of all strips."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.cells, self._in = [], False
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        names = dict(attrs)
+        if tag == "ol" and names.get("class") == "strip":
+            self._in = True
+        elif tag == "li" and self._in:
+            self.cells.append([names["class"], ""])
+
+    def handle_endtag(self, tag):
+        self._in = self._in and tag != "ol"
+
+    def handle_data(self, data):
+        if self._in and self.cells:
+            self.cells[-1][1] += data
+
+
+def test_cells_of_the_page_are_lettered_and_link_to_their_evidence():
+    """Colour says nothing that the word does not."""
+    page = html_of(punch(*(at(decade, value) for decade, value in zip(DECADES, (0.0, 3.0, TEN), strict=True))))
+    cells = Strips(page).cells
+    assert [kind for kind, _ in cells] == ["unmeasured", "yes", "no", "yes", "unmeasured"]
+    assert all(text.split()[-1] == {"unmeasured": "–"}.get(kind, kind) for kind, text in cells)
+    row = page[page.index('id="answer-mean-stiffness"') : page.index('id="answer-scatter"')]
+    assert 'href="#fractal_punch"' in row
+    assert 'id="fractal_punch"' in page
+    assert "is MDR enough?" in row
+    missing = page[page.index('id="answer-contact-filter"') : page.index('id="answer-dynamic-wheel"')]
+    assert "Not run." in missing
+    assert "href" not in missing
+
+
+def test_a_page_without_rows_has_no_box():
+    assert "When MDR is enough" not in html_of(section_of("geike", [number()]))
+
+
+def test_rows_are_plain_values():
+    (first, *_) = plain(answered_questions([punch(at((0.1, 1.0), 0.0))]))
+    assert first["strip"] == {"< 0.1": "not measured", "0.1 to 1": "yes", "> 1": "not measured"}
+    assert first["case"] == "fractal_punch"
+
+
+# --- words ---
+
+
+def test_decibels_are_printed_as_their_quantity():
+    assert per_cent(MARGINS["10 %"]) == "+10 %"
+    assert per_cent(-1e-9) == "+0 %"
+    assert times(20.0) == "10 times"
+    assert in_decibels(-0.01) == "+0 dB"
+    assert from_to(-1.0, 2.5, in_decibels) == "-1 to +2.5 dB"
+    assert from_to(2.0, 2.0, in_decibels) == "+2 dB"
+
+
+@pytest.mark.parametrize("verdicts", [[Verdict.AGREE], [Verdict.DIFFER, Verdict.AGREE], [Verdict.UNDECIDED]])
+def test_a_cell_says_yes_only_where_nothing_lacks(verdicts):
+    off = {Verdict.AGREE: (0.0, 0.0), Verdict.DIFFER: (9.0, 0.0), Verdict.UNDECIDED: (0.0, 9.0)}
+    numbers = tuple(at((0.1, 1.0), *off[verdict], hurst=i / 10) for i, verdict in enumerate(verdicts))
+    assert (RangeCell(0.1, numbers).enough is Enough.YES) == (set(verdicts) == {Verdict.AGREE})
+    assert RangeCell(0.1, numbers, lacking=1).enough is not Enough.YES
+
+
+def test_no_name_of_a_row_is_taken_twice():
+    names = [question.name for question in questions.QUESTIONS]
+    assert len(set(names)) == len(names) == 8
+    assert all(re.fullmatch("[a-z-]+", name) for name in names)
