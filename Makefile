@@ -6,6 +6,7 @@ RUN := $(VENV)/bin/python -m
 READY := $(VENV)/ready
 PEERS := $(VENV)/peers
 STRENGTH := $(VENV)/strength
+DOCS := $(VENV)/docs
 # the oldest dependencies have no files for Python 3.14
 OLDEST_PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3; do \
 	$$p -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' 2>/dev/null && echo $$p && break; done)
@@ -13,7 +14,7 @@ OLDEST := .venv-oldest
 RECORD := .coverage-times.xml
 RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference race check fast test oldest-python oldest thorough coverage verdicts mutation lint types format clean
+.PHONY: report full-report reference race docs check fast test oldest-python oldest thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -26,6 +27,10 @@ reference: $(PEERS)  ## the committed one, with the race: reports/reference/inde
 
 race: $(PEERS)  ## beside the peers, which it installs: reports/race-quick/index.html
 	$(RUN) validation race $(ARGS)
+
+docs: $(DOCS)  ## the documentation: reports/docs/_build/html/index.html
+	$(RUN) sphinx --quiet --nitpicky --fail-on-warning --keep-going -d reports/docs/_build/doctrees \
+		reports/docs reports/docs/_build/html $(ARGS)
 
 # as many workers as cores: more threads in each would only wait for one another
 fast test oldest coverage verdicts: export OMP_NUM_THREADS := 1
@@ -101,9 +106,13 @@ $(PEERS): $(READY)
 	$(RUN) pip install --quiet --editable ".[peers]"
 	touch $@
 
+$(DOCS): $(READY)
+	$(RUN) pip install --quiet --group docs
+	touch $@
+
 $(STRENGTH): $(READY)
 	$(RUN) pip install --quiet --group strength
 	touch $@
 
 clean:
-	rm -rf $(VENV) $(OLDEST) .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS) .mutation-killers.json
+	rm -rf $(VENV) $(OLDEST) reports/docs/_build reports/docs/examples .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS) .mutation-killers.json

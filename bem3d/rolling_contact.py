@@ -80,7 +80,7 @@ class RollingContact:
     -----
     A position that follows the one before is begun from the pressures of the last two, any other from none. Cells
     that may touch are iterated on, in a frame that moves with the wheel. A fresh application gives the residual of
-    all cells of the frame. Outside of the frame no cell can touch, see `rolling_frame.Frame.outside`, or else the
+    all cells of the frame. Outside of the frame no cell can touch, see ``rolling_frame.Frame.outside``, or else the
     frame grows.
 
     Examples

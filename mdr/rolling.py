@@ -77,7 +77,7 @@ def roll(
     Notes
     -----
     F(x_i) = E* dx sum_j max(d - (x_j - x_i)^2 / R + h_j, 0); Popov and Hess, (14.2), (14.5), (14.11). A contact
-    longer than the track meets the same roughness again. For two radii see `elliptic_wheel.spring_wheel`.
+    longer than the track meets the same roughness again. For two radii see ``elliptic_wheel.spring_wheel``.
 
     Examples
     --------

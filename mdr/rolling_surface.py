@@ -60,8 +60,8 @@ def roll_surface(
     Notes
     -----
     F(x_i) = E_1 dx sum_j max(d - x_j^2 / R_1 + H_j(x_i + x_j), 0), H_j(x) = int h dy / (pi sqrt(b_j^2 - y^2)) over
-    |y| < b_j = a_y sqrt(1 - x_j^2 / a_x^2): the mean across the smooth contact by the weight of the flat punch, and the
-    middle line outside of it. While all springs inside touch, the force is that of linear theory on the half-space.
+    abs(y) < b_j = a_y sqrt(1 - x_j^2 / a_x^2): the mean across the smooth contact by the weight of the flat punch, and
+    the middle line outside of it. While all springs inside touch, the force is that of linear theory on the half-space.
 
     Examples
     --------

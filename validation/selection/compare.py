@@ -94,7 +94,7 @@ class Comparison:
 
     @property
     def value(self) -> FloatArray:
-        """One number, or one a band, in `unit`; NaN where no model has an answer."""
+        """One number, or one a band, in ``unit``; NaN where no model has an answer."""
         return np.array([math.nan]) if self.selection.best is None else self.value_of(self.selection.best)
 
     def value_of(self, candidate: Candidate) -> FloatArray:
@@ -104,7 +104,7 @@ class Comparison:
         return 20 * np.log10(candidate.answer.value / reference) if self.is_level else candidate.answer.value
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
-        """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in `unit`."""
+        """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
         error, value = candidate.error, self.value_of(candidate)
         if candidate.answer is not None and (bands := candidate.answer.band_errors):
             return np.asarray(bands["model"] + np.hypot(bands["grid"], bands["sample"]))

@@ -105,7 +105,7 @@ def westergaard_approach(*, mean_pressure: float, amplitude: float, wavelength: 
 def westergaard_pressure(
     x: ArrayLike, *, mean_pressure: float, amplitude: float, wavelength: float, modulus: float
 ) -> FloatArray:
-    """p(x) = 2 p* cos(pi x / lambda) sqrt(sin^2(pi a / lambda) - sin^2(pi x / lambda)) in |x| < a, else zero [Pa].
+    """p(x) = 2 p* cos(pi x / lambda) sqrt(sin^2(pi a / lambda) - sin^2(pi x / lambda)) for abs(x) < a, else zero [Pa].
 
     x: from the crest of the wave, periodic, any shape [m]. Source: Westergaard; Johnson, chapter 13.
     """

@@ -45,9 +45,9 @@ def row_of_means_filter(along: ArrayLike, across: ArrayLike, *, semi_axes: tuple
 
 
 def remington_filter(wavenumber: ArrayLike, *, radius: float, alpha: float) -> FloatArray:
-    """|H|^2 = 4 / (alpha (k b)^2) int_0^{atan alpha} J_1(k b sec x)^2 dx: Remington's closed form, as a power.
+    """abs(H)^2 = 4 / (alpha (k b)^2) int_0^{atan alpha} J_1(k b sec x)^2 dx: Remington's closed form, as a power.
 
-    It is the linear bed of springs on a circle of radius b, in the mean over waves with |k_y| < alpha k_x of equal
+    It is the linear bed of springs on a circle of radius b, in the mean over waves with abs(k_y) < alpha k_x of equal
     power; tan x = k_y / k_x. 1 for long waves. wavenumber: k_x, zero or positive; alpha: positive.
     """
     positive(radius=radius, alpha=alpha)

@@ -59,7 +59,8 @@ def force_spectrum_3d(
     G(s) = 4 E*^2 sin^2(s a) / s^2: the surface filtered by `response`, cut along the track. Over k the end point
     s = q is regular; panels end at edges of the spectrum, and follow power laws and the oscillation.
 
-    q: any sign, any shape; c2d: callable of |q|, smooth between the edges, zero outside; edges: ascending, two or more.
+    q: any sign, any shape; c2d: callable of abs(q), smooth between the edges, zero outside; edges: ascending, two or
+    more.
     """
 
     def filtered(s: FloatArray) -> FloatArray:

@@ -1,7 +1,7 @@
 """What lies across the track of a rough line: how its waves cross it, and the mean of a filter over them.
 
 A line sees the wave (k_x, k_y) as one of k_x. Of all waves with the same k_x, a contact filter H(k_x, k_y) lets pass
-the mean of |H|^2, weighted by their power. Wavenumbers in rad/m; filters as in `contact_filters`.
+the mean of abs(H)^2, weighted by their power. Wavenumbers in rad/m; filters as in `contact_filters`.
 """
 
 import math
@@ -36,7 +36,7 @@ class TransverseStructure(ABC):
 
     @abstractmethod
     def mean_square(self, q: ArrayLike, transfer: Filter, *, semi_axis: float) -> FloatArray:
-        """Mean of |H(q, k_y)|^2 over the waves of a line's wavenumbers q > 0; the shape of q.
+        """Mean of abs(H(q, k_y))^2 over the waves of a line's wavenumbers q > 0; the shape of q.
 
         semi_axis: of the contact across [m], over which the filter oscillates.
         """
@@ -44,7 +44,7 @@ class TransverseStructure(ABC):
     def band_power(
         self, line: LineSpectrum, transfer: Filter, *, edges: ArrayLike, semi_axes: tuple[float, float]
     ) -> FloatArray:
-        """int |H|^2 C_line dq over int C_line dq in each band between ascending wavenumbers along the track."""
+        """int abs(H)^2 C_line dq over int C_line dq in each band between ascending wavenumbers along the track."""
         ends = np.asarray(edges, dtype=np.float64)
         return np.array([self._of_band(line, transfer, a, b, semi_axes) for a, b in pairwise(ends)])
 
@@ -67,7 +67,7 @@ class Ridges(TransverseStructure):
 
 @dataclass(frozen=True)
 class WaveBand(TransverseStructure):
-    """Equal power at |k_y| < alpha k_x, and none beyond: Remington's assumption. alpha: positive."""
+    """Equal power at abs(k_y) < alpha k_x, and none beyond: Remington's assumption. alpha: positive."""
 
     alpha: float
 
@@ -82,7 +82,7 @@ class WaveBand(TransverseStructure):
         return np.asarray(transfer(wave, wave * t) ** 2 @ dt / self.alpha)
 
     def density(self, along: ArrayLike, across: ArrayLike, line: LineSpectrum) -> FloatArray:
-        """Two-sided C(k_x, k_y) = C_line / (2 alpha |k_x|) in the band, k_x not zero [m^4]."""
+        """Two-sided C(k_x, k_y) = C_line / (2 alpha abs(k_x)) in the band, k_x not zero [m^4]."""
         k_x, k_y = (np.abs(np.asarray(k, dtype=np.float64)) for k in (along, across))
         return np.asarray(np.where(k_y < self.alpha * k_x, line(k_x) / (2 * self.alpha * k_x), 0.0))
 

@@ -73,7 +73,7 @@ def _other_turning_point(energy: float) -> float:
 
 
 def acceleration_over_force(omega: ArrayLike, *, eigenfrequency: float, mass: float) -> FloatArray:
-    """|a(omega) / dF(omega)|^2 = 1 / (M (1 - (omega_0 / omega)^2))^2 [kg^-2], dF at a fixed approach.
+    """abs(a(omega) / dF(omega))^2 = 1 / (M (1 - (omega_0 / omega)^2))^2 [kg^-2], dF at a fixed approach.
 
     M z'' = dF - k z without damping: a = -omega^2 z.
     """
@@ -89,7 +89,7 @@ def over_frequency(force_spectrum: ArrayLike, *, speed: float) -> FloatArray:
 def leakage(omega: ArrayLike, *, jump: ArrayLike, time_step: float, duration: float) -> FloatArray:
     """The floor ~ omega^-2 that a jump between the end and the beginning of a record adds to (14.17).
 
-    The periodic continuation of a ramp with a jump J has |FFT| = |J| / |2 sin(omega dt / 2)|, so A = J^2 dt^2 /
+    The periodic continuation of a ramp with a jump J has abs(FFT) = abs(J / (2 sin(omega dt / 2))), so A = J^2 dt^2 /
     (4 T sin^2(omega dt / 2)), which is J^2 / (omega^2 T) for omega dt << 1.
     jump: J of each record, or its root mean square, as x; time_step: dt [s]; duration: T [s]. Returns [x^2 s].
     """

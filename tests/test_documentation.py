@@ -1,0 +1,84 @@
+"""The sources of the documentation, without building it: names that are there, formulas that are all there."""
+
+import ast
+import re
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+import validation
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "reports" / "docs"
+PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
+NAMED = {name for page in PAGES.values() for name in re.findall(r"\{py:\w+\}`(?:[^`<]*<)?~?([\w.]+)>?`", page)}
+THEORY = Path(validation.__file__).parent / "theory"
+HELPERS = {"validation.theory.closed_forms.positive", "validation.theory.transverse_structure.gauss"}
+METHODS = {
+    *("mdr.geike", "mdr.line_trace", "mdr.load_curve", "mdr.rough_profile", "mdr.roll", "mdr.roll_surface"),
+    *("mdr.rolling_spectrum", "mdr.sphere_profile", "mdr.stiffness_under", "mdr.press_sphere", "mdr.SelfAffine"),
+    *("bem3d.HalfSpace", "bem3d.solve", "bem3d.solve_fixed_area", "bem3d.residual", "bem3d.rough_surface"),
+    *("bem3d.solve_polonsky_keer", "bem3d.roll"),
+}
+"""What has a formula in the two methods."""
+
+
+def found(name):
+    """What has this dotted name: a module, or an attribute of the longest part that is one."""
+    module, *attributes = name.split(".")
+    thing = import_module(module)
+    for attribute in attributes:
+        module = f"{module}.{attribute}"
+        thing = getattr(thing, attribute, None) or import_module(module)
+    return thing
+
+
+def public(path):
+    """Functions and classes of a module of closed forms."""
+    kinds = (ast.FunctionDef, ast.ClassDef)
+    names = (node.name for node in ast.parse(path.read_text()).body if isinstance(node, kinds))
+    return {f"validation.theory.{path.stem}.{name}" for name in names if name[0] != "_"}
+
+
+@pytest.mark.parametrize("name", sorted(NAMED))
+def test_a_name_is_there(name):
+    assert found(name).__doc__
+
+
+def test_a_name_that_is_not_there_is_found_out():
+    with pytest.raises(ModuleNotFoundError, match=r"bem3d\.solved"):
+        found("bem3d.solved")
+
+
+def test_theory_has_every_formula():
+    formulas = set().union(*(public(path) for path in THEORY.glob("*.py"))) - HELPERS
+    said = set(re.findall(r"\{py:obj\}`~?([\w.]+)`", PAGES["theory"]))
+    assert len(formulas) > 40
+    assert formulas | METHODS <= said
+
+
+def test_every_module_of_theory_has_its_reference():
+    reference = (DOCS / "reference" / "theory.rst").read_text(encoding="utf-8")
+    modules = set(re.findall(r"automodule:: validation\.theory\.(\w+)", reference))
+    assert modules == {path.stem for path in THEORY.glob("*.py")} - {"__init__"}
+
+
+def test_pages_are_included_not_copied():
+    included = {
+        name: (DOCS / path, start, end)
+        for name, page in PAGES.items()
+        for path, start, end in re.findall(
+            r'```\{include\} (\S+)\n(?::start-after: "(.*)"\n)?(?::end-before: "(.*)"\n)?```', page
+        )
+    }
+    assert set(included) == {"conventions", "theory", "verdicts"}
+    for path, start, end in included.values():
+        assert re.search(f"{re.escape(start)}.+{re.escape(end)}", path.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize("page", [pytest.param("index", marks=pytest.mark.slow), "verdicts"])
+def test_what_a_page_shows_runs(page, capsys):
+    (example,) = re.findall(r"```python\n(.*?)```", PAGES[page], flags=re.DOTALL)
+    exec(compile(example, page, "exec"), {})
+    assert {"index": "enough", "verdicts": "undecided\n"}[page] in capsys.readouterr().out
