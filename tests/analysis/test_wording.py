@@ -9,11 +9,12 @@ from validation.analysis.evidence import Verdict
 from validation.analysis.wording import (
     by_status,
     by_verdict,
-    farthest,
+    farthest_off,
     highest_and_lowest_off,
     joint_verdict,
     sentence,
     share,
+    title,
     too_loud,
 )
 
@@ -52,7 +53,8 @@ def test_only_what_differs_is_off_and_each_sign_has_its_own():
     assert highest_and_lowest_off([high, low, agreeing, higher, open_]) == [higher, low]
     assert highest_and_lowest_off([low, agreeing]) == [low]
     assert highest_and_lowest_off([agreeing, open_]) == []
-    assert farthest([high, low]) is low
+    assert farthest_off([high, low, agreeing, open_]) is low
+    assert farthest_off([agreeing, open_]) is open_
 
 
 @given(st.floats(0.1, 50))
@@ -64,7 +66,8 @@ def test_a_level_above_is_loud_and_below_quiet(decibels):
 def test_counts_and_sentences():
     assert share(points_with([DIFFER, AGREE, DIFFER]), DIFFER) == "2 of 3"
     assert sentence("one thing", "", "another") == "One thing; another."
-    assert sentence() == ""
+    assert title("one thing", "another") == "One thing; another"
+    assert sentence() == title() == ""
 
 
 def test_a_headline_belongs_to_a_figure_of_its_case():

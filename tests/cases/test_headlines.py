@@ -5,6 +5,7 @@ import pytest
 from tests.analysis.test_judged_claims import point
 from validation.analysis.answers import answered
 from validation.analysis.evidence import Verdict
+from validation.cases.rail import contact_filter, ellipse, line_convention, rail_dynamic_evidence, rough_rail
 from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.rolling import validity_headlines as validity
 from validation.cases.rolling.reduced_models import LAYER
@@ -19,8 +20,8 @@ def number(verdict, quantity="level", model="m", sign=1, **where):
     return point(sign * value, half, quantity=quantity, model=model, where=where)
 
 
-def claim_with(verdict, **where):
-    return answered("It is so.", [number(verdict, **where)], "so it is.")
+def claim_with(verdict, sign=1, **where):
+    return answered("It is so.", [number(verdict, sign=sign, **where)], "so it is.")
 
 
 @pytest.mark.parametrize(
@@ -74,3 +75,70 @@ def test_a_reduced_model_is_said_to_follow_no_farther_than_it_was_rolled():
     """Strips beyond the limit are not part of it."""
     numbers = [*of_models(AGREE, AGREE, slope=0.6), number(DIFFER, reduced.OFF, LAYER, **{"h' a/d": 2.0})]
     assert reduced.headline(numbers).startswith("Within 1 dB up to h' a/d = 0.6: pressed layer, ")
+
+
+# --- a wheel on a rail ---
+
+
+@pytest.mark.parametrize(
+    ("linear", "read", "others", "title", "finding"),
+    [
+        (AGREE, AGREE, DIFFER, "is within 1 dB; m is up to -3.0 dB off", "is within 1 dB; so are springs"),
+        (DIFFER, DIFFER, AGREE, "is -3.0 dB off; m is up to -3.0 dB off", "springs that read the surface are not"),
+        (UNDECIDED, UNDECIDED, AGREE, "is within 1 dB is open; no other model is", "the surface are is open"),
+    ],
+)
+def test_the_title_of_contact_filters_names_what_is_off(linear, read, others, title, finding):
+    claims = [claim_with(verdict, sign=-1) for verdict in (linear, read, others, AGREE)]
+    assert title in contact_filter.headline(claims)
+    assert finding in contact_filter.finding(claims)
+
+
+def test_the_table_of_the_field_is_no_model_of_the_title():
+    claims = [claim_with(verdict) for verdict in (AGREE, AGREE, AGREE, DIFFER)]
+    assert "no other model" in contact_filter.headline(claims)
+
+
+@pytest.mark.parametrize(
+    ("long", "short", "words"),
+    [
+        (
+            AGREE,
+            DIFFER,
+            "Linear theory of the ellipse: within 1 dB; beyond its first zero +3.0 dB off at +20 dB over ISO 3095",
+        ),
+        (
+            DIFFER,
+            AGREE,
+            "Linear theory of the ellipse: +3.0 dB off at +20 dB over ISO 3095; beyond its first zero within 1 dB",
+        ),
+        (
+            UNDECIDED,
+            UNDECIDED,
+            "Linear theory of the ellipse: open within 1 dB; beyond its first zero open within 1 dB",
+        ),
+    ],
+)
+def test_the_title_of_rougher_rails_has_both_ranges_of_waves(long, short, words):
+    where = {"offset [dB]": 20.0}
+    claims = [claim_with(verdict, **where) for verdict in (long, short, AGREE)]
+    assert words.startswith(rough_rail.headline(claims))
+    assert rough_rail.finding(claims) == f"{words}; springs that read the surface: within 1 dB."
+
+
+@pytest.mark.parametrize(
+    ("verdict", "moving", "lines", "circle"),
+    [
+        (AGREE, "holds within 1 dB rms", "heights is within 1 dB", "has the filter of the ellipse within 1 dB"),
+        (DIFFER, "is 3.0 dB rms off", "heights is +3.0 dB at worst", "costs +3.0 dB on a crown of 80 mm"),
+        (UNDECIDED, "Not decided: in motion the filter changes by 1.0 ± 0.3", "heights is open", "is open"),
+    ],
+)
+def test_titles_of_the_rail_have_the_status_of_their_claims(verdict, moving, lines, circle):
+    claim = claim_with(verdict, **{"crown [mm]": 80.0})
+    assert moving in rail_dynamic_evidence.headline(claim)
+    assert lines in line_convention.headline([claim, claim_with(AGREE)])
+    assert line_convention.headline([claim, claim_with(AGREE)]).endswith("the energy mean within 1 dB")
+    assert circle in ellipse.circle_cost(claim)
+    assert ellipse.finding([claim_with(AGREE), claim]).startswith("The closed form and boundary elements give the")
+    assert "do not both give" in ellipse.finding([claim_with(DIFFER), claim])

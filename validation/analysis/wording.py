@@ -35,9 +35,10 @@ def highest_and_lowest_off(numbers: Iterable[Number]) -> list[Number]:
     return ends + ([min(below, key=lambda n: n.difference)] if below else [])
 
 
-def farthest(numbers: Iterable[Number]) -> Number:
-    """The number with the largest difference from its reference."""
-    return max(numbers, key=lambda number: abs(number.difference))
+def farthest_off(numbers: Sequence[Number]) -> Number:
+    """Of the numbers that differ the farthest from its reference; of all where none does."""
+    off = [number for number in numbers if number.verdict is Verdict.DIFFER]
+    return max(off or numbers, key=lambda number: abs(number.difference))
 
 
 def too_loud(decibels: float, digits: int = 1) -> str:
@@ -50,7 +51,13 @@ def share(numbers: Sequence[Number], verdict: Verdict) -> str:
     return f"{sum(number.verdict is verdict for number in numbers)} of {len(numbers)}"
 
 
-def sentence(*parts: str) -> str:
-    """Clauses joined by semicolons, with a capital and a full stop."""
-    text = "; ".join(part for part in parts if part)
-    return f"{text[0].upper()}{text[1:]}." if text else ""
+def title(*clauses: str) -> str:
+    """Clauses joined by semicolons, with a capital."""
+    text = "; ".join(clause for clause in clauses if clause)
+    return f"{text[:1].upper()}{text[1:]}"
+
+
+def sentence(*clauses: str) -> str:
+    """The same with a full stop."""
+    text = title(*clauses)
+    return f"{text}." if text else ""

@@ -6,7 +6,7 @@ import numpy as np
 
 from validation.analysis.evidence import JudgedClaim, Number, Table, Verdict, numbers_with
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.analysis.wording import by_status, by_verdict, farthest, sentence, too_loud
+from validation.analysis.wording import by_status, by_verdict, farthest_off, sentence, title, too_loud
 from validation.cases.rolling.claims import height_of
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
@@ -28,7 +28,7 @@ def headlines(
         "rolling-line": _zeros(spectrum),
         "rolling": _springs(case, numbers),
         "rolling-coherence": _coherence(levels),
-        "rolling-map": _linear(claims),
+        "rolling-map": title(_linear(claims)),
     }
 
 
@@ -38,11 +38,10 @@ def _springs(case: ForceSpectrum, numbers: Sequence[Number]) -> str:
     parts = []
     for name, region in zip(names, regions(case), strict=True):
         mine = numbers_with(numbers, LEVEL, f"{SPRINGS} over bem3d", **{"q a": region})
-        off = [number for number in mine if number.verdict is Verdict.DIFFER]
         found = by_verdict(
             mine,
             agree=f"within {THREE_DECIBELS:g} dB",
-            differ=f"at worst {too_loud(farthest(off or mine).difference)}",
+            differ=f"at worst {too_loud(farthest_off(mine).difference)}",
             undecided=f"not decided within {THREE_DECIBELS:g} dB",
         )
         parts.append(f"{found} {name}")
@@ -53,9 +52,9 @@ def _linear(claims: Sequence[JudgedClaim]) -> str:
     (claim,) = (claim for claim in claims if claim.claim == LINEAR_CLAIM)
     return by_status(
         claim,
-        holds="Linear theory in 3D has the level of boundary elements",
-        fails=f"Linear theory in 3D leaves the level of boundary elements at h/d = {_first_off(claim.numbers):g}",
-        undecided="Whether linear theory in 3D has the level of boundary elements is open",
+        holds="linear theory in 3D has the level of boundary elements",
+        fails=f"linear theory in 3D leaves the level of boundary elements at h/d = {_first_off(claim.numbers):g}",
+        undecided="whether linear theory in 3D has the level of boundary elements is open",
     )
 
 
