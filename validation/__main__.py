@@ -18,6 +18,7 @@ from validation.scenes.printable import printable
 COMMANDS = {
     "report": "run the cases and write a report folder",
     "compare": "select the cheapest model of a scene that meets a tolerance",
+    "sound": "write what a wheel on a rail sounds like by each model, as WAV files with one gain",
     "scene": "print a scene that comes with this package, with a comment on every key",
     "calibrate": "measure the errors that cheap models claim, beside boundary elements",
     "precision": "error against cost of every method, on six scenes; full takes two and a half minutes",

@@ -19,6 +19,7 @@ from tests.cases import (
     test_from_force_to_roughness_and_stiffness,
     test_limits,
     test_rail_cases,
+    test_rail_sound,
     test_wheel_cases,
     test_wheel_ensembles,
     test_wheel_regions,
@@ -35,7 +36,7 @@ from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
 from validation.cases.rail import ellipse as rail_ellipse
 from validation.cases.rail import filters as rail_filters
-from validation.cases.rail import line_convention, published
+from validation.cases.rail import line_convention, published, rail_sound_levels
 from validation.cases.rolling import roughness_from_force, track_stiffness, validity, validity_reduced
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
@@ -142,6 +143,14 @@ linear_response = rough_springs.linear_response
 
 
 FAULTS = {
+    "a weighting of amplitudes taken twice": (
+        (rail_sound_levels, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
+        functools.partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
+    ),
+    "levels of all frequencies in each range": (
+        (rail_sound_levels, "filtered", lambda signal, gain: signal),
+        test_rail_sound.test_each_range_is_compared_alone,
+    ),
     "a window of a measured sphere that ends at its contact": (
         (indentation, "MARGIN", 2),
         functools.partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),

@@ -2,13 +2,14 @@
 
 import functools
 
+import numpy as np
 from markupsafe import Markup
 
-from tests.report import test_answers, test_claims, test_figure_lines, test_printed
+from tests.report import test_answers, test_claims, test_figure_lines, test_printed, test_sounds
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.cases.punch import fractal_punch_text
-from validation.report import chapter, page
+from validation.report import chapter, page, sounds
 from validation.report.answers import cells, words
 from validation.report.figures import rolling as rolling_figure
 
@@ -22,6 +23,12 @@ def unless_it_differs(sentence, numbers):
 
 def green_by_its_criteria(status, *, unsteady=False):
     return Markup('<span class="verdict holds">✓ holds</span>')
+
+
+def by_its_own_peak(samples, full_scale):
+    """A sound that is as loud as a file can hold, whatever the others are."""
+    values = np.asarray(samples)
+    return np.rint(sounds.LARGEST / np.abs(values).max() * values).astype(np.int16)
 
 
 def enough_by_most(cell):
@@ -38,6 +45,10 @@ FAULTS = {
     "the power of a ratio printed for its amplitude": (
         (words, "DECIBEL", statistics.POWER_DECIBEL),
         test_answers.test_decibels_are_printed_as_their_quantity,
+    ),
+    "a sound normalised by itself": (
+        (sounds, "quantised", by_its_own_peak),
+        test_sounds.test_files_differ_by_the_level_of_the_forces,
     ),
     "a contradicted claim under a green badge": (
         (page, "format_status", green_by_its_criteria),

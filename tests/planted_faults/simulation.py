@@ -11,6 +11,7 @@ from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import (
     test_periodic_motion,
     test_rail_filters,
+    test_rail_sound,
     test_reduced_models,
     test_rough_punches,
     test_time_stepping,
@@ -27,6 +28,7 @@ from validation.simulation import (
     pressed_layer,
     rail_models,
     rail_quantity,
+    rail_sound,
     wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
@@ -99,7 +101,24 @@ def middle_line(half_widths, points, step):
     return weights
 
 
+def line_itself(strip):
+    """A line trace in the place of Geike's spectrum."""
+    return strip.along_middle(rail_sound.LINEAR_MODELS[rail_sound.LINE](strip.contact))
+
+
+def springs_on_middle_line(height, *, spacing, **wheel):
+    return mdr.roll(height[:, height.shape[1] // 2], spacing=spacing[0], **wheel)
+
+
 FAULTS = {
+    "the line trace taken for Geike's spectrum": (
+        (test_rail_sound, "geike_track", line_itself),
+        test_rail_sound.test_geikes_track_has_his_spectrum_and_the_phases_of_the_line,
+    ),
+    "springs that read one line of the surface": (
+        (mdr, "roll_surface", springs_on_middle_line),
+        test_rail_sound.test_springs_that_read_a_smoother_rail_are_linear_theory,
+    ),
     "the first force of a decade for the worst": (
         (normalisation, "worst", lambda points, parameter: worst(points[:1], parameter)),
         test_rough_punches.test_a_way_to_draw_is_judged_by_its_worst_force,

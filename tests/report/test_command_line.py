@@ -24,6 +24,7 @@ from validation.cases.punch import bandwidth, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rail.line_convention import LineConvention
 from validation.cases.rail.rail_dynamic import RailDynamic
+from validation.cases.rail.rail_sound import RailSound, shipped_rail
 from validation.cases.rail.rolled_filters import RolledFilters
 from validation.cases.rail.rough_rail import GROUND
 from validation.cases.rolling import force_spectrum as rolling
@@ -130,6 +131,7 @@ SMALL = {
     "rough_rail": RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=3, cells=(4, 5)),
     "line_convention": LineConvention(strips=6),
     "rail_dynamic": RailDynamic(offsets=(0.0,), longest=0.05, periods=2, strips=3, compared=2),
+    "rail_sound": RailSound(rail=shipped_rail(), seconds=0.02, repeats=2, cells=(4, 5), parts=2, blocks=5),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
     "limits": limits.Limits(
         cells=16, surfaces=2, profiles=10, resolved=1, length=8.0, strip_cells=6, track=32.0, grids=(32, 64), judged=32
@@ -170,13 +172,15 @@ def recorded(monkeypatch, name):
 
 
 def files_of(name, evidence):
-    """A CSV for each table and both formats of the figure for each caption; a case has one of each at least."""
+    """A CSV for each table, both formats of the figure for each caption, one of each at least, and a WAV a sound."""
     assert evidence.tables and name in evidence.captions
     data = {f"data/{name}-{table.name}.csv" for table in evidence.tables}
-    return {"results.json", *data, *(f"figures/{f}.{end}" for f in evidence.captions for end in ("svg", "pdf"))}
+    sounds = {f"sounds/{name}-{sound.name}.wav" for sound in evidence.sounds.tracks} if evidence.sounds else set()
+    pictures = {f"figures/{f}.{end}" for f in evidence.captions for end in ("svg", "pdf")}
+    return {"results.json", *data, *pictures, *sounds}
 
 
-NUMBERS = ("results.json", "data/*.csv")
+NUMBERS = ("results.json", "data/*.csv", "sounds/*.wav")
 FIGURES = ("figures/*.svg", "figures/*.pdf")
 REDRAWN = ("hertz", "geike")
 """Of figures that are drawn twice: one file format is written by the same code for all, from tables that are equal."""
@@ -195,6 +199,7 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
         assert report("--only", name, "--out", str(one), "--workers", "1") in (0, 1)
     assert set(contents(one, *NUMBERS, *FIGURES)) == files_of(name, evidences[0])
     whole_page(one, [name])
+    players_of_all_sounds(one)
     assert evidences[0].claims[0].claim == CASES[name].claim
     in_the_book(name, evidences[0])
     by_one, drawn = contents(one, *NUMBERS), contents(one, *FIGURES)
@@ -240,6 +245,14 @@ def whole_page(folder, names):
     for external in ("http://", "https://", "<script", "@import", 'rel="stylesheet"'):
         assert external not in page
     assert "profile: quick" in page
+
+
+def players_of_all_sounds(folder):
+    """Assert that each sound has a player with a label, which needs no script, and a link."""
+    page = (folder / "index.html").read_text()
+    found = [f"sounds/{file.name}" for file in sorted((folder / "sounds").glob("*.wav"))]
+    assert page.count("<audio controls") == page.count('preload="none" aria-label="') == len(found)
+    assert all(f'src="{place}"></audio>' in page and f'href="{place}" download' in page for place in found)
 
 
 def in_the_book(name, evidence):

@@ -128,7 +128,7 @@ def realisations(folder):
     return {name for name in tree(folder) if name.startswith("realisations/")}
 
 
-@pytest.mark.parametrize("room", ["figures", "data", "realisations"])
+@pytest.mark.parametrize("room", ["figures", "data", "sounds", "realisations"])
 @pytest.mark.parametrize("taken", ["link", "file", "dangling"])
 def test_a_room_that_is_a_link_is_refused(room, taken, tmp_path, capsys):
     out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"

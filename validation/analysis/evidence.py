@@ -8,6 +8,8 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import ArrayLike
 
+from validation.analysis.sound import Sounds
+
 
 class Verdict(StrEnum):
     """What a number says about its reference."""
@@ -248,7 +250,8 @@ class Evidence:
 
     claims: with the numbers that test them, the claim of the case first; finding: the case in one sentence; method: how
     the numbers were found; captions: what each figure draws, by its name; headlines: what each figure shows, the
-    finding as its title, by the same names; page_tables: printed on the page as they stand.
+    finding as its title, by the same names; page_tables: printed on the page as they stand; sounds: played
+    on it.
     Raises ValueError for a headline of a figure that has no caption.
     """
 
@@ -263,6 +266,7 @@ class Evidence:
     claims: tuple[JudgedClaim, ...] = ()
     finding: str = ""
     headlines: Mapping[str, str] = field(default_factory=dict)
+    sounds: Sounds | None = None
 
     def __post_init__(self) -> None:
         labels = [number.label for number in self.numbers]

@@ -16,6 +16,7 @@ from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.page import page, scene_summary
 from validation.report.provenance import provenance
 from validation.report.section import Section, results_of
+from validation.report.sounds import sound_files
 from validation.report.style import drawn, pdf, svg
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -71,6 +72,7 @@ def _files(
             files[f"figures/{name}.pdf"] = pdf(figure)
         for table in section.evidence.tables:
             files[f"data/{section.name}-{table.name}.csv"] = as_csv(table)
+        files |= sound_files(section.name, section.evidence)
     files["provenance.json"] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]

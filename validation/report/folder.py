@@ -21,7 +21,8 @@ from validation.report.manifest import MANIFEST, Listed, as_manifest, both, dige
 
 REALISATIONS = "realisations"
 RESULTS = "results.json"
-ROOMS = ("figures", "data", REALISATIONS)
+SOUNDS = "sounds"
+ROOMS = ("figures", "data", SOUNDS, REALISATIONS)
 
 
 class Folder:

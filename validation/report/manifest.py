@@ -10,7 +10,9 @@ from validation.engine.files import read_plain
 
 MANIFEST = "manifest.json"
 KIND, FORMAT = "mdr-validation report", 1
-NAME = re.compile(r"(?:(?:figures|data)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv)")
+NAME = re.compile(
+    r"(?:(?:figures|data|sounds)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv|wav)"
+)
 """Names that files of a report may have; a list with other names is none of a report."""
 
 Listed = Mapping[str, tuple[str, ...]]

@@ -15,6 +15,7 @@ from validation.analysis.evidence import ClaimStatus, JudgedClaim, Verdict, Verd
 from validation.report.answers.first_screen import answered_questions, map_of
 from validation.report.chapter import ERRATA, chapter_of
 from validation.report.section import Section, answer_of, total_of
+from validation.report.sounds import sound_place
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -111,6 +112,7 @@ def page(
         "format_counts": format_counts,
         "answer_of": answer_of,
         "first_sentence": first_sentence,
+        "sound_place": sound_place,
         "duration": lambda value: f"{value:.0f} s" if value >= 1 else f"{value:.1g} s",
         "small": lambda value: f"{value:.2g}",
     }

@@ -1,0 +1,73 @@
+"""What is said of the sounds of a rail, on signals that are made up."""
+
+import numpy as np
+import pytest
+
+from validation.analysis.evidence import ClaimStatus, number_with
+from validation.cases.rail.rail_sound import RailSound, RailSoundResult, shipped_rail
+from validation.cases.rail.rail_sound_evidence import LEVEL, evidence
+from validation.cases.rail.rail_sound_levels import LONG, LOW, SHORT, WEIGHTED, SoundLevels
+from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.rail_sound import GEIKE
+
+CASE = RailSound(rail=shipped_rail(), seconds=0.1, repeats=1)
+TIME = np.arange(CASE.samples) / CASE.rate
+
+
+def tone(frequency, amplitude=1000.0):
+    return amplitude * np.sin(2 * np.pi * frequency * TIME)
+
+
+def result(**of_model):
+    """All frequencies by boundary elements; others as told."""
+    bem = tone(100) + tone(1000) + tone(4000)
+    signals = {BEM: bem, LINEAR: bem, SPRINGS_THAT_READ: bem, GEIKE: bem} | of_model
+    return RailSoundResult(CASE, {(model, cells): signals[model] for model in CASE.sounding for cells in CASE.cells})
+
+
+@pytest.mark.parametrize(("frequency", "weight"), [(100, -19.1), (1000, 0.0), (10000, -2.5)])
+def test_a_level_has_the_weight_of_the_standard(frequency, weight):
+    """IEC 61672-1, table 3, to its digit; 1000 N of amplitude are 57 dB re 1 N."""
+    levels = SoundLevels(result(**{BEM: tone(frequency)}))
+    assert levels.level(BEM) == pytest.approx(60 - 10 * np.log10(2), abs=1e-6)
+    assert levels.level(BEM, WEIGHTED) - levels.level(BEM) == pytest.approx(weight, abs=0.06)
+
+
+def test_each_range_is_compared_alone():
+    louder = tone(100) + tone(1000, 2000.0) + tone(4000, 500.0)
+    found = evidence(result(**{GEIKE: louder})).numbers
+    expected = {LOW: 0.0, LONG: 20 * np.log10(2), SHORT: -20 * np.log10(2)}
+    for part, value in expected.items():
+        number = number_with(found, LEVEL, GEIKE, part=part)
+        assert number.value == pytest.approx(value, abs=1e-6)
+        assert number.uncertainty < 1e-6
+
+
+def test_bands_are_levels_of_their_tones():
+    table = SoundLevels(result()).bands_table()
+    f, level = table["f [Hz]"], table["boundary elements [dB re 1 N]"]
+    assert level[np.abs(f - 1000).argmin()] == pytest.approx(60 - 10 * np.log10(2), abs=0.01)
+    assert np.isnan(level[np.abs(f - 2000).argmin()])
+
+
+def test_claims_and_words_change_with_the_levels():
+    same, louder = (evidence(result(**{GEIKE: gain * result().signal(BEM)})) for gain in (1.0, 2.0))
+    assert [claim.status for claim in same.claims] == [ClaimStatus.HOLDS] * 3
+    assert [claim.status for claim in louder.claims] == [ClaimStatus.CONTRADICTED, *[ClaimStatus.HOLDS] * 2]
+    assert "Farther off" not in same.finding
+    assert louder.finding.endswith("Farther off: springs of Geike's spectrum, by +6.0 ± 0.0 dB.")
+    assert louder.headlines["rail_sound"].endswith("6.0 dB louder.")
+
+
+def test_a_silent_range_is_said_to_be_silent():
+    silent = evidence(result(**{GEIKE: tone(1000) + tone(4000)}))
+    assert number_with(silent.numbers, LEVEL, GEIKE, part=LOW).value == -30
+    assert "below the band -30 dB or less" in silent.claims[0].answer
+    assert silent.headlines["rail_sound"].endswith(f"{GEIKE}, {LOW}, 30.0 dB or more quieter.")
+
+
+def test_sounds_have_one_full_scale_that_holds_them_all():
+    found = evidence(result(**{GEIKE: 3 * result().signal(BEM)}))
+    largest = max(np.abs(found.table("samples")[name]).max() for name in found.table("samples").columns)
+    assert found.sounds.full_scale >= largest
+    assert [sound.name for sound in found.sounds.tracks] == ["bem", "linear", "springs", "geike"]

@@ -1,0 +1,151 @@
+"""Sound files: a tone at its frequency, one gain for all, nothing clipped; the command that writes them."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+import scipy.io.wavfile
+
+from validation import __main__ as command
+from validation.analysis.evidence import Evidence, Table
+from validation.analysis.sound import Sound, Sounds, common_full_scale
+from validation.report import sounds
+
+RATE, TONE = 24000, 1000.0
+TIME = np.arange(2400) / RATE
+
+
+def read(contents):
+    rate, samples = scipy.io.wavfile.read(io.BytesIO(contents))
+    assert rate == RATE and samples.dtype == np.int16 and samples.ndim == 1
+    return samples
+
+
+def level(samples):
+    return 10 * np.log10(np.mean(samples.astype(float) ** 2))
+
+
+def files(loud, quiet):
+    columns = {"loud [N]": loud.tolist(), "quiet [N]": quiet.tolist()}
+    tracks = tuple(Sound(name=n, label=n, column=f"{n} [N]", says="") for n in ("loud", "quiet"))
+    heard = Sounds(
+        table="samples",
+        rate=RATE,
+        full_scale=common_full_scale((loud, quiet)),
+        repeats=2,
+        heard="",
+        tracks=tracks,
+    )
+    evidence = Evidence(
+        title="",
+        method="",
+        numbers=(),
+        tables=(Table("samples", columns),),
+        conclusions=(),
+        captions={},
+        sounds=heard,
+    )
+    return sounds.sound_files("case", evidence)
+
+
+def test_a_tone_comes_out_at_its_frequency_as_often_as_asked():
+    """Its largest wave, and the quantisation noise of 16 bit below it: 98 dB less what the full scale is above it."""
+    samples = read(files(500 * np.sin(2 * np.pi * TONE * TIME), TIME)["sounds/case-loud.wav"])
+    assert samples.size == 2 * TIME.size and (samples[: TIME.size] == samples[TIME.size :]).all()
+    power = np.abs(np.fft.rfft(samples)) ** 2
+    frequency = np.fft.rfftfreq(samples.size, 1 / RATE)
+    assert frequency[power.argmax()] == TONE
+    assert power.max() / (power.sum() - power.max()) > 10**9
+
+
+def test_files_differ_by_the_level_of_the_forces():
+    """Rounding to whole numbers leaves less than 0.001 dB."""
+    loud = 500 * np.sin(2 * np.pi * TONE * TIME)
+    found = files(loud, loud / 10)
+    assert set(found) == {"sounds/case-loud.wav", "sounds/case-quiet.wav"}
+    difference = level(read(found["sounds/case-loud.wav"])) - level(read(found["sounds/case-quiet.wav"]))
+    assert difference == pytest.approx(20, abs=1e-3)
+
+
+def test_the_largest_sample_is_not_clipped_and_a_larger_one_is_refused():
+    assert sounds.quantised([-7.0, 7.0], 7.0).tolist() == [-32767, 32767]
+    with pytest.raises(ValueError, match=r"within the full scale 7, got 7\.01"):
+        sounds.quantised([7.01], 7.0)
+    with pytest.raises(ValueError, match="within the full scale"):
+        sounds.quantised([np.nan], 7.0)
+
+
+@pytest.mark.parametrize("peak", [1.0, 0.0399999, 5711.3, 9999.0])
+def test_the_full_scale_is_the_next_number_of_two_digits(peak):
+    found = common_full_scale((np.array([0.1 * peak]), np.array([-peak])))
+    assert peak <= found < 1.1 * peak * (1 + 1e-9)
+    assert float(f"{found:.1e}") == found
+
+
+def sound(folder, *words):
+    return command.main(["sound", "rail", "--seconds", "0.02", "--workers", "1", "--out", str(folder), *words])
+
+
+@pytest.mark.slow
+def test_the_command_writes_one_sound_a_model_with_one_gain(tmp_path, capsys):
+    """The level that it states is that of the file."""
+    one, two = tmp_path / "one", tmp_path / "two"
+    assert sound(one, "--models", "linear,springs,geike") == 0
+    printed = capsys.readouterr().out
+    about = json.loads((one / "sounds.json").read_text())
+    assert {row["file"] for row in about["sounds"]} == {"linear.wav", "springs.wav", "geike.wav"}
+    for row in about["sounds"]:
+        samples = read((one / row["file"]).read_bytes())
+        assert samples.size == about["repeats"] * round(about["period [s]"] * RATE) >= 2 * RATE
+        scale = 20 * np.log10(about["full scale [N]"] / sounds.LARGEST)
+        assert level(samples) + scale == pytest.approx(row["level [dB re 1 N]"], abs=0.01)
+    assert about["heard"].startswith("What is heard is the contact force")
+    assert "50 times a second, which is heard as a tone" in " ".join(printed.split())
+    assert "over boundary elements" not in printed
+    assert (one / "levels.csv").read_text().startswith("f [Hz],linear theory in 3D [dB re 1 N],")
+    sound(two, "--models", "geike,springs,linear")
+    assert {f.name: f.read_bytes() for f in one.iterdir()} == {f.name: f.read_bytes() for f in two.iterdir()}
+
+
+def test_geikes_rule_is_left_out_where_the_ground_is_not_isotropic(tmp_path, capsys):
+    scene = tmp_path / "ridges.toml"
+    command.main(["scene", "rail"])
+    scene.write_text(capsys.readouterr().out.replace('across = "isotropic"', 'across = "ridges"'))
+    words = ["sound", str(scene), "--seconds", "0.02", "--workers", "1", "--out", str(tmp_path / "out")]
+    assert command.main([*words, "--models", "linear,geike"]) == 0
+    assert "Geike's rule is for isotropic ground, here it is ridges" in capsys.readouterr().out
+    assert [f.name for f in (tmp_path / "out").glob("*.wav")] == ["linear.wav"]
+    assert command.main([*words, "--models", "geike"]) == command.Exit.BAD_INPUT
+    assert "rail.across must be isotropic" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["sphere"], "got Smooth sphere"),
+        (["rail", "--seconds", "0.001"], "at least 0.015"),
+        (["rail", "--seconds", "60"], "at most"),
+    ],
+)
+def test_scenes_and_lengths_without_a_sound_are_refused(words, said, tmp_path, capsys):
+    assert command.main(["sound", *words, "--out", str(tmp_path / "out")]) == command.Exit.BAD_INPUT
+    assert said in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_scene_without_a_speed_is_refused(tmp_path, capsys):
+    scene = tmp_path / "still.toml"
+    command.main(["scene", "rail"])
+    lines = capsys.readouterr().out.splitlines()
+    scene.write_text("\n".join(line for line in lines if not line.startswith("speed")))
+    assert command.main(["sound", str(scene), "--out", str(tmp_path / "out")]) == command.Exit.BAD_INPUT
+    assert "a sound needs wheel.speed" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["--models", "bem,moon"], ["--seconds", "nan"], ["--seconds", "-1"]])
+def test_bad_words_are_exit_2(words, capsys):
+    with pytest.raises(SystemExit) as caught:
+        command.main(["sound", "rail", *words])
+    assert caught.value.code == command.Exit.BAD_INPUT
+    assert words[0] in capsys.readouterr().err

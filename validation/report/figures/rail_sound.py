@@ -1,0 +1,57 @@
+"""Figure of the sounds of a rail: 20 ms of each, and their levels."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from validation.analysis.evidence import Evidence, Table
+from validation.report.style import GUIDE, Style, tick
+
+SHOWN = 0.02
+"""Seconds."""
+STYLES: tuple[Style, ...] = (
+    {"color": "#0072B2", "linestyle": "-", "linewidth": 4.0},
+    {"color": "#000000", "linestyle": "--", "linewidth": 1.0, "marker": "x", "markersize": 5},
+    {"color": "#D55E00", "linestyle": "none", "marker": "s", "markersize": 6, "markerfacecolor": "none"},
+    {"color": "#009E73", "linestyle": "-.", "linewidth": 1.2, "marker": "^", "markersize": 5},
+)
+DECADES = 50, 100, 200, 500, 1000, 2000, 5000, 10000
+
+
+def draw(evidence: Evidence) -> Figure:
+    """Waveforms, one under another, beside the levels."""
+    samples, sounds = evidence.table("samples"), evidence.sounds
+    assert sounds is not None
+    figure = Figure(figsize=(9.0, 4.6), layout="constrained")
+    names = list(samples.columns)
+    axes = figure.subplot_mosaic([[name, "levels"] for name in names], width_ratios=(1.25, 1))
+    _waveforms([axes[name] for name in names], samples, sounds.rate)
+    _levels(axes["levels"], evidence)
+    axes[names[0]].set_title("(a)", loc="left")
+    axes["levels"].set_title("(b)", loc="left")
+    return figure
+
+
+def _waveforms(axes: list[Axes], samples: Table, rate: int) -> None:
+    count = round(SHOWN * rate)
+    time = 1000 * np.arange(count) / rate
+    most = max(float(np.abs(samples[name][:count]).max()) for name in samples.columns) / 1000
+    for axis, name, style in zip(axes, samples.columns, STYLES, strict=False):
+        axis.plot(time, samples[name][:count] / 1000, color=style["color"], linewidth=1.0)
+        axis.set(ylim=(-1.1 * most, 1.1 * most), xlim=(0, 1000 * SHOWN), ylabel="F [kN]")
+        axis.set_title(name.removesuffix(" [N]"), loc="right", pad=2)
+        axis.tick_params(labelbottom=axis is axes[-1])
+    axes[-1].set_xlabel("t [ms]")
+
+
+def _levels(axis: Axes, evidence: Evidence) -> None:
+    table, about = evidence.table("levels"), evidence.table("frequencies")
+    f = table["f [Hz]"]
+    for name, style in zip(list(table.columns)[1:], STYLES, strict=False):
+        axis.plot(f, table[name], label=name.removesuffix(" [dB re 1 N]"), **style)
+    for name, where in zip(about["what"], about["f [Hz]"], strict=True):
+        axis.axvline(where, **(GUIDE if "contact" in name else GUIDE | {"linestyle": "--"}))
+    highest = float(np.nanmax([table[name] for name in list(table.columns)[1:]]))
+    axis.set(xscale="log", xlabel="f [Hz]", ylabel="level [dB re 1 N]", ylim=(highest - 45, highest + 5))
+    tick(axis, [x for x in DECADES if f.min() / 1.15 <= x <= f.max() * 1.15])
+    axis.legend(loc="lower left")

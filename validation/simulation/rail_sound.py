@@ -1,0 +1,150 @@
+"""The force of a wheel that rolls over a rough strip at a constant height, by each model, as samples in time.
+
+Nothing moves but the place: no inertia, no resonance, no radiation. f = v / lambda.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+import bem3d
+import mdr
+from validation.engine.engine import Outcome
+from validation.scenes.rail import RailScene
+from validation.simulation.equivalent_displacement import BEM, LINE, LINEAR, LINEAR_MODELS, SPRINGS_THAT_READ
+from validation.simulation.rail_ground import LENGTH, StatedAcross, strip_of
+from validation.simulation.rail_strip import RailStrip
+
+FloatArray = NDArray[np.float64]
+
+GEIKE = "springs of Geike's spectrum"
+ISOTROPIC: Literal["isotropic"] = "isotropic"
+MOST_CELLS = 12_000_000
+"""Of a strip: 100 MB of heights, and ten times as much while springs read them."""
+SPRINGS_TO_A_CELL = 4
+"""Springs cost next to nothing; few of them are noisy."""
+
+
+def sounding_strip(
+    scene: RailScene, *, across: StatedAcross, samples: int, rate: int, cells: int, seed: int
+) -> RailStrip:
+    """A periodic strip that takes so many samples to roll over; the same surface on every grid.
+
+    rate: of the samples [1/s]; cells: to the smaller semi-axis, at least. Raises ValueError for a scene without a
+    speed, a strip of fewer than 60 larger semi-axes, and one that is too large.
+    """
+    if scene.speed is None:
+        raise ValueError('a sound needs wheel.speed, as speed = "80 km/h" under [wheel], got a scene without it')
+    short = strip_of(scene, across, cells, 0, seed)
+    length, contact = samples / rate * scene.speed, scene.contact
+    least = LENGTH * max(contact.along, contact.across) / scene.speed
+    if samples / rate < least:
+        raise ValueError(f"seconds must be at least {least:.2g} at this speed, got {samples / rate:g}")
+    widths = math.floor(length / short.width)
+    width = length / widths
+    columns = 2 * math.ceil(width / short.spacing / 2)
+    if widths * columns**2 > MOST_CELLS:
+        most = samples / rate * MOST_CELLS / (widths * columns**2)
+        raise ValueError(f"seconds must be at most {most:.2g} at this speed, got {samples / rate:g}")
+    return replace(short, length=length, width=width, spacing=width / columns)
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldWheel:
+    """A wheel that rolls at the approach of its smooth contact, over the rows `first` to `last` of a strip.
+
+    model: of `FORCES`; tolerance: residual of boundary elements.
+    """
+
+    strip: RailStrip
+    model: str
+    first: int
+    last: int
+    tolerance: float
+
+    def __post_init__(self) -> None:
+        if self.model not in FORCES:
+            raise ValueError(f"model must be one of {', '.join(FORCES)}, got {self.model!r}")
+
+
+def roll_held_wheel(problem: HeldWheel) -> Outcome:
+    """force: on each row [N], NaN where boundary elements have not converged; failed: how many have not."""
+    force = FORCES[problem.model](problem)
+    return {"force": force, "failed": np.array(float(np.isnan(force).sum()))}
+
+
+def _linear(problem: HeldWheel) -> FloatArray:
+    """F_N + k (H * h): linear theory of the half-space."""
+    contact = problem.strip.contact
+    lifted = problem.strip.along_middle(LINEAR_MODELS[LINEAR](contact))
+    return (contact.force + contact.stiffness * lifted)[problem.first : problem.last]
+
+
+def _boundary_elements(problem: HeldWheel) -> FloatArray:
+    strip = problem.strip
+    rolled = bem3d.roll(
+        np.roll(strip.surface, -problem.first, axis=0),
+        spacing=strip.spacing,
+        radius=strip.radii,
+        modulus=strip.modulus,
+        approach=strip.contact.approach,
+        positions=problem.last - problem.first,
+        tolerance=problem.tolerance,
+        raise_on_failure=False,
+    )
+    return np.where(rolled.converged, rolled.force, np.nan)
+
+
+def _springs_that_read(problem: HeldWheel) -> FloatArray:
+    return _on_springs(problem, mdr.roll_surface, problem.strip.surface, problem.strip.spacing)
+
+
+def _springs_of_geike(problem: HeldWheel) -> FloatArray:
+    return _on_springs(problem, mdr.roll, geike_track(problem.strip))
+
+
+def _on_springs(
+    problem: HeldWheel, roll: Callable[..., mdr.RollingTrack], height: FloatArray, *across: float
+) -> FloatArray:
+    """Of several springs to a cell, between which the heights are interpolated by their waves. across: dy."""
+    strip, dx = problem.strip, problem.strip.spacing / SPRINGS_TO_A_CELL
+    rolled = roll(
+        scipy.signal.resample(height, SPRINGS_TO_A_CELL * len(height), axis=0),
+        spacing=(dx, *across) if across else dx,
+        radius=strip.radii,
+        modulus=strip.modulus,
+        approach=strip.contact.approach,
+    )
+    return rolled.force[::SPRINGS_TO_A_CELL][problem.first : problem.last].copy()
+
+
+FORCES: dict[str, Callable[[HeldWheel], FloatArray]] = {
+    BEM: _boundary_elements,
+    LINEAR: _linear,
+    SPRINGS_THAT_READ: _springs_that_read,
+    GEIKE: _springs_of_geike,
+}
+
+
+def geike_track(strip: RailStrip) -> FloatArray:
+    """The middle line of an isotropic surface with each of its waves scaled to C_1D = pi |k| C_2D(|k|) of Geike's rule.
+
+    The waves keep their phases, and the scatter of their amplitudes.
+    """
+    line = strip.along_middle(LINEAR_MODELS[LINE](strip.contact))
+    k = np.abs(2 * np.pi * np.fft.fftfreq(line.size, strip.spacing))
+    of_line = strip.variance.sum(axis=1) * strip.width / (2 * math.pi)
+    mapped = math.pi * k * strip.variance[:, 0] * (strip.width / (2 * math.pi)) ** 2
+    ratio = np.divide(mapped, of_line, out=np.zeros_like(k), where=of_line > 0)
+    return np.asarray(np.fft.ifft(np.sqrt(ratio) * np.fft.fft(line)).real)
+
+
+def samples_of(force: FloatArray, samples: int) -> FloatArray:
+    """A periodic force less its mean, at so many instants of its period: all its waves that they can carry [N]."""
+    found = np.asarray(scipy.signal.resample(force, samples), dtype=np.float64)
+    return np.asarray(found - found.mean())
