@@ -134,6 +134,8 @@ def test_a_room_that_is_a_link_is_refused(room, taken, tmp_path, capsys):
     out, elsewhere = tmp_path / "out", tmp_path / "elsewhere"
     assert report(out, "geike") == command.Exit.MET
     elsewhere.mkdir()
+    # geike has no sounds
+    (out / room).mkdir(exist_ok=True)
     for name, text in tree(out / room).items():
         (elsewhere / name).write_bytes(text)
         (out / room / name).unlink()
