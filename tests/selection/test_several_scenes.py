@@ -3,13 +3,27 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 
 import validation
+from tests.selection.test_model_hierarchy import punch
 from validation.__main__ import main
+from validation.engine.engine import Engine
 from validation.scenes.load import load_varied
+from validation.selection import several_scenes
+from validation.selection.several import overview
+from validation.selection.several_scenes import SceneProblem, compare_scenes, content_of
+from validation.selection.summary import WIDTH, summary
 
-SWEEP = ["compare", "rolling_wheel", "--tolerance", "10%", "--sweep", "wheel.load=2000 N,4905 N"]
+SWEEP = ["compare", "rolling_wheel", "--tolerance", "10%", "--workers", "1", "--sweep", "wheel.load=2000 N,4905 N"]
+HEIGHTS = np.random.default_rng(4).standard_normal((64, 64)) * 1e-3
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    """Finished scenes are stored below the working folder."""
+    monkeypatch.chdir(tmp_path)
 
 
 def test_a_sweep_is_one_table_with_a_row_a_value(tmp_path, capsys):
@@ -31,7 +45,7 @@ def test_a_sweep_is_one_table_with_a_row_a_value(tmp_path, capsys):
 
 
 def test_several_scenes_end_as_the_worst_of_them(capsys):
-    assert main(["compare", "sphere", "rough_punch", "--tolerance", "50%"]) == 0
+    assert main(["compare", "sphere", "rough_punch", "--tolerance", "50%", "--workers", "1"]) == 0
     text = capsys.readouterr().out
     assert "Smooth sphere" in text and "Rough punch" in text and "±" in text
 
@@ -61,3 +75,68 @@ def test_a_sweep_without_values_is_refused(word, capsys):
     with pytest.raises(SystemExit) as refused:
         main(["compare", "rolling_wheel", "--sweep", word])
     assert refused.value.code == 2 and "--sweep" in capsys.readouterr().err
+
+
+def problem(**changes):
+    return SceneProblem(
+        **{"scene": validation.load_scene("rolling_wheel"), "quantity": "force-rms", "tolerance": "1 dB", **changes}
+    )
+
+
+def measured(height=HEIGHTS):
+    return punch(ground=validation.MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
+
+
+def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
+    """Bit for bit, text and files; of a rail its errors in bands, of a measured face all of its heights."""
+    problems = [
+        problem(),
+        problem(solve_all=True, models=("mdr",)),
+        problem(scene=measured(), quantity="stiffness", tolerance=0.9),
+    ]
+    problems.append(problem(scene=validation.load_scene("rail"), quantity="contact-filter"))
+    engine = Engine(store=tmp_path)
+    for found in (compare_scenes(problems, engine), compare_scenes(problems, engine)):
+        for one, comparison in zip(problems, found, strict=True):
+            alone = validation.compare(one.scene, one.quantity, one.tolerance, models=one.models)
+            assert (summary(comparison), validation.to_json(comparison)) == (summary(alone), validation.to_json(alone))
+
+
+def test_an_interrupted_sweep_goes_on(monkeypatch, capsys):
+    solved = []
+
+    def interrupted(scene, *given, **named):
+        solved.append(scene.name)
+        if len(solved) == 2:
+            raise KeyboardInterrupt
+        return validation.compare(scene, *given, **named)
+
+    monkeypatch.setattr(several_scenes, "compare", interrupted)
+    assert main(SWEEP) == 130
+    assert "the same command goes on" in capsys.readouterr().err
+    assert main(SWEEP) == 0
+    assert solved == ["Rolling wheel, load = 2000 N", *["Rolling wheel, load = 4905 N"] * 2]
+
+
+def test_heights_that_differ_in_one_point_are_another_scene():
+    changed = HEIGHTS.copy()
+    changed[31, 31] += 1e-6
+    contents = [content_of(measured(heights)) for heights in (HEIGHTS, HEIGHTS.copy(), changed)]
+    assert contents[0] == contents[1] != contents[2]
+    scene = validation.load_scene("rail")
+    before = content_of(scene)
+    _ = scene.contact, scene.levels.rms  # what is computed and kept is no part of it
+    assert content_of(scene) == before
+
+
+def test_long_names_have_lines_of_their_own():
+    found = [validation.compare(punch(ground=None, name=name)) for name in ("short", "long " * 15)]
+    lines = overview(found)
+    assert len(lines) == 6 and max(map(len, lines)) <= WIDTH
+    assert len(overview(found[:1])) == 2
+
+
+@pytest.mark.parametrize("option", [["--csv", "out.csv"], ["--figure", "out.svg"]])
+def test_two_quantities_have_no_common_table(option, capsys):
+    assert main(["compare", "sphere", "rolling_wheel", *option]) == 2
+    assert "must have one quantity" in capsys.readouterr().err

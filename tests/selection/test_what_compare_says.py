@@ -103,9 +103,9 @@ def test_all_models_are_solved_and_the_selected_one_stays():
     assert [one.status for one in every.models] == ["skipped", "accepted", "not needed", "failed", "out of range"]
     assert [one.name for one in every.selection.solved] == ["skipped", "enough", "dearer"]
     assert side_by_side(some) == []
-    rows = side_by_side(every)[2:-1]
+    rows = side_by_side(every)[3:-1]
     # 20 lg 1.5 and 20 lg 1.1 from the model with the smallest error
-    assert [row.split()[-3:-1] for row in rows] == [["+3.52", "dB"], ["+0.83", "dB"], ["+0.00", "dB"]]
+    assert [row.split()[-2:] for row in rows] == [["+3.52", "+50.0"], ["+0.83", "+10.0"], ["+0.00", "+0.0"]]
 
 
 def test_spectra_stand_side_by_side_in_decibels():

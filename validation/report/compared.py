@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
 from validation.report.style import SETTINGS, graded, pdf, svg, tick
@@ -24,11 +25,11 @@ def figure_of_models(title: str, table: Table, form: str) -> bytes:
     """
     models = list(dict.fromkeys(table["model"].tolist()))
     with matplotlib.rc_context(SETTINGS):
-        figure = Figure(figsize=(7.0, 4.2), layout="constrained")
+        spectra = bool(np.isfinite(table["wavelength_mm"]).all())
+        figure = Figure(figsize=(7.0, 4.2 if spectra else 1.2 + 0.4 * len(models)), layout="constrained")
         axes = figure.subplots()
         axes.set_title(title, loc="left")
-        draw = _spectra if np.isfinite(table["wavelength_mm"]).all() else _numbers
-        draw(axes, table, models)
+        (_spectra if spectra else _numbers)(axes, table, models)
     return {"svg": svg, "pdf": pdf, "png": _png}[form](figure)
 
 
@@ -38,6 +39,8 @@ def _spectra(axes: Axes, table: Table, models: list[str]) -> None:
         mine = table.where(model=model)
         x, style = mine["wavelength_mm"], graded(i, len(models))
         selected = bool(mine["selected"][0])
+        if selected:
+            style["linewidth"] = 2.5
         axes.plot(x, mine["value"], label=f"{model}, selected" if selected else model, **style)
         if selected:
             axes.fill_between(x, mine["low"], mine["high"], color=style["color"], alpha=0.2, linewidth=0)
@@ -46,17 +49,31 @@ def _spectra(axes: Axes, table: Table, models: list[str]) -> None:
     tick(axes, (float(f"{wave:.3g}") for wave in waves[:: 1 + len(waves) // TICKS]))
     axes.invert_xaxis()
     axes.set_xlabel("wavelength [mm]")
+    if np.isfinite(table["frequency_hz"]).all():
+        _add_frequencies(axes, float(table["wavelength_mm"][0] * table["frequency_hz"][0]))
     axes.set_ylabel(f"{table.name} [{table['unit'][0]}]")
     axes.legend()
+
+
+def _add_frequencies(axes: Axes, speed: float) -> None:
+    """A second axis on top; speed: [mm/s]."""
+
+    def over(values: ArrayLike) -> np.ndarray:
+        """Frequencies of wavelengths, and the other way round; matplotlib tries zero, too."""
+        return speed / np.maximum(np.asarray(values, dtype=np.float64), 1e-12)
+
+    axes.secondary_xaxis("top", functions=(over, over)).set_xlabel("frequency [Hz]")
 
 
 def _numbers(axes: Axes, table: Table, models: list[str]) -> None:
     for i, (value, low, selected) in enumerate(zip(table["value"], table["low"], table["selected"], strict=True)):
         style: dict[str, Any] = graded(i, len(models))
-        axes.errorbar(value, i, xerr=value - low, capsize=3, fmt=style["marker"], color=style["color"])
+        half = value - low if np.isfinite(low) else 0.0
+        axes.errorbar(value, i, xerr=half, capsize=3 if half else 0, fmt=style["marker"], color=style["color"])
         if selected:
             models[i] += ",\nselected"
     axes.set_yticks(range(len(models)), models)
+    axes.set_ylim(-0.6, len(models) - 0.4)
     axes.invert_yaxis()
     axes.set_xlabel(f"{table.name} [{table['unit'][0]}]")
 

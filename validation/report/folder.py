@@ -17,7 +17,7 @@ from validation.engine.files import (
     write_whole,
 )
 from validation.report.lock import LOCK, locked
-from validation.report.manifest import MANIFEST, Listed, as_manifest, both, digest_of, listed_in
+from validation.report.manifest import KIND, MANIFEST, Listed, as_manifest, both, digest_of, listed_in
 
 REALISATIONS = "realisations"
 RESULTS = "results.json"
@@ -35,24 +35,27 @@ class Folder:
     since, and one that cannot be written or that another run is at; OSError for a full disk.
     """
 
-    def __init__(self, path: Path):
-        self.path = path
+    def __init__(self, path: Path, *, kind: str = KIND, option: str = "--out"):
+        """kind: of report, which replaces no other kind; option: that names the path, for messages."""
+        self.path, self.kind, self.option = path, kind, option
         self._open = ExitStack()
 
     def __enter__(self) -> "Folder":
         try:
             with ExitStack() as opening:
-                _listed(self.path)
+                self._listed()
                 self.path.mkdir(parents=True, exist_ok=True)
                 opening.enter_context(locked(self.path))
                 # once more, now that no other run writes here; the list comes before anything else, so that a killed
                 # run can continue
-                self._list(_listed(self.path))
+                self._list(self._listed())
                 self._open = opening.pop_all()
         except OSError as error:
             if error.errno not in ERRORS_OF_A_PATH:
                 raise
-            raise ValueError(f"--out must be a folder that can be written, got {self.path}: {error.strerror}") from None
+            raise ValueError(
+                f"{self.option} must be a folder that can be written, got {self.path}: {error.strerror}"
+            ) from None
         return self
 
     def __exit__(
@@ -65,7 +68,7 @@ class Folder:
 
         Raises ValueError for a file of others in one of its places, OSError, which names the place, for a full disk.
         """
-        before = _listed(self.path)
+        before = self._listed()
         after = {name: (digest_of(some),) for name, some in contents.items()}
         for name in after.keys() - before.keys():
             if is_there(self.path / name):
@@ -86,7 +89,31 @@ class Folder:
         self._sweep()
 
     def _list(self, listed: Listed) -> None:
-        write_whole(self.path / MANIFEST, as_manifest(listed))
+        write_whole(self.path / MANIFEST, as_manifest(listed, self.kind))
+
+    def _listed(self) -> Listed:
+        """What a report has written here, as it was written or gone since; nothing where there is none yet."""
+        folder = self.path
+        if "\0" in str(folder):
+            raise ValueError(f"{self.option} must be a name that a folder can have, got {str(folder)!r}")
+        if not folder.is_dir():
+            if is_there(folder):
+                raise ValueError(f"{self.option} must be a folder, got a file, or a link to nothing: {folder}")
+            return {}
+        if not is_there(folder / MANIFEST):
+            if any(entry.name != LOCK and not PARTIAL_FILE.fullmatch(entry.name) for entry in folder.iterdir()):
+                raise ValueError(
+                    f"{self.option} must be a new or empty folder or an earlier report, got {folder} with other files "
+                    f"and without {MANIFEST}, by which reports are known: name another, or remove it yourself if it is "
+                    "an old report"
+                )
+            return {}
+        _check_rooms(folder)
+        listed = listed_in(folder, self.kind)
+        for name, digests in listed.items():
+            if is_there(folder / name) and not (is_plain(folder / name) and _digest(folder / name) in digests):
+                raise ValueError(f"{folder / name} has been changed since the report was written: move it away")
+        return listed
 
     def _sweep(self) -> None:
         """Remove what killed runs had begun to write."""
@@ -94,29 +121,6 @@ class Folder:
             for file in room.glob("*.part"):
                 if PARTIAL_FILE.fullmatch(file.name) and is_plain(file):
                     file.unlink(missing_ok=True)
-
-
-def _listed(folder: Path) -> Listed:
-    """What a report has written in a folder, as it was written or gone since; nothing where there is none yet."""
-    if "\0" in str(folder):
-        raise ValueError(f"--out must be a name that a folder can have, got {str(folder)!r}")
-    if not folder.is_dir():
-        if is_there(folder):
-            raise ValueError(f"--out must be a folder, got a file, or a link to nothing: {folder}")
-        return {}
-    if not is_there(folder / MANIFEST):
-        if any(entry.name != LOCK and not PARTIAL_FILE.fullmatch(entry.name) for entry in folder.iterdir()):
-            raise ValueError(
-                f"--out must be a new or empty folder or an earlier report, got {folder} with other files and without "
-                f"{MANIFEST}, by which reports are known: name another, or remove it yourself if it is an old report"
-            )
-        return {}
-    _check_rooms(folder)
-    listed = listed_in(folder)
-    for name, digests in listed.items():
-        if is_there(folder / name) and not (is_plain(folder / name) and _digest(folder / name) in digests):
-            raise ValueError(f"{folder / name} has been changed since the report was written: move it away")
-    return listed
 
 
 def _check_rooms(folder: Path) -> None:

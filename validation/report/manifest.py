@@ -10,6 +10,8 @@ from validation.engine.files import read_plain
 
 MANIFEST = "manifest.json"
 KIND, FORMAT = "mdr-validation report", 1
+COMPARISON = "mdr-validation comparison"
+"""Kind of a folder that `compare --report` has written: neither takes the other's place."""
 NAME = re.compile(
     r"(?:(?:figures|data|sounds)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv|wav)"
 )
@@ -19,23 +21,24 @@ Listed = Mapping[str, tuple[str, ...]]
 """Files below the folder, each with the SHA-256 of what it holds, or of what it may hold while it is replaced."""
 
 
-def as_manifest(listed: Listed) -> bytes:
+def as_manifest(listed: Listed, kind: str = KIND) -> bytes:
     files = {name: list(digests) for name, digests in listed.items()}
-    return (json.dumps({"kind": KIND, "format": FORMAT, "files": files}, indent=1, sort_keys=True) + "\n").encode()
+    return (json.dumps({"kind": kind, "format": FORMAT, "files": files}, indent=1, sort_keys=True) + "\n").encode()
 
 
-def listed_in(folder: Path) -> Listed:
-    """The list of a folder. Raises ValueError where it is not that of a report, OSError where there is none."""
+def listed_in(folder: Path, kind: str = KIND) -> Listed:
+    """The list of a folder. Raises ValueError where it is of another kind, OSError where there is none."""
     try:
         manifest = json.loads(read_plain(folder / MANIFEST))
-        if (manifest["kind"], manifest["format"]) != (KIND, FORMAT):
+        if (manifest["kind"], manifest["format"]) != (kind, FORMAT):
             raise ValueError("of another kind")
         listed = {name: tuple(digests) for name, digests in manifest["files"].items()}
         if not all(NAME.fullmatch(name) and name != MANIFEST for name in listed):
             raise ValueError("names that no report has")
     # a foreign file may hold anything
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        raise ValueError(f"{folder / MANIFEST} is not the list of a report: name another folder") from None
+        wanted = kind.removeprefix("mdr-validation ")
+        raise ValueError(f"{folder / MANIFEST} is not the list of a {wanted}: name another folder") from None
     return listed
 
 

@@ -1,17 +1,20 @@
 """One scene: the quantity, the cheapest model that is accurate enough, and why."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import count
+from validation.analysis.nominal_bands import MANTISSAS
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
+from validation.scenes.rolling import RollingScene
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
+from validation.selection.model_names import models_named
 from validation.selection.rail_model import rail_models
 from validation.selection.scene_model import SceneModel, models_on
 from validation.selection.tolerance import Tolerance, tolerance_of
@@ -35,6 +38,8 @@ UNITS = {
     "contact-filter": "1",
     "equivalent-roughness": "µm",
 }
+LONGEST_BEYOND_RANGE = 60.0
+"""Seconds that a model may take whose error is unknown."""
 REFERENCES = {"equivalent-roughness": MICROMETRE}
 """Of levels, in SI units; one of those that are not named."""
 
@@ -65,8 +70,9 @@ class Comparison:
         Unit of ``value``.
     wavenumbers : ndarray
         Centres of the one-third octaves [rad/m]; empty where ``value`` is one number.
-    wavelength_mm, frequency_hz : ndarray
-        The same as wavelengths [mm], and as frequencies [Hz] where the scene has a speed.
+    wavelength_mm, frequency_hz, nominal_hz : ndarray
+        The same as wavelengths [mm], and where the scene has a speed as frequencies [Hz] and as the nominal frequencies
+        of the one-third octaves in which these lie.
     model : str
         Name of the model that gives ``value``; empty where none has an answer.
     met : bool
@@ -95,7 +101,9 @@ class Comparison:
     @property
     def value(self) -> FloatArray:
         """One number, or one a band, in ``unit``; NaN where no model has an answer."""
-        return np.array([math.nan]) if self.selection.best is None else self.value_of(self.selection.best)
+        if self.selection.best is None:
+            return np.full(max(1, self.wavenumbers.size), math.nan)
+        return self.value_of(self.selection.best)
 
     def value_of(self, candidate: Candidate) -> FloatArray:
         """Of a model that was solved, as `value`."""
@@ -130,7 +138,7 @@ class Comparison:
     @property
     def wavenumbers(self) -> FloatArray:
         """Centres of the one-third octaves [rad/m]; empty where the value is one number."""
-        if not self.is_level or self._answer is None:
+        if not self.is_level or not self.selection.solved:
             return np.empty(0)
         if isinstance(self.scene, RailScene):
             return 2 * math.pi / self.scene.levels.bands.nominal
@@ -147,6 +155,12 @@ class Comparison:
         """The same as frequencies [Hz]; empty without a speed."""
         speed = getattr(self.scene, "speed", None)
         return np.empty(0) if speed is None else speed * self.wavenumbers / (2 * math.pi)
+
+    @property
+    def nominal_hz(self) -> FloatArray:
+        """Names of the one-third octaves of frequency in which these lie [Hz]."""
+        numbers = np.rint(10 * np.log10(self.frequency_hz)).astype(int)
+        return np.array([float(f"{MANTISSAS[n % 10] * 10.0 ** (n // 10):.3g}") for n in numbers])
 
     @property
     def model(self) -> str:
@@ -200,6 +214,7 @@ def compare(
     seed: int = 0,
     *,
     solve_all: bool = False,
+    models: Sequence[str] = (),
     callback: Callable[[ContactModel], None] = lambda _: None,
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.
@@ -209,16 +224,17 @@ def compare(
     scene : IndentationScene, RollingScene or RailScene
         What `load_scene` returns.
     quantity : str, optional
-        "stiffness" of a sphere or punch; "force-rms" or "force-spectrum" of a wheel; "acceleration" or
-        "acceleration-rms" of a wheel with a mass; "contact-filter" or "equivalent-roughness" of a wheel on a rail. By
-        default the first of these that the scene has.
+        One that the scene has, see `Comparison`; by default the first.
     tolerance : float or str, optional
         Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB"; of a spectrum, of the root
         mean square over all bands. Errors are printed in dB where it is given in dB.
     seed : int, optional
         Seed of the roughness that is drawn, zero or positive.
     solve_all : bool, optional
-        Whether the models that are not needed are solved, too, to see them side by side. The selected one stays.
+        Whether all models are solved, to see them side by side. The selected one stays. Out of its range a model is
+        solved where that takes a minute at the most; the error of what it finds is unknown.
+    models : sequence of str, optional
+        Solve these models and no others: "mdr", "bem", or names of models of this scene.
     callback : callable, optional
         Called with each model before its solve, as for a note that it takes a while.
 
@@ -230,26 +246,31 @@ def compare(
     Raises
     ------
     TypeError, ValueError
-        If ``scene`` is not a scene or has no such quantity, or if another argument is out of range.
+        If ``scene`` is not a scene or has no such quantity or model, or if another argument is out of range.
 
     Notes
     -----
-    Models are tried from the cheapest on: closed form or fit, linear filter, springs, boundary elements on ever finer
-    grids. Each has an estimate of its error, from its calibration beside boundary elements. A model is skipped where
-    that exceeds the tolerance, and accepted where model, grid and sample error of its solve add up to no more.
+    Models are tried from the cheapest on. Each has an estimate of its error, from its calibration beside boundary
+    elements. A model is skipped where that exceeds the tolerance, and accepted where the errors of its solve do not.
 
     Examples
     --------
     >>> result = validation.compare(validation.load_scene("sphere"), tolerance=0.01)
     >>> result.quantity, result.model, result.met
     ('stiffness', 'closed form', True)
-    >>> print(f"{result.value[0]:.4g} {result.unit}")
-    9.365e+08 N/m
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
     asked, wanted = quantity or quantities_of(scene)[0], tolerance_of(tolerance)
-    models = models_of(scene, asked, wanted.relative, seed)
-    selection = select_model(models, wanted.relative, callback=callback, solve_all=solve_all)
+    every = models_of(scene, asked, wanted.relative, seed)
+    named, solve_all = (models_named(every, models, wanted.relative), True) if models else (every, solve_all)
+    selection = select_model(every, wanted.relative, callback=callback, solve_all=solve_all, only=named, beyond=_beyond)
     return Comparison(scene, asked, selection, wanted.in_decibels)
+
+
+def _beyond(model: ContactModel) -> bool:
+    """Whether the scene has an answer at all, and the model is expected to find one soon."""
+    if not isinstance(model, SceneModel) or model.cost().seconds > LONGEST_BEYOND_RANGE:
+        return False
+    return not (isinstance(model.target.scene, RollingScene) and model.target.rolling.no_answer)

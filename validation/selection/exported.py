@@ -1,7 +1,7 @@
 """The result of `compare` for other programs: strict JSON, and one table of all models that were solved."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
@@ -32,8 +32,18 @@ def to_json(comparison: Comparison) -> str:
     >>> found["quantity"], found["unit"], found["model"], found["met"]
     ('stiffness', 'N/m', 'closed form', True)
     """
+    return as_json(_found(comparison)).decode()
+
+
+def to_json_of(comparisons: Sequence[Comparison]) -> str:
+    """The object of one comparison, or the list of several."""
+    found = [_found(one) for one in comparisons]
+    return as_json(found if len(found) > 1 else found[0]).decode()
+
+
+def _found(comparison: Comparison) -> dict[str, object]:
     best = comparison.selection.best
-    found = {
+    return {
         "scene": comparison.scene.name,
         "quantity": comparison.quantity,
         "unit": comparison.unit,
@@ -42,14 +52,14 @@ def to_json(comparison: Comparison) -> str:
         "met": comparison.met,
         "model": comparison.model or None,
         "value": _numbers(comparison.value),
-        "error": [None] if best is None else _numbers(comparison.errors_of(best)),
+        "error": [None] * comparison.value.size if best is None else _numbers(comparison.errors_of(best)),
         "error_parts": {} if best is None or best.answer is None else _parts(best.answer),
         "wavelength_mm": _numbers(comparison.wavelength_mm),
         "frequency_hz": _numbers(comparison.frequency_hz),
+        "nominal_hz": _numbers(comparison.nominal_hz),
         "assumed": assumed(comparison.scene),
         "models": [_became(comparison, one) for one in comparison.models],
     }
-    return as_json(found).decode()
 
 
 def to_csv(comparison: Comparison) -> str:

@@ -63,7 +63,7 @@ class ContactModel(Protocol):
         """Compute, and estimate the error from what was computed."""
 
 
-Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range"]
+Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range", "not asked"]
 REFUSALS = (ValueError, ArithmeticError, MemoryError)
 """What a solve raises where it cannot serve a scene; it is a row of the table, and the other models go on."""
 
@@ -111,9 +111,10 @@ class Selection:
 
     @property
     def best(self) -> Candidate | None:
-        """The accepted model, or else the one with the smallest error; None where none has an answer."""
+        """The accepted model, or else the one with the smallest error; None where no answer has a known error."""
         accepted = [candidate for candidate in self.solved if candidate.status == "accepted"]
-        return accepted[0] if accepted else min(self.solved, key=_error, default=None)
+        known = [candidate for candidate in self.solved if math.isfinite(candidate.error)]
+        return accepted[0] if accepted else min(known, key=_error, default=None)
 
     @property
     def solved(self) -> tuple[Candidate, ...]:
@@ -132,14 +133,17 @@ def select_model(
     *,
     callback: Callable[[ContactModel], None] = lambda _: None,
     solve_all: bool = False,
+    only: Sequence[ContactModel] | None = None,
+    beyond: Callable[[ContactModel], bool] = lambda _: False,
 ) -> Selection:
     """Solve with models from the cheapest on, until the error of one is within the tolerance.
 
     models: in the order of their cost; tolerance: relative, positive; callback: called with each model
     before its solve; solve_all: whether those that were not needed or skipped are solved, too, which selects no other
-    model. A model without an estimate is out of range and not solved; one that expects to miss the tolerance
-    is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as long as that is below
-    the errors of the others. A solve that raises one of `REFUSALS` has failed.
+    model; only: of these, None for all; beyond: which of those out of range are solved, too, where all are: the errors
+    of their answers stay unknown. A model without an estimate is out of range and not solved; one that expects to
+    miss the tolerance is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as
+    long as that is below the errors of the others. A solve that raises one of `REFUSALS` has failed.
     Raises ValueError for a tolerance that is not finite and positive.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
@@ -147,7 +151,9 @@ def select_model(
     candidates: list[Candidate] = []
     for model in models:
         expected = model.estimate()
-        if not expected.in_range:
+        if only is not None and not any(model is one for one in only):
+            candidates.append(Candidate(model, "not asked", expected.reason, expected))
+        elif not expected.in_range:
             candidates.append(Candidate(model, "out of range", expected.reason, expected))
         elif any(candidate.status == "accepted" for candidate in candidates):
             candidates.append(Candidate(model, "not needed", expected.reason, expected))
@@ -158,7 +164,7 @@ def select_model(
             candidates.append(_solved(model, expected, tolerance))
     selection = Selection(tolerance, tuple(candidates))
     selection = selection if selection.met else _with_least_estimate(selection, callback)
-    return _with_all_solved(selection, callback) if solve_all else selection
+    return _with_all_solved(selection, callback, beyond) if solve_all else selection
 
 
 def needed(models: Sequence[ContactModel], tolerance: float) -> ContactModel | None:
@@ -195,8 +201,9 @@ def _with_least_estimate(selection: Selection, callback: Callable[[ContactModel]
     return _with_least_estimate(more, callback)
 
 
-def _with_all_solved(selection: Selection, callback: Callable[[ContactModel], None]) -> Selection:
-    """All but those out of range: no error is known of what they would find."""
+def _with_all_solved(
+    selection: Selection, callback: Callable[[ContactModel], None], beyond: Callable[[ContactModel], bool]
+) -> Selection:
     candidates = []
     for one in selection.candidates:
         if one.status in ("skipped", "not needed"):
@@ -204,6 +211,9 @@ def _with_all_solved(selection: Selection, callback: Callable[[ContactModel], No
             answer = try_to_solve(one.model)
             status: Status = "failed" if answer.failed else one.status
             one = replace(one, answer=answer, status=status, reason=answer.failed or answer.reason or one.reason)
+        elif one.status == "out of range" and beyond(one.model):
+            callback(one.model)
+            one = replace(one, answer=try_to_solve(one.model))
         candidates.append(one)
     return Selection(selection.tolerance, tuple(candidates))
 

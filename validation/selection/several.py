@@ -5,21 +5,45 @@ from collections.abc import Sequence
 from validation.analysis.evidence import Table
 from validation.selection.compare import Comparison
 from validation.selection.exported import levels_of_models
-from validation.selection.summary import label, scaled
+from validation.selection.summary import WIDTH, label, scaled
 
 
 def overview(comparisons: Sequence[Comparison]) -> list[str]:
-    """A line a scene: the model that is enough, its error, the errors of MDR, the result where it is one number."""
-    width = 2 + max(len(one.scene.name) for one in comparisons)
-    lines = [f"{'scene':{width}s}{'model':36s}{'error':>9s}{'MDR':>9s}   result"]
+    """A line a scene, of the columns of `overview_of`; two lines a scene where names are long."""
+    scenes, *others = ([name, *column] for name, column in overview_of(comparisons).items())
+    model, error, mdr = (max(map(len, column)) for column in others[:3])
+    rests = [
+        f"{row[0]:{model}s}  {row[1]:>{error}s}  {row[2]:>{mdr}s}   {row[3]}".rstrip()
+        for row in zip(*others, strict=True)
+    ]
+    width = max(map(len, scenes))
+    if width + 2 + max(map(len, rests)) <= WIDTH:
+        return [f"{scene:{width}s}  {rest}" for scene, rest in zip(scenes, rests, strict=True)]
+    head, *pairs = zip(scenes, rests, strict=True)
+    return [head[0], f"  {head[1]}", *(line for scene, rest in pairs for line in (scene, f"  {rest}"))]
+
+
+def overview_of(comparisons: Sequence[Comparison]) -> dict[str, list[str]]:
+    """A row a scene: the model that is enough, its error, the errors of MDR, the result where it is one number."""
+    columns: dict[str, list[str]] = {"scene": [], "model": [], "error": [], "MDR": [], "result": []}
     for one in comparisons:
         best, shown = one.selection.best, one.tolerance.shown
-        error = "none" if best is None else shown(best.error)
         mdr = min((springs.error for springs in one.models if springs.model.is_mdr), default=None)
-        name = "none is enough" if best is None or not one.met else label(best)
-        columns = f"{name:36s}{error:>9s}{'—' if mdr is None else shown(mdr):>9s}"
-        lines.append(f"{one.scene.name:{width}s}{columns}   {_result(one)}".rstrip())
-    return lines
+        row = (
+            one.scene.name,
+            "none is enough" if best is None or not one.met else label(best),
+            "none" if best is None else shown(best.error),
+            "—" if mdr is None else shown(mdr),
+            _result(one),
+        )
+        for column, cell in zip(columns.values(), row, strict=True):
+            column.append(cell)
+    return columns
+
+
+def same_quantity(comparisons: Sequence[Comparison]) -> bool:
+    """Whether one figure can show all of them."""
+    return len({one.quantity for one in comparisons}) == 1
 
 
 def _result(comparison: Comparison) -> str:

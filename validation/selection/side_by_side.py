@@ -2,11 +2,14 @@
 
 import math
 import string
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
+
+Columns = dict[str, list[str]]
 
 
 def side_by_side(comparison: Comparison) -> list[str]:
@@ -14,9 +17,12 @@ def side_by_side(comparison: Comparison) -> list[str]:
     solved = comparison.selection.solved
     if len(solved) < 2:
         return []
-    reference = min(reversed(solved), key=lambda one: one.error)
-    table = _spectra if comparison.wavenumbers.size else _numbers
-    return ["", *table(comparison, solved, reference), ""]
+    return ["", *(_spectra(comparison) if comparison.is_level else _numbers(comparison)), ""]
+
+
+def reference_of(comparison: Comparison) -> Candidate:
+    """The solved model with the smallest error, the dearest of several."""
+    return min(reversed(comparison.selection.solved), key=lambda one: one.error)
 
 
 def differences(comparison: Comparison, candidate: Candidate, reference: Candidate) -> np.ndarray:
@@ -25,29 +31,64 @@ def differences(comparison: Comparison, candidate: Candidate, reference: Candida
     return np.asarray(20 * np.log10(candidate.answer.value / reference.answer.value))
 
 
-def _numbers(comparison: Comparison, solved: tuple[Candidate, ...], reference: Candidate) -> list[str]:
-    lines = [f"side by side; differences from {reference.name}"]
-    for one in solved:
+def axis_of(comparison: Comparison) -> Columns:
+    """Wavelength of each band; with a speed also its frequency, and the nominal band in which that lies."""
+    columns = {"wavelength [mm]": [f"{wave:.4g}" for wave in comparison.wavelength_mm]}
+    if comparison.frequency_hz.size:
+        columns["f [Hz]"] = [f"{frequency:.4g}" for frequency in comparison.frequency_hz]
+        columns["band [Hz]"] = [f"{nominal:g}" for nominal in comparison.nominal_hz]
+    return columns
+
+
+def numbers_beside(comparison: Comparison) -> Columns:
+    """A row a model that was solved: its number, its error, and how far it is from the reference."""
+    reference, columns = reference_of(comparison), Columns()
+    for one in comparison.selection.solved:
         (value,), (half,) = comparison.value_of(one), comparison.errors_of(one)
         (off,) = differences(comparison, one, reference)
-        number = f"{value:12.4g} ± {half:<9.2g}{comparison.unit:8s}"
-        lines.append(f"  {one.name:36s}{number}{off:+8.2f} dB  {10 ** (off / 20) - 1:+7.1%}")
-    return lines
+        row = {
+            "model": one.name,
+            f"{comparison.quantity} [{comparison.unit}]": f"{value:.4g}",
+            "±": f"{half:.2g}" if math.isfinite(half) else "unknown",
+            "difference [dB]": f"{off:+.2f}",
+            "[%]": f"{100 * (10 ** (off / 20) - 1):+.1f}",
+        }
+        for name, text in row.items():
+            columns.setdefault(name, []).append(text)
+    return columns
 
 
-def _spectra(comparison: Comparison, solved: tuple[Candidate, ...], reference: Candidate) -> list[str]:
-    """The level of the reference, and what is to be added to it for each of the others."""
-    others = [one for one in solved if one is not reference]
+def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
+    """A row a band: the level of the reference, and what is to be added to it for each other model.
+
+    Returns the names of these models by their letters, and the columns.
+    """
+    reference = reference_of(comparison)
+    others = [one for one in comparison.selection.solved if one is not reference]
     letters = dict(zip(string.ascii_uppercase, others, strict=False))
-    lines = [f"side by side: level by {reference.name} [{comparison.unit}], and from there to"]
-    lines += [f"  {letter}: {one.name}" for letter, one in letters.items()]
-    hertz = "f [Hz]" if comparison.frequency_hz.size else ""
-    lines.append(f"{'wavelength [mm]':>16s}{hertz:>10s}{'level':>10s}" + "".join(f"{key:>8s}" for key in letters))
-    level, apart = comparison.value_of(reference), [differences(comparison, one, reference) for one in others]
-    frequencies = comparison.frequency_hz if comparison.frequency_hz.size else np.full(level.size, math.nan)
-    for i, wavelength in enumerate(comparison.wavelength_mm):
-        frequency = "" if math.isnan(frequencies[i]) else f"{frequencies[i]:.4g}"
-        lines.append(
-            f"{wavelength:16.4g}{frequency:>10s}{level[i]:10.1f}" + "".join(f"{row[i]:+8.1f}" for row in apart)
-        )
-    return lines
+    columns = axis_of(comparison)
+    columns.pop("f [Hz]", None)
+    columns["level"] = [f"{level:.1f}" for level in comparison.value_of(reference)]
+    for letter, one in letters.items():
+        columns[letter] = [f"{off:+.1f}" for off in differences(comparison, one, reference)]
+    return {letter: one.name for letter, one in letters.items()}, columns
+
+
+def columns_as_lines(columns: Mapping[str, list[str]]) -> Iterator[str]:
+    """Names of models to the left, all else to the right; columns under a letter are narrow."""
+    widths = {name: max(5 if len(name) == 1 else 8, *map(len, [name, *cells])) for name, cells in columns.items()}
+    signs = {name: "<" if name == "model" else ">" for name in columns}
+    for row in (tuple(columns), *zip(*columns.values(), strict=True)):
+        yield "  ".join(f"{text:{signs[name]}{widths[name]}s}" for name, text in zip(columns, row, strict=True))
+
+
+def _numbers(comparison: Comparison) -> Iterator[str]:
+    yield f"side by side; differences from {reference_of(comparison).name}"
+    yield from (f"  {line}" for line in columns_as_lines(numbers_beside(comparison)))
+
+
+def _spectra(comparison: Comparison) -> Iterator[str]:
+    letters, columns = levels_beside(comparison)
+    yield f"side by side: level by {reference_of(comparison).name} [{comparison.unit}], and from there to"
+    yield from (f"  {letter}: {name}" for letter, name in letters.items())
+    yield from columns_as_lines(columns)

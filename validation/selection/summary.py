@@ -12,7 +12,7 @@ from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
 from validation.selection.compare import MOVING, UNITS, Comparison
 from validation.selection.hierarchy import Answer, Candidate, Status
-from validation.selection.side_by_side import side_by_side
+from validation.selection.side_by_side import axis_of, columns_as_lines, side_by_side
 from validation.selection.tolerance import Tolerance, short
 from validation.simulation.rail_models import MEASURED_ON_STRIPS
 
@@ -22,10 +22,11 @@ ASSUMED = "elastic half-spaces, isotropic, without friction and adhesion"
 BECAME: dict[Status, str] = {
     "accepted": "enough, and the cheapest that is",
     "not accurate enough": "solved: not enough",
-    "skipped": "not solved: its claim is too large",
+    "skipped": "not solved: its claim is too high",
     "not needed": "not solved: a cheaper is enough",
     "failed": "solved: no result",
     "out of range": "not solved: its error is unknown",
+    "not asked": "not solved: not asked for",
 }
 """What became of a model, in words."""
 
@@ -61,19 +62,18 @@ def heading(scene: Scene, quantity: str, tolerance: Tolerance) -> str:
 
 def findings(comparison: Comparison) -> str:
     """What became of each model, the result, its cost, and whether MDR is enough."""
-    selection, best = comparison.selection, comparison.selection.best
-    lines = ["", f"{'model':36s}{'claims':>9s}{'found':>9s}{'cost':>9s}   what became of it"]
+    best = comparison.selection.best
+    lines = ["", f"{'model':36s}{'claims':>12s}{'found':>9s}{'cost':>8s}  what became of it"]
     lines += _rows(comparison)
     lines.append("")
     if best is None or best.answer is None:
-        lines += ["no model has a result", *_what_would_help(comparison)]
+        solved = comparison.selection.solved
+        lines += [f"no model has {'a known error' if solved else 'a result'}", *side_by_side(comparison)]
     else:
-        lines += [*_result(comparison, best.answer), *side_by_side(comparison), _age(comparison), _cost(comparison)]
-        if not selection.met:
-            left = comparison.tolerance.shown(best.error)
-            lines.append(f"not reached: the tolerance of {comparison.tolerance}; the smallest error is {left}")
-            lines += _what_would_help(comparison)
-    return "\n".join(_wrapped([*lines, *sentences_on_mdr(comparison)], indent=4))
+        bands = columns_as_lines(bands_of(comparison, best)) if comparison.is_level else []
+        lines += [result_of(comparison, best.answer), *([best.answer.counted] if best.answer.counted else []), *bands]
+        lines += [*side_by_side(comparison), age_of_errors(comparison), cost_of(comparison)]
+    return "\n".join(_wrapped([*lines, *what_would_help(comparison), *sentences_on_mdr(comparison)], indent=4))
 
 
 def label(candidate: Candidate) -> str:
@@ -92,7 +92,7 @@ def sentences_on_mdr(comparison: Comparison) -> list[str]:
 
 def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     tolerance, selection = comparison.tolerance, comparison.selection
-    if springs.status in ("failed", "out of range"):
+    if not math.isfinite(springs.error):
         return f"not known to be enough, because {springs.reason}"
     how = "claimed" if springs.answer is None else "found"
     errors = f"({tolerance.shown(springs.error)} {how}, {tolerance} wanted)"
@@ -103,78 +103,91 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     return f"enough {errors}{others}"
 
 
+def claim_of(comparison: Comparison, one: Candidate) -> str:
+    """The error that a model claims, in the unit of the tolerance."""
+    return comparison.tolerance.shown(one.claimed) if one.estimate.in_range else "out of range"
+
+
+def found_of(comparison: Comparison, one: Candidate) -> str:
+    """The error that a solve left, in the unit of the tolerance."""
+    return "—" if one.answer is None else comparison.tolerance.shown(one.error)
+
+
+def became_of(one: Candidate) -> str:
+    """What became of a model, in words."""
+    return BECAME[one.status] if one.answer is None else BECAME[one.status].replace("not solved", "solved")
+
+
 def _rows(comparison: Comparison) -> Iterator[str]:
     """A line a model, and its reason where that is another than of the model before."""
     before = ""
     for one in comparison.models:
-        found = "—" if one.answer is None else comparison.tolerance.shown(one.error)
-        claimed, cost = comparison.tolerance.shown(one.claimed), format_seconds(one.cost)
-        became = BECAME[one.status] if one.answer is None else BECAME[one.status].replace("not solved", "solved")
-        yield f"{label(one):36s}{claimed:>9s}{found:>9s}{cost:>9s}   {became}"
+        claimed, found, cost = claim_of(comparison, one), found_of(comparison, one), format_seconds(one.cost)
+        yield f"{label(one):36s}{claimed:>12s}{found:>9s}{cost:>8s}  {became_of(one)}"
         if one.reason != before:
             yield f"    {one.reason}"
         before = one.reason
 
 
-def _result(comparison: Comparison, answer: Answer) -> list[str]:
+def result_of(comparison: Comparison, answer: Answer) -> str:
+    """The number with its error, or the model of a spectrum with its error, and the parts of that."""
     shown = comparison.tolerance.shown
     parts = f"model {shown(answer.model)}, grid {shown(answer.grid)}, sample {shown(answer.sample)}"
-    if answer.value.size == 1:
+    if not comparison.is_level:
         value = float(answer.value[0])
         number = f"{scaled(value, value * answer.error)} {comparison.unit}"
-        return [f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"]
+        return f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"
     decibels = f"{short(20 * math.log10(1 + answer.error))} dB"
     both = decibels if comparison.in_decibels else f"{shown(answer.error)}, {decibels},"
     where = "in the bands that count" if answer.band_errors else "over all bands"
-    head = f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {both} {where} ({parts})"
-    return [head, *([answer.counted] if answer.counted else []), *_bands(comparison, answer)]
+    return f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {both} {where} ({parts})"
 
 
-def _bands(comparison: Comparison, answer: Answer) -> Iterator[str]:
-    """A line a band: wavelength, frequency, q a, root mean square, level and its error, where the scene has them."""
-    best, scene, unit = comparison.selection.best, comparison.scene, UNITS[comparison.quantity]
-    assert best is not None  # whose answer that is
-    columns = {"wavelength [mm]": [f"{wave:.4g}" for wave in comparison.wavelength_mm]}
-    if comparison.frequency_hz.size:
-        columns["f [Hz]"] = [f"{frequency:.4g}" for frequency in comparison.frequency_hz]
+def bands_of(comparison: Comparison, one: Candidate) -> dict[str, list[str]]:
+    """A row a band: wavelength, frequency, q a, root mean square, level and its error, as the scene has them."""
+    scene, unit, answer = comparison.scene, UNITS[comparison.quantity], one.answer
+    assert answer is not None  # of a model that was solved
+    columns = axis_of(comparison)
     if isinstance(scene, RollingScene):
         columns["q a"] = [f"{q * scene.contact_radius:.2f}" for q in comparison.wavenumbers]
         columns[f"rms [{unit}]"] = [f"{value:.4g}" for value in answer.value]
     columns[f"level [{comparison.unit}]"] = [
-        f"{round(float(level), 1) + 0.0:.1f}" for level in comparison.value_of(best)
+        f"{round(float(level), 1) + 0.0:.1f}" for level in comparison.value_of(one)
     ]
-    for name, halves in {"± [dB]": comparison.errors_of(best), **answer.band_errors}.items():
+    for name, halves in {"± [dB]": comparison.errors_of(one), **answer.band_errors}.items():
         columns[name] = [f"{half:.2g}" if math.isfinite(half) else "unknown" for half in halves]
-    yield "  ".join(f"{name:>9s}" for name in columns)
-    for row in zip(*columns.values(), strict=True):
-        yield "  ".join(f"{text:>{max(9, len(name))}s}" for name, text in zip(columns, row, strict=True))
+    return columns
 
 
-def _age(comparison: Comparison) -> str:
+def age_of_errors(comparison: Comparison) -> str:
     """Where the errors of the models are from."""
     return MEASURED_ON_STRIPS if isinstance(comparison.scene, RailScene) else calibration_age()
 
 
-def _cost(comparison: Comparison) -> str:
+def cost_of(comparison: Comparison) -> str:
+    """What the solves cost, and what those would have cost that were not needed."""
     spent = format_seconds(comparison.selection.spent)
     text = f"cost of the solves: about {spent}, from counted operations, without program start"
     saved = sum(one.cost for one in comparison.models if one.answer is None and one.status != "out of range")
     return f"{text}; the models that were not solved would have cost {format_seconds(saved)}" if saved else text
 
 
-def _what_would_help(comparison: Comparison) -> Iterator[str]:
+def what_would_help(comparison: Comparison) -> Iterator[str]:
     """Where no model meets the tolerance: the tolerance that would be met, and what most of the error is due to."""
-    best = comparison.selection.best
+    best, tolerance = comparison.selection.best, comparison.tolerance
+    if comparison.met:
+        return
     if best is None or best.answer is None:
         if comparison.models:
             yield f"what would help: a scene for which this does not hold: {comparison.models[-1].reason}"
         return
-    met = comparison.tolerance.shown(1.05 * best.answer.error)
+    yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown(best.error)}"
     causes = {
         "the model's: lower roughness has less": best.answer.model,
         "left by the grid: longer waves (`shortest`), or heights on more points, have less": best.answer.grid,
         "the scatter of the surfaces that are drawn": best.answer.sample,
     }
+    met = tolerance.shown(1.05 * best.answer.error)
     yield f"what would help: a tolerance of {met}; most of the error is {max(causes, key=causes.__getitem__)}"
 
 

@@ -1,26 +1,34 @@
 """Select the cheapest model of a scene that meets a tolerance."""
 
 import argparse
+import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from validation.analysis.contents import as_csv
 from validation.analysis.evidence import Table
+from validation.engine.engine import Engine
 from validation.engine.files import write_whole
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
+from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, load_scene, load_varied
 from validation.scenes.printable import printable
-from validation.selection.compare import QUANTITIES, Comparison, check_quantity, quantities_of
+from validation.selection.compare import QUANTITIES, Comparison, models_of, quantities_of
 from validation.selection.compare import compare as compared
-from validation.selection.exported import levels_of_models, to_json
+from validation.selection.exported import levels_of_models, to_json_of
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import ContactModel
+from validation.selection.model_names import models_named, names_in
 from validation.selection.several import overview, selected_of_several, table_of_several
+from validation.selection.several_scenes import SceneProblem, compare_scenes
 from validation.selection.summary import findings, format_seconds, heading
 from validation.selection.tolerance import tolerance_of
 
 FIGURES = (".svg", ".png", ".pdf")
+STORE = Path("reports", "compared")
+"""Where finished scenes of several are kept, below the working folder."""
 
 
 def describe(comparing: argparse.ArgumentParser) -> None:
@@ -46,7 +54,11 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         ),
     )
     comparing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
-    comparing.add_argument("--all", action="store_true", help="solve all models, and print them side by side")
+    solved = comparing.add_mutually_exclusive_group()
+    solved.add_argument("--all", action="store_true", help="solve all models, and print them side by side")
+    solved.add_argument(
+        "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "fit,springs"'
+    )
     for name, what in (
         ("--json", "write the result for other programs; the keys are in reports/README.md"),
         ("--csv", "write a row a number or a band, of each model that was solved"),
@@ -54,19 +66,40 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         ("--figure", "draw the models that were solved, in a .svg, .png or .pdf"),
     ):
         comparing.add_argument(name, type=Path, metavar="FILE", help=what)
+    comparing.add_argument(
+        "--report", type=Path, metavar="DIR", help="write a page with figure and data into a folder of its own"
+    )
+    _describe_runs_of_several(comparing)
     comparing.set_defaults(command=compare)
+
+
+def _describe_runs_of_several(comparing: argparse.ArgumentParser) -> None:
+    comparing.add_argument(
+        "--workers",
+        type=at_least(1),
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="number of processes for several scenes (default: one per core)",
+    )
+    comparing.add_argument(
+        "--store",
+        type=Path,
+        metavar="DIR",
+        help=f"where finished ones of several scenes are kept, for a run that goes on (default: {STORE}, or in "
+        "the folder of --report)",
+    )
 
 
 def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
     scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments.sweep)]
-    _check_figure(arguments.figure)
-    if arguments.cnossos is not None and arguments.quantity not in (None, "contact-filter"):
-        raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {arguments.quantity}")
-    found = [_compared(scene, arguments, alone=len(scenes) == 1) for scene in scenes]
-    if len(found) > 1:
-        print("\n".join(overview(found)))
-    _write(found, arguments)
+    problems = [_problem(scene, arguments) for scene in scenes]
+    _check_files(problems, arguments)
+    if arguments.report is None:
+        found = _found(problems, arguments)
+        _write(found, arguments)
+    else:
+        found = _reported(problems, arguments)
     return Exit.MET if all(one.met for one in found) else Exit.NOT_CONVERGED
 
 
@@ -77,22 +110,64 @@ def _scenes_of(name: str, sweep: tuple[str, list[str]] | None) -> list[Scene]:
     return [load_varied(name, key, value) for value in values]
 
 
-def _compared(scene: Scene, arguments: argparse.Namespace, *, alone: bool) -> Comparison:
-    """alone: whether all about it is printed, what was understood before it is solved."""
-    quantity = arguments.quantity or quantities_of(scene)[0]
-    check_quantity(scene, quantity)
-    if alone:
-        print(heading(scene, quantity, tolerance_of(arguments.tolerance)), flush=True)
-    found = compared(
-        scene,
-        quantity=quantity,
-        tolerance=arguments.tolerance,
-        seed=arguments.seed or 0,
-        solve_all=arguments.all,
-        callback=_announce,
-    )
-    if alone:
+def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
+    """What is asked of a scene. Raises ValueError for a quantity or a model that it has not."""
+    quantity, seed = arguments.quantity or quantities_of(scene)[0], arguments.seed or 0
+    tolerance = tolerance_of(arguments.tolerance).relative
+    models = models_of(scene, quantity, tolerance, seed)
+    names = names_in(arguments.models, [model.name for model in models]) if arguments.models is not None else []
+    models_named(models, names, tolerance)
+    return SceneProblem(scene, quantity, arguments.tolerance, seed, arguments.all, tuple(names))
+
+
+def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
+    """Raises ValueError before anything is solved."""
+    quantities = list(dict.fromkeys(problem.quantity for problem in problems))
+    figure = arguments.figure
+    if figure is not None and figure.suffix not in FIGURES:
+        raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(figure)}")
+    if len(quantities) > 1 and (figure is not None or arguments.csv is not None):
+        raise ValueError(f"--figure and --csv must have one quantity, named by --quantity, got {', '.join(quantities)}")
+    if arguments.cnossos is not None and quantities != ["contact-filter"]:
+        raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {', '.join(quantities)}")
+
+
+def _found(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
+    """Solve, and print: all about one scene, what was understood before it is solved; a line each of several."""
+    if len(problems) == 1:
+        (problem,) = problems
+        print(heading(problem.scene, problem.quantity, problem.wanted), flush=True)
+        found = compared(
+            problem.scene,
+            problem.quantity,
+            problem.tolerance,
+            problem.seed,
+            solve_all=problem.solve_all,
+            models=problem.models,
+            callback=_announce,
+        )
         print(findings(found))
+        return [found]
+    # a run that ends before its time says that what is finished is kept
+    arguments.out = arguments.store or arguments.report or STORE
+    engine = Engine(workers=arguments.workers, store=arguments.out / "realisations", progress=True)
+    several = compare_scenes(problems, engine)
+    print("\n".join(overview(several)))
+    return several
+
+
+def _reported(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
+    """The same, with a page in a folder of its own."""
+    from validation.report.compared_page import PAGE, files_of_comparison  # which takes half a second to import
+    from validation.report.folder import Folder
+    from validation.report.provenance import provenance
+
+    with Folder(arguments.report, kind=COMPARISON, option="--report") as folder:
+        found = _found(problems, arguments)
+        _write(found, arguments)
+        about = provenance("compare", {"compare": problems[0].seed}, Engine(workers=arguments.workers), {})
+        folder.replace(files_of_comparison(found, about))
+    print(printable(f"report: {arguments.report / PAGE}"))
     return found
 
 
@@ -102,21 +177,13 @@ def _announce(model: ContactModel) -> None:
         print(f"solving {model.name}, about {format_seconds(model.cost().seconds)}", file=sys.stderr, flush=True)
 
 
-def _check_figure(path: Path | None) -> None:
-    """Raises ValueError before anything is solved."""
-    if path is not None and path.suffix not in FIGURES:
-        raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(path)}")
-
-
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
     several = len(found) > 1
     if arguments.json is not None:
-        objects = ",\n".join(to_json(one).rstrip() for one in found)
-        write_whole(arguments.json, (f"[{objects}]\n" if several else f"{objects}\n").encode())
-    table = table_of_several(found) if several else levels_of_models(found[0])
+        write_whole(arguments.json, to_json_of(found).encode())
     if arguments.csv is not None:
-        write_whole(arguments.csv, as_csv(table))
+        write_whole(arguments.csv, as_csv(table_of_several(found) if several else levels_of_models(found[0])))
     if arguments.cnossos is not None:
         filters = [filter_table(one) for one in found]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
@@ -124,9 +191,9 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     if arguments.figure is not None:
         from validation.report.compared import figure_of_models  # which takes half a second to import
 
+        table = selected_of_several(table_of_several(found)) if several else levels_of_models(found[0])
         title = table.name if several else f"{found[0].scene.name}: {table.name}"
-        drawn = selected_of_several(table) if several else table
-        write_whole(arguments.figure, figure_of_models(title, drawn, arguments.figure.suffix[1:]))
+        write_whole(arguments.figure, figure_of_models(title, table, arguments.figure.suffix[1:]))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

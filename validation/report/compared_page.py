@@ -1,0 +1,139 @@
+"""The page of `compare --report`: each scene as it was understood, its answer, and what every model says and costs."""
+
+import base64
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import jinja2
+
+from validation.analysis.contents import as_csv, as_json
+from validation.report.compared import figure_of_models
+from validation.scenes.description import describe
+from validation.scenes.rolling import RollingScene
+from validation.selection.compare import MOVING, Comparison
+from validation.selection.exported import levels_of_models, to_json_of
+from validation.selection.hierarchy import Candidate
+from validation.selection.several import overview_of, same_quantity, selected_of_several, table_of_several
+from validation.selection.side_by_side import differences, levels_beside, numbers_beside, reference_of
+from validation.selection.summary import (
+    ASSUMED,
+    age_of_errors,
+    bands_of,
+    became_of,
+    claim_of,
+    cost_of,
+    format_seconds,
+    found_of,
+    label,
+    result_of,
+    sentences_on_mdr,
+    what_would_help,
+)
+from validation.selection.tolerance import short
+
+PAGE, JSON, CSV = "index.html", "comparison.json", "data/levels.csv"
+Columns = Mapping[str, Sequence[str]]
+
+
+def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -> dict[str, bytes]:
+    """All that the folder holds, the page last. about: its provenance."""
+    table = levels_of_models(found[0]) if len(found) == 1 else table_of_several(found)
+    files = {JSON: to_json_of(found).encode(), CSV: as_csv(table), "provenance.json": as_json(about)}
+    drawn = {f"scene-{i}": (one.scene.name, levels_of_models(one)) for i, one in enumerate(found, 1) if _solved(one)}
+    if len(found) > 1 and same_quantity(found) and any(map(_solved, found)):
+        drawn["all"] = (table.name, selected_of_several(table))
+    for name, (title, of) in drawn.items():
+        heading = title if name == "all" else f"{title}: {of.name}"
+        for form in ("svg", "pdf"):
+            files[f"figures/{name}.{form}"] = figure_of_models(heading, of, form)
+    files[PAGE] = _page(found, files, about)
+    return files
+
+
+def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[str, object]) -> bytes:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    text = environment.get_template("comparison.html").render(
+        title=_asked(found[0]) if len(found) == 1 else f"{len(found)} scenes: {found[0].quantity}",
+        scenes=[_of_scene(f"scene-{i}", one) for i, one in enumerate(found, 1)],
+        overview=overview_of(found) if len(found) > 1 else None,
+        pictures={
+            Path(name).stem: "data:image/svg+xml;base64," + base64.b64encode(contents).decode()
+            for name, contents in files.items()
+            if name.endswith(".svg")
+        },
+        about=about,
+        zip=zip,
+    )
+    return (text + "\n").encode()
+
+
+def _of_scene(name: str, found: Comparison) -> dict[str, object]:
+    """What the template shows of a scene."""
+    best, scene = found.selection.best, found.scene
+    beside = len(found.selection.solved) > 1
+    letters, levels = levels_beside(found) if beside and found.is_level else ({}, {})
+    return {
+        "name": name,
+        "asked": _asked(found),
+        "met": found.met,
+        "answer": result_of(found, best.answer) if best and best.answer else "No model has a result with a known error",
+        "counted": best.answer.counted if best and best.answer else "",
+        "on_mdr": sentences_on_mdr(found),
+        "help": list(what_would_help(found)),
+        "notes": _notes(found),
+        "understood": (*describe(scene), ("assumed", ASSUMED)),
+        "models": [_model_row(found, one) for one in found.models],
+        "bands": bands_of(found, best) if best and found.is_level else None,
+        "beside": levels or (numbers_beside(found) if beside else None),
+        "letters": letters,
+        "reference": reference_of(found).name if beside else "",
+        "unit": found.unit,
+        "age": age_of_errors(found),
+        "cost": cost_of(found),
+        "alternative": f"{found.quantity} of {scene.name} by {', '.join(one.name for one in found.selection.solved)}",
+    }
+
+
+def _model_row(found: Comparison, one: Candidate) -> dict[str, str]:
+    return {
+        "model": label(one),
+        "claims": claim_of(found, one),
+        "found": found_of(found, one),
+        "apart": _apart(found, one),
+        "cost": format_seconds(one.cost),
+        "became": became_of(one),
+        "why": one.reason,
+        "selected": "selected" if one.name == found.model else "",
+    }
+
+
+def _apart(found: Comparison, one: Candidate) -> str:
+    """The largest difference from the model with the smallest error, in any band."""
+    if one not in found.selection.solved:
+        return "—"
+    off = differences(found, one, reference_of(found))
+    largest = float(off[abs(off).argmax()])
+    if found.is_level or found.in_decibels:
+        return f"{'+' if largest > 0 else ''}{short(largest)} dB"
+    return f"{100 * (10 ** (largest / 20) - 1):+.2g} %"
+
+
+def _asked(found: Comparison) -> str:
+    return f"{found.scene.name}: {found.quantity} within {found.tolerance}"
+
+
+def _notes(found: Comparison) -> list[str]:
+    """Why there is no steady answer, and what may be wrong about the scene."""
+    scene = found.scene
+    reason = scene.no_steady_answer() if isinstance(scene, RollingScene) and found.quantity in MOVING else ""
+    return [*([f"no steady answer: {reason}"] if reason else []), *scene.diagnose()]
+
+
+def _solved(found: Comparison) -> bool:
+    return bool(found.selection.solved)

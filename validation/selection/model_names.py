@@ -1,0 +1,56 @@
+"""Models of a scene by the names that a user gives: mdr, bem, a full name, or its beginning."""
+
+from collections.abc import Sequence
+
+from validation.scenes.printable import quoted
+from validation.selection.scene_model import SceneModel
+from validation.simulation.model import GridModel
+
+SHORT = ("mdr", "bem")
+"""All springs by the method of dimensionality reduction; boundary elements."""
+
+
+def models_named(models: Sequence[SceneModel], names: Sequence[str], tolerance: float) -> list[SceneModel]:
+    """The models of these names, in their order.
+
+    Of boundary elements without a grid, the cheapest grid that claims the tolerance, or else the last. Raises
+    ValueError for a name that no model of the scene has, or that several have.
+    """
+    found = [model for name in names for model in _of_name(models, name, tolerance)]
+    return [model for model in models if any(model is one for one in found)]
+
+
+def names_in(text: str, known: Sequence[str]) -> list[str]:
+    """The names in a list with commas, some of which have commas themselves: "mdr, linear filter, 1D"."""
+    parts, names = [part.strip() for part in text.split(",")], list[str]()
+    whole = {name.lower() for name in known}
+    while parts:
+        ends = [end for end in range(len(parts), 0, -1) if ", ".join(parts[:end]).lower() in whole]
+        end = ends[0] if ends else 1
+        names.append(", ".join(parts[:end]))
+        parts = parts[end:]
+    return names
+
+
+def _of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[SceneModel]:
+    asked = name.strip().lower()
+    if asked == "mdr":
+        found = [model for model in models if model.is_mdr]
+    elif asked == "bem":
+        found = _cheapest_grid([model for model in models if isinstance(model.model, GridModel)], tolerance)
+    elif exact := [model for model in models if model.name.lower() == asked]:
+        found = exact
+    elif kind := [model for model in models if model.kind.lower() == asked]:
+        found = _cheapest_grid(kind, tolerance)
+    else:
+        found = [model for model in models if asked and model.name.lower().startswith(asked)]
+        found = found if len(found) == 1 else []
+    if not found:
+        has = ", ".join(quoted(model.name) for model in models)
+        raise ValueError(f"models must be mdr, bem or names of models of this scene, {has}, got {quoted(name)}")
+    return found
+
+
+def _cheapest_grid(grids: Sequence[SceneModel], tolerance: float) -> list[SceneModel]:
+    claiming = [grid for grid in grids if grid.estimate().error <= tolerance]
+    return list(claiming[:1] or grids[-1:])
