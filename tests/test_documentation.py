@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import validation
+from validation.report.documentation import BUILT
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "reports" / "docs"
@@ -75,6 +76,11 @@ def test_pages_are_included_not_copied():
     assert set(included) == {"conventions", "theory", "verdicts"}
     for path, start, end in included.values():
         assert re.search(f"{re.escape(start)}.+{re.escape(end)}", path.read_text(encoding="utf-8"), re.DOTALL)
+
+
+def test_reports_look_for_it_where_make_puts_it():
+    (made,) = re.findall(r"\s(reports/docs/\S+/html) ", (ROOT / "Makefile").read_text(encoding="utf-8"))
+    assert f"{made}/index.html" == f"reports/{BUILT}"
 
 
 @pytest.mark.parametrize("page", [pytest.param("index", marks=pytest.mark.slow), "verdicts"])

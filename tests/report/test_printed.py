@@ -48,6 +48,7 @@ from validation.cases.wheel.contrast import ZERO
 from validation.cases.wheel.spectrum_numbers import FEATURES, OMEGA
 from validation.report import page
 from validation.report.contents import CASES
+from validation.report.documentation import BUILT, documentation_beside
 from validation.report.figures import fractal_punch
 from validation.report.section import Section, case_results
 
@@ -99,16 +100,30 @@ def evidence_with(numbers, page_tables=(), claims=()):
     )
 
 
-def html_of(section):
+def html_of(section, documentation=""):
     """The page of one case."""
     about = {name: {} for name in ("libraries", "seeds")} | {"seconds": {section.name: 1.0}, "timed": ()}
     about |= dict.fromkeys(("version", "commit", "python", "system", "workers"), "")
+    about |= {"documentation": documentation}
     return page.page([section], "full", {}, about, None).decode()
 
 
 def page_of(numbers, page_tables=()):
     """Its rows."""
     return Rows(html_of(Section("geike", CASES["geike"], "none", {}, evidence_with(numbers, page_tables)))).rows
+
+
+def test_the_page_links_to_the_documentation_that_is_built(tmp_path):
+    section = Section("geike", CASES["geike"], "none", {}, evidence_with([number(1.0)]))
+    assert documentation_beside(tmp_path / "quick") == ""
+    assert "make docs" not in html_of(section)
+    built = tmp_path / BUILT
+    built.parent.mkdir(parents=True)
+    built.touch()
+    address = documentation_beside(tmp_path / "quick")
+    (tmp_path / "quick").mkdir()
+    assert (tmp_path / "quick" / address).samefile(built)
+    assert f'<a href="{address}">Documentation</a>' in html_of(section, address)
 
 
 NUMBERS = [

@@ -11,6 +11,7 @@ from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
 from validation.report.chapter import chapter_results
 from validation.report.contents import CASES, TIMED
+from validation.report.documentation import documentation_beside
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.page import page, scene_summary
@@ -54,14 +55,19 @@ def build(
             seconds[name] = time.perf_counter() - start
             callback(sections[-1])
         seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
-        folder.replace(_files(sections, profile, provenance(profile, seeds, engine, seconds), scene))
+        about = provenance(profile, seeds, engine, seconds)
+        folder.replace(_files(sections, profile, about, scene, documentation_beside(out)))
     return sections
 
 
 def _files(
-    sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
+    sections: Sequence[Section],
+    profile: Profile,
+    about: dict[str, object],
+    scene: WheelScene | None,
+    documentation: str,
 ) -> dict[str, bytes]:
-    """All that a report is, the page last. about: its provenance."""
+    """All that a report is, the page last. about: its provenance; documentation: its address, or empty."""
     files, pictures = {}, {}
     for section in sections:
         if section.evidence is None:
@@ -82,7 +88,7 @@ def _files(
     timed = [section for section in sections if section.name in TIMED]
     for section in timed:
         files[f"{section.name}.json"] = as_json(results_of([section], profile))
-    about = {**about, "timed": [section.name for section in timed]}
+    about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
     files["index.html"] = page(sections, profile, pictures, about, scene)
     return files
 
