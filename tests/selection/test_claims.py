@@ -365,6 +365,19 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
     assert left(64, 0.2, 0.15, 0.1) == math.inf
 
 
+def test_a_face_whose_points_are_split_leaves_twice_what_that_changes_and_some_of_the_coarser_grids():
+    height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
+    scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
+
+    def left(split, *changes):
+        return boundary_elements_pressed.grid_error_of_one(scene, 64, np.array(changes), np.array([split]))
+
+    assert left(-0.05, 0.1, 0.1, 0.1) == pytest.approx(0.1)
+    # a change that passes through zero
+    assert left(0.0, 0.15, 0.1, 0.1) == left(0.0, 0.1, 0.3, 0.1) == left(0.0, 0.1, 0.1, 0.6) == pytest.approx(0.1)
+    assert left(0.0, 0.0, 0.0, 0.0) == 2 * boundary_elements_pressed.edge_error(scene, 64)
+
+
 def test_grids_are_compared_on_the_same_surfaces():
     seen = []
 

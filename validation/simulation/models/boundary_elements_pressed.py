@@ -38,6 +38,9 @@ EDGE = 0.35
 """Error of the stiffness of a flat square punch times its cells a side."""
 SPLIT, MOST_SPLIT = 3, 1024
 """Parts of a measured point along each side, and cells a side of the grid of such parts at the most."""
+OTHERS = 3.0
+"""Changes by coarser grids over what they tell of a face whose points are split: of 64 faces at the edges of all ranges
+the error then covers what splitting in eight changes in all, and linear interpolation between points in 62."""
 FEWEST, MOST = 8, 1000
 """Surfaces: of which a deviation is estimated, and that are drawn at the most."""
 
@@ -143,18 +146,20 @@ def _result(solve: Solve, at_edge: bool) -> Result:
 
 
 def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray, split: FloatArray) -> float:
-    """The largest of the last changes, those before halved for each doubling since, with half as much again.
+    """Where the points of the face are split, twice the largest change by that, by the edge of a punch, and a third
+    of the changes by coarser grids, those before the last halved for each doubling since.
 
-    One face may hide any of them, but not the edge of a punch, nor what its points leave when they are split; and as
-    much for each doubling that is left to the points of the face, which have waves that this one has not. Where the
-    last change is the largest, coarser grids have other summits, and all of it is left beside what splitting changes;
-    infinite where the points are too many to be split.
+    The change by splitting is that of this face, but its sign may pass through zero; coarser grids have other summits.
+    Else those changes themselves, with half as much again, and as much for each doubling that is left to the points.
+    Where the last change is the largest, all of it is left; infinite, since the points are too many to be split.
     """
     last, *before = np.abs(changes)
-    if last >= max(before) and not split.size:
+    coarser = (last, before[0] / 2, before[1] / 4)
+    if split.size:
+        return float(2 * max(edge_error(scene, cells), *np.abs(split), *(change / OTHERS for change in coarser)))
+    if last >= max(before):
         return math.inf if last > 0 else 0.0
-    change = max(last, before[0] / 2, before[1] / 4, edge_error(scene, cells), *np.abs(split))
-    return float(1.5 * change * (1 + math.log2(cells_wanted(scene) / cells)))
+    return float(1.5 * max(edge_error(scene, cells), *coarser) * (1 + math.log2(cells_wanted(scene) / cells)))
 
 
 def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:
