@@ -55,15 +55,24 @@ def test_claims_and_words_change_with_the_levels():
     assert [claim.status for claim in same.claims] == [ClaimStatus.HOLDS] * 3
     assert [claim.status for claim in louder.claims] == [ClaimStatus.CONTRADICTED, *[ClaimStatus.HOLDS] * 2]
     assert "Farther off" not in same.finding
-    assert louder.finding.endswith("Farther off: springs of Geike's spectrum, by +6.0 ± 0.0 dB.")
-    assert louder.headlines["rail_sound"].endswith("6.0 dB louder.")
+    assert louder.finding.endswith("Farther off: springs of Geike's spectrum (+6.0 ± 0.0 dB).")
+    assert f"{GEIKE}, 6.0 dB louder" in louder.headlines["rail_sound"]
+
+
+def test_what_the_sample_leaves_open_is_said_to_be_open():
+    """10 % louder in one half of the strip, 15 % in the other: 0.8 dB and 1.2 dB."""
+    halves = np.repeat([1.1, 1.15], TIME.size // 2)
+    found = evidence(result(**{GEIKE: halves * result().signal(BEM)}))
+    assert found.claims[0].status is ClaimStatus.OPEN
+    assert f"Not decided: {GEIKE}" in found.finding
 
 
 def test_a_silent_range_is_said_to_be_silent():
     silent = evidence(result(**{GEIKE: tone(1000) + tone(4000)}))
     assert number_with(silent.numbers, LEVEL, GEIKE, part=LOW).value == -30
     assert "below the band -30 dB or less" in silent.claims[0].answer
-    assert silent.headlines["rail_sound"].endswith(f"{GEIKE}, {LOW}, 30.0 dB or more quieter.")
+    assert silent.headlines["rail_sound"].endswith(f"{GEIKE}, 30.0 dB or more quieter {LOW}.")
+    assert "33.3 % by boundary elements" in silent.conclusions[0] and f" 0.0 % by {GEIKE}" in silent.conclusions[0]
 
 
 def test_sounds_have_one_full_scale_that_holds_them_all():

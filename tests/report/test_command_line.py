@@ -251,7 +251,7 @@ def players_of_all_sounds(folder):
     """Assert that each sound has a player with a label, which needs no script, and a link."""
     page = (folder / "index.html").read_text()
     found = [f"sounds/{file.name}" for file in sorted((folder / "sounds").glob("*.wav"))]
-    assert page.count("<audio controls") == page.count('preload="none" aria-label="') == len(found)
+    assert page.count("<audio controls") == page.count('preload="metadata" aria-label="') == len(found)
     assert all(f'src="{place}"></audio>' in page and f'href="{place}" download' in page for place in found)
 
 

@@ -16,7 +16,8 @@ from validation.simulation.equivalent_displacement import BEM
 
 FloatArray = NDArray[np.float64]
 
-WEIGHTED, LOW, LONG, SHORT = "A-weighted", "below the band", "longer than the contact", "shorter than the contact"
+WEIGHTED, LOW = "A-weighted", "below the band"
+LONG, SHORT = "in waves longer than the contact", "in waves shorter than the contact"
 SILENT = -30.0
 """dB over boundary elements; a model that is quieter still counts as this."""
 LOWEST, FEWEST_WAVES = 20.0, 5
@@ -49,6 +50,10 @@ class SoundLevels:
         """dB re 1 N; of all frequencies where no part is named."""
         signal = self.result.signal(model)
         return decibels(float(np.mean((signal if part is None else filtered(signal, self.gains[part])) ** 2)))
+
+    def share(self, model: str, part: str) -> float:
+        """Of the mean square of the force [%]."""
+        return 100 * 10 ** ((self.level(model, part) - self.level(model)) / 10)
 
     def over(self, model: str, part: str, reference: str = BEM) -> tuple[Estimate, float]:
         """Level over that of the reference on the same strip, and what the grid leaves of it, to first order [dB]."""
