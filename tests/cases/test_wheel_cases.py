@@ -98,7 +98,6 @@ def test_a_fifth_more_acceleration_is_another_level(long_wheel):
         assert other.value - one.value == pytest.approx(DECIBEL * math.log(1.44), abs=1e-9)
     assert number_with(after.numbers, "level").verdict is Verdict.DIFFER
     assert after.claims[0].status is ClaimStatus.CONTRADICTED and after.claims[0].answer.startswith("No: ")
-    assert any(s.startswith("Contradicted by this run: Its level") for s in after.conclusions)
     for name in (PEAK, JUMP, SLOPE, PERIOD):
         assert feature(after, name).value == pytest.approx(feature(before, name).value, rel=1e-9)
     assert all(number.met for number in after.numbers)
@@ -165,7 +164,7 @@ def test_one_parameter_at_a_time():
         ("H = 1", 1.0),
     ):
         assert f"({factor * base:.5g})" in str(jumps[name])
-    assert any(sentence.startswith("One parameter at a time") for sentence in found.conclusions)
+    assert found.headlines["wheel-parameters"].startswith("One parameter changed, worst case: peak ω_eigen ")
 
 
 def test_a_smooth_scene_has_no_spectrum():

@@ -1,6 +1,7 @@
 """Fig. 14.5: what the ends of records do to a spectrum, in words."""
 
 import math
+from collections.abc import Sequence
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
@@ -14,7 +15,7 @@ from validation.analysis.evidence import (
     numbers_with,
     with_reference,
 )
-from validation.analysis.statistics import POWER_DECIBEL
+from validation.analysis.wording import by_status, by_verdict, sentence, title
 from validation.cases.wheel import distance_numbers as numbers_of_distance
 from validation.cases.wheel import distance_tables as tables
 from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY, TABLE, DistanceResult, WheelDistance, run
@@ -30,6 +31,7 @@ def evidence(result: DistanceResult) -> Evidence:
     """The break and its law; levels of the regions by contact and track, and by height; the peak by amplitude."""
     breaks, plateau = tables.breaks_of(result), tables.plateau_of(result)
     numbers = numbers_of_distance.numbers_of(result, breaks)
+    claims = _claims(result, numbers)
     return Evidence(
         title="Fig. 14.5: the break, the plateau and the ends of a record",
         method=_method(result.case),
@@ -49,8 +51,10 @@ def evidence(result: DistanceResult) -> Evidence:
             tables.shown_plateau(plateau),
             tables.shown_phases(result),
         ),
-        claims=_claims(result, numbers),
-        conclusions=tuple(conclusions(result, numbers)),
+        claims=claims,
+        conclusions=tuple(conclusions(numbers)),
+        finding=finding(claims, numbers),
+        headlines=headlines(numbers),
         captions=_captions(result.case),
         unconverged=result.unconverged,
     )
@@ -114,7 +118,7 @@ def _share(result: DistanceResult, height: float) -> float:
     return 100 * math.exp(nonlinear - whole)
 
 
-def conclusions(result: DistanceResult, numbers: list[Number]) -> list[str]:
+def conclusions(numbers: list[Number]) -> list[str]:
     jump, square = (number_with(numbers, quantity) for quantity in (JUMP, SQUARE))
     return [
         if_confirmed(
@@ -123,34 +127,47 @@ def conclusions(result: DistanceResult, numbers: list[Number]) -> list[str]:
             f"{jump.value:.3f} ± {jump.uncertainty:.3f} of that at {jump.where['worst at']:.3g} m, the worst distance.",
             [jump],
         ),
-        _plateau(result, numbers),
         if_confirmed(
-            "Nothing damps the wheel, so its initial free vibration stays: the mean square acceleration is "
-            f"{square.value:.2f} ± {square.uncertainty:.2f} times that without it. The start makes the level of region "
-            "1; the contact makes its frequency.",
+            "Free vibration from the start stays: the mean square acceleration is "
+            f"{square.value:.2f} ± {square.uncertainty:.2f} times that without it.",
             [square],
         ),
     ]
 
 
-def _plateau(result: DistanceResult, numbers: list[Number]) -> str:
+def finding(claims: Sequence[JudgedClaim], numbers: Sequence[Number]) -> str:
+    return sentence(
+        by_status(
+            claims[0],
+            holds="the break that moves with the distance is leakage",
+            fails="the break that moves with the distance is not leakage alone",
+            undecided="whether the break that moves with the distance is leakage is open",
+        ),
+        _plateau(numbers),
+    )
+
+
+def headlines(numbers: Sequence[Number]) -> dict[str, str]:
+    law = number_with(numbers, BREAK_LAW)
+    leakage = f"a jump at the end gives T^{law.reference:.2f}"
+    return {
+        "wheel_distance": by_verdict(
+            [law],
+            agree=f"The break goes as T^{law.value:.2f}, as leakage does: {leakage}",
+            differ=f"The break goes as T^{law.value:.2f}, not as leakage: {leakage}",
+            undecided=f"The break goes as T^({law.value:.2f} ± {law.uncertainty:.2f}); {leakage}",
+        ),
+        "wheel_distance-cause": title(_plateau(numbers)),
+    }
+
+
+def _plateau(numbers: Sequence[Number]) -> str:
+    """Power of region 2 at h₀: of a linear contact, which only leaks there, and of springs without leakage."""
     leakage, nonlinear = (
         100 * 10 ** (number_with(numbers, LEVEL, f"{kind}, over {OPEN}", region=PLATEAU).value / 10)
         for kind in (LINEAR_OPEN, STEADY)
     )
-    case, order = result.case, number_with(numbers, ORDER)
-    band = regions_of(case.scene)[PLATEAU]
-    periods = float(result.ends[OPEN]["duration"]) * case.scene.eigenfrequency / (2 * math.pi)
-    leaks = [POWER_DECIBEL * level(result.ended[LINEAR_OPEN, phase], band).value for phase in case.phases]
-    return (
-        f"Region 2, the plateau, of springs on open tracks at h₀ and {periods:.2f} natural periods: the linear "
-        f"contact, which has only leakage there, has {leakage:.0f} % of its power; springs in the steady state, which "
-        f"have no leakage, have {nonlinear:.0f} %. Leakage grows as h₀², falls as 1/T, and depends on the phase "
-        "in which "
-        f"the record ends, between {min(leaks):.0f} and {max(leaks):.0f} dB. The nonlinear part grows as "
-        f"h₀^{order.value:.2f} ({order.verdict} with h₀⁴ within {order.tolerance:g}), for every record. Springs of "
-        "Geike's spectrum have no other power in region 2."
-    )
+    return f"{leakage:.0f} % of the power of region 2 is leakage, {nonlinear:.1g} % nonlinearity"
 
 
 def _captions(case: WheelDistance) -> dict[str, str]:
@@ -161,12 +178,10 @@ def _captions(case: WheelDistance) -> dict[str, str]:
             "intervals; crosses: predicted by the jumps of the same records; line: T^(1/(2H+1)) through the middle."
         ),
         "wheel_distance-cause": (
-            f"(a) The same wheels over {case.scene.length:.3g} m. Springs: full line, open track, no window; dashed, "
-            "the same with Hann's window; thick, steady state; dash-dotted, periodic track. Dotted: the linear contact "
-            "on open tracks, leakage alone outside of its waves. (b) Region 2 against the roughness: circles, springs "
-            "on open tracks; crosses, linear contact, leakage; squares, springs in the steady state, nonlinearity; "
-            "lines: h² and h⁴. (c) The peak against the amplitude of free vibration; line: quadrature for a Hertz "
-            "contact."
+            f"(a) Wheels over {case.scene.length:.3g} m. Springs: full line, open track, no window; dashed, Hann's "
+            "window; thick, steady state; dash-dotted, periodic track. Dotted: linear contact, open tracks. (b) Region "
+            "2 against the roughness: circles, springs, open; crosses, linear contact; squares, springs, steady state; "
+            "lines: h² and h⁴. (c) The peak against the amplitude of free vibration; line: quadrature, Hertz."
         ),
     }
 

@@ -5,8 +5,9 @@ from collections.abc import Sequence
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Verdict, if_confirmed, with_reference
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Verdict
 from validation.analysis.over_range import signed_mean, worst
+from validation.analysis.wording import by_status, sentence, title
 from validation.cases.wheel.regions import LONG_STEADY, SHORT_OPEN, SHORT_STEADY, RegionsResult, WheelRegions, run
 from validation.cases.wheel.regions_numbers import (
     APART,
@@ -34,14 +35,17 @@ def evidence(result: RegionsResult) -> Evidence:
     of_levels = [worst(some, OMEGA) for some in levels.values() if some]
     of_contrast = [worst(some, MAXIMUM) for some in contrasts.values() if some]
     of_speed = [*([worst(jumps, RATIO)] if jumps else []), merging(result, speeds)]
+    claims = _claims(result.case, of_levels, of_contrast, of_speed, levels)
     return Evidence(
         title="Region 2: its substructure, and its end at low speed",
         method=_method(result.case),
         numbers=(*of_levels, *of_contrast, *of_speed),
         tables=(*plateau_tables(result), speeds, spectra_by_speed(result)),
         page_tables=(shown_speeds(speeds, jumps),),
-        claims=_claims(result.case, of_levels, of_contrast, of_speed, levels),
-        conclusions=tuple(_conclusions(result.case, of_levels, of_contrast, of_speed)),
+        claims=claims,
+        conclusions=(),
+        finding=finding(claims),
+        headlines={"wheel_regions": title(_substructure(claims[0]), _end(claims[2]))},
         captions=_captions(result.case),
     )
 
@@ -95,37 +99,38 @@ def _claims(
     )
 
 
-def _conclusions(
-    case: WheelRegions, of_levels: Sequence[Number], of_contrast: Sequence[Number], of_speed: Sequence[Number]
-) -> list[str]:
-    own, _ = case.q_min_a
-    return [
-        *(
-            if_confirmed(
-                "The level of region 2 without leakage is that of the second-order force of springs: worst one-third "
-                f"octave of {n.model.split(', over')[0]} {with_reference(n)}.",
-                [n],
-            )
-            for n in of_levels
-        ),
-        *(
-            if_confirmed(f"The maxima of region 2 over its zeros, {n.model}: {with_reference(n)}, {n.source}.", [n])
-            for n in of_contrast[:1]
-        ),
-        f"The second-order force vanishes at q a = π/2, 3π/2, ...; below q_min there are {round(own / math.pi)} such "
-        f"wavenumbers in {case.scene.name}, whose q_min a is {own:.3g}.",
-        *(if_confirmed(f"{n.quantity}: {with_reference(n)}.", [n]) for n in of_speed),
-    ]
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    return sentence(_substructure(claims[0]), _end(claims[2]))
+
+
+def _substructure(claim: JudgedClaim) -> str:
+    (contrast,) = claim.numbers
+    maxima = f"maxima {contrast.value:.0f} dB over its zeros"
+    return by_status(
+        claim,
+        holds=f"over short waves region 2 has {maxima}",
+        fails="over short waves region 2 has no substructure",
+        undecided=f"whether region 2 has a substructure over short waves is open, {maxima}",
+    )
+
+
+def _end(claim: JudgedClaim) -> str:
+    merged = claim.numbers[-1]
+    return by_status(
+        claim,
+        holds=f"its plateau ends at q_min v₀ = {merged.value:.2f} ω_eigen, as predicted",
+        fails=f"its plateau ends at q_min v₀ = {merged.value:.2f} ω_eigen, predicted {merged.reference:.2f}",
+        undecided="where its plateau ends at low speed is open",
+    )
 
 
 def _captions(case: WheelRegions) -> dict[str, str]:
     return {
         "wheel_regions": (
-            f"(a) Region 2 over waves of {1e3 * case.short:g} mm and less: circles, springs in the steady state; line, "
-            "the second-order force; dotted, springs on open tracks, with leakage; region 3 begins behind. (b) The "
-            f"same over the waves of {case.scene.name}: no zero. (c) Spectra with Hann's window at lower and lower "
-            "speeds, dark to light. (d) The valley between the resonance and the jump; dashed: where a record of this "
-            f"length no longer keeps them apart; dotted: {APART:g} dB."
+            f"(a) Region 2 over waves of {1e3 * case.short:g} mm and less: circles, springs, steady state; line, "
+            f"second-order force; dotted, springs on open tracks. (b) The same over the waves of {case.scene.name}. "
+            "(c) Spectra at lower and lower speeds, dark to light. (d) The valley between resonance and jump; dashed: "
+            f"where a record of this length no longer keeps them apart; dotted: {APART:g} dB."
         )
     }
 

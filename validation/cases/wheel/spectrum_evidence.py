@@ -6,10 +6,11 @@ import numpy as np
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Verdict, if_confirmed, with_reference
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Verdict, with_reference
 from validation.analysis.over_range import root_mean_square, signed_mean, worst
+from validation.analysis.wording import by_status, sentence, share, title
 from validation.cases.wheel import spectrum_tables as tables
-from validation.cases.wheel.contrast import ZERO, period_range, worst_contrast
+from validation.cases.wheel.contrast import period_range, worst_contrast
 from validation.cases.wheel.features import BREAK, FLOOR, JUMP, PEAK, PEAK_LAST, PERIOD, PREDICTED, SLOPE, Spectrum
 from validation.cases.wheel.spectrum import WheelResult, WheelSpectrum, run
 from validation.cases.wheel.spectrum_numbers import (
@@ -29,8 +30,13 @@ from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 CLAIM = "The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4)."
-FEW = 3
-"""Names that a sentence lists."""
+DOWN_TO_ZEROS = "Region 3 oscillates as sin²(q a), down to its zeros."
+MOVED = {
+    PEAK: "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
+    JUMP: "Region 3 begins at q_min v₀, whatever the speed and the cut-off.",
+    SLOPE: "The slope of region 3 is -2 H - 3, whatever the parameters.",
+}
+"""Claims about one parameter changed at a time."""
 Features = dict[str, Number]
 
 
@@ -52,21 +58,23 @@ def evidence(result: WheelResult) -> Evidence:
         *([tables.shown_contrasts(case.scene, contrasts)] if contrasts else []),
         *([tables.shown_parameters({base: mine, **varied})] if varied else []),
     )
+    claims, captions = _claims(found, ranges, moved, levels, case.scene), _captions(case)
     return Evidence(
         title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
         method=_method(case.scene, spectra[base]),
         numbers=(*identities(batches), *found.values(), *ranges.values(), *moved.values()),
         tables=tables.tables_of(result, spectra),
         page_tables=shown,
-        claims=_claims(found, ranges, moved, levels, case.scene),
+        claims=claims,
+        finding=finding(claims),
+        headlines={name: text for name, text in headlines(claims).items() if name in captions},
         conclusions=(
             *_hidden(case.scene),
-            *conclusions(mine, ranges),
-            *([_moves(varied)] if varied else []),
+            *conclusions(mine),
             _flight(result.batches[base]),
             *filter(None, (case.scene.no_steady_answer(), *case.scene.diagnose())),
         ),
-        captions=_captions(case),
+        captions=captions,
     )
 
 
@@ -119,23 +127,18 @@ def _claims(
         worst_one = ranges["contrast"]
         claims.append(
             answered(
-                "Region 3 oscillates as sin²(q a), down to its zeros.",
+                DOWN_TO_ZEROS,
                 [worst_one],
                 f"at zero {worst_one.where['worst at']:g} the maxima are {worst_one.value:.1f} dB above it, "
                 f"{worst_one.reference:.1f} dB in linear theory; each end of the contact moves by R h₀ / 2a = "
                 f"{1e6 * scene.radius * scene.rms / (2 * scene.contact_radius):.3g} µm.",
             )
         )
-    sayings = {
-        PEAK: "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
-        JUMP: "Region 3 begins at q_min v₀, whatever the speed and the cut-off.",
-        SLOPE: "The slope of region 3 is -2 H - 3, whatever the parameters.",
-    }
     return (
         *claims,
         *(
             answered(saying, [moved[key]], f"{moved[key].conditions}: {with_reference(moved[key])}.")
-            for key, saying in sayings.items()
+            for key, saying in MOVED.items()
             if key in moved
         ),
     )
@@ -175,18 +178,14 @@ def _flight(batches: list[Outcome]) -> str:
     )
 
 
-def conclusions(mine: Features, ranges: Features) -> list[str]:
-    """One sentence for each feature; a region that a scene has no room for is left out."""
-    sentences = [
-        ("Region 1: the peak is the wheel on its contact spring", mine.get(PEAK), True),
-        ("Region 3 begins at q_min v₀", mine.get(JUMP), True),
-        ("Its slope is that of linear theory", mine.get(SLOPE), False),
-        ("The period of its oscillation is that of sin²(q a)", mine.get(PERIOD), True),
-        ("The contrast of its oscillation is that of sin²(q a)", ranges.get("contrast"), False),
-        ("Its level in every one-third octave is that of linear theory", ranges.get("worst level"), True),
-        ("The break is where the floor of region 4 meets region 3", mine.get(BREAK + PREDICTED), False),
-    ]
-    found = [_confirmed(sentence, number) for sentence, number, always in sentences if number or always]
+def conclusions(mine: Features) -> list[str]:
+    """What a scene has no room for, and the floor, which no claim counts."""
+    always = (
+        ("Region 1: the peak is the wheel on its contact spring", PEAK),
+        ("Region 3 begins at q_min v₀", JUMP),
+        ("The period of its oscillation is that of sin²(q a)", PERIOD),
+    )
+    found = [f"None stands out in this run: {text[0].lower()}{text[1:]}." for text, key in always if key not in mine]
     if floor := mine.get(FLOOR + PREDICTED):
         found.append(
             f"Region 4 is {floor.value:.3f} ± {floor.sample:.3f} times the floor J² / (ω² T) of the jump at the end of "
@@ -196,54 +195,56 @@ def conclusions(mine: Features, ranges: Features) -> list[str]:
     return found
 
 
-def _confirmed(sentence: str, number: Number | None) -> str:
-    if number is None:
-        return f"None stands out in this run: {sentence[0].lower()}{sentence[1:]}."
-    at = f", {ZERO} {number.where['worst at']:g}" if ZERO in number.where else ""
-    return if_confirmed(f"{sentence}{at}: {with_reference(number)}.", [number])
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    return sentence(f"on springs, {_predicted(claims[0])}", *_oscillation(claims))
 
 
-def _moves(varied: Mapping[str, Features]) -> str:
-    """Which features follow theory through all variations."""
-    parts = []
-    for key, feature in FEATURES.items():
-        if key in IDENTITIES:
-            continue
-        numbers = {name: mine[key] for name, mine in varied.items() if key in mine}
-        agree = sum(n.verdict is Verdict.AGREE for n in numbers.values())
-        differ = [name for name, n in numbers.items() if n.verdict is Verdict.DIFFER]
-        missing = [name for name in varied if name not in numbers]
-        text = f"{feature.name}: {agree} of {len(numbers)}"
-        text += f", differs for {_listed(differ)}" if differ else ""
-        text += f", none stands out for {_listed(missing)}" if missing else ""
-        parts.append(text)
-    return f"One parameter at a time, features that agree with theory: {'; '.join(parts)}."
+def headlines(claims: Sequence[JudgedClaim]) -> dict[str, str]:
+    found = {"wheel": title(_predicted(claims[0]), *_oscillation(claims))}
+    moved = [(name, claim) for claim in claims for name, text in MOVED.items() if claim.claim == text]
+    if moved:
+        said = [
+            f"{FEATURES[name].name.split(' [')[0]} {by_status(c, holds='agrees', fails='differs', undecided='open')}"
+            for name, c in moved
+        ]
+        found["wheel-parameters"] = f"One parameter changed, worst case: {', '.join(said)}"
+    return found
 
 
-def _listed(names: list[str]) -> str:
-    return ", ".join(names) if len(names) <= FEW else f"{len(names)} scenes, see the table"
+def _predicted(claim: JudgedClaim) -> str:
+    """How many features of the figure are where theory has them."""
+    return f"{share(claim.numbers, Verdict.AGREE)} features of Fig. 14.4 are as predicted"
+
+
+def _oscillation(claims: Sequence[JudgedClaim]) -> list[str]:
+    """At its worst zero; nothing where it was not measured."""
+    return [
+        by_status(
+            claim,
+            holds="the oscillation of region 3 is that of sin²(q a)",
+            fails=f"at zero {worst_one.where['worst at']:g} the oscillation has {worst_one.value:.1f} dB of "
+            f"{worst_one.reference:.0f}",
+            undecided=f"whether the oscillation lasts to zero {worst_one.where['worst at']:g} is open",
+        )
+        for claim in claims
+        if claim.claim == DOWN_TO_ZEROS
+        for worst_one in claim.numbers
+    ]
 
 
 def _captions(case: WheelSpectrum) -> dict[str, str]:
     captions = {
         "wheel-contact": (
-            f"The wheel in the simulation. (a) As in Fig. 14.2, after {4 * case.snapshot_steps} steps: the "
-            "profile x²/R of the wheel over springs at the height of the track. Dark springs are in contact, "
-            "with their "
-            "compression below; light ones are not. (b) The same wheel in three dimensions, boundary elements in the "
-            f"time loop after {case.snapshot_steps} steps of a / {case.cells}: pressure over Hertz's largest in the "
-            "window that moves along, over an isotropic surface of the same spectrum (waves of four cells and more); "
-            "circle: Hertz."
+            "The wheel in the simulation. (a) As in Fig. 14.2: the profile x²/R over springs at the height of the "
+            "track; dark springs are in contact, with their compression below. (b) Boundary elements in the time loop: "
+            "pressure over Hertz's largest; circle: Hertz."
         ),
         "wheel": (
-            "Fig. 14.4. (a) Spectrum of the acceleration, (14.17): line, mean over "
-            f"{case.realisations} wheels without window, as in the book; band, tenth to ninetieth percentile of "
-            "wheels; dashed: with Hann's window; thick grey: linear theory, (14.12) through the resonator; dotted: the "
-            "floor that the jumps at the end of the records predict. Vertical lines: ω_eigen, q_min v₀, predicted "
-            "break, q_max v₀. (b) Region 3 over ω^(-2H-3), over a linear ω: the oscillation of period π v₀ / a. (c) "
-            "Contrast of the oscillation: mean of (b) about the maxima beside each zero of sin²(q a), over that about "
-            "the zero; circles: Hann's window, 95 % intervals; grey: linear theory. "
-            f"The period is sought {period_range(case.scene)}."
+            f"Fig. 14.4. (a) Spectrum of the acceleration, (14.17), mean of {case.realisations} wheels: line, no "
+            "window; band, tenth to ninetieth percentile; dashed, Hann's window; thick grey, linear theory; dotted, "
+            "predicted floor. Vertical lines: ω_eigen, q_min v₀, predicted break, q_max v₀. (b) Region 3 over "
+            "ω^(-2H-3). (c) Contrast of the oscillation at each zero of sin²(q a): circles, Hann's window, 95 %; grey, "
+            f"linear theory. The period is sought {period_range(case.scene)}."
         ),
     }
     if case.parameters:
