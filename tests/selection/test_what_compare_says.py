@@ -6,14 +6,18 @@ import numpy as np
 import pytest
 
 import validation
+from tests.selection.planted_answers import planted
 from tests.selection.test_model_hierarchy import PARTS, Fake, Finding, punch, wheel
-from validation.selection.compare import Comparison
+from validation.scenes.load import bundled_for_compare
+from validation.selection.compare import Comparison, quantities_of
 from validation.selection.hierarchy import select_model
 from validation.selection.side_by_side import side_by_side
-from validation.selection.summary import WIDTH, label, sentences_on_mdr, summary
+from validation.selection.summary import BECAME, WIDTH, label, sentences_on_mdr, summary
 from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
 
+ENDS = tuple(end for words in BECAME.values() for end in (words, words.replace("not solved", "solved")))
+"""Of the rows of models."""
 SCENES = ("sphere", "rough_punch", "rolling_wheel")
 
 
@@ -31,6 +35,32 @@ def test_every_model_has_its_claim_and_every_line_fits(name):
     for one in found.models:
         (row,) = [line for line in lines if line.startswith(f"{label(one):36s}")]
         assert found.tolerance.shown(one.estimate.error) in row
+
+
+@pytest.mark.parametrize("name", bundled_for_compare())
+def test_every_line_fits_whatever_was_found(name):
+    """All quantities, all models side by side, met, not met, and without a known error."""
+    for quantity in quantities_of(validation.load_scene(name)):
+        for tolerance, statuses, error in (
+            ("10%", ("not needed", "accepted", "out of range"), 0.01),
+            ("0.4 dB", ("not accurate enough", "skipped"), 0.5),
+            ("0.4 dB", ("out of range", "not asked"), math.inf),
+        ):
+            found = planted(name, quantity, tolerance, statuses=statuses, error=error)
+            lines = summary(found).splitlines()
+            assert max(map(len, lines)) <= WIDTH
+            assert len([line for line in lines if line.endswith(ENDS)]) == len(found.models)
+            assert lines[0].endswith(f"within {tolerance.replace('%', ' %')}")
+
+
+def test_bands_of_a_wheel_with_a_speed_have_nominal_frequencies():
+    """80 km/h over 2 m is 11.1 Hz, in the band of 10 Hz, 8.91 to 11.2 Hz; over 0.8 mm 27.8 kHz, in that of 25 kHz."""
+    found = planted("rail", "contact-filter")
+    assert found.nominal_hz[[0, 1, -1]].tolist() == [10.0, 12.5, 25000.0]
+    assert (abs(10 * np.log10(found.frequency_hz / found.nominal_hz)) < 0.6).all()
+    assert "band [Hz]" in summary(found)
+    still = planted("rolling_wheel", "force-spectrum")
+    assert still.nominal_hz.size == 0 and "band [Hz]" not in summary(still)
 
 
 def test_mdr_is_named_where_it_is_enough_and_where_not():
