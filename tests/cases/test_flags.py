@@ -6,7 +6,6 @@ import inspect
 from dataclasses import fields, replace
 from types import SimpleNamespace
 from typing import get_type_hints
-from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -30,6 +29,7 @@ from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine
+from validation.engine.progress import Part
 from validation.engine.random_numbers import random_generator
 from validation.report.contents import CASES
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -430,13 +430,11 @@ def test_a_case_without_evidence_is_not_converged(error, monkeypatch, tmp_path, 
     assert "no result" in page and "no result" in printed
 
 
-def test_what_is_lost_is_counted_while_it_runs(monkeypatch):
-    progress = MagicMock()
-    monkeypatch.setattr("validation.engine.engine.Progress", progress)
-    Engine().map(lost_if_odd, range(4))
-    assert progress.call_args.kwargs["failed"] == 0
-    steps = progress.return_value.__enter__.return_value.step.call_args_list
-    assert sorted(step.args[0] for step in steps) == [False, False, True, True]
+def test_what_is_lost_is_counted_while_it_runs(tmp_path):
+    for found, failed in ((0, 2), (4, 2)):
+        progress = Part("toy")
+        Engine(store=tmp_path, progress=progress).map(lost_if_odd, range(4))
+        assert (progress.done, progress.found, progress.failed) == (4, found, failed)
 
 
 def lost_if_odd(problem):

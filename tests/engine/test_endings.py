@@ -15,9 +15,11 @@ import pytest
 
 from tests.engine.jobs import Job, die_at_once, lose_alone, stay
 from tests.engine.toys import ENVIRONMENT, ROOT
+from tests.report.test_command_line import SMALL
 from validation import __main__ as command
 from validation.benchmarks.isolation import isolated_process
 from validation.engine.engine import Engine, WorkerLostError
+from validation.report import pictures
 from validation.report.contents import CASES
 
 
@@ -57,6 +59,16 @@ def test_a_worker_that_is_killed_is_exit_4(tmp_path, monkeypatch, capsys):
 def test_a_process_of_its_own_that_dies_is_a_lost_worker(workers, tmp_path):
     with pytest.raises(WorkerLostError, match="a worker was killed"):
         Engine(workers=workers).map(lose_alone, [Job(i, str(tmp_path)) for i in range(2)])
+
+
+@pytest.mark.slow
+def test_a_worker_that_is_killed_while_it_draws_is_exit_4(tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(CASES, "hertz", replace(CASES["hertz"], quick=SMALL["hertz"]))
+    monkeypatch.setattr(pictures, "draw_figure", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
+    assert report(tmp_path) == command.Exit.UNFINISHED
+    assert capsys.readouterr().err.splitlines()[-1].startswith("error: a worker was killed")
+    assert list((tmp_path / "realisations").glob("*.npz"))
+    assert not (tmp_path / "results.json").exists()
 
 
 RUN = """

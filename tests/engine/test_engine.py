@@ -1,23 +1,21 @@
-"""Independent solves: seeds, stored results that can be trusted, progress."""
+"""Independent solves: seeds, stored results that can be trusted."""
 
 import hashlib
 import importlib.metadata
 import io
 import json
 import os
-import re
 import subprocess
 import sys
-import time
 import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.engine.toys import ENVIRONMENT, ROOT, Slow, computed, other_toy, same, slow, toy
+from tests.engine.toys import ENVIRONMENT, ROOT, computed, other_toy, same, toy
 from validation.engine import engine as ensemble
-from validation.engine import progress, sources, stored
+from validation.engine import sources, stored
 from validation.engine.engine import Engine
 from validation.engine.random_numbers import random_generator
 
@@ -248,33 +246,6 @@ def test_a_failed_write_leaves_nothing_behind(problems, tmp_path, monkeypatch):
     assert list((tmp_path / "store").iterdir()) == []
 
 
-def test_progress_in_a_log(problems, tmp_path, capsys, monkeypatch):
-    """Plain lines with done, stored, failed, rate and time left; none where nobody asks."""
-    monkeypatch.setattr(progress, "SECONDS_BETWEEN_LINES", 0.25)
-    Engine(store=tmp_path / "store").map(slow, [Slow(i, problems[0].log) for i in range(2)])
-    assert capsys.readouterr().err == ""
-    Engine(store=tmp_path / "store", progress=True).map(slow, [Slow(i, problems[0].log) for i in range(5)])
-    lines = capsys.readouterr().err.splitlines()
-    # three times 0.2 s of work or more, a line each 0.25 s and one at the end
-    assert len(lines) >= 3
-    for line in lines[:-1]:
-        counts = r"slow: [2-5] of 5 done, 2 were stored, [01] failed; [\d.]+ a second"
-        assert re.fullmatch(counts + r"(, \d+ s left|, time left unknown|)", line)
-    assert re.fullmatch(r"slow: 5 of 5 done, 2 were stored, 1 failed; [\d.]+ a second", lines[-1])
-
-
-def test_progress_on_a_terminal(monkeypatch):
-    terminal = io.StringIO()
-    terminal.isatty = lambda: True
-    monkeypatch.setattr(sys, "stderr", terminal)
-    with progress.Progress("press surface", total=10, stored=4, failed=1, shown=True) as bar:
-        for failed in (False, True, False):
-            time.sleep(0.15)
-            bar.step(failed)
-    last = terminal.getvalue().split("\r")[-1]
-    assert re.search(r"press surface: 7 of 10 done, 4 were stored, 2 failed; +[\d.]+ solves/s, 00:00 left \|", last)
-
-
 def test_realisations_have_addresses():
     """Independent of how many others are drawn; different for every key."""
     draws = {key: random_generator(7, *key).random() for key in [(1, 700, 0), (1, 700, 1), (2, 700, 0), (1, 400, 0)]}
@@ -319,7 +290,7 @@ def test_one_part_that_fails_is_a_failed_solve():
 
 def test_an_engine_is_its_settings():
     """Silent, alone and without a store unless it is told; what a timed run has asked for is no setting."""
-    assert Engine() == Engine(workers=1, store=None, progress=False, executor="local")
+    assert Engine() == Engine(workers=1, store=None, progress=None, executor="local")
     with Engine().timed() as alone:
         alone.map(plain_toy, [1])
         assert alone == Engine()

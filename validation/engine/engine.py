@@ -2,9 +2,10 @@
 
 import logging
 import re
+import time
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError
-from contextlib import closing, contextmanager
+from concurrent.futures import CancelledError, as_completed
+from contextlib import closing, contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Generic, TypeVar
@@ -13,9 +14,10 @@ import numpy as np
 
 from validation.engine import stored
 from validation.engine.convergence import as_not_converged
-from validation.engine.progress import Progress
+from validation.engine.progress import Part
 from validation.engine.sources import version_behind, version_of_numerics
 from validation.engine.termination import RESUME_NOTE, WorkerLostError
+from validation.engine.workers import Workers
 
 Outcome = stored.Outcome
 P = TypeVar("P")
@@ -30,8 +32,9 @@ TIMEOUT = 10
 class Engine:
     """Runs independent solves on worker processes and stores their results.
 
-    workers: processes on this machine; store: folder for finished results, None stores nothing; progress: on stderr;
-    executor: "local", or "dask://HOST:PORT", a running scheduler whose workers are used in place of local ones.
+    workers: processes on this machine; store: folder for finished results, None stores nothing; progress: the part of
+    a run that is told of each solve; executor: "local", or "dask://HOST:PORT", a running scheduler whose workers are
+    used in place of local ones; shared: the processes, where several engines have the same ones.
     A stored result is used again only if the solve, its problem, the code that the two import and the libraries are
     the same; damaged or foreign files are computed anew. Each worker writes its result to disk as soon as it is
     computed; results of other machines are written here as they come in. No interruption loses a finished result.
@@ -42,8 +45,9 @@ class Engine:
 
     workers: int = 1
     store: Path | None = None
-    progress: bool = False
+    progress: Part | None = field(default=None, repr=False, compare=False)
     executor: str = LOCAL
+    shared: Workers | None = field(default=None, repr=False, compare=False)
     timed_solves: list[Callable[..., Outcome]] | None = field(default=None, repr=False, compare=False)
     """The solves of a timed run, in the order of the calls of `map`."""
 
@@ -69,18 +73,16 @@ class Engine:
         found = [stored.load(place, key) if place else None for place, key in zip(places, keys, strict=True)]
         known = {i: outcome for i, outcome in enumerate(found) if outcome is not None}
         failed = sum(map(_failed, known.values()))
-        name = solve.__name__.replace("_", " ")
-        with Progress(name, total=len(problems), stored=len(known), failed=failed, shown=self.progress) as progress:
-            tasks = [
-                _PendingSolve(solve, problem, i, places[i], keys[i])
-                for i, problem in enumerate(problems)
-                if i not in known
-            ]
-            # an exception in this block ends the workers at once
-            with closing(self._solved(tasks)) as solved:
-                for i, outcome in solved:
-                    known[i] = outcome
-                    progress.step(_failed(outcome))
+        progress = self.progress or Part()
+        progress.begin(solve.__name__.replace("_", " "), total=len(problems), found=len(known), failed=failed)
+        tasks = [
+            _PendingSolve(solve, problem, i, places[i], keys[i]) for i, problem in enumerate(problems) if i not in known
+        ]
+        # an exception in this block ends the workers at once
+        with closing(self._solved(tasks)) as solved:
+            for i, outcome, seconds in solved:
+                known[i] = outcome
+                progress.step(_failed(outcome), seconds)
         return [known[i] for i in range(len(problems))]
 
     def map_groups(self, solve: Callable[[P], Outcome], groups: Mapping[K, Sequence[P]]) -> dict[K, list[Outcome]]:
@@ -94,38 +96,28 @@ class Engine:
 
         A finished run forgets its results, so that the next run measures anew; an interrupted one keeps them.
         """
-        alone = replace(self, workers=1, executor=LOCAL, timed_solves=[])
+        alone = replace(self, workers=1, executor=LOCAL, shared=None, timed_solves=[])
         yield alone
         if self.store is not None:
             stored.forget(self.store, [_module_and_name(solve) for solve in alone.timed_solves or ()])
 
-    def _solved(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome], None, None]:
-        """Index and outcome of each task, in the order in which they finish."""
+    def _solved(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome, float], None, None]:
+        """Index, outcome and seconds of each task, in the order in which they finish."""
         if not tasks:
             return
         if self.executor == LOCAL:
-            import joblib  # where workers are needed: it takes a tenth of a second
-
-            calls = [joblib.delayed(_solve_and_save)(task, version_of_numerics()) for task in tasks]
-            try:
-                with joblib.parallel_config(backend="loky", n_jobs=min(self.workers, len(tasks))):
-                    yield from joblib.Parallel(return_as="generator_unordered", batch_size=1)(calls)
-            except BrokenExecutor:
-                raise WorkerLostError(
-                    "a worker was killed, perhaps by the system for want of memory, which fewer workers need less of; "
-                    + RESUME_NOTE
-                ) from None
+            with nullcontext(self.shared) if self.shared else Workers(self.workers) as workers:
+                yield from _solved_by(workers, tasks)
             return
         by_index = {task.index: task for task in tasks}
-        with _client(self.executor) as (client, as_completed):
-            # not by joblib, which would solve here where there is a single worker
-            futures = [
+        with _client(self.executor) as (client, as_arrived):
+            submitted = [
                 client.submit(_solve, t.solve, t.problem, t.index, version_of_numerics(), pure=False) for t in tasks
             ]
-            for future in as_completed(futures, loop=client.loop):
-                i, outcome = future.result()
+            for arrived in as_arrived(submitted, loop=client.loop):
+                i, outcome, seconds = arrived.result()
                 by_index[i].save(outcome)
-                yield i, outcome
+                yield i, outcome, seconds
 
     def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
         if self.store is None:
@@ -134,6 +126,19 @@ class Engine:
 
 
 SERIAL = Engine()
+
+
+def _solved_by(workers: Workers, tasks: Sequence["_PendingSolve[P]"]) -> Iterator[tuple[int, Outcome, float]]:
+    """One that fails cancels those that wait; others may share the workers."""
+    if workers.count == 1:
+        yield from (_solve_and_save(task, version_of_numerics()) for task in tasks)
+        return
+    futures = [workers.submit(_solve_and_save, task, version_of_numerics()) for task in tasks]
+    try:
+        yield from (future.result() for future in as_completed(futures))
+    finally:
+        for future in futures:
+            future.cancel()
 
 
 @dataclass(frozen=True)
@@ -151,19 +156,20 @@ class _PendingSolve(Generic[P]):
             stored.save(self.place, self.key, outcome)
 
 
-def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome]:
-    i, outcome = _solve(task.solve, task.problem, task.index, numerics)
+def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome, float]:
+    i, outcome, seconds = _solve(task.solve, task.problem, task.index, numerics)
     task.save(outcome)
-    return i, outcome
+    return i, outcome, seconds
 
 
-def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome]:
+def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome, float]:
     """On a worker, perhaps on another machine: only if its numerics are those of the caller."""
     if version_of_numerics() != numerics:
         raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
+    began = time.perf_counter()
     try:
         with as_not_converged():
-            return i, solve(problem)
+            return i, solve(problem), time.perf_counter() - began
     except Exception as error:
         error.add_note(f"in {solve.__name__}({problem!r})")
         raise

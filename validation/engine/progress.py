@@ -1,79 +1,174 @@
-"""The progress of a long run: a bar on a terminal, plain lines in a log."""
+"""The progress of a long run in one line: which part is at work, how far it is, the time left for the whole."""
 
+import shutil
 import sys
 import threading
 import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from types import TracebackType
-
-from tqdm import tqdm
 
 SECONDS_BETWEEN_LINES = 10.0
 """Seconds between two lines in a log."""
+SECONDS_BETWEEN_REFRESHES = 0.2
+"""Seconds between two states of the line on a terminal."""
+BEFORE_EVIDENCE = 0.9
+"""Share of a part that its solves can reach: it may have others, and is evaluated."""
+TRUSTED = 10.0
+"""Expected seconds of work after which the pace of this machine counts as much as the expected one."""
+BACK, ERASED = "\r", "\x1b[K"
+
+
+class Part:
+    """A part of a run: counts of its solves, and the seconds of work that they took."""
+
+    def __init__(self, name: str = "", seconds: float = 0.0, refresh: Callable[[], None] = lambda: None):
+        self.name, self.seconds = name, seconds
+        self.worked = 0.0
+        self.over = False
+        self.doing = ""
+        self.done = self.total = self.found = self.failed = 0
+        self._of_others = (0, 0, 0)
+        self._refresh = refresh
+
+    def begin(self, doing: str, *, total: int, found: int = 0, failed: int = 0) -> None:
+        """Solves that follow. found: in the store; failed: of those."""
+        before = self._of_others
+        self._of_others = (before[0] + self.done, before[1] + self.total, before[2] + self.found)
+        self.doing, self.done, self.total, self.found, self.failed = doing, found, total, found, failed
+        self._refresh()
+
+    def extend(self, doing: str, more: int) -> None:
+        """More of the same."""
+        self.doing = doing
+        self.total += more
+
+    def step(self, failed: bool = False, seconds: float = 0.0) -> None:
+        """One solve more. seconds: that it took."""
+        self.done += 1
+        self.failed += failed
+        self.worked += seconds
+        self._refresh()
+
+    def finish(self) -> None:
+        self.over = True
+        self._refresh()
+
+    @property
+    def share(self) -> float:
+        """Of the part that is done."""
+        done, total = self.done + self._of_others[0], self.total + self._of_others[1]
+        return 1.0 if self.over else BEFORE_EVIDENCE * done / total if total else 0.0
+
+    @property
+    def share_found(self) -> float:
+        """Of the part that was found in the store."""
+        total = self.total + self._of_others[1]
+        return (self.found + self._of_others[2]) / total if total else 0.0
+
+    @property
+    def line(self) -> str:
+        if not self.doing:
+            return self.name
+        told = [f"{self.name}: {self.doing} {self.done}/{self.total}"]
+        if self.found:
+            told.append(f"{self.found} from an earlier run")
+        if self.failed:
+            told.append(f"{self.failed} failed")
+        return ", ".join(told)
 
 
 class Progress:
-    """Counts of done, stored and failed solves, with the rate and the time left.
+    """Parts of a run in their order: one line that is rewritten on a terminal, a line every few seconds in a log.
 
-    name: of the work; total: solves; stored: solves whose results were found; failed: of those; shown: False prints
-    nothing. Lines are also printed while no solve finishes, so that a log shows a run that stands still.
+    parts: name of each and the seconds that it is expected to take on one core; whole: what is left; workers: that
+    share the work; shown: False prints nothing. Lines are also printed while no solve finishes, so that a log shows a
+    run that stands still.
     """
 
-    def __init__(self, name: str, *, total: int, stored: int, failed: int, shown: bool):
-        self.name, self.total, self.stored, self.failed = name, total, stored, failed
-        self.done = stored
-        self._began = time.monotonic()
-        self._lines = shown and not sys.stderr.isatty()
+    def __init__(
+        self,
+        parts: Mapping[str, float],
+        *,
+        whole: str = "whole report",
+        workers: int = 1,
+        shown: bool = True,
+        clock: Callable[[], float] = time.monotonic,
+    ):
+        self.parts = {name: Part(name, seconds, self.refresh) for name, seconds in parts.items()}
+        self._whole, self._workers, self._now = whole, workers, clock
+        self._shown, self._terminal = shown, sys.stderr.isatty()
+        self._began = self._printed = clock()
+        self._lock = threading.RLock()
         self._over = threading.Event()
-        self._clock = threading.Thread(target=self._tick, daemon=True)
-        self._bar = tqdm(
-            total=total,
-            initial=stored,
-            desc=name,
-            disable=not shown or self._lines,
-            bar_format="{desc}: {n_fmt} of {total_fmt} done{postfix}; {rate_fmt}, {remaining} left |{bar}|",
-            unit=" solves",
-        )
-        self._bar.set_postfix_str(self._counts, refresh=False)
+        self._ticks = threading.Thread(target=self._tick, daemon=True)
 
     def __enter__(self) -> "Progress":
-        self._clock.start()
+        if self._shown:
+            self._ticks.start()
         return self
-
-    def step(self, failed: bool) -> None:
-        self.done += 1
-        self.failed += failed
-        self._bar.set_postfix_str(self._counts, refresh=False)
-        self._bar.update()
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._over.set()
-        self._clock.join()
-        self._bar.close()
-        self._print_line()
+        if self._shown:
+            self._over.set()
+            self._ticks.join()
+            self._erase()
+
+    def refresh(self) -> None:
+        """Print the line, if the last one is old enough."""
+        apart = SECONDS_BETWEEN_REFRESHES if self._terminal else SECONDS_BETWEEN_LINES
+        with self._lock:
+            if not self._shown or self._over.is_set() or self._now() - self._printed < apart:
+                return
+            self._printed = self._now()
+            columns = shutil.get_terminal_size().columns
+            self._write(BACK + self.line[: columns - 1] + ERASED if self._terminal else self.line + "\n")
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Something else is printed meanwhile."""
+        with self._lock:
+            self._erase()
+            yield
 
     @property
     def line(self) -> str:
-        seconds = time.monotonic() - self._began
-        rate = (self.done - self.stored) / seconds if seconds > 0 else 0.0
-        counts = f"{self.name}: {self.done} of {self.total} done, {self._counts}"
-        if self.done == self.total:
-            return f"{counts}; {rate:.3g} a second"
-        return f"{counts}; {rate:.3g} a second, " + (
-            f"{(self.total - self.done) / rate:.0f} s left" if rate > 0 else "time left unknown"
-        )
+        """Of the first part that is not over."""
+        found = ((i, part) for i, part in enumerate(self.parts.values(), 1) if not part.over)
+        i, part = next(found, (len(self.parts), list(self.parts.values())[-1]))
+        place = f"[{i}/{len(self.parts)}] " if len(self.parts) > 1 else ""
+        whole = f"{self._whole} " if self._whole else ""
+        return f"{place}{part.line}, {whole}{format_left(self.seconds_left)} left"
 
     @property
-    def _counts(self) -> str:
-        return f"{self.stored} were stored, {self.failed} failed"
+    def seconds_left(self) -> float:
+        """By the pace of what was done in this run, and the expected one as long as that is little."""
+        parts = self.parts.values()
+        worked = sum(part.seconds * max(part.share - part.share_found, 0.0) for part in parts)
+        expected = TRUSTED / self._workers
+        pace = (self._now() - self._began + expected) / (worked + TRUSTED)
+        return pace * sum(part.seconds * (1 - part.share) for part in parts)
 
     def _tick(self) -> None:
-        while not self._over.wait(SECONDS_BETWEEN_LINES):
-            self._bar.refresh()
-            self._print_line()
+        while not self._over.wait(SECONDS_BETWEEN_REFRESHES):
+            self.refresh()
 
-    def _print_line(self) -> None:
-        if self._lines:
-            sys.stderr.write(self.line + "\n")
-            sys.stderr.flush()
+    def _erase(self) -> None:
+        if self._shown and self._terminal:
+            self._write(BACK + ERASED)
+
+    def _write(self, text: str) -> None:
+        sys.stderr.write(text)
+        sys.stderr.flush()
+
+
+def format_left(seconds: float) -> str:
+    """As exact as it can be known."""
+    if seconds < 10:
+        return "a few seconds"
+    if seconds < 90:
+        return f"about {10 * round(seconds / 10)} s"
+    minutes = round(seconds / 60)
+    return f"about {minutes} min" if minutes < 90 else f"about {seconds / 3600:.1f} h"

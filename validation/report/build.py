@@ -1,24 +1,30 @@
 """Run cases and write a report folder."""
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
+from typing import Any
 
-from validation.analysis.case import Profile
+from validation.analysis.case import Case, Profile
 from validation.analysis.contents import as_csv, as_json
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
+from validation.engine.progress import Part, Progress
+from validation.engine.workers import Workers
 from validation.report.chapter import chapter_results
 from validation.report.contents import CASES, TIMED
 from validation.report.documentation import documentation_beside
+from validation.report.durations import expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.page import page, scene_summary
+from validation.report.pictures import FIGURES, Pictures
 from validation.report.provenance import provenance
 from validation.report.section import Section, results_of
 from validation.report.sounds import sound_files
-from validation.report.style import drawn, pdf, svg
 from validation.scenes.dynamic_wheel import WheelScene
 
 
@@ -39,46 +45,91 @@ def build(
     names: of cases in `CASES` or `TIMED`; profile: "quick" or "full"; out: a new folder or an earlier report;
     workers: processes; seed: for every case that draws, None for the seed of each case; scene: for every case of a
     dynamic wheel, None for its own; executor: see `Engine`;
-    progress: a bar on a terminal, lines in a log; callback: called with each case as it is finished.
+    progress: a line on a terminal, lines in a log; callback: called with each case as it is finished.
     Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
     Raises ValueError for a folder that holds something else or that another run is at, an executor that is none, or a
     case without its figure file; see `Engine` for what is raised where a run cannot be finished.
     """
     for name in names:
         drawing(name)  # a case without its figure file ends the run before the first solve
-    engine = Engine(workers=workers, store=out / REALISATIONS, progress=progress, executor=executor)
-    with Folder(out) as folder:
-        sections, seconds = [], {}
-        for name in names:
-            start = time.perf_counter()
-            sections.append(_section(name, profile, seed, scene, engine))
-            seconds[name] = time.perf_counter() - start
-            callback(sections[-1])
-        seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
-        about = provenance(profile, seeds, engine, seconds)
-        folder.replace(_files(sections, profile, about, scene, documentation_beside(out)))
+    engine = Engine(workers=workers, store=out / REALISATIONS, executor=executor)
+    with (
+        Folder(out) as folder,
+        Progress(expected_seconds([*names, FIGURES], profile), workers=workers, shown=progress) as shown,
+        # those of a scheduler solve one case after the other
+        Workers(workers if executor == LOCAL else 1) as processes,
+    ):
+        pictures = Pictures(processes, shown.parts[FIGURES], profile)
+        settings = {name: _case(name).settings(profile, seed, scene) for name in names}
+
+        def run(name: str) -> Any:
+            return _case(name).run(settings[name], replace(engine, shared=processes, progress=shown.parts[name]))
+
+        sections = []
+        for name, result in _results(names, run, processes, pictures):
+            sections.append(_section(name, settings[name], result, shown.parts[name]))
+            pictures.draw(sections[-1])
+            with shown.aside():
+                callback(sections[-1])
+        about = _provenance(sections, profile, engine, shown)
+        folder.replace(_files(sections, pictures.found(), profile, about, scene, documentation_beside(out)))
     return sections
+
+
+def _case(name: str) -> Case:
+    return TIMED[name] if name in TIMED else CASES[name]
+
+
+def _results(
+    names: Sequence[str], run: Callable[[str], Any], workers: Workers, pictures: Pictures
+) -> Iterator[tuple[str, Future[Any]]]:
+    """Of each case in their order, while the next are at work; what is timed is run last, when nothing else is."""
+    lasting = [name for name in names if name not in TIMED]
+    timed = [name for name in names if name in TIMED]
+    yield from zip(lasting, workers.ahead([partial(run, name) for name in lasting]), strict=True)
+    pictures.found()
+    yield from zip(timed, Workers(1).ahead([partial(run, name) for name in timed]), strict=True)
+
+
+def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> Section:
+    case, began = _case(name), time.perf_counter()
+    of = partial(Section, name, case, case.model_needed(settings), asdict(settings))
+    try:
+        with as_not_converged():
+            return of(case.evidence(result.result()))
+    except NotConvergedError as error:
+        return of(None, (str(error), *error.unconverged))
+    finally:
+        progress.worked += time.perf_counter() - began
+        progress.finish()
+
+
+def _provenance(sections: Sequence[Section], profile: Profile, engine: Engine, progress: Progress) -> dict[str, object]:
+    seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
+    return provenance(
+        profile, seeds, engine, {section.name: progress.parts[section.name].worked for section in sections}
+    )
 
 
 def _files(
     sections: Sequence[Section],
+    pictures: Mapping[str, tuple[bytes, bytes]],
     profile: Profile,
     about: dict[str, object],
     scene: WheelScene | None,
     documentation: str,
 ) -> dict[str, bytes]:
-    """All that a report is, the page last. about: its provenance; documentation: its address, or empty."""
-    files, pictures = {}, {}
+    """All that a report is, the page last.
+
+    pictures: SVG and PDF of each figure; about: its provenance; documentation: its address, or empty.
+    """
+    files: dict[str, bytes] = {}
+    for name, (svg, pdf) in pictures.items():
+        files |= {f"{FIGURES}/{name}.svg": svg, f"{FIGURES}/{name}.pdf": pdf}
     for section in sections:
-        if section.evidence is None:
-            continue
-        for name in section.evidence.captions:
-            figure = drawn(drawing(name), section.evidence, profile)
-            pictures[name] = files[f"figures/{name}.svg"] = svg(figure)
-            files[f"figures/{name}.pdf"] = pdf(figure)
-        for table in section.evidence.tables:
+        for table in section.evidence.tables if section.evidence else ():
             files[f"data/{section.name}-{table.name}.csv"] = as_csv(table)
-        files |= sound_files(section.name, section.evidence)
+        files |= sound_files(section.name, section.evidence) if section.evidence else {}
     files["provenance.json"] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]
@@ -89,18 +140,5 @@ def _files(
     for section in timed:
         files[f"{section.name}.json"] = as_json(results_of([section], profile))
     about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
-    files["index.html"] = page(sections, profile, pictures, about, scene)
+    files["index.html"] = page(sections, profile, {name: svg for name, (svg, _) in pictures.items()}, about, scene)
     return files
-
-
-def _section(name: str, profile: Profile, seed: int | None, scene: WheelScene | None, engine: Engine) -> Section:
-    case = TIMED[name] if name in TIMED else CASES[name]
-    settings = case.settings(profile, seed, scene)
-    try:
-        with as_not_converged():
-            evidence = case.evidence(case.run(settings, engine))
-    except NotConvergedError as error:
-        return Section(
-            name, case, case.model_needed(settings), asdict(settings), None, (str(error), *error.unconverged)
-        )
-    return Section(name, case, case.model_needed(settings), asdict(settings), evidence)

@@ -1,0 +1,109 @@
+"""Jobs that share workers: in their order, ahead of their turn, and none left after an error."""
+
+import os
+import threading
+import time
+from concurrent.futures import CancelledError
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from validation.engine.convergence import NotConvergedError
+from validation.engine.engine import Engine
+from validation.engine.progress import Part
+from validation.engine.termination import WorkerLostError
+from validation.engine.workers import AHEAD, Workers
+
+
+def slowly(number):
+    time.sleep(0.05 * (number % 2))
+    return number
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_jobs_come_in_their_order_and_errors_with_them(count):
+    """With one worker they are done here, with more in threads."""
+    threads = set()
+
+    def job(number):
+        threads.add(threading.current_thread())
+        if number == 3:
+            raise ZeroDivisionError
+        return slowly(number)
+
+    found = list(Workers(count).ahead([lambda number=number: job(number) for number in range(8)]))
+    assert [done.exception() is None for done in found] == [number != 3 for number in range(8)]
+    assert [done.result() for done in found if not done.exception()] == [0, 1, 2, 4, 5, 6, 7]
+    assert (threads == {threading.current_thread()}) == (count == 1)
+
+
+def test_no_more_jobs_are_begun_than_there_is_memory_for():
+    begun = []
+    jobs = Workers(2).ahead([lambda number=number: begun.append(number) for number in range(3 * AHEAD)])
+    next(jobs)
+    time.sleep(0.05)
+    assert len(begun) <= AHEAD
+    assert len(list(jobs)) == 3 * AHEAD - 1
+
+
+@dataclass(frozen=True)
+class Asked:
+    case: str
+    number: int
+
+
+def answer(asked):
+    """The solves of one case fail; those of another end their process; the rest is slow."""
+    if asked.case == "fails" and asked.number == 2:
+        raise NotConvergedError("too little is left")
+    if asked.case == "is killed":
+        os._exit(1)
+    time.sleep(0.1)
+    return {"value": np.full(2, float(asked.number))}
+
+
+def cases_on(workers, *names, store=None):
+    engine = Engine(workers=workers.count, store=store, shared=workers)
+    return [lambda name=name: engine.map(answer, [Asked(name, i) for i in range(6)]) for name in names]
+
+
+@pytest.mark.slow
+def test_a_case_that_fails_leaves_the_others_their_workers(tmp_path):
+    with Workers(2) as workers:
+        first, second, third = workers.ahead(cases_on(workers, "first", "fails", "third", store=tmp_path))
+    assert isinstance(second.exception(), NotConvergedError)
+    for done in (first, third):
+        assert [outcome["value"][0] for outcome in done.result()] == [0, 1, 2, 3, 4, 5]
+    assert len(list(tmp_path.iterdir())) >= 12
+
+
+@pytest.mark.slow
+def test_a_killed_worker_ends_all_cases(tmp_path):
+    with pytest.raises(WorkerLostError, match="a worker was killed"), Workers(2) as workers:
+        for done in workers.ahead(cases_on(workers, "first", "is killed", "third")):
+            done.result()
+
+
+@pytest.mark.slow
+def test_an_error_between_two_cases_ends_the_workers_of_all():
+    """What is at work ahead of its turn is not waited for, and nothing else is begun."""
+    before, ended = threading.active_count(), []
+    with pytest.raises(KeyboardInterrupt), Workers(2) as workers:
+        for _ in workers.ahead([lambda: None, lambda: ended.append(workers.submit(time.sleep, 600).result())]):
+            raise KeyboardInterrupt
+    assert ended == []
+    with pytest.raises(CancelledError):
+        workers.submit(slowly, 1)
+    while threading.active_count() > before:
+        time.sleep(0.01)
+
+
+def test_the_seconds_of_solves_are_counted(tmp_path):
+    """Those of this run, not of an earlier one."""
+    for worked in (0.3, 0.0):
+        part = Part("first")
+        Engine(store=tmp_path, progress=part).map(answer, [Asked("first", i) for i in range(3)])
+        assert part.worked >= worked
+        assert (part.worked == 0.0) == (worked == 0.0)
+    assert replace(Engine(), progress=part) == Engine()

@@ -1,0 +1,55 @@
+"""Figures are drawn once, by workers, while other cases are solved; and how long all of it is expected to take."""
+
+import tomllib
+
+import pytest
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+from validation.engine.progress import Part
+from validation.engine.workers import Workers
+from validation.report import durations, pictures
+from validation.report.contents import CASES, TIMED
+from validation.report.style import panels
+
+
+class Evidence:
+    captions = dict.fromkeys("abc", "")
+
+
+class Section:
+    def __init__(self, evidence):
+        self.evidence = evidence
+
+
+@pytest.mark.slow
+def test_a_figure_is_laid_out_once_for_both_formats(monkeypatch):
+    laid_out = []
+    execute = ConstrainedLayoutEngine.execute
+    monkeypatch.setattr(
+        ConstrainedLayoutEngine, "execute", lambda self, figure: (laid_out.append(figure), execute(self, figure))
+    )
+    monkeypatch.setattr(pictures, "drawing", lambda name: lambda evidence: panels(1, 2)[0])
+    svg, pdf = pictures.draw_figure("hertz", Evidence(), "quick")
+    assert svg.startswith(b"<?xml") and pdf.startswith(b"%PDF")
+    assert len(laid_out) == 1
+
+
+def test_figures_come_by_their_names_and_are_counted(monkeypatch):
+    monkeypatch.setattr(pictures, "draw_figure", lambda name, evidence, profile: (name.encode(), profile.encode()))
+    progress = Part("figures")
+    drawn = pictures.Pictures(Workers(1), progress, "quick")
+    drawn.draw(Section(Evidence()))
+    assert drawn.found() == {name: (name.encode(), b"quick") for name in "abc"}
+    assert progress.line == "figures: drawn 3/3"
+    # a case that failed has none
+    drawn.draw(Section(None))
+    assert len(drawn.found()) == 3
+
+
+@pytest.mark.parametrize("profile", ["quick", "full"])
+def test_the_table_of_durations_names_cases_and_others_are_like_their_mean(profile):
+    known = tomllib.loads(durations.TABLE.read_text())[profile]
+    assert known.keys() <= {*CASES, *TIMED, pictures.FIGURES}
+    expected = durations.expected_seconds(["hertz", "a new case"], profile)
+    assert expected["hertz"] == known["hertz"]
+    assert expected["a new case"] == pytest.approx(sum(known.values()) / len(known))

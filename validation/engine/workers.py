@@ -1,0 +1,94 @@
+"""Worker processes of this machine: one queue for all that is at work, first come first served."""
+
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ThreadPoolExecutor
+from types import TracebackType
+from typing import ParamSpec, TypeVar
+
+from validation.engine.termination import RESUME_NOTE, WorkerLostError
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""Of a library in a worker: the workers together have all cores."""
+IDLE = 300
+"""Seconds after which a worker without work ends."""
+AHEAD = 4
+"""Jobs at once: while the last solves of one come to their end, or are evaluated, those of the next are at work."""
+
+
+class Workers:
+    """A number of processes; a context manager, whose exception ends them at once.
+
+    One worker is this process itself. Raises WorkerLostError where one is killed.
+    """
+
+    def __init__(self, count: int):
+        self.count = count
+        self._over = False
+
+    def __enter__(self) -> "Workers":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if error is not None:
+            self.end()
+        if isinstance(error, BrokenExecutor):
+            raise WorkerLostError(
+                "a worker was killed, perhaps by the system for want of memory, which fewer workers need less of; "
+                + RESUME_NOTE
+            ) from None
+
+    def submit(self, function: Callable[P, R], *arguments: P.args, **named: P.kwargs) -> Future[R]:
+        """A call on a worker, or here and now where there is one alone."""
+        if self._over:
+            raise CancelledError("the workers have been ended")
+        if self.count > 1:
+            return self._pool().submit(function, *arguments, **named)
+        future = Future[R]()
+        future.set_result(function(*arguments, **named))
+        return future
+
+    def ahead(self, jobs: Sequence[Callable[[], R]]) -> Iterator[Future[R]]:
+        """The jobs in their order, each as it is done, while the next are already at work in threads.
+
+        Jobs that hand their work to these workers and wait for it; with one worker, one after the other.
+        """
+        if self.count == 1:
+            for job in jobs:
+                yield _done(job)
+            return
+        # an exception ends the workers first, so that no thread waits for them
+        with ThreadPoolExecutor(AHEAD) as threads, self:
+            begun = deque[Future[R]]()
+            left = deque(jobs)
+            while left or begun:
+                while left and len(begun) < AHEAD:
+                    begun.append(threads.submit(left.popleft()))
+                begun[0].exception()
+                yield begun.popleft()
+
+    def end(self) -> None:
+        """End all workers at once; nothing is submitted any more."""
+        self._over = True
+        if self.count > 1:
+            self._pool().shutdown(wait=True, kill_workers=True)  # type: ignore[call-arg]  # an executor of loky
+
+    def _pool(self) -> Executor:
+        from joblib.externals import loky  # where processes are needed: it takes a tenth of a second
+
+        pool: Executor = loky.get_reusable_executor(max_workers=self.count, timeout=IDLE, env=ONE_THREAD)
+        return pool
+
+
+def _done(job: Callable[[], R]) -> Future[R]:
+    future = Future[R]()
+    try:
+        future.set_result(job())
+    except Exception as error:
+        future.set_exception(error)
+    return future
