@@ -140,6 +140,17 @@ def test_a_run_that_stands_still_is_seen(monkeypatch):
     assert stream.getvalue().startswith("hertz, whole report")
 
 
+def test_a_run_of_one_part_follows_its_own_pace(clock):
+    """Half of its solves took a minute, whatever it was taken for; the other half, and what follows, take longer."""
+    run = Progress({"sound": progress.UNKNOWN}, whole="", shown=False, clock=clock)
+    part = run.parts["sound"]
+    part.begin("roll", total=20)
+    for _ in range(10):
+        clock.now += 6.0
+        part.step()
+    assert run.line == "sound: roll 10/20, about 80 s left"
+
+
 def test_nothing_is_printed_where_nobody_asks(capsys, clock):
     with Progress({"hertz": 1.0}, shown=False, clock=clock) as run:
         clock.now += 100

@@ -16,6 +16,8 @@ BEFORE_EVIDENCE = 0.9
 """Share of a part that its solves can reach: it may have others, and is evaluated."""
 TRUSTED = 10.0
 """Expected seconds of work after which the pace of this machine counts as much as the expected one."""
+UNKNOWN = 600.0
+"""Seconds of work that a part is taken for whose duration nobody knows."""
 BACK, ERASED = "\r", "\x1b[K"
 
 
@@ -162,6 +164,13 @@ class Progress:
     def _write(self, text: str) -> None:
         sys.stderr.write(text)
         sys.stderr.flush()
+
+
+@contextmanager
+def progress_of(name: str, workers: int) -> Iterator[Part]:
+    """Of a run that is a single part, of which nobody knows how long it takes."""
+    with Progress({name: UNKNOWN}, whole="", workers=workers) as progress:
+        yield progress.parts[name]
 
 
 def format_left(seconds: float) -> str:

@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 
 from validation.engine.engine import Engine
-from validation.engine.progress import Progress
+from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
 from validation.selection.calibrate import CalibrationRun, calibration_lines, write_calibration
@@ -16,8 +16,6 @@ COUNTED = {
     "rolling": "rolling wheels",
     "wheels": "dynamic wheels",
 }
-PART, EXPECTED = "calibration", 3600.0
-"""What is shown of it, and the seconds of one core that it takes or so."""
 
 
 def describe(calibrating: argparse.ArgumentParser) -> None:
@@ -45,8 +43,8 @@ def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or show those that were measured."""
     if not arguments.show:
         run = CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
-        with Progress({PART: EXPECTED}, whole="", workers=arguments.workers) as progress:
-            engine = Engine(workers=arguments.workers, store=arguments.store, progress=progress.parts[PART])
+        with progress_of("calibration", arguments.workers) as progress:
+            engine = Engine(workers=arguments.workers, store=arguments.store, progress=progress)
             write_calibration(run, engine, arguments.out)
     print("\n".join(calibration_lines(arguments.out)))
     return Exit.MET

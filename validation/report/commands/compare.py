@@ -10,6 +10,7 @@ from validation.analysis.contents import as_csv
 from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_whole
+from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
@@ -150,8 +151,9 @@ def _found(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> l
         return [found]
     # a run that ends before its time says that what is finished is kept
     arguments.out = arguments.store or arguments.report or STORE
-    engine = Engine(workers=arguments.workers, store=arguments.out / "realisations", progress=True)
-    several = compare_scenes(problems, engine)
+    with progress_of("scenes", arguments.workers) as progress:
+        engine = Engine(workers=arguments.workers, store=arguments.out / "realisations", progress=progress)
+        several = compare_scenes(problems, engine)
     print("\n".join(overview(several)))
     return several
 

@@ -12,6 +12,7 @@ from validation.cases.rail.rail_sound_evidence import signed, sounds_of, what_is
 from validation.cases.rail.rail_sound_levels import SoundLevels
 from validation.engine.engine import Engine
 from validation.engine.files import write_whole
+from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.sounds import wav
@@ -71,7 +72,8 @@ def sound(arguments: argparse.Namespace) -> Exit:
     )
     case.strip(case.cells[1])  # what cannot be drawn is refused before the first line
     print("\n".join([scene.name, *description_lines(scene), *_assumed(case), ""]), flush=True)
-    result = run(case, Engine(workers=arguments.workers, progress=True))
+    with progress_of("sound", arguments.workers) as progress:
+        result = run(case, Engine(workers=arguments.workers, progress=progress))
     arguments.out.mkdir(parents=True, exist_ok=True)
     for name, contents in files_of(result).items():
         write_whole(arguments.out / name, contents)
