@@ -159,9 +159,20 @@ def test_answers_at_the_edges_are_counted_with_those_that_are_none():
     row = edge_evidence.edges_by_kind(table).columns
     assert [values[0] for values in row.values()][1:-1] == [5, 3, 3, 1, 2, 1]
     assert row["true over estimated error, worst"][0] == f"{0.2 / math.hypot(0.05, 0.01):.2g}"
-    (number,) = edge_evidence.edge_numbers(table)
-    assert number.value == 0.5
+    held, far_off, refused = edge_evidence.edge_numbers(table)
+    assert (held.value, refused.value) == (0.5, 0.25)
+    assert far_off.value == pytest.approx(math.log10(0.1 / math.hypot(0.05, 0.01)))
+    assert far_off.verdict == "differ"
     assert "1 of 2 answers hold, and 1 of 4 questions" in edge_evidence.edge_answer(table)
+
+
+def test_a_question_that_no_model_answers_within_the_tolerance_is_not_refused():
+    """Fine boundary elements leave 20 %; an answer that misses the tolerance is a refusal where they leave less."""
+    poor, missed = {**outcome(0.2, 0.1), "reference": np.array(0.2)}, outcome(0.2, 0.1)
+    table = edge_evidence.edge_table(trials(2), [poor, missed])
+    assert [values[0] for values in edge_evidence.edges_by_kind(table).columns.values()][4] == 1
+    *_, far_off, refused = edge_evidence.edge_numbers(table)
+    assert (far_off.value, refused.value) == (0.0, 1.0)
 
 
 def test_a_scene_at_the_edge_is_solved_beside_its_reference():
