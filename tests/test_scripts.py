@@ -24,7 +24,9 @@ def test_an_example_asserts_its_result_and_draws_a_picture(name, tmp_path, monke
     monkeypatch.chdir(tmp_path)
     runpy.run_path(str(EXAMPLES / f"{name}.py"), run_name="__main__")
     assert capsys.readouterr().out
-    assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    (picture,) = (path for path in tmp_path.iterdir() if path.suffix in {".png", ".svg", ".pdf"})
+    assert picture.name == f"{name}.png"
+    assert picture.read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("name", NAMES)
