@@ -115,6 +115,7 @@ def test_a_sentence_has_a_clause_for_each_side_and_ends_where_it_was_measured():
     ]
     assert row.measured == "Fbar = 0.01 to 10, H = 0.7"
     assert row.margin == "10 %: reason"
+    assert row.within == "10 %"
 
 
 def test_neighbours_of_one_side_are_one_range_and_others_are_not():

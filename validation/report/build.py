@@ -14,6 +14,7 @@ from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
 from validation.engine.progress import Part, Progress
 from validation.engine.workers import Workers
+from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
 from validation.report.contents import CASES, TIMED
 from validation.report.documentation import documentation_beside
@@ -134,7 +135,11 @@ def _files(
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]
     # the statements of the book are about its own scene
-    more = {"chapter 14": chapter_results(lasting)} if scene is None else {"scene": scene_summary(scene)}
+    more: dict[str, object] = (
+        {"chapter 14": chapter_results(lasting), "when MDR is enough": plain(answered_questions(lasting))}
+        if scene is None
+        else {"scene": scene_summary(scene)}
+    )
     files[RESULTS] = as_json(results_of(lasting, profile) | more)
     timed = [section for section in sections if section.name in TIMED]
     for section in timed:

@@ -7,7 +7,7 @@ from validation.analysis.evidence import Evidence
 from validation.report.answers.cells import Enough, RangeCell, ends, runs, span
 from validation.report.answers.question import AlternativeModel, Question
 from validation.report.answers.questions import QUESTIONS
-from validation.report.answers.words import first_word, measured, sentence
+from validation.report.answers.words import first_word, measured, per_cent, sentence, times
 from validation.report.section import Section
 
 MAP_CASE, MAP = "reduced_models", "reduced_models-map"
@@ -27,7 +27,7 @@ class StripCell:
 class AnsweredQuestion:
     """A row: the strip, its range and margin, the answer in a word and in a sentence, what else could be taken.
 
-    evidence: the case, if it was run.
+    within: the margin itself; evidence: the case, if it was run.
     """
 
     question: Question
@@ -36,6 +36,7 @@ class AnsweredQuestion:
     strip: tuple[StripCell, ...] = ()
     measured: str = ""
     margin: str = ""
+    within: str = ""
     instead: tuple[str, ...] = ()
     evidence: str = ""
 
@@ -101,6 +102,7 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
         _strip(cells),
         ", ".join(filter(None, (measured(cells, question.axis, told), question.of_scene(section)))),
         " ".join(dict.fromkeys(number.reason for cell in cells for number in cell.numbers)),
+        _margins(question, cells),
         tuple(_instead(cells, question, evidence)),
         section.name,
     )
@@ -151,5 +153,11 @@ def _other_margin(
     found, other = ({number.tolerance for cell in cells for number in cell.numbers} for cells in (mine, judged))
     if found == other:
         return ""
-    tolerances = " and ".join(question.printed(tolerance).removeprefix("+") for tolerance in sorted(found))
-    return f", within {tolerances} {model.by}".rstrip()
+    return f", within {_margins(question, mine)} {model.by}".rstrip()
+
+
+def _margins(question: Question, cells: Sequence[RangeCell]) -> str:
+    """Tolerances of the numbers; of what is printed as a factor, in per cent."""
+    printed = per_cent if question.printed is times else question.printed
+    tolerances = sorted({number.tolerance for cell in cells for number in cell.numbers})
+    return " and ".join(printed(tolerance).removeprefix("+") for tolerance in tolerances)

@@ -37,7 +37,7 @@ QUESTIONS = (
     ),
     Question(
         name="scatter",
-        asks="Its scatter from surface to surface",
+        asks="Scatter of that stiffness over surfaces",
         axis=FORCE,
         model=GEIKE,
         source=of_punch(punch.DEVIATION),
@@ -107,7 +107,7 @@ QUESTIONS = (
     Question(
         name="dynamic-wheel",
         asks="Acceleration of a dynamic wheel, band by band",
-        axis="range of the spectrum",
+        axis="the spectrum",
         model=GEIKE,
         source=of_wheel(wheel.GEIKE),
         printed=in_decibels,

@@ -58,6 +58,7 @@ def draw_map(evidence: Evidence) -> Figure:
     table = evidence.table("reduced_models")
     slopes = table["h' a/d"]
     figure, (axis,) = panels(1, 1, height=4.4)
+    axis.set_title("", loc="left")
     largest = []
     for i, model in enumerate(SHOWN):
         mine = table.where(model=model)
@@ -74,7 +75,14 @@ def draw_map(evidence: Evidence) -> Figure:
     lowest = min(float(table.where(model=model)["rms [dB]"].min()) for model in SHOWN)
     axis.set(xscale="log", yscale="log", ylim=(0.6 * lowest, 1.6 * max(_apart(largest))))
     axis.set(xlim=(slopes.min() / 1.2, 4 * slopes.max()), xlabel="h' a/d", ylabel="rms over octaves [dB]")
-    tick(axis, [x for x in (0.03, 0.1, 0.3, 1, 3, 10) if slopes.min() / 1.2 <= x <= 1.2 * slopes.max()])
+    tick(
+        axis,
+        [
+            x
+            for x in (0.03, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2, 3, 5, 8)
+            if slopes.min() / 1.2 <= x <= 1.2 * slopes.max()
+        ],
+    )
     errors = [y for y in (0.03, 0.1, 0.3, 1, 3, 10, 30) if axis.get_ylim()[0] <= y <= axis.get_ylim()[1]]
     axis.set_yticks(errors, [f"{error:g}" for error in errors])
     axis.yaxis.minorticks_off()
