@@ -9,6 +9,7 @@ from validation.cases.rail import contact_filter, ellipse, line_convention, rail
 from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.rolling import validity_headlines as validity
 from validation.cases.rolling.reduced_models import LAYER
+from validation.cases.rolling.reduced_models_map import map_headline
 from validation.cases.wheel import half_space_evidence, regions_evidence, spectrum_evidence
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 
@@ -77,6 +78,25 @@ def test_a_reduced_model_is_said_to_follow_no_farther_than_it_was_rolled():
     """Strips beyond the limit are not part of it."""
     numbers = [*of_models(AGREE, AGREE, slope=0.6), number(DIFFER, reduced.OFF, LAYER, **{"h' a/d": 2.0})]
     assert reduced.headline(numbers).startswith("Within 1 dB up to h' a/d = 0.6: pressed layer, ")
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "title"),
+    [
+        ((AGREE, AGREE, DIFFER), "Within 1 dB of boundary elements: pressed layer to h' a/d = 0.3"),
+        ((AGREE, UNDECIDED, AGREE), "Within 1 dB of boundary elements: pressed layer to h' a/d = 0.1"),
+        ((DIFFER, AGREE, AGREE), "No reduced model is shown to be within 1 dB of boundary elements"),
+    ],
+)
+def test_the_map_ends_a_range_where_the_first_strip_leaves_it(verdicts, title):
+    strips = zip((0.1, 0.3, 1.0), verdicts, strict=True)
+    numbers = [number(verdict, reduced.OFF, LAYER, **{"h' a/d": slope}) for slope, verdict in strips]
+    assert map_headline(numbers[::-1]) == title
+
+
+def test_two_strips_of_one_slope_are_both_needed():
+    numbers = [number(verdict, reduced.OFF, LAYER, **{"h' a/d": 0.3}) for verdict in (AGREE, DIFFER)]
+    assert map_headline(numbers).startswith("No reduced model")
 
 
 # --- a wheel on a rail ---

@@ -349,6 +349,20 @@ def test_lines_of_reduced_models():
         assert line.get_ydata() == mine["rms [dB]"]
 
 
+def test_lines_of_the_map_of_reduced_models():
+    """Points in the order of h' a/d; the line and its label have the largest up to there."""
+    shown = reduced_models.SHOWN
+    table = Made({"model": np.repeat(shown, 3), "h' a/d": np.tile([0.8, 0.05, 0.2], len(shown))})
+    (axis,) = reduced_models.draw_map(made(reduced_models=table)).axes
+    lines = [line for line in axis.get_lines() if line.get_linestyle() == "-"]
+    for model, points, line, label in zip(shown, axis.containers, lines, axis.texts, strict=True):
+        rms = table.where(model=model)["rms [dB]"][[1, 2, 0]]
+        np.testing.assert_allclose(points.lines[0].get_ydata(), rms)
+        np.testing.assert_allclose(line.get_ydata(), [rms[0], rms[:2].max(), rms.max()])
+        assert label.get_text() == model
+        assert label.xy == (0.8, rms.max())
+
+
 def test_lines_of_where_linear_theory_ends():
     """Over h/d and over h' a/d, each spectrum in the order of that parameter."""
     table = Made({"spectrum": np.repeat(["one", "two"], 3)})
