@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+import bem3d
+import mdr
 import validation
 from validation.report.documentation import BUILT
 
@@ -65,16 +67,25 @@ def test_every_module_of_theory_has_its_reference():
     assert modules == {path.stem for path in THEORY.glob("*.py")} - {"__init__"}
 
 
+@pytest.mark.parametrize("package", [mdr, bem3d, validation])
+def test_the_overview_has_every_name(package):
+    """But for names of an earlier release, and tables."""
+    reference = (DOCS / "reference" / f"{package.__name__}.rst").read_text(encoding="utf-8")
+    members = {name: getattr(package, name) for name in package.__all__}
+    listed = re.findall(r"^   (\w+)$", reference, flags=re.MULTILINE)
+    assert sorted(listed) == sorted(name for name, member in members.items() if getattr(member, "__name__", "") == name)
+
+
 def test_pages_are_included_not_copied():
-    included = {
-        name: (DOCS / path, start, end)
+    included = [
+        (name, DOCS / path, start, end)
         for name, page in PAGES.items()
         for path, start, end in re.findall(
             r'```\{include\} (\S+)\n(?::start-after: "(.*)"\n)?(?::end-before: "(.*)"\n)?```', page
         )
-    }
-    assert set(included) == {"conventions", "theory", "verdicts"}
-    for path, start, end in included.values():
+    ]
+    assert {name for name, *_ in included} == {"commands", "conventions", "theory", "verdicts"}
+    for _, path, start, end in included:
         assert re.search(f"{re.escape(start)}.+{re.escape(end)}", path.read_text(encoding="utf-8"), re.DOTALL)
 
 
