@@ -4,8 +4,16 @@ import pytest
 
 from tests.analysis.test_judged_claims import point
 from validation.analysis.answers import answered
-from validation.analysis.evidence import Verdict
+from validation.analysis.evidence import Table, Verdict
+from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence, normalisation
+from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
 from validation.cases.rail import contact_filter, ellipse, line_convention, rail_dynamic_evidence, rough_rail
+from validation.cases.rolling import (
+    input_spectrum_evidence,
+    ridges_evidence,
+    roughness_from_force_evidence,
+    track_stiffness_evidence,
+)
 from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.rolling import validity_headlines as validity
 from validation.cases.rolling.reduced_models import LAYER
@@ -223,3 +231,59 @@ def test_the_first_sentence_of_region_2_follows_its_claims(contrast, merged, wor
         claim_with(merged),
     ]
     assert regions_evidence.finding(claims).startswith(words)
+
+
+# --- the other cases of rolling, and punches ---
+
+
+@pytest.mark.parametrize(
+    ("verdict", "ridges", "track", "word"),
+    [
+        (AGREE, "follow (14.11) through its zeros", "fluctuation within 10 %, mean within 10 %", "yes"),
+        (DIFFER, "do not both follow (14.11)", "fluctuation +300 ± 10 % off at Fbar = 3, mean +300 ± 10 % off", "no"),
+        (UNDECIDED, "whether both follow (14.11) is open", "fluctuation open within 10 %, mean open", "open"),
+    ],
+)
+def test_titles_of_rolling_have_the_status_of_their_claims(verdict, ridges, track, word):
+    claims = [claim_with(verdict, Fbar=3.0)] * 4
+    assert ridges in ridges_evidence.headline(claims[0])
+    assert track in track_stiffness_evidence.headline(claims)
+    title = f"by (14.14) {word}, by the filter in 3D {word}"
+    assert roughness_from_force_evidence.headline(claims).endswith(title)
+    assert roughness_from_force_evidence.finding(claims).endswith(f"{word} at them.")
+    assert input_spectrum_evidence.finding(claims[:3]).count(f" {word}") == 3
+
+
+def test_bands_of_each_input_spectrum_are_counted():
+    names = list(input_spectrum_evidence.measured.NAMES.values())
+    bands = Table("bands", {f"{name} [dB]": [0.0, 3.5, -2.9, -i] for i, name in enumerate(names, start=2)})
+    for verdict, words in ((AGREE, "keeps"), (DIFFER, "+300 ± 10 % off the mean"), (UNDECIDED, "not decided")):
+        found = input_spectrum_evidence.headlines(bands, bands, number(verdict))
+        assert found["rolling_input"] == f"Bands within 3 dB of 4: {names[0]} 3, {names[1]} 3, {names[2]} 2"
+        assert words in found["rolling_input-punch"]
+
+
+@pytest.mark.parametrize(
+    ("verdict", "effect", "drawing"),
+    [
+        (AGREE, "changes nothing", "amplitudes leave the fluctuation; heights of the ensemble leave it"),
+        (DIFFER, "changes it", "amplitudes change the fluctuation; heights of the ensemble change it"),
+        (UNDECIDED, "open", "amplitudes may change the fluctuation; heights of the ensemble may change it"),
+    ],
+)
+def test_titles_of_punches_have_the_status_of_their_claims(verdict, effect, drawing):
+    claims = [claim_with(verdict)] * 3
+    title = f"MDR over boundary elements: bandwidth {effect}, roll-off {effect}"
+    assert bandwidth_evidence.headline(claims) == title
+    assert bandwidth_evidence.finding(claims).endswith(f"size of the punch {effect}.")
+    assert normalisation.headline(claims[:2]).endswith(drawing)
+
+
+def test_the_title_of_area_and_gap_has_their_ratios():
+    """20 lg 10 is ten times."""
+    numbers = [point(20.0, quantity=AREA), point(40.0, quantity=AREA, at=2.0), point(-20.0, quantity=GAP)]
+    claim = answered("Neither.", numbers, "so.", confirmed_by=DIFFER)
+    words = "MDR has 10 to 1e+02 times the contact area and 0.1 times the mean gap"
+    assert area_gap_rolloff_evidence.headline([claim]) == words
+    same = answered("Neither.", [*numbers, point(0.0, quantity=GAP, at=3.0)], "so.", confirmed_by=DIFFER)
+    assert area_gap_rolloff_evidence.headline([same]) == "MDR has the contact area or the mean gap at some forces"

@@ -26,11 +26,10 @@ from validation.analysis.evidence import (
     table_of,
     with_reference,
 )
-from validation.analysis.statistics import Estimate
 from validation.benchmarks.work_precision.pareto import format_error, format_seconds
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import numbers as limits_numbers
-from validation.cases.punch import area_gap_rolloff_evidence, fractal_punch_decades, fractal_punch_text
+from validation.cases.punch import fractal_punch_decades, fractal_punch_text
 from validation.cases.rolling import claims as rolling_claims
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import force_spectrum_tables as rolling_tables
@@ -391,15 +390,6 @@ def test_bands_within_1_and_3_db_are_counted():
     table = rolling_tables.bands_within(case, [mine])
     assert table.columns["springs, in the band"] == ["1 and 2 of 3"]
     assert table.columns["springs, below the band"] == ["1 and 1 of 1"]
-
-
-def test_the_interface_prints_the_numbers_it_is_given():
-    """With ends that are those of value and half-width, as ratios."""
-    text = area_gap_rolloff_evidence._with_interval(
-        Estimate(math.log(2.0), 0.1, 10**6), 0.05, lambda v: 10 * math.exp(v)
-    )
-    half = 0.05 + Estimate(0.0, 0.1, 10**6).half_width
-    assert text == f"20 ({20 * math.exp(-half):.2g} to {20 * math.exp(half):.2g})"
 
 
 def test_limits_print_the_numbers_they_are_given():

@@ -27,6 +27,11 @@ def by_status(claim: JudgedClaim, *, holds: str, fails: str, undecided: str) -> 
     return {ClaimStatus.HOLDS: holds, ClaimStatus.CONTRADICTED: fails, ClaimStatus.OPEN: undecided}[claim.status]
 
 
+def in_a_word(claim: JudgedClaim) -> str:
+    """Its status where the question stands before it: "yes", "yes (up to h/d = 0.1)", "no", "open"."""
+    return by_status(claim, holds="yes", fails="no", undecided="open")
+
+
 def highest_and_lowest_off(numbers: Iterable[Number]) -> list[Number]:
     """Of the numbers that differ, the one farthest above its reference and the one farthest below, where there are."""
     off = [number for number in numbers if number.verdict is Verdict.DIFFER]

@@ -1,20 +1,15 @@
 """What MDR does not model, beside boundary elements: numbers, tables and sentences."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Verdict, numbers_with, table_of
 from validation.analysis.statistics import (
     DECIBEL,
-    Estimate,
-    Statistic,
-    at_level,
-    log_mean,
-    log_relative_deviation,
-    nearest,
 )
+from validation.analysis.wording import by_status, in_a_word, sentence
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult, run
 from validation.cases.punch.area_gap_rolloff_numbers import (
     AREA,
@@ -23,12 +18,9 @@ from validation.cases.punch.area_gap_rolloff_numbers import (
     GAP,
     ROLL_OFF,
     STIFFNESS,
-    RollOffSamples,
     curve,
     numbers_over,
-    persson,
     resampled,
-    value_of,
 )
 from validation.cases.punch.rough_interface import SPRINGS, layer_on_half_space
 from validation.cases.punch.work import Worked
@@ -36,6 +28,8 @@ from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, METHODS, require_converged
 
 CLAIM = "MDR has neither the true contact area nor the mean gap of a rough punch."
+
+WITH_ROLL_OFF = "MDR has the stiffness of roughness with a roll-off."
 
 
 def evidence(result: MdrLimitsResult) -> Evidence:
@@ -53,16 +47,19 @@ def evidence(result: MdrLimitsResult) -> Evidence:
         for mine in samples.values()
         for number in numbers_over(case, mine, layers, first)
     ]
+    claims = claims_of(numbers)
     return Evidence(
         title="Where MDR must fail: contact area, mean gap, roughness with a roll-off",
         method=_method(case),
         numbers=tuple(numbers),
-        claims=claims_of(numbers),
+        claims=claims,
+        finding=finding(claims),
+        headlines={"mdr_limits": headline(claims)},
         tables=(
             table_of("curves", [row for mine in samples.values() for row in curve(result, mine, layers)]),
             Worked.of(case.cells, case.points, result.bem.values()).table,
         ),
-        conclusions=tuple(_at_one_force(result, mine) for mine in samples.values()),
+        conclusions=(),
         captions=_captions(case),
         unconverged=result.unconverged,
     )
@@ -80,7 +77,7 @@ def claims_of(numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
             f"{_times(area)} as many springs are in contact as there is true contact, with {_times(gap)} the mean gap.",
         ),
         (
-            "MDR has the stiffness of roughness with a roll-off.",
+            WITH_ROLL_OFF,
             rolled_off,
             Verdict.AGREE,
             f"it has {_times(rolled_off)} the stiffness of boundary elements.",
@@ -107,6 +104,25 @@ def _times(numbers: Sequence[Number]) -> str:
     return f"{' to '.join(ends)} times"
 
 
+def headline(claims: Sequence[JudgedClaim]) -> str:
+    """Area and gap."""
+    numbers = claims[0].numbers
+    area, gap = (_times(numbers_with(numbers, name)) for name in (AREA, GAP))
+    return by_status(
+        claims[0],
+        holds=f"MDR has {area} the contact area and {gap} the mean gap",
+        fails="MDR has the contact area or the mean gap at some forces",
+        undecided=f"MDR has {area} the contact area and {gap} the mean gap: not all decided",
+    )
+
+
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    rolled_off = [claim for claim in claims if claim.claim == WITH_ROLL_OFF]
+    return sentence(
+        headline(claims), *(f"its stiffness with a roll-off is right: {in_a_word(claim)}" for claim in rolled_off)
+    )
+
+
 def _method(case: MdrLimits) -> str:
     return (
         f"Punches with H = {case.hurst:g} as in Fig. 14.1, and others without waves longer than L over "
@@ -125,39 +141,13 @@ def _method(case: MdrLimits) -> str:
 def _captions(case: MdrLimits) -> dict[str, str]:
     return {
         "mdr_limits": (
-            f"Symbols: boundary elements on {case.cells}² cells, 95 % intervals of the sample, open where the mean "
-            f"contact has fewer than {FEW_CELLS} cells; lines in bands: MDR, L_1D = L. (a) Contact fraction; "
-            "dotted: Persson's erf(√2 p / (E* h')) for the mean pressure p and the rms slope h' of the surfaces. "
-            "(b) Mean gap over h. (c) Stiffness of the interface alone over the force: level where it is "
-            "proportional to the load. (d) Relative deviation of the stiffness of the punch. Dark to light: "
-            f"{ROLL_OFF} = {', '.join(map(str, case.roll_offs))}."
+            "Symbols: boundary elements, 95 % of the sample, open where the mean contact has fewer than "
+            f"{FEW_CELLS} cells; lines in bands: MDR, L_1D = L; dark to light: {ROLL_OFF} = "
+            f"{', '.join(map(str, case.roll_offs))}. (a) Contact fraction; dotted: Persson's erf(√2 p / (E* h')). (b) "
+            "Mean gap over h. (c) Stiffness of the interface alone over the force. (d) Relative deviation of the "
+            "stiffness."
         )
     }
-
-
-def _at_one_force(result: MdrLimitsResult, mine: RollOffSamples) -> str:
-    """All quantities at the force nearest to Fbar = 0.1, boundary elements and MDR."""
-    case = result.case
-    level = nearest(case.forces, 0.1)
-
-    def both(measured: str, statistic: Statistic = log_mean) -> str:
-        value = value_of(case, measured)
-        bem, grid = mine.extrapolated(measured, at_level(level, statistic))
-        springs = mine.by_method[MDR, measured].estimate(at_level(level, statistic))
-        return f"{_with_interval(bem, grid, value)} and {value(springs.value):.3g}"
-
-    return (
-        f"{ROLL_OFF} = {mine.roll_off}, Fbar = {case.forces[level]:.2g}, boundary elements (extrapolated, with their "
-        f"interval) and MDR: contact fraction {both('area')} (Persson {persson(result, mine.roll_off, level):.2g}), "
-        f"mean gap over h {both('gap')}, stiffness over E* L {both('stiffness')}, relative deviation "
-        f"{both('stiffness', log_relative_deviation)}."
-    )
-
-
-def _with_interval(found: Estimate, grid: float, value: Callable[[float], float]) -> str:
-    half = found.half_width + grid
-    middle, low, high = (value(log) for log in (found.value, found.value - half, found.value + half))
-    return f"{middle:.3g} ({low:.2g} to {high:.2g})"
 
 
 CASE = Case(

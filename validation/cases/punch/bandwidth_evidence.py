@@ -10,6 +10,7 @@ from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, Verdict, numbers_with, table_of
 from validation.analysis.statistics import DECIBEL, Estimate
+from validation.analysis.wording import by_status, sentence
 from validation.cases.punch.bandwidth import Bandwidth, BandwidthResult, run
 from validation.cases.punch.bandwidth_levels import MEAN, STATISTICS, BandwidthLevels, levels
 from validation.cases.punch.bandwidth_numbers import (
@@ -45,20 +46,22 @@ def evidence(result: BandwidthResult) -> Evidence:
     require_converged((result.narrow, result.refined, result.rolled_off, *pairs), result.unconverged)
     found = {quantity: levels(result, quantity) for quantity in STATISTICS}
     numbers = numbers_of(case, found)
+    claims = _claims(numbers)
     return Evidence(
         title="Bandwidth, roll-off and size: does the answer of Fig. 14.1 depend on them?",
         method=_method(case),
         numbers=tuple(numbers),
-        claims=_claims(numbers),
+        claims=claims,
+        finding=finding(claims),
+        headlines={"bandwidth": headline(claims)},
         tables=(_curves(case, found),),
         page_tables=(_over_bem(case, found), _fit(case, found[MEAN])),
         conclusions=(_cost(result),),
         captions={
             "bandwidth": (
                 f"H = {case.hurst:g}. (a) Mean stiffness over that of boundary elements: MDR at each bandwidth, with "
-                "and without a roll-off, and the fit; 95 % intervals. (b) Relative deviation, MDR over bem3d. "
-                "(c) Relative deviation itself: symbols, boundary elements; lines, MDR. A roll-off makes it smaller: "
-                "it belongs to the few longest waves."
+                "and without a roll-off, and the fit; 95 %. (b) Relative deviation, MDR over bem3d. (c) Relative "
+                "deviation itself: symbols, boundary elements; lines, MDR."
             )
         },
         unconverged=result.unconverged,
@@ -95,6 +98,19 @@ def _claims(numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
             if (mine := numbers_with(numbers, STIFFNESS, model))
         ),
     )
+
+
+def headline(claims: Sequence[JudgedClaim]) -> str:
+    """What may change MDR over boundary elements."""
+    return f"MDR over boundary elements: bandwidth {_effect(claims[0])}, roll-off {_effect(claims[1])}"
+
+
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    return sentence(headline(claims), f"the fluctuation itself: size of the punch {_effect(claims[2])}")
+
+
+def _effect(claim: JudgedClaim) -> str:
+    return by_status(claim, holds="changes nothing", fails="changes it", undecided="open")
 
 
 def _judged(claim: str, subject: str, numbers: Sequence[Number]) -> JudgedClaim:

@@ -26,10 +26,10 @@ from validation.analysis.statistics import (
     difference_of_halves,
     log_deviation_over,
     log_relative_deviation,
-    mean_of,
     paired_samples,
     sample,
 )
+from validation.analysis.wording import by_status
 from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.random_numbers import random_generator
@@ -174,6 +174,9 @@ def evidence(result: NormalisationResult) -> Evidence:
     }
     found = Fluctuations(result, samples)
     numbers = _numbers(found)
+    claims = tuple(
+        _judged(claim, numbers_with(numbers, f"relative deviation, {name}")) for name, claim in CLAIMS.items()
+    )
     return Evidence(
         title="Normalisation: how fluctuations depend on the way heights are drawn",
         method=(
@@ -183,20 +186,21 @@ def evidence(result: NormalisationResult) -> Evidence:
             f"{case.surfaces} surfaces of {case.cells}² cells, {case.profiles} profiles of {case.points} springs; "
             "Fbar = F / (E* h L) with the h of the ensemble. The two Gaussian ways are compared on the same draws. "
             "Each method is compared with itself on one grid, and judged by the worst force of each decade. MDR over "
-            "boundary elements is given without a verdict, since the grid error is known for Fig. 14.1 alone."
+            "boundary elements is given without a verdict, since the grid error is known for Fig. 14.1 alone. "
+            "Fig. 14.1 has fixed amplitudes, as in (14.8): with another height in every draw, one Fbar is another load "
+            "for each."
         ),
         numbers=tuple(numbers),
-        claims=tuple(
-            _judged(claim, numbers_with(numbers, f"relative deviation, {name}")) for name, claim in CLAIMS.items()
-        ),
+        claims=claims,
+        finding=f"{headline(claims)}.",
+        headlines={"normalisation": headline(claims)},
         tables=(_curves(found), _heights(result)),
         page_tables=(_methods(found),),
-        conclusions=(*(_in_decade(found, first) for first in case.first_forces), *_why_fixed(case)),
+        conclusions=(_scatter_of_heights(case),),
         captions={
             "normalisation": (
                 "Relative standard deviation of the stiffness, a column for each way to draw; 95 % intervals. "
-                "Circles: boundary elements; line in a band: MDR. The first column is drawn like Fig. 14.1, with "
-                f"{case.cells // 4} waves on a side."
+                "Circles: boundary elements; line in a band: MDR. The first column is drawn like Fig. 14.1."
             )
         },
         unconverged=result.unconverged,
@@ -297,31 +301,15 @@ def _methods(found: Fluctuations) -> Table:
     return table_of("relative deviation of boundary elements and MDR, and their difference", rows)
 
 
-def _in_decade(found: Fluctuations, first: float) -> str:
-    """Means over the Hurst exponents, whose samples are independent, with their intervals."""
-    hursts, statistic = found.result.case.hursts, found.over(first)
-
-    def changed(change: str) -> str:
-        means = {m: mean_of([CHANGES[change](found, hurst, m, statistic) for hurst in hursts]) for m in METHODS}
-        return ", ".join(f"{_percent(mean)} ({method})" for method, mean in means.items())
-
-    methods = {v: mean_of([found.mdr_over_bem(hurst, v, statistic) for hurst in hursts]) for v in VARIANTS}
-    gaussian, ensemble = map(changed, CHANGES)
-    return (
-        f"Fbar = {_decade(first)}, mean over H: Gaussian amplitudes in place of fixed ones change the deviation by "
-        f"{gaussian}. The rms of the ensemble in place of that of each draw changes it by {ensemble}. MDR over "
-        f"boundary elements: {', '.join(f'{_percent(mean)} with {variant}' for variant, mean in methods.items())}."
-    )
+def headline(claims: Sequence[JudgedClaim]) -> str:
+    gaussian, ensemble = (by_status(claim, holds="leave", fails="change", undecided="may change") for claim in claims)
+    return f"Gaussian amplitudes {gaussian} the fluctuation; heights of the ensemble {ensemble} it"
 
 
-def _why_fixed(case: Normalisation) -> tuple[str, str]:
+def _scatter_of_heights(case: Normalisation) -> str:
     spread = "; ".join(f"H = {h:g}: {scatter(case, h, BEM):.2f} and {scatter(case, h, MDR):.2f}" for h in case.hursts)
     return (
-        "With q_min = 2π/L the few longest waves carry the height, fewer in 1D than in 2D. The mean square height of "
-        f"Gaussian draws has a relative deviation, on surfaces and on profiles, of {spread}.",
-        "Fig. 14.1 is drawn with fixed amplitudes, as in (14.8), because Fbar is the force over the height. With "
-        "another height in every draw, one Fbar would be another load for each. This scatter, larger in 1D, would be "
-        "counted as scatter of the contact.",
+        f"The mean square height of Gaussian draws has a relative deviation, on surfaces and on profiles, of {spread}."
     )
 
 

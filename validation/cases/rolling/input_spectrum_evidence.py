@@ -1,10 +1,13 @@
 """What the input spectrum of springs changes: its numbers and tables in sentences, and the case of the report."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, Verdict, number_with
+from validation.analysis.wording import by_verdict, in_a_word
 from validation.cases.rolling import input_spectrum_numbers as measured
 from validation.cases.rolling.claims import from_to
 from validation.cases.rolling.force_spectrum_numbers import IN_RMS, LEVEL, THREE_DECIBELS
@@ -28,13 +31,16 @@ def evidence(result: RollingInputResult) -> Evidence:
         *(measured.punch_number(result, rule) for rule in INPUT_SPECTRA),
     ]
     rolled, within = measured.rolled_bands(result, levels), measured.bands_within(case, bands)
+    claims = _claims(numbers, levels, bands)
     return Evidence(
         title="The input spectrum of springs for rolling",
         method=_method(case),
         numbers=tuple(numbers),
         tables=(bands, rolled, measured.punches(result), within),
-        conclusions=(*_counts(case, rolled), _correction(bands), _punches(result, numbers)),
-        claims=_claims(numbers, levels, bands),
+        conclusions=(_correction(bands), *_punches(result, numbers)),
+        claims=claims,
+        finding=finding(claims),
+        headlines=headlines(bands, rolled, number_with(numbers, measured.STIFFNESS, input=measured.NAMES["rolling"])),
         captions=_captions(case),
         unconverged=result.unconverged,
         page_tables=(within,),
@@ -93,16 +99,31 @@ def _claims(numbers: list[Number], levels: list[measured.InputLevels], bands: Ta
     )
 
 
-def _counts(case: RollingInput, rolled: Table) -> list[str]:
-    def count(table: Table) -> str:
-        near = {name: np.abs(table[f"{name} [dB]"]) <= THREE_DECIBELS for name in measured.NAMES.values()}
-        return "; ".join(f"{name}: {inside.sum()} of {inside.size} bands" for name, inside in near.items())
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    names = (*(measured.NAMES[rule] for rule in CLAIMS),)
+    within = ", ".join(f"{name} {in_a_word(claim)}" for name, claim in zip(names, claims, strict=False))
+    return f"Springs within {THREE_DECIBELS:g} dB of 3D in each one-third octave: {within}."
 
-    return [
-        f"One-sided springs within 3 dB of boundary elements at h/d = {height:g}: "
-        f"{count(rolled.where(**{'h/d': height}))}."
-        for height in case.heights
-    ]
+
+def headlines(bands: Table, rolled: Table, punch: Number) -> dict[str, str]:
+    """Bands within 3 dB by input spectrum, in linear theory and of one-sided springs; the punches."""
+
+    def near(table: Table) -> str:
+        inside = {name: np.abs(table[f"{name} [dB]"]) <= THREE_DECIBELS for name in measured.NAMES.values()}
+        counts = ", ".join(f"{name} {some.sum()}" for name, some in inside.items())
+        return f"Bands within {THREE_DECIBELS:g} dB of {next(iter(inside.values())).size}: {counts}"
+
+    off = f"{100 * punch.value:+.0f} ± {100 * punch.uncertainty:.0f} %"
+    return {
+        "rolling_input": near(bands),
+        "rolling_input-springs": near(rolled),
+        "rolling_input-punch": by_verdict(
+            [punch],
+            agree="The rolling-equivalent spectrum keeps the mean stiffness of punches",
+            differ=f"The rolling-equivalent spectrum is {off} off the mean stiffness of punches",
+            undecided=f"The rolling-equivalent spectrum is {off} off punches: not decided",
+        ),
+    }
 
 
 def _correction(bands: Table) -> str:
@@ -117,34 +138,32 @@ def _correction(bands: Table) -> str:
     )
 
 
-def _punches(result: RollingInputResult, numbers: list[Number]) -> str:
+def _punches(result: RollingInputResult, numbers: list[Number]) -> tuple[str, ...]:
     """Why one input spectrum does not serve rolling and Fig. 14.1."""
     found = {rule: number_with(numbers, measured.STIFFNESS, input=measured.NAMES[rule]) for rule in INPUT_SPECTRA}
     if found["rolling"].verdict is not Verdict.DIFFER or found["geike"].verdict is Verdict.DIFFER:
-        return "Whether one of these input spectra serves both rolling and punches is not decided by this run."
+        return ()
     height = float(result.profiles["rolling"]["height"])
     return (
-        "None of these input spectra serves both rolling and punches. A punch needs the height of all waves that meet "
-        "at one place, whatever their direction. Rolling needs, at each wavenumber along the track, the force of the "
-        f"waves that appear there: the rolling-equivalent spectrum has {height:.2f} of the height."
+        "The rolling-equivalent spectrum does not serve punches. A punch needs the height of all waves that meet at "
+        "one place, whatever their direction; this spectrum has "
+        f"{height:.2f} of the height.",
     )
 
 
 def _captions(case: RollingInput) -> dict[str, str]:
     return {
         "rolling_input": (
-            "Level of (14.12) with each input spectrum over that of linear theory in 3D, in one-third octaves; "
-            "shaded: within 3 dB. The bands of the first zeros of sin(q a), at q a = π and 2π, stand out: in 3D the "
-            "zeros are filled."
+            "Level of (14.12) with each input spectrum over that of linear theory in 3D, in one-third octaves; shaded: "
+            "within 3 dB."
         ),
         "rolling_input-springs": (
-            "One-sided springs over boundary elements, by input spectrum, in one-third octaves, with 95 % intervals of "
-            f"the sample; upper row h/d = {case.heights[0]:g}, lower row {case.heights[-1]:g}. Shaded: within 3 dB."
+            "One-sided springs over boundary elements, by input spectrum, in one-third octaves, 95 % of the sample; "
+            f"upper row h/d = {case.heights[0]:g}, lower row {case.heights[-1]:g}. Shaded: within 3 dB."
         ),
         "rolling_input-punch": (
-            "Fig. 14.1 with the same input spectra: mean stiffness of punches, H = 0.7, MDR over boundary elements, at "
-            "three forces, with 95 % intervals; shaded: within 10 %. The line trace and the rolling-equivalent "
-            "spectrum have less height than the surface."
+            "Mean stiffness of punches, H = 0.7, MDR over boundary elements, by input spectrum, at three forces, 95 %; "
+            "shaded: within 10 %."
         ),
     }
 

@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Role, Table, columns
-from validation.cases.rolling.ridges import BEM, FILTER, FULL, SPRINGS, RidgesResult, RollingOverRidges, run
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, columns
+from validation.analysis.wording import by_status
+from validation.cases.rolling.ridges import BEM, FILTER, SPRINGS, RidgesResult, RollingOverRidges, run
 from validation.theory import rolling as rolling_theory
 
 FloatArray = NDArray[np.float64]
@@ -26,6 +27,7 @@ def evidence(result: RidgesResult) -> Evidence:
     case, q = result.case, result.case.wavenumbers
     errors = [_error(result, method, cells) for method, cells, given in result.responses if given == "approach"]
     numbers = (*errors, _order(result), _under_force(result))
+    claim = answered(CLAIM, [n for n in errors if n.role is not Role.IDENTITY], _answer(result))
     return Evidence(
         title="Ridges across the track: springs, boundary elements and (14.11)",
         method=(
@@ -37,14 +39,15 @@ def evidence(result: RidgesResult) -> Evidence:
         ),
         numbers=numbers,
         tables=(_curves(result), _table_of_errors(result)),
-        conclusions=_conclusions(result),
-        claims=(answered(CLAIM, [n for n in errors if n.role is not Role.IDENTITY], _answer(result)),),
+        conclusions=(),
+        claims=(claim,),
+        finding=f"{headline(claim)}.",
+        headlines={"ridges": headline(claim)},
         captions={
             "ridges": (
-                "(a) Response of the force to ridges. Line: (14.11), exact in one dimension and in three; circles: "
-                f"boundary elements with {case.cells[-1]} cells to a radius; squares: one-sided springs, "
-                f"{case.springs[-1]:g} to a radius; every fourth wave. (b) Errors over the envelope; dotted: the error "
-                f"by an edge of the contact {EDGE:g} of a cell out of place, on each grid of boundary elements."
+                "(a) Response of the force to ridges. Line: (14.11); circles: boundary elements, "
+                f"{case.cells[-1]} cells to a radius; squares: one-sided springs, {case.springs[-1]:g} to a radius. "
+                f"(b) Errors over the envelope; dotted: an edge {EDGE:g} of a cell out of place."
             )
         },
         unconverged=result.unconverged,
@@ -65,14 +68,13 @@ def _answer(result: RidgesResult) -> str:
     )
 
 
-def _conclusions(result: RidgesResult) -> tuple[str, ...]:
-    cells, springs = result.case.cells[-1], result.case.springs[-1]
-    return (
-        f"The largest error of boundary elements with {cells} cells to a radius is "
-        f"{_largest(result, BEM, cells, FAR):.2g} of the envelope up to q a = {FAR:g}. That of springs in full "
-        f"contact, {springs:g} to a radius, is {_largest(result, FULL, springs):.2g}. That of (14.11) on the same "
-        f"track, an identity, is {_largest(result, FILTER, springs):.1g}. "
-        f"The part of the response out of phase is at most {_out_of_phase(result, cells):.1g} of the envelope.",
+def headline(claim: JudgedClaim) -> str:
+    exact_in = "Over ridges springs and boundary elements"
+    return by_status(
+        claim,
+        holds=f"{exact_in} follow (14.11) through its zeros, within their grids",
+        fails=f"{exact_in} do not both follow (14.11) within their grids",
+        undecided=f"{exact_in}: whether both follow (14.11) is open",
     )
 
 
@@ -93,11 +95,6 @@ def _off(result: RidgesResult, method: str, cells: float) -> FloatArray:
 
 def _largest(result: RidgesResult, method: str, cells: float, far: float = math.inf) -> float:
     return float(_off(result, method, cells)[result.case.wavenumbers <= far].max())
-
-
-def _out_of_phase(result: RidgesResult, cells: int) -> float:
-    """The largest imaginary part of boundary elements over the envelope."""
-    return float(np.abs(result.responses[BEM, cells, "approach"].imag / _envelope(result.case)).max())
 
 
 def _bound(method: str, cells: float, q: FloatArray) -> tuple[FloatArray, str]:

@@ -1,12 +1,15 @@
 """What filters read backwards find of a known roughness: numbers, tables, sentences, and the case of the report."""
 
+from collections.abc import Sequence
+
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, Role, Table, numbers_with, table_of
 from validation.analysis.over_range import root_mean_square, signed_mean, worst
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.rolling.claims import answered_up_to, from_to, height_of
+from validation.analysis.wording import in_a_word, sentence
+from validation.cases.rolling.claims import answered_up_to, from_to
 from validation.cases.rolling.force_spectrum_numbers import (
     FORD_THOMPSON,
     ONE_DECIBEL,
@@ -42,6 +45,7 @@ def evidence(result: RoughnessFromForceResult) -> Evidence:
     numbers = [number for found in points.values() for number in _judged(found)]
     numbers += [_below(result, height, by) for height in case.heights for by in FILTERS]
     table = _table(result, points)
+    claims = _claims(case, numbers, points)
     return Evidence(
         title="Roughness from force: the filters of linear theory read backwards",
         method=(
@@ -51,17 +55,21 @@ def evidence(result: RoughnessFromForceResult) -> Evidence:
             "the mean square height of the waves in each: (14.14), the mean of (14.12); (14.12) itself, averaged over "
             "a band; and the filter in 3D, by the heights of all bands together that have these levels, none negative. "
             f"C_2D is assumed to fall as q^-{ASSUMED:g} within a band, which the force does not tell. Intervals are of "
-            "the sample; the error of the grid is that of the case rolling."
+            "the sample; the error of the grid is that of the case rolling. On the half-space a wave that crosses the "
+            "track at an angle appears at a longer wavelength along it; Geike's rule gives a track the force that "
+            "waves of all directions have at one place."
         ),
         numbers=tuple(numbers),
         tables=(table,),
-        conclusions=_conclusions(numbers),
-        claims=_claims(case, numbers, points),
+        conclusions=(),
+        claims=claims,
+        finding=finding(claims),
+        headlines={"roughness_from_force": headline(claims)},
         captions={
             "roughness_from_force": (
                 "Mean square height of the waves in one-third octaves, found from the force of boundary elements over "
-                "the true one, by filter; one panel a roughness. Shaded: within 3 dB; vertical lines: zeros of sin(q "
-                "a). Bars: 95 % intervals of the sample. -30 dB: nothing found."
+                "the true one, by filter; a panel a roughness. Shaded: within 3 dB; vertical lines: zeros of sin(q a). "
+                "Bars: 95 %. -30 dB: nothing found."
             )
         },
         unconverged=result.unconverged,
@@ -163,17 +171,12 @@ def _claims(
     )
 
 
-def _conclusions(numbers: list[Number]) -> tuple[str, ...]:
-    last = max(height_of(number) for number in numbers)
-    place: dict[str, Place] = {"h/d": last, "bands": BETWEEN}
-    worst_3d = numbers_with(numbers, LEVEL, FILTER_3D, **place)[0]
-    return (
-        "Geike's rule gives a track the force that waves of all directions have at one place. On the half-space a wave "
-        "that crosses the track at an angle appears at a longer wavelength along it. A filter in one dimension, read "
-        "backwards, therefore finds too little roughness in the band, and some below it.",
-        f"At h/d = {last:g} the worst band between zeros of the filter in 3D is {worst_3d.value:+.1f} dB off, at q a = "
-        f"{worst_3d.where['worst at']:.2g} ({worst_3d.verdict}): contact is lost, and the force with it.",
-    )
+def headline(claims: Sequence[JudgedClaim]) -> str:
+    return f"Roughness from force: by (14.14) {in_a_word(claims[0])}, by the filter in 3D {in_a_word(claims[2])}"
+
+
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    return sentence(f"{headline(claims)} between zeros of sin(q a), {in_a_word(claims[3])} at them")
 
 
 def _table(result: RoughnessFromForceResult, points: dict[tuple[float, str], list[Number]]) -> Table:

@@ -8,7 +8,7 @@ import numpy as np
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, numbers_with, table_of
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
 from validation.analysis.over_range import root_mean_square, worst
 from validation.analysis.statistics import (
     POWER_DECIBEL,
@@ -17,6 +17,7 @@ from validation.analysis.statistics import (
     jackknife_error,
     log_ratio_of_means,
 )
+from validation.analysis.wording import by_status, farthest_off
 from validation.cases.rolling.claims import from_to
 from validation.cases.rolling.force_spectrum_numbers import (
     FORD_THOMPSON,
@@ -79,6 +80,7 @@ def evidence(result: TrackStiffnessResult) -> Evidence:
     case = result.case
     numbers = [number for force in case.forces for number in _at_force(result, force)]
     moments, bands = _moments(result), _bands(result)
+    claims = _claims(case, numbers)
     return Evidence(
         title="Stiffness along a track at constant load: from Fig. 14.1 to rolling",
         method=(
@@ -92,14 +94,16 @@ def evidence(result: TrackStiffnessResult) -> Evidence:
         ),
         numbers=tuple(numbers),
         tables=(moments, bands),
-        conclusions=(_punch_and_wheel(numbers),),
-        claims=_claims(case, numbers),
+        conclusions=(),
+        claims=claims,
+        finding=f"{headline(claims)}.",
+        headlines={"track_stiffness": headline(claims)},
         captions={
             "track_stiffness": (
-                "(a) Mean stiffness over 2 E* a of a wheel under constant load, and over E* L of the punches of Fig. "
-                "14.1, over Fbar. (b) Relative deviation, along the track and from punch to punch. Filled: boundary "
-                "elements; open: springs. Bars: 95 % intervals. (c) Level of the stiffness in one-third octaves, "
-                "springs over boundary elements, with Geike's spectrum, dark to light: Fbar; shaded: within 3 dB."
+                "(a) Mean stiffness over 2 E* a of a wheel, and over E* L of punches, over Fbar. (b) Relative "
+                "deviation, along the track and from punch to punch. Filled: boundary elements; open: springs; 95 %. "
+                "(c) Level of the stiffness, springs of Geike's spectrum over boundary elements, dark to light: Fbar; "
+                "shaded: within 3 dB."
             )
         },
         unconverged=result.unconverged,
@@ -228,18 +232,15 @@ def _percent(numbers: Sequence[Number]) -> str:
     )
 
 
-def _punch_and_wheel(numbers: list[Number]) -> str:
-    last = numbers_with(numbers, DEVIATION, PUNCH_OVER_WHEEL)[-1]
-    found = (
-        f"At Fbar = {last.where['Fbar']:g} the deviation from punch to punch is {100 * last.value:+.0f} % off that "
-        f"along the track ({last.verdict})."
-    )
-    if last.verdict is not Verdict.DIFFER or last.value > 0:
-        return found
-    return (
-        f"{found} A punch touches everywhere once its load is high, and its stiffness then no longer fluctuates. The "
-        "edge of a wheel's contact is always partly open, so that waves still move it."
-    )
+def headline(claims: Sequence[JudgedClaim]) -> str:
+    """The fluctuation and the mean along the track."""
+
+    def said(claim: JudgedClaim) -> str:
+        off = farthest_off(claim.numbers)
+        at = f"{100 * off.value:+.0f} ± {100 * off.uncertainty:.0f} % off at Fbar = {off.where['Fbar']:g}"
+        return by_status(claim, holds="within 10 %", fails=at, undecided="open within 10 %")
+
+    return f"Springs along the track: fluctuation {said(claims[0])}, mean {said(claims[1])}"
 
 
 def _moments(result: TrackStiffnessResult) -> Table:
