@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from tests.report.test_printed import evidence_with, html_of, number
 from validation import benchmarks, cases
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
-from validation.report import page
+from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results, total_of
@@ -48,9 +48,10 @@ def badges(text):
 
 
 def summary(section):
-    """The part of the page with the summary, and the head of the case, up to its numbers."""
+    """The table of claims, and the head of the case, up to what is folded."""
     text = html_of(section)
-    return text[text.index('id="asked"') : text.index("<details", text.index('id="asked"'))]
+    table, head = text.index('id="asked"'), text.index(f'<section id="{section.name}"')
+    return text[table : text.index("</table>", table) + 8] + text[head : text.index("<details", head)]
 
 
 # --- no green badge above a refutation ---
@@ -82,7 +83,7 @@ def test_a_status_has_its_word_and_sign(verdicts, changes, words):
     some = claim(verdicts, **changes)
     text = summary(section_of(some))
     assert set(badges(text)) == {(some.status.replace(" ", "-"), words)}
-    assert text.count("It is 1 to 9.") == text.count(page.format_counts(some)) == 2
+    assert text.count("It is 1 to 9.") == text.count(formats.format_counts(some)) == 2
 
 
 def test_a_limit_is_printed_with_its_status():
@@ -99,7 +100,9 @@ def test_a_limit_is_printed_with_its_status():
 
 def test_every_status_is_known_without_colour():
     """A sign and a border of its own in the style of the page."""
-    assert set(page.STATUS_SYMBOL) == set(ClaimStatus) and len(set(page.STATUS_SYMBOL.values())) == len(ClaimStatus)
+    assert set(formats.STATUS_SYMBOL) == set(ClaimStatus) and len(set(formats.STATUS_SYMBOL.values())) == len(
+        ClaimStatus
+    )
     style = html_of(section_of(claim([AGREE]))).partition("</style>")[0]
     names = [status.replace(" ", "-") for status in ClaimStatus]
     borders = [re.search(rf"\.{name} {{[^}}]*border-style: (\w+)", style) for name in names]
@@ -110,7 +113,7 @@ def test_only_the_numbers_of_the_claim_are_counted():
     """However many others of the case agree."""
     some, others = claim([DIFFER, UNDECIDED, DIFFER]), tuple(number(quantity=f"other {i}") for i in range(5))
     section = Section("geike", CASES["geike"], "none", {}, evidence_with([*some.numbers, *others], claims=[some]))
-    assert page.format_counts(some) == "2 differ, 1 undecided"
+    assert formats.format_counts(some) == "2 differ, 1 undecided"
     assert "5 agree" not in html_of(section)
     (line,) = (line for line in lines_of(section) if "It is so" in line)
     assert line == "    contradicted: It is so. It is 1 to 9. (2 differ, 1 undecided)"
@@ -215,7 +218,7 @@ def test_a_key_that_no_number_has_leaves_no_status(test):
     section = Section("geike", CASES["geike"], "none", {}, evidence_with([*some.numbers, identity], claims=[some]))
     (answer,) = answers(entry(**test), [section])
     assert (answer.status, answer.answer) == (None, "This run has no number for it.")
-    assert "no result" in page.format_status(answer.status)
+    assert "no result" in formats.format_status(answer.status)
 
 
 def test_the_page_and_the_results_answer_the_book():

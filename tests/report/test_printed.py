@@ -43,7 +43,7 @@ from validation.cases.wheel import (
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
 from validation.cases.wheel.spectrum_numbers import FEATURES, OMEGA
-from validation.report import page
+from validation.report import formats, page
 from validation.report.contents import CASES
 from validation.report.documentation import BUILT, documentation_beside
 from validation.report.figures import fractal_punch
@@ -167,13 +167,13 @@ def test_rows_of_the_page_are_their_numbers():
 
 
 def test_every_verdict_has_its_word_and_sign():
-    assert page.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(page.SYMBOL) == set(Verdict)
+    assert formats.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(formats.SYMBOL) == set(Verdict)
     assert fractal_punch.SIGN == {"agree": "=", "differ": "≠", "undecided": "?"}
-    for verdict, symbol in page.SYMBOL.items():
-        assert page.format_cell(VerdictCell("+3 %", Verdict(verdict), "more")) == (
+    for verdict, symbol in formats.SYMBOL.items():
+        assert formats.format_cell(VerdictCell("+3 %", Verdict(verdict), "more")) == (
             f'+3 %<br><span class="verdict {verdict}">{symbol} {verdict}</span>; more'
         )
-    assert page.format_cell("<a> & b") == "&lt;a&gt; &amp; b" and page.format_cell(0.123456) == "0.1235"
+    assert formats.format_cell("<a> & b") == "&lt;a&gt; &amp; b" and formats.format_cell(0.123456) == "0.1235"
 
 
 def test_criteria_of_the_page_are_those_of_the_numbers():
@@ -232,7 +232,7 @@ def test_results_hold_verdict_difference_and_whether_a_criterion_is_met():
 
 @given(value=reals, tolerance=st.floats(1e-5, 1e3))
 def test_a_value_is_printed_to_a_small_part_of_its_tolerance(value, tolerance):
-    assert abs(float(page.format_value(value, tolerance)) - value) <= 0.011 * tolerance
+    assert abs(float(formats.format_value(value, tolerance)) - value) <= 0.011 * tolerance
 
 
 # --- words ---

@@ -1,11 +1,16 @@
-"""Results and tables as the contents of files: strict JSON, and CSV."""
+"""Results and tables as the contents of files, and back: strict JSON, and CSV."""
 
 import csv
 import io
 import json
 import math
+import re
+from collections.abc import Sequence
 
 from validation.analysis.evidence import Table
+
+BOOLEAN = {"True": True, "False": False}
+INTEGER = re.compile(r"-?\d+")
 
 
 def as_json(value: object) -> bytes:
@@ -27,3 +32,22 @@ def _cell(value: object) -> object:
     if not isinstance(value, float):
         return value
     return f"{value:.10g}" if math.isfinite(value) else ""
+
+
+def from_csv(name: str, text: str) -> Table:
+    """What `as_csv` wrote: numbers, NaN where a column of numbers is empty, True and False, else text."""
+    names, *rows = csv.reader(io.StringIO(text))
+    found = list(zip(*rows, strict=True)) or [()] * len(names)
+    return Table(name, {column: _values(cells) for column, cells in zip(names, found, strict=True)})
+
+
+def _values(cells: Sequence[str]) -> Sequence[object]:
+    """Of one column, which has one type."""
+    if all(cell in BOOLEAN for cell in cells):
+        return [BOOLEAN[cell] for cell in cells]
+    if all(INTEGER.fullmatch(cell) for cell in cells):
+        return [int(cell) for cell in cells]
+    try:
+        return [float(cell) if cell else math.nan for cell in cells]
+    except ValueError:
+        return cells

@@ -281,6 +281,9 @@ class Evidence:
     def table(self, name: str) -> Table:
         return next(table for table in self.tables if table.name == name)
 
+    def has_table(self, name: str) -> bool:
+        return any(table.name == name for table in self.tables)
+
 
 def plus_minus(value: float, half_width: float) -> str:
     """A value with its interval, to the second digit of that: 12640 ± 110."""

@@ -2,7 +2,7 @@
 
 from validation.benchmarks.solvers.rows import rows_of
 from validation.report.contents import TIMED
-from validation.report.page import format_counts
+from validation.report.formats import format_counts
 from validation.report.section import Section, answer_of
 
 

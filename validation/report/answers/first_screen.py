@@ -10,7 +10,8 @@ from validation.report.answers.questions import QUESTIONS
 from validation.report.answers.words import first_word, measured, per_cent, sentence, times
 from validation.report.section import Section
 
-MAP_CASE, MAP = "reduced_models", "reduced_models-map"
+MAP = "reduced_models-map"
+"""The figure below the rows: the map of validity of rolling."""
 NOT_RUN, NO_RESULT, NOT_MEASURED = "Not run", "No result", "Not measured"
 
 
@@ -47,21 +48,6 @@ def answered_questions(sections: Sequence[Section]) -> list[AnsweredQuestion]:
     if not any(question.source.case in found for question in QUESTIONS):
         return []
     return [_answered(question, found) for question in QUESTIONS]
-
-
-@dataclass(frozen=True)
-class ValidityMap:
-    """The figure below the rows: its name, its finding, its caption."""
-
-    name: str
-    finding: str
-    caption: str
-
-
-def map_of(sections: Sequence[Section]) -> ValidityMap | None:
-    """The map of validity of rolling, where the report has it."""
-    found = [section.evidence for section in sections if section.name == MAP_CASE and section.evidence]
-    return next((ValidityMap(MAP, e.headlines[MAP], e.captions[MAP]) for e in found if MAP in e.captions), None)
 
 
 def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:

@@ -73,7 +73,8 @@ def draw(evidence: Evidence) -> Figure:
 
 def _contrast(axis: Axes, evidence: Evidence) -> None:
     """None where region 3 has no whole period."""
-    for table in (table for table in evidence.tables if table.name == "contrast"):
+    if evidence.has_table("contrast"):
+        table = evidence.table("contrast")
         omega, found = table["omega [rad/s]"] / 1e3, table["springs, Hann"]
         bars = np.abs([table["springs, Hann, from"], table["springs, Hann, to"]] - found)
         axis.plot(omega, table["linear"], label="linear theory", **GREY)

@@ -59,7 +59,8 @@ def draw(evidence: Evidence) -> Figure:
 
 def _contrast(axis: Axes, evidence: Evidence) -> None:
     """None where region 3 has no whole period."""
-    for table in (table for table in evidence.tables if table.name == "contrast"):
+    if evidence.has_table("contrast"):
+        table = evidence.table("contrast")
         omega = table["omega [rad/s]"] / 1e3
         axis.plot(omega, table["linear, 1D (14.12)"], label="sin²(q a), (14.12)", **STYLES["linear, 1D (14.12)"])
         for name, style in (("linear, 3D", {**GUIDE, "marker": "x"}), ("springs, Geike spectrum", MDR), ("bem3d", BEM)):
