@@ -137,6 +137,7 @@ def _of_contrast(style: str) -> Iterator[str]:
     """Text of a rule on the ground of the same rule; where it has only one of both, on each of the others'."""
     tokens = dict(re.findall(r"--(\w+): (#[0-9a-f]{6});", style))
     resolved = re.sub(r"var\(--(\w+)\)", lambda found: tokens.get(found[1], found[0]), style)
+    resolved = resolved.replace(": white", ": #ffffff")
     inks, grounds = {tokens["ink"]}, {tokens["paper"]}
     for body in re.findall(r"\{([^{}]*)\}", resolved):
         ink = re.findall(r"(?<![-\w])color: (#[0-9a-f]{6})", body)
