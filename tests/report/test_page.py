@@ -24,7 +24,7 @@ PICTURES = {"geike": b"<svg>curves</svg>", "hertz": b"<svg>sphere</svg>"}
 ABOUT = {
     **dict.fromkeys(("python", "system", "workers"), ""),
     **{"libraries": {}, "seeds": {}, "timed": (), "seconds": dict.fromkeys(PICTURES, 1.0)},
-    **{"version": "1.2.3", "commit": "abc1234"},
+    **{"version": "1.2.3", "commit": "abc1234", "documentation": ""},
 }
 FIELDS = [VerdictCell("+1 %", Verdict.AGREE), VerdictCell("+9 %", Verdict.DIFFER), "no value"]
 MATRIX = Table("Deviation", {"H": ["0.4", "0.7", "1"], "Fbar 1 to 10": FIELDS, "Fbar 10 to 100": FIELDS[::-1]})
