@@ -25,7 +25,9 @@ FloatArray = NDArray[np.float64]
 GEIKE = "springs of Geike's spectrum"
 ISOTROPIC: Literal["isotropic"] = "isotropic"
 MOST_CELLS = 12_000_000
-"""Of a strip: 100 MB of heights, and ten times as much while springs read them."""
+"""Of a strip: 100 MB of heights, and several times as much while it is drawn."""
+WIDER = 1.5
+"""Half of what springs are given of the surface, over the semi-axis across."""
 SPRINGS_TO_A_CELL = 4
 """Springs cost next to nothing; few of them are noisy."""
 
@@ -101,7 +103,10 @@ def _boundary_elements(problem: HeldWheel) -> FloatArray:
 
 
 def _springs_that_read(problem: HeldWheel) -> FloatArray:
-    return _on_springs(problem, mdr.roll_surface, problem.strip.surface, problem.strip.spacing)
+    """Of the surface they read no more than the smooth contact is wide."""
+    strip, middle = problem.strip, problem.strip.shape[1] // 2
+    reach = math.ceil(WIDER * strip.contact.across / strip.spacing)
+    return _on_springs(problem, mdr.roll_surface, strip.surface[:, middle - reach : middle + reach], strip.spacing)
 
 
 def _springs_of_geike(problem: HeldWheel) -> FloatArray:
