@@ -1,7 +1,7 @@
 """The cases of rolling: what they draw and roll, and verdicts on planted changes."""
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -17,6 +17,8 @@ from validation.cases.rolling import ridges, ridges_evidence
 from validation.cases.rolling.force_spectrum_evidence import CASE, evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS, LevelsAtHeight, coherence, correlation
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE, regions
+from validation.report.answers.first_screen import answered_questions
+from validation.report.section import Section
 from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
@@ -186,6 +188,18 @@ def test_the_rms_force_of_springs_is_judged_beside_boundary_elements(rolled, fac
     assert number.verdict is verdict
     (springs,) = numbers_with(evidence(rolled).numbers, RMS_FORCE, f"{SPRINGS} over bem3d")
     assert abs(springs.difference) <= 0.2 + springs.uncertainty
+
+
+@pytest.mark.slow
+def test_the_first_screen_finds_the_numbers_of_rolling(rolled):
+    """Both of its questions, over h' a/d."""
+    section = Section("rolling", CASE, "", asdict(SMALL), evidence(rolled))
+    rows = {row.question.name: row for row in answered_questions([section])}
+    slope = 0.01 * SMALL.spectrum.slope
+    for name in ("rolling-rms", "rolling-spectrum"):
+        assert rows[name].strip[1].place == f"{slope:.2g}"
+        assert rows[name].measured.endswith("H = 0.7")
+    assert rows["rolling-spectrum"].word == "No"
 
 
 PLANTED = [

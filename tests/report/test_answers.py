@@ -11,15 +11,19 @@ from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEAN
 from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail
+from validation.cases.rail.rail_dynamic_evidence import BESIDE, RMS
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
+from validation.cases.wheel.half_space_levels import GEIKE
+from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
+from validation.cases.wheel.half_space_numbers import OVER_BEM
 from validation.report.answers import questions, sources
 from validation.report.answers.cells import Enough, RangeCell
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.answers.words import from_to, in_decibels, per_cent, times
 from validation.report.contents import CASES
 from validation.report.section import Section
-from validation.simulation import equivalent_displacement
+from validation.simulation import equivalent_displacement, wheel_on_rail
 
 TEN = MARGINS["10 %"]
 WORKED = Worked(128, 2048, 15.2).table
@@ -136,14 +140,32 @@ def test_an_alternative_is_offered_where_its_own_numbers_agree():
         return section_of("bandwidth", [at((0.3, 10.0), value, half, **of_fit | {"where": where})])
 
     failing = punch(at((1.0, 10.0), -1.2))
-    formula, bem = row_of("mean-stiffness", failing, fit(0.2)).instead
+    formula, bem = (model.text for model in row_of("mean-stiffness", failing, fit(0.2)).instead)
     assert formula == "the fit 1/kbar = 1/1.1523 + 0.48/Fbar from Fbar = 0.3 to 10, within +6 % (a formula)".replace(
         "+6", "6"
     )
     assert bem.startswith("boundary elements (15 applications of the operator to 128² cells a surface and load")
-    assert row_of("mean-stiffness", failing, fit(0.2, 0.4)).instead == (bem,)
-    assert row_of("mean-stiffness", failing).instead == (bem,)
+    for row in (row_of("mean-stiffness", failing, fit(0.2, 0.4)), row_of("mean-stiffness", failing)):
+        assert [(model.text, model.case) for model in row.instead] == [(bem, "fractal_punch")]
     assert row_of("mean-stiffness", punch(at((1.0, 10.0), 0.1)), fit(0.2)).instead == ()
+
+
+def test_an_alternative_on_an_axis_of_its_own_says_which():
+    """Springs that read the surface, in motion on a rail, by the rms over bands."""
+    of_wheel = {"quantity": LEVEL_OF_WHEEL, "tolerance": 1.0, "where": {"range": "region 2"}}
+    failing = at((0.1, 1.0), 9.0, **of_wheel | {"model": OVER_BEM[GEIKE]})
+    found = {"h/d": [0.1], "h' a/d": [0.37], "cells to a contact radius": [12], "applications a time step": [7.0]}
+    wheel = section_of("wheel_3d", [failing], Table("wheel", found))
+    moving = {"quantity": RMS + BESIDE, "model": f"{wheel_on_rail.SPRINGS} over {wheel_on_rail.BEM}", "tolerance": 1.0}
+    where = {"dB over the curve": 0.0, "bands": "all bands", "f [Hz]": (100.0, 900.0)}
+    rail = section_of("rail_dynamic", [at((0.1, 1.0), 0.2, **moving | {"where": where})])
+    row = row_of("dynamic-wheel", wheel, rail)
+    assert words_of(row) == ["no"]
+    assert row.measured == "h' a/d = 0.37"
+    on_rail, in_time = row.instead
+    assert on_rail.text.endswith("in the time loop at dB over the curve = 0, within 1 dB rms over bands")
+    assert on_rail.case == "rail_dynamic"
+    assert in_time.text.startswith("boundary elements in the time loop (7 applications")
 
 
 # --- what is not there ---

@@ -8,7 +8,7 @@ from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel.half_space_tables import WHEEL
 from validation.report.answers.cells import NumberSource
 from validation.report.answers.question import AlternativeModel, ModelCost
-from validation.report.answers.sources import of_fit, of_strips
+from validation.report.answers.sources import of_fit, of_moving_wheel, of_strips
 
 BEM = "boundary elements"
 
@@ -73,4 +73,11 @@ def on_strips(name: str, model: str) -> AlternativeModel:
 JUDGE = AlternativeModel(name=BEM, cost=rolled(reduced.JUDGE))
 READ = on_strips(reduced.READ, reduced.READ)
 LAYER = on_strips(reduced.LAYER, reduced.COARSE_LAYER)
+MOVING = AlternativeModel(
+    name="on a rail, springs that read the surface in the time loop",
+    cost=rolled(reduced.READ),
+    source=of_moving_wheel(),
+    by="rms over bands",
+    axis="dB over the curve",
+)
 IN_TIME = AlternativeModel(name="boundary elements in the time loop", cost=ModelCost(case="wheel_3d", text=steps))

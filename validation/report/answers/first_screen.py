@@ -25,6 +25,14 @@ class StripCell:
 
 
 @dataclass(frozen=True)
+class OfferedModel:
+    """What could be taken: where it is enough and what it costs; case: that says so, if it was run."""
+
+    text: str
+    case: str
+
+
+@dataclass(frozen=True)
 class AnsweredQuestion:
     """A row: the strip, its range and margin, the answer in a word and in a sentence, what else could be taken.
 
@@ -38,7 +46,7 @@ class AnsweredQuestion:
     measured: str = ""
     margin: str = ""
     within: str = ""
-    instead: tuple[str, ...] = ()
+    instead: tuple[OfferedModel, ...] = ()
     evidence: str = ""
 
 
@@ -62,7 +70,7 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
             "strip": {cell.place: cell.word for cell in row.strip},
             "measured": row.measured,
             "margin": row.margin,
-            "instead": list(row.instead),
+            "instead": [model.text for model in row.instead],
         }
         for row in rows
     ]
@@ -112,11 +120,15 @@ def _printed(cell: RangeCell) -> str:
     return f"{low:.2g}" if low == high else f"{low:g} to {high:g}"
 
 
-def _instead(cells: Sequence[RangeCell], question: Question, evidence: Mapping[str, Evidence]) -> list[str]:
+def _instead(cells: Sequence[RangeCell], question: Question, evidence: Mapping[str, Evidence]) -> list[OfferedModel]:
     """Each model with where it is enough and what it costs, as long as MDR is not enough everywhere."""
     if all(cell.enough is Enough.YES for cell in cells):
         return []
-    return [text for model in question.alternatives if (text := _offered(model, question, evidence))]
+    found = [
+        (_offered(model, question, evidence), model.source.case if model.source else model.cost.case)
+        for model in question.alternatives
+    ]
+    return [OfferedModel(text, case if case in evidence else "") for text, case in found if text]
 
 
 def _offered(model: AlternativeModel, question: Question, evidence: Mapping[str, Evidence]) -> str:
@@ -127,7 +139,7 @@ def _offered(model: AlternativeModel, question: Question, evidence: Mapping[str,
     if model.source.case not in evidence:
         return ""
     mine = model.source.cells(evidence[model.source.case])
-    where = " and ".join(span(piece, question.axis) for piece in runs(mine, Enough.YES))
+    where = " and ".join(span(piece, model.axis or question.axis) for piece in runs(mine, Enough.YES))
     margin = _other_margin(model, question, mine, question.source.cells(evidence[question.source.case]))
     return f"{model.name} {where}{margin}{cost}" if where else ""
 
@@ -137,7 +149,7 @@ def _other_margin(
 ) -> str:
     """Where it is not judged as the question is."""
     found, other = ({number.tolerance for cell in cells for number in cell.numbers} for cells in (mine, judged))
-    if found == other:
+    if found == other and not model.by:
         return ""
     return f", within {_margins(question, mine)} {model.by}".rstrip()
 

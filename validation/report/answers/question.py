@@ -21,12 +21,14 @@ class ModelCost:
 class AlternativeModel:
     """What could be taken in the place of MDR; without a source it is what the others are judged by.
 
-    by: what its margin is of, where that is not the quantity of the question.
+    by: what its margin is of, where that is not the quantity of the question; axis: where it is not that of the
+    question.
     """
 
     name: str
     cost: ModelCost
     by: str = ""
+    axis: str = ""
     source: NumberSource | None = None
 
 

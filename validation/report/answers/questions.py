@@ -7,7 +7,17 @@ from validation.cases.rolling import force_spectrum_numbers as rolling
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, ROLLING_SPRINGS, SPRINGS
 from validation.cases.wheel import half_space_levels as wheel
 from validation.cases.wheel.half_space_tables import WHEEL
-from validation.report.answers.alternatives import IN_TIME, JUDGE, LAYER, READ, fit, linear, pressed, rolling_springs
+from validation.report.answers.alternatives import (
+    IN_TIME,
+    JUDGE,
+    LAYER,
+    MOVING,
+    READ,
+    fit,
+    linear,
+    pressed,
+    rolling_springs,
+)
 from validation.report.answers.question import AlternativeModel, Question
 from validation.report.answers.sources import FORCE, SLOPE, not_modelled, of_punch, of_rail, of_rolling, of_wheel
 from validation.report.answers.words import in_decibels, per_cent, times
@@ -115,6 +125,7 @@ QUESTIONS = (
         alternatives=(
             linear(of_wheel(wheel.LINEAR_3D)),
             rolling_springs(of_wheel(wheel.ROLLING)),
+            MOVING,
             IN_TIME,
         ),
     ),
