@@ -72,6 +72,12 @@ def test_arrays_that_are_none_are_refused_before_anything_is_allocated(tmp_path,
         read_heights("it", tmp_path / "face.npy")
 
 
+def test_an_archive_is_told_by_its_own_name_too(tmp_path):
+    np.savez(tmp_path / "face.npz", HEIGHT)
+    with pytest.raises(ValueError, match=r"got: an archive, \.npz"):
+        read_heights("it", tmp_path / "face.npz")
+
+
 @pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_arrays_of_every_version_and_order_are_read(tmp_path, version, order):

@@ -245,8 +245,11 @@ def test_files_are_refused_by_key(tmp_path, old, new, said):
         (f"{HEADER}\n100,1\n63,2\n", "no 80 mm behind 100 mm"),
         (f"{HEADER}\n97,1\n", "must be nominal, .* got 97 mm"),
         (f"{HEADER}\n100,nan\n", "levels must be finite"),
-        (f"{HEADER}\n100,x\n", "a row must be two numbers, got '100,x'"),
-        (f"{HEADER}\n100\n", "two columns"),
+        (f"{HEADER}\n100,x\n", "two numbers, with decimal points, got '100' and 'x'"),
+        (
+            f"{HEADER}\n100\n",
+            "two columns, .* got '100': a line that is none of these begins with a #",
+        ),
         (f"{HEADER}\n", "must name one band at least"),
         ("", "two columns"),
     ],

@@ -1,6 +1,7 @@
 """What `compare` prints: every model with its claim, errors in the unit that was asked, and whether MDR is enough."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -95,6 +96,7 @@ def test_a_claim_of_measured_heights_says_that_one_surface_scatters():
         (0.3, 0.3, "30 %"),
         ("1 dB", 10**0.05 - 1, "1 dB"),
         (" 0.4dB", 10**0.02 - 1, "0.4 dB"),
+        ("1 db", 10**0.05 - 1, "1 dB"),
     ],
 )
 def test_a_tolerance_is_echoed_in_its_unit(given, relative, shown):
@@ -135,14 +137,18 @@ def test_all_models_are_solved_and_the_selected_one_stays():
     assert side_by_side(some) == []
     rows = side_by_side(every)[3:-1]
     # 20 lg 1.5 and 20 lg 1.1 from the model with the smallest error
-    assert [row.split()[-2:] for row in rows] == [["+3.52", "+50.0"], ["+0.83", "+10.0"], ["+0.00", "+0.0"]]
+    assert [row.split()[-2:] for row in rows] == [["+3.52", "+50.0"], ["+0.83", "+10.0"], ["0.00", "0.0"]]
 
 
 def test_spectra_stand_side_by_side_in_decibels():
     scene = wheel(mass=None, speed=None)
     count = RollingQuantity(scene, "force-spectrum").bands.centres.size
     rough, fine = (Finding(value=(x,) * count, parts=(e, 0, 0)) for x, e in ((0.2, 0.1), (0.1, 0.01)))
-    found = Comparison(scene, "force-spectrum", select_model([rough, fine], 0.2, solve_all=True))
+    found, same = (
+        Comparison(scene, "force-spectrum", select_model(models, 0.2, solve_all=True))
+        for models in ([rough, fine], [replace(fine, value=(0.0999999,) * count), fine])
+    )
+    assert all(line.split()[-1] == "0.0" for line in side_by_side(same)[-1 - count : -1])  # no sign of a zero
     rows = [line.split() for line in side_by_side(found)[-1 - count : -1]]
     assert [row[1:] for row in rows] == [["-20.0", "+6.0"]] * count
     assert [float(row[0]) for row in rows] == pytest.approx(2e3 * math.pi / found.wavenumbers, rel=1e-3)

@@ -44,7 +44,7 @@ def read_heights(name: str, path: Path) -> FloatArray:
     or larger than `MOST_BYTES` or `MOST_VALUES`.
     """
     size = check_regular(name, path, most=MOST_BYTES)
-    binary = path.suffix.lower() == ".npy"
+    binary = path.suffix.lower() in (".npy", ".npz")
     try:
         with path.open("rb") as file:
             values = _of_array(file, size) if binary else _of_text(file)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from validation.scenes.input_files import contents_of
-from validation.scenes.printable import printable, quoted
+from validation.scenes.printable import printable, quoted, shortened
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.units import UNITS, quantity
 
@@ -51,8 +51,15 @@ def _rows(text: str) -> list[list[str]]:
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     sign = next((sign for sign in (";", ",", "\t") if sign in "".join(lines[:1])), ",")
     rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=sign)]
-    if not rows or any(len(row) != 2 for row in rows):
-        raise ValueError("a file of levels must have two columns, wavelength and level")
+    if not rows:
+        raise ValueError("a file of levels must have two columns, wavelength and level, got none")
+    for row in rows:
+        if len(row) != 2:
+            shown = shortened(sign.join(row))
+            raise ValueError(
+                f"a file of levels must have two columns, wavelength and level, got {shown}: a line that is none of "
+                "these begins with a #, and numbers have decimal points"
+            )
     return rows
 
 
@@ -73,4 +80,5 @@ def _numbers(row: Sequence[str], metre: float) -> tuple[float, float]:
     try:
         return float(row[0]) * metre, float(row[1])
     except ValueError:
-        raise ValueError(f"a row must be two numbers, got {','.join(row)!r}") from None
+        shown = " and ".join(map(repr, row))
+        raise ValueError(f"a row must be two numbers, with decimal points, got {shown}") from None

@@ -10,6 +10,8 @@ from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
 
 Columns = dict[str, list[str]]
+NAMES = "by"
+"""The column of the names of models."""
 
 
 def side_by_side(comparison: Comparison) -> list[str]:
@@ -31,6 +33,11 @@ def differences(comparison: Comparison, candidate: Candidate, reference: Candida
     return np.asarray(20 * np.log10(candidate.answer.value / reference.answer.value))
 
 
+def _signed(value: float, digits: int) -> str:
+    """With its sign, but for a zero."""
+    return f"{rounded:+.{digits}f}" if (rounded := round(value, digits)) else f"{0:.{digits}f}"
+
+
 def axis_of(comparison: Comparison) -> Columns:
     """Wavelength of each band; with a speed also its frequency, and the nominal band in which that lies."""
     columns = {"wavelength [mm]": [f"{wave:.4g}" for wave in comparison.wavelength_mm]}
@@ -47,11 +54,11 @@ def numbers_beside(comparison: Comparison) -> Columns:
         (value,), (half,) = comparison.value_of(one), comparison.errors_of(one)
         (off,) = differences(comparison, one, reference)
         row = {
-            "model": one.name,
+            NAMES: one.name,
             f"{comparison.quantity} [{comparison.unit}]": f"{value:.4g}",
             "±": f"{half:.2g}" if math.isfinite(half) else "unknown",
-            "difference [dB]": f"{off:+.2f}",
-            "[%]": f"{100 * (10 ** (off / 20) - 1):+.1f}",
+            "difference [dB]": _signed(float(off), 2),
+            "[%]": _signed(float(100 * (10 ** (off / 20) - 1)), 1),
         }
         for name, text in row.items():
             columns.setdefault(name, []).append(text)
@@ -68,16 +75,16 @@ def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     letters = dict(zip(string.ascii_uppercase, others, strict=False))
     columns = axis_of(comparison)
     columns.pop("f [Hz]", None)
-    columns["level"] = [f"{level:.1f}" for level in comparison.value_of(reference)]
+    columns["level"] = [f"{level:.1f}" for level in comparison.value_of(reference).round(1) + 0.0]
     for letter, one in letters.items():
-        columns[letter] = [f"{off:+.1f}" for off in differences(comparison, one, reference)]
+        columns[letter] = [_signed(off, 1) for off in differences(comparison, one, reference).tolist()]
     return {letter: one.name for letter, one in letters.items()}, columns
 
 
 def columns_as_lines(columns: Mapping[str, list[str]]) -> Iterator[str]:
     """Names of models to the left, all else to the right; columns under a letter are narrow."""
     widths = {name: max(5 if len(name) == 1 else 8, *map(len, [name, *cells])) for name, cells in columns.items()}
-    signs = {name: "<" if name == "model" else ">" for name in columns}
+    signs = {name: "<" if name == NAMES else ">" for name in columns}
     for row in (tuple(columns), *zip(*columns.values(), strict=True)):
         yield "  ".join(f"{text:{signs[name]}{widths[name]}s}" for name, text in zip(columns, row, strict=True))
 

@@ -56,8 +56,9 @@ def summary(comparison: Comparison) -> str:
 
 def heading(scene: Scene, quantity: str, tolerance: Tolerance) -> str:
     """What was understood, before anything is solved: what is asked, bodies, contact, roughness, what is assumed."""
-    lines = [f"{scene.name}: {quantity} within {tolerance}", *description_lines(scene, moving=quantity in MOVING)]
-    return "\n".join(_wrapped([*lines, f"  {'assumed':18s}  {ASSUMED}"], indent=22))
+    described = description_lines(scene, moving=quantity in MOVING)
+    lines = [f"{scene.name}: {quantity} within {tolerance}", *described, f"  {'assumed':18s}  {ASSUMED}"]
+    return "\n".join(part for line in lines for part in _wrapped([line], indent=22 if line[0] == " " else 4))
 
 
 def findings(comparison: Comparison) -> str:

@@ -28,7 +28,7 @@ def tolerance_of(given: float | str) -> Tolerance:
     if not isinstance(given, str):
         return Tolerance(given)
     text, scale = given.strip(), 1.0
-    decibels = text.endswith("dB")
+    decibels = text.lower().endswith("db")
     if text.endswith("%"):
         text, scale = text[:-1], 0.01
     elif decibels:
@@ -39,7 +39,7 @@ def tolerance_of(given: float | str) -> Tolerance:
         raise ValueError(f"tolerance must be as {FORMS}, got {given!r}") from None
     relative = 10 ** (value / 20) - 1 if decibels else value
     if not 0 < relative <= 1:
-        raise ValueError(f"tolerance must be above zero and no more than 100 %, or 6 dB, got {given!r}")
+        raise ValueError(f"tolerance must be as {FORMS}, above zero and no more than 100 %, or 6 dB, got {given!r}")
     return Tolerance(relative, decibels)
 
 
