@@ -22,5 +22,5 @@ def displayed(translator: HTML5Translator, node: nodes.math_block) -> None:
 def setup(app: Sphinx) -> ExtensionMetadata:
     """Add the renderer; it is the only one, so Sphinx takes it."""
     app.add_html_math_renderer("mathml", (inline, None), (displayed, None))
-    app.config.html_math_renderer = "mathml"  # type: ignore[attr-defined]
+    app.config.html_math_renderer = "mathml"
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
