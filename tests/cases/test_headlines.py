@@ -5,6 +5,10 @@ import pytest
 from tests.analysis.test_judged_claims import point
 from validation.analysis.answers import answered
 from validation.analysis.evidence import Table, Verdict
+from validation.benchmarks.solvers import claims as solver_claims
+from validation.benchmarks.work_precision import claims as precision_claims
+from validation.cases.exact import geike, hertz, square_punch, westergaard
+from validation.cases.limits import evidence as limits_evidence
 from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
 from validation.cases.rail import contact_filter, ellipse, line_convention, rail_dynamic_evidence, rough_rail
@@ -18,6 +22,8 @@ from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.rolling import validity_headlines as validity
 from validation.cases.rolling.reduced_models import LAYER
 from validation.cases.rolling.reduced_models_map import map_headline
+from validation.cases.selection import model_selection_evidence
+from validation.cases.stability import evidence as stability_evidence
 from validation.cases.wheel import half_space_evidence, regions_evidence, spectrum_evidence
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 
@@ -287,3 +293,70 @@ def test_the_title_of_area_and_gap_has_their_ratios():
     assert area_gap_rolloff_evidence.headline([claim]) == words
     same = answered("Neither.", [*numbers, point(0.0, quantity=GAP, at=3.0)], "so.", confirmed_by=DIFFER)
     assert area_gap_rolloff_evidence.headline([same]) == "MDR has the contact area or the mean gap at some forces"
+
+
+# --- closed forms, limits, benchmarks ---
+
+
+@pytest.mark.parametrize(
+    ("verdict", "sphere", "wave", "square", "line"),
+    [
+        (AGREE, "elements give the contact", "gives Westergaard's", "have the stiffness", "has Geike's spectrum"),
+        (DIFFER, "do not both give", "does not give", "do not have the stiffness", "has 3.00 of Geike's spectrum"),
+        (UNDECIDED, "of Hertz is open", "is open", "The stiffness of flat punches is open", "is open"),
+    ],
+)
+def test_titles_of_closed_forms_have_the_status_of_their_claims(verdict, sphere, wave, square, line):
+    claim = claim_with(verdict)
+    assert sphere in hertz.headline(claim)
+    assert wave in westergaard.headline(claim)
+    soft = answered("As stiff.", [point(0.87, quantity="k", reference=1.0, tolerance=0.01)], "so.")
+    assert square in square_punch.headline([claim, soft])
+    assert square_punch.headline([claim, soft]).endswith("is 13.0 % too soft")
+    stiff = answered("As stiff.", [point(1.2, quantity="k", reference=1.0, tolerance=0.01)], "so.")
+    assert square_punch.headline([claim, stiff]).endswith("is 20.0 % too stiff")
+    other = answered("Not the same.", [number(verdict)], "so.", confirmed_by=DIFFER)
+    assert line in geike.headline([claim, other])
+    assert ("yes" in geike.finding([claim, other])) == (verdict is AGREE)
+
+
+def test_limits_and_times_are_counted():
+    mixed = [number(verdict, at=i) for i, verdict in enumerate((AGREE, DIFFER, UNDECIDED, AGREE))]
+    assert limits_evidence.predicted(mixed).startswith("2 of 4 limits")
+    assert limits_evidence.warned_of(mixed).endswith("rightly at 2 of 4")
+    assert solver_claims.headline(mixed) == "Our solver is the fastest on 2 of 4 problems, undecided on 1"
+    assert solver_claims.headline(mixed[:2]) == "Our solver is the fastest on 1 of 2 problems"
+    times = [number(AGREE, model=precision_claims.UP_TO), number(DIFFER, model=precision_claims.FROM)]
+    found = precision_claims.headlines(times)
+    assert found["precision-summary"].endswith("cheapest on 1 of 1 charts")
+    assert found["precision"].endswith("cheapest on 0 of 1 charts")
+    assert precision_claims.headlines([]) == {}
+
+
+@pytest.mark.parametrize(
+    ("verdict", "stable", "rough"),
+    [
+        (AGREE, "unstable where theory says, and steps", "Velocity Verlet keeps the energy; springs"),
+        (DIFFER, "does not become unstable", "Velocity Verlet does not keep the energy"),
+        (UNDECIDED, "says is open", "Whether velocity Verlet keeps the energy is open"),
+    ],
+)
+def test_titles_of_time_stepping_have_the_status_of_their_claims(verdict, stable, rough):
+    claims = [claim_with(verdict)] * 4
+    found = stability_evidence.headlines(claims)
+    assert stable in found["wheel_stability"] and stable in stability_evidence.finding(claims)
+    assert found["wheel_stability-rough"].startswith(rough)
+    assert "lift off" not in stability_evidence.headlines(claims[:3])["wheel_stability-rough"]
+
+
+def test_the_title_of_model_selection_has_its_coverage_and_what_it_saves_or_loses():
+    def scenes(true, fine):
+        columns = {"true error": true, "estimated error": 0.1, "error of the reference": 0.0, "selection [s]": 2.0}
+        rows = {name: value if isinstance(value, list) else [value] * 4 for name, value in columns.items()}
+        return Table("scenes", {**rows, "fine [s]": [fine] * 4})
+
+    known = [(0.1, scenes([0.05, 0.05, 0.05, 0.2], 6.0)), (0.3, scenes([0.05] * 4, 1.0))]
+    words = "75% to 100% of true errors lie within their estimates, of 94 to 98 % wanted"
+    assert model_selection_evidence.headline(known) == words
+    assert model_selection_evidence.headline(known[1:]).startswith("100% of true errors")
+    assert "take 0.5 to 3 times as long" in model_selection_evidence.saving(known)

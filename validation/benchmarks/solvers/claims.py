@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from validation.analysis.answers import answered
 from validation.analysis.evidence import JudgedClaim, Number, Role, Verdict
+from validation.analysis.wording import share
 from validation.benchmarks.peers import SOLVERS, peers_installed
 from validation.benchmarks.solvers.case import SolverComparisonResult
 from validation.benchmarks.timing import FINISHED
@@ -47,6 +48,13 @@ def claims_of(
         *((_fastest(result, speed),) if speed else ()),
         *((answered(SAME_PRESSURE, agreement, _largest(agreement)),) if agreement else ()),
     )
+
+
+def headline(speed: Sequence[Number]) -> str:
+    """On how many problems our solver is the fastest, undecided ones apart."""
+    undecided = sum(number.verdict is Verdict.UNDECIDED for number in speed)
+    rest = f", undecided on {undecided}" if undecided else ""
+    return f"Our solver is the fastest on {share(speed, Verdict.AGREE)} problems{rest}"
 
 
 def _fastest(result: SolverComparisonResult, speed: Sequence[Number]) -> JudgedClaim:

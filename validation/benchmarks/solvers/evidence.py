@@ -12,7 +12,7 @@ from validation.benchmarks.solvers.case import (
     SolverComparisonResult,
     run,
 )
-from validation.benchmarks.solvers.claims import CLAIM, claims_of, speed_numbers
+from validation.benchmarks.solvers.claims import CLAIM, claims_of, headline, speed_numbers
 from validation.benchmarks.solvers.rolling import RollingThroughput
 from validation.benchmarks.solvers.wheel_steps import SteppingThroughput
 from validation.benchmarks.timing import FINISHED
@@ -49,6 +49,8 @@ def evidence(result: SolverComparisonResult) -> Evidence:
         ),
         numbers=(*agreement, *speed),
         claims=claims_of(result, speed, agreement),
+        finding=f"{headline(speed)}." if speed else "",
+        headlines={"race": headline(speed)} if speed else {},
         tables=(
             _runs(result.problems, "heats"),
             _scaling(result),

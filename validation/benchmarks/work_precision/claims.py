@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from validation.analysis.answers import answered
 from validation.analysis.evidence import JudgedClaim, Number, Role, Verdict
 from validation.analysis.over_range import worst
+from validation.analysis.wording import share
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import ALONE
 from validation.benchmarks.work_precision.pareto import Point, format_error, front
@@ -90,6 +91,21 @@ def claims_of(
         (EQUAL, equal, f"ratios are within {max((abs(n.difference) for n in equal), default=0.0):.0e} of one."),
     )
     return tuple(answered(claim, numbers, answer) for claim, numbers, answer in candidates if numbers)
+
+
+def headlines(times: Sequence[Number]) -> dict[str, str]:
+    """On how many charts springs, and beyond them boundary elements, are the cheapest."""
+    springs, elements = ([number for number in times if number.model == model] for model in (UP_TO, FROM))
+    found = {}
+    if springs:
+        found["precision-summary"] = (
+            f"As close as springs come, they are the cheapest on {share(springs, Verdict.AGREE)} charts"
+        )
+    if elements:
+        found["precision"] = (
+            f"Closer than springs, boundary elements are the cheapest on {share(elements, Verdict.AGREE)} charts"
+        )
+    return found
 
 
 def _counted(times: Sequence[Number]) -> str:

@@ -10,10 +10,11 @@ import numpy as np
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, table_of
+from validation.analysis.wording import sentence
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import FAILED, FINISHED
 from validation.benchmarks.work_precision.case import FULL, Precision, PrecisionResult, run
-from validation.benchmarks.work_precision.claims import CLAIM, claims_of, time_numbers
+from validation.benchmarks.work_precision.claims import CLAIM, claims_of, headlines, time_numbers
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.figure_cost import cost_answer, cost_number
 from validation.benchmarks.work_precision.pareto import (
@@ -66,11 +67,14 @@ def evidence(result: PrecisionResult) -> Evidence:
     summary, times = _summary(charts), time_numbers(charts.groups)
     cost = cost_number(result.cost)
     orders, equal, models = _orders(charts), _equal(charts), _models(charts)
+    claims = (*claims_of(times, models, orders, equal), _too_costly(result, cost))
     return Evidence(
         title="Speed against accuracy: the error and the cost of every method",
         method=_method(result),
         numbers=(*orders, *equal, *models, *times, cost),
-        claims=(*claims_of(times, models, orders, equal), _too_costly(result, cost)),
+        claims=claims,
+        finding=sentence(*headlines(times).values()),
+        headlines=headlines(times),
         tables=(_table(charts), summary, result.cost),
         page_tables=(_cheapest(summary), _without(charts), replace(result.cost, name=COST_ON_PAGE)),
         conclusions=tuple(break_even(group) for group in charts.groups),

@@ -1,5 +1,6 @@
 """Geike's rule: which moments it keeps between one and two dimensions, and how it differs from a line trace."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ import mdr
 from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, columns, number_with
+from validation.analysis.wording import by_status, in_a_word, sentence
 from validation.cases.exact.spectral_moments import line_moment, mean_power_of_cosine, surface_moment
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.random_numbers import random_generator
@@ -126,6 +128,7 @@ def evidence(result: GeikeResult) -> Evidence:
     on_lines = _of_lines(result.case, spectra)
     profiles_over_surfaces = _ratios(f"{PROFILES} over {SURFACES}", drawn[PROFILES], drawn[SURFACES], SURFACES)
     moments = _of_line_trace(ratios[LINE])
+    claims = _claims(case, profiles_over_surfaces, moments, on_lines)
     return Evidence(
         title="Geike's rule",
         method=(
@@ -139,24 +142,41 @@ def evidence(result: GeikeResult) -> Evidence:
             *moments,
             *on_lines,
         ),
-        claims=_claims(case, profiles_over_surfaces, moments, on_lines),
+        claims=claims,
+        finding=finding(claims),
+        headlines={"geike": headline(claims)},
         tables=(spectra, _moments(ratios)),
         conclusions=(
-            "Geike's rule keeps every moment of a spectrum: both sides are one integral, and the tests hold that "
-            "identity. Draws are another matter. The sum over the waves of a period exceeds the integral of a "
-            "spectrum that begins near the first wave, in mean square height by "
-            f"{100 * (drawn[PROFILES][0] / integrals[0] - 1):.1f} % on profiles and by "
-            f"{100 * (drawn[SURFACES][0] / integrals[0] - 1):.1f} % on surfaces. The cases of rough punches therefore "
-            "prescribe the rms height.",
+            "The mean square height of draws is off the integral of the spectrum by "
+            f"{100 * (drawn[PROFILES][0] / integrals[0] - 1):+.1f} % on profiles and by "
+            f"{100 * (drawn[SURFACES][0] / integrals[0] - 1):+.1f} % on surfaces, since the first wave of a band "
+            "counts whole. The cases of rough punches prescribe the rms height.",
         ),
         captions={
             "geike": (
-                "(a) Spectra: Geike's 1D spectrum and the line trace, with those measured on drawn profiles and along "
-                "lines of drawn surfaces (every wave in the CSV, some in the figure). (b) n-th moment of both over "
-                "that of the surface."
+                "(a) Geike's spectrum and the line trace, with those measured on drawn profiles and along lines of "
+                "drawn surfaces. (b) n-th moment of both over that of the surface."
             )
         },
     )
+
+
+def headline(claims: Sequence[JudgedClaim]) -> str:
+    """claims: profiles keep the moments; Geike's spectrum is no line's; a line keeps what it should."""
+    return by_status(
+        claims[1],
+        holds=f"A line on the surface has {claims[1].numbers[0].value:.2f} of Geike's spectrum",
+        fails="A line on the surface has Geike's spectrum",
+        undecided="Whether a line on the surface has Geike's spectrum is open",
+    )
+
+
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    return sentence(f"drawn profiles keep the moments of the surface: {in_a_word(claims[0])}", _lower(headline(claims)))
+
+
+def _lower(text: str) -> str:
+    return f"{text[0].lower()}{text[1:]}"
 
 
 def _claims(
@@ -172,7 +192,7 @@ def _claims(
         answered(
             CLAIM,
             profiles_over_surfaces,
-            f"drawn profiles differ from drawn surfaces in {off}, since the first wave of a band counts whole.",
+            f"drawn profiles differ from drawn surfaces in {off}.",
             limits=f"from the {kept[-1].quantity} to higher derivatives" if kept else "",
             inside=kept,
         ),

@@ -11,7 +11,8 @@ import bem3d
 import mdr
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Table, columns
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, columns
+from validation.analysis.wording import by_status
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
@@ -180,6 +181,7 @@ def evidence(result: HertzResult) -> Evidence:
             reason="sum of both discretisation errors",
         ),
     )
+    claim = answered(CLAIM, numbers, _answer(case, numbers))
     return Evidence(
         title="Smooth sphere",
         method=(
@@ -191,7 +193,9 @@ def evidence(result: HertzResult) -> Evidence:
         ),
         numbers=numbers,
         tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
-        claims=(answered(CLAIM, numbers, _answer(case, numbers)),),
+        claims=(claim,),
+        finding=f"{headline(claim)}.",
+        headlines={"hertz": headline(claim)},
         conclusions=(),
         captions={
             "hertz": (
@@ -200,6 +204,15 @@ def evidence(result: HertzResult) -> Evidence:
                 "approach against cells in the contact radius. Dotted: second order."
             )
         },
+    )
+
+
+def headline(claim: JudgedClaim) -> str:
+    return by_status(
+        claim,
+        holds="Springs and boundary elements give the contact of Hertz",
+        fails="Springs and boundary elements do not both give the contact of Hertz",
+        undecided="Whether springs and boundary elements give the contact of Hertz is open",
     )
 
 

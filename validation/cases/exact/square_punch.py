@@ -1,5 +1,6 @@
 """Flat punches: the stiffness of a square and of a circle, and what length the 1D model should have."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -10,6 +11,7 @@ import mdr
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, columns
+from validation.analysis.wording import by_status
 from validation.cases.exact.refinement import first_order_limit
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
@@ -89,6 +91,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
     limit = first_order_limit(square)
     levels = {"capacitance": exact, "extrapolated": limit, "mdr L": short, "mdr 1.1523 L": long}
     last, numbers = result.punches[-1], _numbers(case, square, circle, levels)
+    claims = _claims(numbers, error_of_cells=(limit / square[-1] - 1) * n[-1])
     return Evidence(
         title="Flat punches",
         method=(
@@ -96,7 +99,9 @@ def evidence(result: SquarePunchResult) -> Evidence:
             f"{n[-1]}² cells that cover the square; a flat profile on springs, of length L and of 1.1523 L."
         ),
         numbers=numbers,
-        claims=_claims(numbers, error_of_cells=(limit / square[-1] - 1) * n[-1]),
+        claims=claims,
+        finding=f"{headline(claims)}.",
+        headlines={"square_punch": headline(claims)},
         tables=(
             Table(
                 "refinement",
@@ -113,7 +118,7 @@ def evidence(result: SquarePunchResult) -> Evidence:
                 ),
             ),
         ),
-        conclusions=("With L_1D = 1.1523 L a 1D model has the stiffness of the square, by choice of the length.",),
+        conclusions=(),
         captions={
             "square_punch": (
                 "(a) Stiffness against the cell size: the square over E* L, with the extrapolation and both 1D "
@@ -137,14 +142,32 @@ def _claims(numbers: tuple[Number, ...], error_of_cells: float) -> tuple[JudgedC
         answered(
             "A 1D model as long as the side has the stiffness of the square in full contact.",
             [springs],
-            f"it is {100 * (1 - springs.value / springs.reference):.1f} % too soft.",
+            f"it is {_too_soft(springs)}.",
         ),
         answered(
             "The factor of the square is 1.012 * 2 / sqrt(pi), as it is often quoted.",
             [quoted],
-            f"that is {quoted.value:.4f}, {100 * (1 - quoted.value / quoted.reference):.1f} % too low.",
+            f"that is {quoted.value:.4f}, {100 * (quoted.value / quoted.reference - 1):+.1f} % off.",
         ),
     )
+
+
+def _too_soft(number: Number) -> str:
+    off = 100 * (number.value / number.reference - 1)
+    return f"{abs(off):.1f} % too {'soft' if off < 0 else 'stiff'}"
+
+
+def headline(claims: Sequence[JudgedClaim]) -> str:
+    """Boundary elements, and springs as long as the side."""
+    exact = by_status(
+        claims[0],
+        holds="Boundary elements have the stiffness of flat punches",
+        fails="Boundary elements do not have the stiffness of flat punches",
+        undecided="The stiffness of flat punches is open",
+    )
+    (springs,) = claims[1].numbers
+    model = by_status(claims[1], holds="has it too", fails=f"is {_too_soft(springs)}", undecided="is open")
+    return f"{exact}; a 1D model of length L {model}"
 
 
 def _over_cells(result: SquarePunchResult, name: str) -> np.ndarray:

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 import bem3d
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, Number, Table, columns
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, columns
+from validation.analysis.wording import by_status
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.theory import closed_forms
@@ -116,6 +117,13 @@ def evidence(result: WestergaardResult) -> Evidence:
     at_loads = (_at_load(case, load, outcome) for load, outcome in zip(case.loads, result.finest, strict=True))
     numbers = (*(number for pair in at_loads for number in pair), *_at_half_load(case, half))
     edges = min(_share_of_edges(o) for o in result.finest)
+    claim = answered(
+        CLAIM,
+        numbers,
+        f"on {n[-1]} cells the relative L2 error of the pressure is {half[-1]:.1e} at 0.5 p*, where the edges of the "
+        f"contact lie between cells, and {errors[:, -1].max():.1e} at the worst of {len(case.loads)} loads, where they "
+        "cut a cell.",
+    )
     return Evidence(
         title="Periodic wave",
         method=(
@@ -126,23 +134,25 @@ def evidence(result: WestergaardResult) -> Evidence:
         ),
         numbers=numbers,
         tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
-        claims=(
-            answered(
-                CLAIM,
-                numbers,
-                f"on {n[-1]} cells the relative L2 error of the pressure is {half[-1]:.1e} at 0.5 p*, where the edges "
-                f"of the contact lie between cells, and {errors[:, -1].max():.1e} at the worst of {len(case.loads)} "
-                "loads, where they cut a cell.",
-            ),
-        ),
-        conclusions=(f"At least {100 * edges:.0f} % of the square of that error is in the two cells at the edges.",),
+        claims=(claim,),
+        finding=f"{headline(claim)}.",
+        headlines={"westergaard": headline(claim)},
+        conclusions=(f"At least {100 * edges:.0f} % of the squared error is in the two cells at the edges.",),
         captions={
             "westergaard": (
                 "(a) Pressure at each mean pressure, finest grid, some of its cells. (b) Relative L2 error of the "
-                "pressure against cells. It is of first order at 0.5 p*, where the edges lie between cells; at other "
-                "loads it depends on where the edge cuts its cell."
+                "pressure against cells."
             )
         },
+    )
+
+
+def headline(claim: JudgedClaim) -> str:
+    return by_status(
+        claim,
+        holds="The periodic half-space gives Westergaard's contact",
+        fails="The periodic half-space does not give Westergaard's contact at every load",
+        undecided="Whether the periodic half-space gives Westergaard's contact is open",
     )
 
 

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, if_confirmed, table_of
-from validation.cases.limits.limits import Limits, LimitsResult, run
+from validation.analysis.wording import share
+from validation.cases.limits.limits import HALF_SPACE_LIMITS, Limits, LimitsResult, run
 from validation.cases.limits.numbers import (
     errors_over_residuals,
     exponent_number,
@@ -37,14 +38,16 @@ def evidence(result: LimitsResult) -> Evidence:
     pairs = [(scene, solver) for scene in SCENES for solver in SOLVERS if len(result.case.grids) > 2]
     exponents = [exponent_number(iterations, *pair) for pair in pairs]
     estimates = [residual_number(residuals, measure) for measure in MEASURES]
+    claims = _claims(result, thresholds, warned)
     return Evidence(
         title="Where each method fails, and whether the software warns",
         method=_method(result),
         numbers=(*thresholds, *warned, momentum, *exponents, *estimates),
         tables=(limits_table(result), sweeps_table(result), iterations, residuals),
-        claims=_claims(result, thresholds, warned),
+        claims=claims,
+        finding=f"{predicted(thresholds)}; {warned_of(warned)}.",
+        headlines=headlines(result, thresholds, warned, estimates),
         conclusions=(
-            _on_thresholds(result, [n for n in thresholds if n.role is Role.CRITERION]),
             _on_warnings(result, [n for n in warned if n.role is Role.CRITERION]),
             _on_other_results(result, momentum),
             *([_on_iterations(exponents)] if exponents else []),
@@ -95,22 +98,31 @@ def _claims(
     )
 
 
+def predicted(thresholds: Sequence[Number]) -> str:
+    return f"{share(thresholds, Verdict.AGREE)} limits lie where predicted"
+
+
+def warned_of(warned: Sequence[Number]) -> str:
+    return f"the software warns rightly at {share(warned, Verdict.AGREE)}"
+
+
+def headlines(
+    result: LimitsResult, thresholds: Sequence[Number], warned: Sequence[Number], estimates: Sequence[Number]
+) -> dict[str, str]:
+    """Of the limits that each figure shows."""
+    sweeps = list(zip(result.sweeps, thresholds, warned, strict=True))
+    found = {}
+    for figure, elements in (("limits", False), ("limits-bem", True)):
+        mine = [(where, told) for sweep, where, told in sweeps if (sweep.limit in HALF_SPACE_LIMITS) is elements]
+        if mine:
+            where, told = zip(*mine, strict=True)
+            found[figure] = f"{predicted(where)}; {warned_of(told)}"
+    largest = ", ".join(f"{n.where['measure']} {n.value:.2g}" for n in estimates)
+    return found | {"limits-solver": f"Largest error over residual: {largest}"}
+
+
 def _named(sweeps: Sequence[Sweep]) -> str:
     return ", ".join(f"{s.limit.title} ({s.limit.method})" for s in sweeps) or "none"
-
-
-def _on_thresholds(result: LimitsResult, criteria: Sequence[Number]) -> str:
-    refused = [s for s in result.sweeps if s.refused]
-    seen = [s for s in result.sweeps if not s.refused]
-    missed = [s for s in seen if not s.predicted]
-    return if_confirmed(
-        f"{len(seen) - len(missed)} of {len(seen)} limits lie where their condition says, within the factor stated for "
-        f"each. Theory alone predicts {sum(s.limit.derived for s in seen)} of them, an estimate the others. Not "
-        f"predicted: {_named(missed)}. At {len(refused)} more the software gives no answer, so only the threshold "
-        "of the "
-        f"error message is judged: {_named(refused)}.",
-        criteria,
-    )
 
 
 def _on_warnings(result: LimitsResult, criteria: Sequence[Number]) -> str:
@@ -160,9 +172,8 @@ def _on_residuals(residuals: Table, estimates: Sequence[Number]) -> str:
 
 def _captions() -> dict[str, str]:
     panel = (
-        "Dashed: the predicted threshold, with the factor within which it is predicted. Shaded: where the method must "
-        "fail. Dotted: the tolerance. Open marks: the software warned or raised an error; filled marks: no message; "
-        "crosses at the upper edge: no result; marks at the lower edge: an error of that size or less."
+        "Dashed: the predicted threshold, with its factor. Shaded: where the method must fail. Dotted: the tolerance. "
+        "Open marks: warned or refused; filled: no message; crosses above: no result; marks below: that size or less."
     )
     return {
         "limits": f"Limits of springs and of time stepping: error against the parameter. {panel}",

@@ -18,6 +18,7 @@ from validation.analysis.evidence import (
     table_of,
 )
 from validation.analysis.features import FEATURES
+from validation.analysis.wording import by_status, in_a_word, sentence, title
 from validation.cases.stability.hertz_vibration import hertz_numbers, hertz_table, orders_table
 from validation.cases.stability.lift_off import first_lift, lift_numbers, lift_table, pulls_from
 from validation.cases.stability.linear_vibration import GROWTH, linear_numbers, linear_table
@@ -37,12 +38,15 @@ def evidence(result: WheelStabilityResult) -> Evidence:
     of_schemes = [*linear_numbers(linear), *hertz_numbers(result, hertz)]
     of_long, of_springs = long_numbers(result, long), spacing_numbers(spacing)
     of_laps, of_lift = lap_numbers(result), lift_numbers(result, lift)
+    claims = _claims(result, of_schemes, [*of_long, *of_laps], of_springs, of_lift)
     return Evidence(
         title="Where time stepping and springs fail",
         method=_method(result),
         numbers=(*of_schemes, *of_long, *of_laps, *of_springs, *of_lift, _refusals_number(result)),
         tables=(linear, hertz, long, laps, spacing, lift),
-        claims=_claims(result, of_schemes, [*of_long, *of_laps], of_springs, of_lift),
+        claims=claims,
+        finding=finding(claims),
+        headlines=headlines(claims),
         conclusions=(
             _on_schemes(of_schemes, hertz),
             _on_long_runs(result, of_long, of_laps),
@@ -88,10 +92,10 @@ def _claims(
             "calls raise an error.",
         ),
         answered(
-            "Velocity Verlet keeps the energy for any time.",
+            f"Velocity Verlet keeps the energy over {result.case.long_steps} steps.",
             kept,
-            f"after {result.case.long_steps} steps, and {result.case.laps} laps over rough tracks, the logarithm of "
-            f"the energy has changed by {max(abs(n.value) for n in kept):.1g} at most.",
+            f"after them, and after {result.case.laps} laps over rough tracks, the logarithm of the energy has changed "
+            f"by {max(abs(n.value) for n in kept):.1g} at most.",
         ),
         answered(
             "Springs a quarter of the shortest wave apart represent the track.",
@@ -103,6 +107,35 @@ def _claims(
         found = "; ".join(f"{n.conditions}: {n.value:.2g} beside {n.reference:.2g}" for n in lifted)
         claims.append(answered("Wheels lift off where linear theory pulls.", lifted, f"h / d of the first, {found}."))
     return tuple(claims)
+
+
+def headlines(claims: Sequence[JudgedClaim]) -> dict[str, str]:
+    """Of the schemes; of energy, springs and, where it was seen, lift-off."""
+    stable, energy, spaced, *lifted = claims
+    rough = [
+        by_status(
+            energy,
+            holds="velocity Verlet keeps the energy",
+            fails="velocity Verlet does not keep the energy",
+            undecided="whether velocity Verlet keeps the energy is open",
+        ),
+        f"springs a quarter wave apart are enough: {in_a_word(spaced)}",
+        *(f"wheels lift off where linear theory pulls: {in_a_word(claim)}" for claim in lifted),
+    ]
+    return {"wheel_stability": title(_stable(stable)), "wheel_stability-rough": title(*rough)}
+
+
+def finding(claims: Sequence[JudgedClaim]) -> str:
+    return sentence(_stable(claims[0]))
+
+
+def _stable(claim: JudgedClaim) -> str:
+    return by_status(
+        claim,
+        holds="time stepping becomes unstable where theory says, and steps past that limit are rejected",
+        fails="time stepping does not become unstable where theory says, or a step past that limit is taken",
+        undecided="whether time stepping becomes unstable where theory says is open",
+    )
 
 
 def _refusals_number(result: WheelStabilityResult) -> Number:
