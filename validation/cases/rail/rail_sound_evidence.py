@@ -101,8 +101,9 @@ def what_is_heard(result: RailSoundResult) -> list[str]:
         "What is heard is the contact force less its mean, of a wheel that is held at a constant height while it rolls "
         f"at {3.6 * case.speed:.3g} km/h. It is quasi-static and filtered by nothing: no inertia of the wheel, no "
         "resonance of wheel and track, no radiation, so a real wheel sounds otherwise.",
-        f"The waves of the rail have {first:.0f} to {upper:.0f} Hz along the track"
-        + ("." if case.across == "ridges" else "; oblique ones are heard below that too."),
+        f"The waves of the rail have {first:.0f} to {upper:.0f} Hz along the track. Longer ones, which lift the wheel "
+        "as a whole, and shorter ones are left out"
+        + ("." if case.across == "ridges" else "; oblique ones among those kept are heard below that too."),
         f"All files have one gain: full scale is {result.full_scale:g} N. Levels are relative: differences between "
         "files are those of the forces, and how loud they are played has no meaning.",
         _length(case),

@@ -103,6 +103,7 @@ class SoundLevels:
                 "A-weighted [dB re 1 N]": round(self.level(model, WEIGHTED), 2),
                 "largest [N]": round(float(np.abs(self.result.signal(model)).max()), 1),
                 "full scale [N]": self.result.full_scale,
+                "samples a second": self.case.rate,
             }
             if BEM in self.case.sounding:
                 found, grid = self.over(model, WEIGHTED)

@@ -20,19 +20,18 @@ DECADES = 50, 100, 200, 500, 1000, 2000, 5000, 10000
 
 def draw(evidence: Evidence) -> Figure:
     """Waveforms, one under another, beside the levels."""
-    samples, sounds = evidence.table("samples"), evidence.sounds
-    assert sounds is not None
+    samples, rate = evidence.table("samples"), float(evidence.table("sounds")["samples a second"][0])
     figure = Figure(figsize=(9.0, 4.6), layout="constrained")
     names = list(samples.columns)
     axes = figure.subplot_mosaic([[name, "levels"] for name in names], width_ratios=(1.25, 1))
-    _waveforms([axes[name] for name in names], samples, sounds.rate)
+    _waveforms([axes[name] for name in names], samples, rate)
     _levels(axes["levels"], evidence)
     axes[names[0]].set_title("(a)", loc="left")
     axes["levels"].set_title("(b)", loc="left")
     return figure
 
 
-def _waveforms(axes: list[Axes], samples: Table, rate: int) -> None:
+def _waveforms(axes: list[Axes], samples: Table, rate: float) -> None:
     count = round(SHOWN * rate)
     time = 1000 * np.arange(count) / rate
     most = max(float(np.abs(samples[name][:count]).max()) for name in samples.columns) / 1000
