@@ -356,16 +356,15 @@ def test_rolling_prints_the_numbers_it_is_given():
         number(v, quantity=VARIANCE, model=model, where={"h/d": 0.1}, sample=0.0123)
         for v, model in ((0.7777, "bem3d"), (1.05, "springs"))
     ]
-    assert rolling_evidence._variances(mine) == (
-        "at h/d = 0.1 bem3d 0.778 ± 0.012 (differ); at h/d = 0.1 springs 1.050 ± 0.012 (agree)"
+    assert rolling_evidence._variances([*mine, replace(mine[0], where={"h/d": 0.3}, value=0.9)]) == (
+        "farthest are bem3d 0.778 ± 0.012 at h/d = 0.1 (differ), springs 1.050 ± 0.012 at h/d = 0.1 (agree)"
     )
     means = [
         number(0.5432, quantity=MEAN, where={"h/d": 0.3}, reference=0.9, tolerance=0.02),
         number(1.001, quantity=MEAN, where={"h/d": 0.1}, tolerance=0.02),
     ]
     assert rolling_evidence._means(means) == (
-        "at h/d = 0.3 springs 0.543, boundary elements 0.900 of Hertz's (differ); "
-        "at h/d = 0.1 springs 1.001, boundary elements 1.000 of Hertz's (agree)"
+        "farthest, at h/d = 0.3, springs have 0.543 and boundary elements 0.900 of Hertz's (differ)"
     )
 
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, number_with, numbers_with, with_reference
+from validation.analysis.wording import farthest_off
 from validation.cases.rolling import force_spectrum_levels as levels
 from validation.cases.rolling import force_spectrum_numbers as measured
 from validation.cases.rolling import force_spectrum_tables as tables
@@ -77,7 +78,7 @@ def _claims_of_levels(
 ) -> list[JudgedClaim]:
     """By the worst one-third octave and by the root mean square; the signed mean is only told."""
     below, *_, band = measured.regions(case)
-    lowest = found[0]
+    lowest, ends = found[0], [found[0], *found[1:][-1:]]
 
     def of(*models: str) -> list[Number]:
         over = [number for model in models for number in numbers_with(numbers, model=f"{model} over bem3d")]
@@ -97,6 +98,7 @@ def _claims_of_levels(
     changes = "; ".join(
         f"at h/d = {height_of(n):g} the changes differ by {n.value:.1f} dB in the rms over bands"
         for n in numbers_with(nonlinear, measured.RMS_NONLINEAR)
+        if height_of(n) in {mine.height for mine in ends}
     )
     tested = {
         CLAIM: (
@@ -111,7 +113,7 @@ def _claims_of_levels(
         ),
         LINEAR_CLAIM: (
             of(linear),
-            "; ".join(at(linear, mine) for mine in found),
+            "; ".join(at(linear, mine) for mine in ends),
         ),
         "Nonlinearity changes the level of springs as it changes that of boundary elements.": (nonlinear, changes),
     }
@@ -133,15 +135,19 @@ def _named(region: levels.Region) -> str:
 
 
 def _variances(variances: Sequence[Number]) -> str:
-    return "; ".join(
-        f"at h/d = {height_of(n):g} {n.model} {n.value:.3f} ± {n.uncertainty:.3f} ({n.verdict})" for n in variances
+    """The farthest of each model."""
+    worst = [farthest_off(numbers_with(variances, model=model)) for model in dict.fromkeys(n.model for n in variances)]
+    return "farthest are " + ", ".join(
+        f"{n.model} {n.value:.3f} ± {n.uncertainty:.3f} at h/d = {height_of(n):g} ({n.verdict})" for n in worst
     )
 
 
 def _means(means: Sequence[Number]) -> str:
-    return "; ".join(
-        f"at h/d = {height_of(n):g} springs {n.value:.3f}, boundary elements {n.reference:.3f} of Hertz's ({n.verdict})"
-        for n in means
+    """The farthest height."""
+    n = farthest_off(means)
+    return (
+        f"farthest, at h/d = {height_of(n):g}, springs have {n.value:.3f} and boundary elements {n.reference:.3f} of "
+        f"Hertz's ({n.verdict})"
     )
 
 
