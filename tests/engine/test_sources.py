@@ -110,3 +110,11 @@ def test_the_code_of_a_user_counts(tmp_path, monkeypatch):
 def test_a_solve_without_source_is_refused():
     with pytest.raises(RuntimeError, match="the source of nowhere is not to be found"):
         version_behind("nowhere", None)
+
+
+@pytest.mark.parametrize(("more", "same"), [(b"  # of arrays", True), (b"\nTWO = 2", False)])
+def test_the_version_of_a_package_is_that_of_its_code(edited, more, same):
+    version = sources.version_of(("mdr",))
+    assert version != sources.version_of(("bem3d",))
+    edited(sources._modules()["mdr.foundation"], b"import numpy as np", b"import numpy as np" + more)
+    assert (sources.version_of(("mdr",)) == version) is same

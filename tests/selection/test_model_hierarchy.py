@@ -701,7 +701,9 @@ def test_answers_at_the_edges_are_a_claim_of_the_calibration_test():
     )
     claim = found.claims[-1]
     assert claim.claim == calibration.EDGES and "1 of 2 answers hold" in claim.answer
-    assert [number.value for number in claim.numbers] == [0.5]
+    held, far_off, refused = claim.numbers
+    assert (held.value, refused.value) == (0.5, 0.0)
+    assert far_off.value == pytest.approx(math.log10(1.5))
     assert found.tables[-1].name == "edges" and found.page_tables[-1].columns["held"][0] == 1
 
 

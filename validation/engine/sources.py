@@ -6,7 +6,7 @@ import importlib.metadata
 import importlib.util
 import json
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
@@ -29,6 +29,11 @@ FACE = "validation"
 def version_of_numerics() -> str:
     """Digest of all source but that which only draws and writes, and of the libraries under it."""
     return _digest(b"".join(_source(path) for package in NUMERICS for path in sources_of(package)))
+
+
+def version_of(packages: Iterable[str]) -> str:
+    """Digest of what the code of packages does, without comments, docstrings and libraries."""
+    return hashlib.sha256(b"".join(_meaning(path) for name in packages for path in sources_of(name))).hexdigest()
 
 
 def version_behind(module: str, problem: object) -> str:

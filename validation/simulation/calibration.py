@@ -1,7 +1,6 @@
 """Errors of cheap models, measured beside boundary elements, and interpolated in the conditions of a scene."""
 
 import csv
-import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.engine.sources import sources_of
+from validation.engine.sources import version_of
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.calibrated_range import (
     CONDITIONS,
@@ -159,11 +158,6 @@ def provenance(path: Path = TABLE) -> dict[str, str]:
     return dict(line[1:].strip().split(": ", 1) for line in lines if line.startswith("#"))
 
 
-@cache
 def code_version() -> str:
-    """Digest of the source of both methods."""
-    digest = hashlib.sha256()
-    for package in MEASURED_CODE:
-        for source in sources_of(package):
-            digest.update(source.read_bytes())
-    return digest.hexdigest()[:12]
+    """Digest of the code of both methods."""
+    return version_of(MEASURED_CODE)[:12]
