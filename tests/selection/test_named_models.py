@@ -25,6 +25,12 @@ def test_short_names_are_mdr_and_the_grid_that_claims_the_tolerance():
     assert "side by side; differences from boundary elements 64²" in summary(found)
 
 
+def test_a_model_that_was_not_asked_may_help():
+    found, _ = solved("rough_punch", "stiffness", 0.1, ["fit"])
+    assert not found.met
+    assert "what would help: boundary elements 64², which was not asked and claims 5 %" in summary(found)
+
+
 @pytest.mark.parametrize(
     ("names", "expected"),
     [

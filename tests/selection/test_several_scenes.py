@@ -50,6 +50,13 @@ def test_several_scenes_end_as_the_worst_of_them(capsys):
     assert "Smooth sphere" in text and "Rough punch" in text and "±" in text
 
 
+def test_what_would_help_is_said_of_each_that_is_not_met(capsys):
+    words = ["compare", "rough_punch", "--models", "springs", "--tolerance", "20%", "--workers", "1"]
+    assert main([*words, "--sweep", "punch.load=1 N,50 N"]) == 3
+    text = " ".join(capsys.readouterr().out.split())
+    assert "load = 1 N: what would help: boundary elements" in text and "load = 50 N: what" not in text
+
+
 def test_a_value_is_read_as_in_the_file():
     assert load_varied("rolling_wheel", "wheel.load", "2 kN").load == 2000.0
     assert load_varied("rough_punch", "roughness.hurst", "0.5").ground.hurst == 0.5

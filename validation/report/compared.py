@@ -62,7 +62,9 @@ def _add_frequencies(axes: Axes, speed: float) -> None:
         """Frequencies of wavelengths, and the other way round; matplotlib tries zero, too."""
         return speed / np.maximum(np.asarray(values, dtype=np.float64), 1e-12)
 
-    axes.secondary_xaxis("top", functions=(over, over)).set_xlabel("frequency [Hz]")
+    above = axes.secondary_xaxis("top", functions=(over, over))
+    above.xaxis.set_major_formatter("{x:g}")
+    above.set_xlabel("frequency [Hz]")
 
 
 def _numbers(axes: Axes, table: Table, models: list[str]) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from validation.analysis.evidence import Table
 from validation.selection.compare import Comparison
 from validation.selection.exported import levels_of_models
-from validation.selection.summary import WIDTH, label, scaled
+from validation.selection.summary import WIDTH, label, scaled, what_would_help, wrapped
 
 
 def overview(comparisons: Sequence[Comparison]) -> list[str]:
@@ -21,6 +21,12 @@ def overview(comparisons: Sequence[Comparison]) -> list[str]:
         return [f"{scene:{width}s}  {rest}" for scene, rest in zip(scenes, rests, strict=True)]
     head, *pairs = zip(scenes, rests, strict=True)
     return [head[0], f"  {head[1]}", *(line for scene, rest in pairs for line in (scene, f"  {rest}"))]
+
+
+def help_with(comparisons: Sequence[Comparison]) -> list[str]:
+    """What would help each scene whose tolerance is not met."""
+    lines = [f"{one.scene.name}: {line}" for one in comparisons for line in what_would_help(one)]
+    return list(wrapped(lines, indent=4))
 
 
 def overview_of(comparisons: Sequence[Comparison]) -> dict[str, list[str]]:

@@ -58,7 +58,7 @@ def heading(scene: Scene, quantity: str, tolerance: Tolerance) -> str:
     """What was understood, before anything is solved: what is asked, bodies, contact, roughness, what is assumed."""
     described = description_lines(scene, moving=quantity in MOVING)
     lines = [f"{scene.name}: {quantity} within {tolerance}", *described, f"  {'assumed':18s}  {ASSUMED}"]
-    return "\n".join(part for line in lines for part in _wrapped([line], indent=22 if line[0] == " " else 4))
+    return "\n".join(part for line in lines for part in wrapped([line], indent=22 if line[0] == " " else 4))
 
 
 def findings(comparison: Comparison) -> str:
@@ -74,7 +74,7 @@ def findings(comparison: Comparison) -> str:
         bands = columns_as_lines(bands_of(comparison, best)) if comparison.is_level else []
         lines += [result_of(comparison, best.answer), *([best.answer.counted] if best.answer.counted else []), *bands]
         lines += [*side_by_side(comparison), age_of_errors(comparison), cost_of(comparison)]
-    return "\n".join(_wrapped([*lines, *what_would_help(comparison), *sentences_on_mdr(comparison)], indent=4))
+    return "\n".join(wrapped([*lines, *what_would_help(comparison), *sentences_on_mdr(comparison)], indent=4))
 
 
 def label(candidate: Candidate) -> str:
@@ -178,9 +178,11 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
     best, tolerance = comparison.selection.best, comparison.tolerance
     if comparison.met:
         return
+    others = [one for one in comparison.models if one.status == "not asked" and one.claimed <= tolerance.relative]
+    other = others and f"{others[0].name}, which was not asked and claims {tolerance.shown(others[0].claimed)}"
     if best is None or best.answer is None:
         if comparison.models:
-            yield f"what would help: a scene for which this does not hold: {comparison.models[-1].reason}"
+            yield f"what would help: {other or _another_scene(comparison)}"
         return
     yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown(best.error)}"
     causes = {
@@ -188,11 +190,16 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
         "left by the grid: longer waves (`shortest`), or heights on more points, have less": best.answer.grid,
         "the scatter of the surfaces that are drawn": best.answer.sample,
     }
-    met = tolerance.shown(1.05 * best.answer.error)
-    yield f"what would help: a tolerance of {met}; most of the error is {max(causes, key=causes.__getitem__)}"
+    met = f"{other}; or " if other else ""
+    met += f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
+    yield f"what would help: {met}; most of the error is {max(causes, key=causes.__getitem__)}"
 
 
-def _wrapped(lines: list[str], indent: int) -> Iterator[str]:
+def _another_scene(comparison: Comparison) -> str:
+    return f"a scene for which this does not hold: {comparison.models[-1].reason}"
+
+
+def wrapped(lines: list[str], indent: int) -> Iterator[str]:
     """Lines of the width at the most; what goes on in the next line is indented."""
     for line in lines:
         own = line[: len(line) - len(line.lstrip())]

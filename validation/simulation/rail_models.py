@@ -220,4 +220,4 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
         causes.insert(
             0, f"across is not given, ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
         )
-    return f"largest at {1e3 * quantity.bands.nominal[at]:g} mm: {'; '.join(causes)}"
+    return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {'; '.join(causes)}"

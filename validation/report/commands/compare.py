@@ -22,7 +22,7 @@ from validation.selection.exported import levels_of_models, to_json_of
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import ContactModel
 from validation.selection.model_names import models_named, names_in
-from validation.selection.several import overview, selected_of_several, table_of_several
+from validation.selection.several import help_with, overview, selected_of_several, table_of_several
 from validation.selection.several_scenes import SceneProblem, compare_scenes
 from validation.selection.summary import findings, format_seconds, heading
 from validation.selection.tolerance import tolerance_of
@@ -154,7 +154,7 @@ def _found(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> l
     with progress_of("scenes", arguments.workers) as progress:
         engine = Engine(workers=arguments.workers, store=arguments.out / "realisations", progress=progress)
         several = compare_scenes(problems, engine)
-    print("\n".join(overview(several)))
+    print("\n".join([*overview(several), *help_with(several)]))
     return several
 
 
