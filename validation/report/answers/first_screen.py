@@ -67,7 +67,7 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
             "number that decides": row.question.axis,
             "answer": row.word,
             "sentence": row.answer,
-            "strip": {cell.place: cell.word for cell in row.strip},
+            "strip": [{"place": cell.place, "enough": cell.word} for cell in row.strip],
             "measured": row.measured,
             "margin": row.margin,
             "instead": [model.text for model in row.instead],
