@@ -1,5 +1,7 @@
 """What is said of the sounds of a rail, on signals that are made up."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -73,6 +75,14 @@ def test_a_silent_range_is_said_to_be_silent():
     assert "below the band -30 dB or less" in silent.claims[0].answer
     assert silent.headlines["rail_sound"].endswith(f"{GEIKE}, 30.0 dB or more quieter {LOW}.")
     assert "33.3 % by boundary elements" in silent.conclusions[0] and f" 0.0 % by {GEIKE}" in silent.conclusions[0]
+
+
+@pytest.mark.parametrize("alpha", [1.0, 3.0])
+def test_oblique_waves_have_two_cells_on_both_grids(alpha):
+    case = replace(CASE, rail=replace(CASE.rail, across=alpha), seconds=0.02)
+    coarse, fine = (case.strip(cells) for cells in case.cells)
+    assert coarse.ground.highest < np.pi / coarse.spacing
+    assert fine.spacing / coarse.spacing == pytest.approx(case.cells[0] / case.cells[1], rel=0.1)
 
 
 def test_sounds_have_one_full_scale_that_holds_them_all():

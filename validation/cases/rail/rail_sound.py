@@ -15,7 +15,7 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.load import load_scene
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_ground import StatedAcross, strip_bands
+from validation.simulation.rail_ground import StatedAcross, strip_bands, strip_of
 from validation.simulation.rail_sound import (
     GEIKE,
     ISOTROPIC,
@@ -30,6 +30,8 @@ FloatArray = NDArray[np.float64]
 
 SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike": GEIKE}
 """Models by the names of their files."""
+SHORTEST = 0.9
+"""Largest wavenumber over that of two cells a wave."""
 LABELS = {
     BEM: "boundary elements",
     LINEAR: "linear theory in 3D",
@@ -108,9 +110,20 @@ class RailSound:
         """v / (2 a_x): of the wave as long as the contact [Hz]."""
         return self.speed / (2 * self.rail.contact.along)
 
+    @cached_property
+    def finer(self) -> float:
+        """1, or more where oblique waves are too short for the coarse grid."""
+        short = strip_of(self.rail, self.across, self.cells[0], 0, self.seed)
+        return max(1.0, short.ground.highest * short.spacing / (SHORTEST * math.pi))
+
     def strip(self, cells: int) -> RailStrip:
         return sounding_strip(
-            self.rail, across=self.across, samples=self.samples, rate=self.rate, cells=cells, seed=self.seed
+            self.rail,
+            across=self.across,
+            samples=self.samples,
+            rate=self.rate,
+            cells=math.ceil(cells * self.finer),
+            seed=self.seed,
         )
 
     def problems(self, model: str, cells: int) -> list[HeldWheel]:

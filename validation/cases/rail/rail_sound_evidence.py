@@ -7,7 +7,7 @@ from validation.analysis.sound import Sound, Sounds
 from validation.cases.rail.rail_sound import LABELS, SOUNDING, RailSound, RailSoundResult, run, shipped_rail
 from validation.cases.rail.rail_sound_levels import LOW, SILENT, WEIGHTED, SoundLevels, column_of
 from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_sound import GEIKE
+from validation.simulation.rail_sound import GEIKE, ISOTROPIC
 
 LEVEL = "level of the contact force"
 FIELD = "a tolerance of the field"
@@ -103,7 +103,7 @@ def what_is_heard(result: RailSoundResult) -> list[str]:
         "resonance of wheel and track, no radiation, so a real wheel sounds otherwise.",
         f"The waves of the rail have {first:.0f} to {upper:.0f} Hz along the track. Longer ones, which lift the wheel "
         "as a whole, and shorter ones are left out"
-        + ("." if case.across == "ridges" else "; oblique ones among those kept are heard below that too."),
+        + ("; oblique ones among those kept are heard below that too." if case.across == ISOTROPIC else "."),
         f"All files have one gain: full scale is {result.full_scale:g} N. Levels are relative: differences between "
         "files are those of the forces, and how loud they are played has no meaning.",
         _length(case),
