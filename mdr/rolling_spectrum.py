@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, Spectrum, density, doubles, finite_array, held, positive
+from mdr.spectrum import gauss_legendre
 
 NODES = 24
 PANEL_RATIO = 1.4
@@ -88,7 +89,7 @@ def _across(q: float, c2d: Spectrum, edges: list[float], flat: float) -> float:
         return 0.0
     ends = np.array(_panels(max(q, edges[0]), edges))
     k = np.sqrt(np.maximum(ends**2 - q**2, 0.0))
-    node, weight = np.polynomial.legendre.leggauss(NODES)
+    node, weight = gauss_legendre(NODES)
     half = np.diff(k)[:, np.newaxis] / 2
     s = np.hypot(q, k[:-1, np.newaxis] + half * (1 + node))
     return float(2 * np.sum(half * weight * (flat + q**2) / (flat + s**2) * density("c2d", c2d(s))))

@@ -146,7 +146,7 @@ def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -
     array([2. , 1.6])
     """
     wavenumber = np.abs(finite_array("q", q))
-    q_max, (node, weight) = positive("q_max", q_max), _gauss_legendre(count("nodes", nodes, least=2))
+    q_max, (node, weight) = positive("q_max", q_max), gauss_legendre(count("nodes", nodes, least=2))
     with doubles(q=_largest(wavenumber), q_max=q_max):
         reach = np.sqrt(np.maximum(q_max**2 - wavenumber**2, 0.0))
         across = reach[..., np.newaxis] * (node + 1) / 2
@@ -248,7 +248,7 @@ class SelfAffine:
 
 
 @cache
-def _gauss_legendre(nodes: int) -> tuple[FloatArray, FloatArray]:
+def gauss_legendre(nodes: int) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights on [-1, 1]."""
     return np.polynomial.legendre.leggauss(nodes)
 

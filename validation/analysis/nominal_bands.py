@@ -7,6 +7,7 @@ wavelength, 31.5 mm for n = -15, is its name. Bands run from long waves to short
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -129,11 +130,17 @@ class NominalBands:
 
     def quadrature(self) -> tuple[FloatArray, FloatArray]:
         """Wavenumbers [rad/m] and weights of int dq over each band, both of shape (bands, nodes)."""
-        node, weight = np.polynomial.legendre.leggauss(NODES)
+        node, weight = _gauss_legendre()
         half_band = math.log(10) / 20
         log_q = half_band / 2 * np.concatenate([node - 1, node + 1])
         q = self.centres[:, np.newaxis] * np.exp(log_q)
         return q, q * half_band / 2 * np.concatenate([weight, weight])
+
+
+@cache
+def _gauss_legendre() -> tuple[FloatArray, FloatArray]:
+    """Nodes and weights on [-1, 1]."""
+    return np.polynomial.legendre.leggauss(NODES)
 
 
 def nominal_wavelength(number: int) -> float:

@@ -11,6 +11,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.surface import draw_surface
+from validation.theory.gauss_legendre import gauss_legendre
 
 FloatArray = NDArray[np.float64]
 
@@ -165,7 +166,7 @@ def _whole(ground: RoughSurface, side: float) -> float:
 def _moment(ground: RoughSurface, first: float, power: int) -> float:
     """2 pi int q^power C_2D q dq from a wavenumber to the last [m^(2 - power)]."""
     low = max(first, ground.q_min)
-    node, weight = np.polynomial.legendre.leggauss(24)
+    node, weight = gauss_legendre(24)
     ends = np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low)))
     half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
     q = middle + half * node

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import Bands
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
+from validation.theory.gauss_legendre import gauss_legendre
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 
 FloatArray = NDArray[np.float64]
@@ -149,7 +150,7 @@ def _nodes(low: float, high: float, contact_radius: float) -> tuple[FloatArray, 
 
     On panels no longer than half a wave of sin^2(q a), nor than what a power law bends in.
     """
-    node, weight = np.polynomial.legendre.leggauss(NODES)
+    node, weight = gauss_legendre(NODES)
     waves = np.linspace(low, high, 2 + math.floor((high - low) * contact_radius / math.pi))
     powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(PANEL)))
     ends = np.union1d(waves, powers)

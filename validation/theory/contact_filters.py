@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from validation.theory.closed_forms import positive
+from validation.theory.gauss_legendre import gauss_legendre
 
 FloatArray = NDArray[np.float64]
 
@@ -53,7 +54,7 @@ def remington_filter(wavenumber: ArrayLike, *, radius: float, alpha: float) -> F
     positive(radius=radius, alpha=alpha)
     kb = np.asarray(wavenumber, dtype=np.float64) * radius
     largest = float(kb.max(initial=0.0)) * math.hypot(1, alpha)
-    node, weight = np.polynomial.legendre.leggauss(NODES)
+    node, weight = gauss_legendre(NODES)
     ends = np.linspace(0, math.atan(alpha), 2 + math.ceil(largest / math.pi) + math.ceil(math.atan(alpha) * 4))
     half = np.diff(ends)[:, np.newaxis] / 2
     x, dx = (ends[:-1, np.newaxis] + half * (1 + node)).ravel(), (half * weight).ravel()

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
+from validation.theory.gauss_legendre import gauss_legendre
+
 FloatArray = NDArray[np.float64]
 
 LEAST_FALL = 1.0
@@ -71,7 +73,7 @@ class LineSpectrum:
         panels = 1 + math.ceil(math.log(high / min(float(start.min(initial=high)), low)) / math.log(WIDEST))
         ends = np.geomspace(start, high, panels + 1)
         k = np.sqrt(np.maximum(ends**2 - s[reached] ** 2, 0.0))
-        node, weight = np.polynomial.legendre.leggauss(NODES)
+        node, weight = gauss_legendre(NODES)
         half = np.diff(k, axis=0)[:, np.newaxis] / 2
         q = np.hypot(s[reached], k[:-1, np.newaxis] + half * (1 + node[:, np.newaxis]))
         p = self.exponents[law]

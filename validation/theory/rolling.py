@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from validation.theory.closed_forms import positive
+from validation.theory.gauss_legendre import gauss_legendre
 
 FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
@@ -87,7 +88,7 @@ def _section(q: float, c2d: Spectrum, edges: Sequence[float], period: float) -> 
 
 def _gauss(ends: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights of Gauss and Legendre on each panel between these ends."""
-    node, weight = np.polynomial.legendre.leggauss(NODES)
+    node, weight = gauss_legendre(NODES)
     half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
     return middle + half * node, half * weight
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from validation.theory.closed_forms import positive
+from validation.theory.gauss_legendre import gauss_legendre
 from validation.theory.line_spectrum import LineSpectrum
 
 FloatArray = NDArray[np.float64]
@@ -155,7 +156,7 @@ def _tabulated(line: LineSpectrum) -> tuple[FloatArray, FloatArray]:
 
 def gauss(ends: Sequence[float] | FloatArray) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights of Gauss and Legendre on all panels between ascending ends."""
-    node, weight = np.polynomial.legendre.leggauss(NODES)
+    node, weight = gauss_legendre(NODES)
     half = np.diff(np.asarray(ends))[:, np.newaxis] / 2
     middle = np.asarray(ends)[:-1, np.newaxis] + half
     return (middle + half * node).ravel(), (half * weight).ravel()

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
+from validation.theory.gauss_legendre import gauss_legendre
+
 FloatArray = NDArray[np.float64]
 
 NODES = 100
@@ -41,7 +43,7 @@ def hertz_period(highest: float) -> float:
     middle, half = (above + below) / 2, (above - below) / 2
     # where contact is lost the force has no second derivative
     ends = [0.0, math.acos((middle + 1) / half), math.pi] if below < -1 - SLIVER else [0.0, math.pi]
-    node, weight = np.polynomial.legendre.leggauss(NODES)
+    node, weight = gauss_legendre(NODES)
     period = 0.0
     for first, last in pairwise(ends):
         theta = (first + last) / 2 + (last - first) / 2 * node

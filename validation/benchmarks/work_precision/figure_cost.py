@@ -36,7 +36,7 @@ class FigureCost:
     """
 
     wheels: int = 300
-    steps: int = 200
+    steps: int = 100
     cells: int = 40
     tolerance: float = 1e-4
     scene: WheelScene = TABLE
