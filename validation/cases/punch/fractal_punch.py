@@ -30,12 +30,12 @@ class FractalPunch(PunchEnsembles):
 
     hursts: tuple[float, ...] = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
     surfaces: tuple[tuple[int, int, int, int, int], ...] = (
-        (0, 0, 60, 24, 8),
+        (0, 0, 30, 12, 4),
         (0, 100, 30, 10, 0),
         (160, 40, 12, 6, 0),
         (60, 16, 6, 4, 0),
     )
-    profiles: int = 1000
+    profiles: int = 400
     fine_profiles: int = 100
     decades: tuple[int, int] = (-3, 1)
     seed: int = 14
