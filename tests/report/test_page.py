@@ -137,7 +137,7 @@ def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():
     assert found.summary == "2 agree, 2 differ"
     text = html_of(section_of("geike"))
     assert text.count('<td class="differ" title="+9 %: differ">D</td>') == 2
-    assert text.index('class="map"') < text.index("Table: Deviation")
+    assert text.index('class="map"') < text.index("Table behind it")
 
 
 @pytest.mark.parametrize("columns", [{"H": ["0.4", "1"], "verdict": FIELDS[:2]}, {"H": ["1"], "a": ["b"]}])
