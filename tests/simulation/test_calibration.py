@@ -217,3 +217,16 @@ def test_a_table_is_measured_once(tmp_path, monkeypatch):
     monkeypatch.setattr(calibrate, "measure_errors", solved_again)
     write_calibration(run, engine, tmp_path / "table.csv")
     assert (tmp_path / "table.csv").read_text() == first
+
+
+def test_the_fit_claims_less_under_more_waves():
+    """Errors over the root of the number of waves cover punches with one wave on a side as they cover others."""
+    measured = calibration.table()["punch", "stiffness", "fit"]
+    one = measured.points[:, 1] < math.log10(1.2)
+    inside = measured.errors <= measured.factor * measured.left_out()
+    assert one.sum() >= 10 and np.mean(inside[one]) >= 0.92
+    few, many = (
+        Target(IndentationScene(name="p", shape="punch", size=1.0, load=5e-3, modulus=1.0, ground=ground))
+        for ground in (Roughness(rms=1e-3, hurst=0.7, longest=1 / n, shortest=1 / (8 * n)) for n in (1, 4))
+    )
+    assert calibrated(cheap("fit", many), many).error < 0.7 * calibrated(cheap("fit", few), few).error

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.calibrated_range import SCATTER, beyond_spectrum
+from validation.simulation.calibrated_range import SCATTER, WAVES, beyond_spectrum, conditions_of
 from validation.simulation.calibration import calibrated
 from validation.simulation.indentation import ground_of
 from validation.simulation.method import Prepared, Resolution, Result, Solve
@@ -36,6 +36,10 @@ class FittedRoughPunch(Model):
         expected = calibrated(self, target)
         own = 2 * SCATTER / max(target.scene.reduced_load, 1.0) ** 2 if ground.is_single else 0.0
         return replace(expected, model=expected.model + own)
+
+    def shape(self, target: Target) -> float:
+        """The stiffness of few waves is not that of a mean face: the error falls as their number grows."""
+        return float(conditions_of(target.scene)[WAVES] ** -0.5)
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         scene, height = target.scene, ground_of(target.scene).rms
