@@ -5,9 +5,11 @@ import math
 import pytest
 
 import validation
+from tests.selection.test_model_hierarchy import Fake
 from validation.__main__ import main
 from validation.scenes.load import load_varied
 from validation.selection.compare import models_of
+from validation.selection.hierarchy import select_model
 from validation.selection.model_names import models_named, names_in
 from validation.selection.summary import WIDTH, summary
 
@@ -72,6 +74,21 @@ def test_a_model_out_of_its_range_is_solved_without_an_error():
     (row,) = [line for line in text.splitlines() if line.startswith("springs (MDR)")]
     assert "out of range" in row and "solved: its error is unknown" in row and "not solved" not in row
     assert all(math.isfinite(value) for one in found.selection.solved for value in found.value_of(one))
+
+
+def test_a_model_that_fails_out_of_its_range_says_why():
+    models = [
+        Fake(claimed=math.inf, failed="lost"),
+        Fake(claimed=math.inf, name="found", left=math.inf),
+        Fake(claimed=math.inf),
+    ]
+    found = select_model(models, 0.1, solve_all=True, beyond=lambda model: model is not models[2])
+    assert [(one.status, one.reason) for one in found.candidates] == [
+        ("failed", "lost"),
+        ("out of range", "leaves inf"),
+        ("out of range", "claims inf"),
+    ]
+    assert [one.name for one in found.solved] == ["found"] and found.best is None and not found.met
 
 
 def test_a_scene_without_a_steady_answer_is_not_solved_out_of_range():

@@ -206,14 +206,11 @@ def _with_all_solved(
 ) -> Selection:
     candidates = []
     for one in selection.candidates:
-        if one.status in ("skipped", "not needed"):
+        if one.status in ("skipped", "not needed") or (one.status == "out of range" and beyond(one.model)):
             callback(one.model)
             answer = try_to_solve(one.model)
             status: Status = "failed" if answer.failed else one.status
             one = replace(one, answer=answer, status=status, reason=answer.failed or answer.reason or one.reason)
-        elif one.status == "out of range" and beyond(one.model):
-            callback(one.model)
-            one = replace(one, answer=try_to_solve(one.model))
         candidates.append(one)
     return Selection(selection.tolerance, tuple(candidates))
 
