@@ -667,12 +667,13 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
         "± [dB]",
     ]
     rows = [[float(word) for word in line.split()] for line in lines[head + 1 : head + 1 + len(levels)]]
-    for (wave, frequency, turns, level, decibels, half), centre, expected in zip(
+    for (wave, frequency, nominal, turns, level, decibels, half), centre, expected in zip(
         rows, bands.centres, levels, strict=True
     ):
         assert (wave, level) == pytest.approx((2e3 * math.pi / centre, expected), rel=1e-3)
         assert turns == pytest.approx(centre * a, abs=0.006)
         assert frequency == pytest.approx(400.0 * centre / (2 * math.pi), rel=1e-3)
+        assert nominal == pytest.approx(frequency, rel=0.14)
         assert decibels == pytest.approx(20 * math.log10(expected), abs=0.051)
         assert half == 0.99
 
