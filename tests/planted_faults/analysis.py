@@ -18,10 +18,11 @@ from tests.analysis import (
     test_multilevel,
     test_nominal_bands,
     test_rules_by_loops,
+    test_wording,
 )
 from tests.analysis import test_spectra as test_wheel_spectra
 from validation.analysis import difference as difference_module
-from validation.analysis import multilevel, nominal_bands, over_range, spectra, statistics
+from validation.analysis import multilevel, nominal_bands, over_range, spectra, statistics, wording
 from validation.analysis import spectral_features as regions
 from validation.analysis.difference import difference
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
@@ -212,6 +213,10 @@ peak = regions.peak
 
 
 FAULTS = {
+    "a title that agrees where a number is undecided": (
+        (wording, "joint_verdict", lambda numbers: Verdict.AGREE),
+        test_wording.test_one_that_differs_decides_and_one_that_is_open_prevents_agreement,
+    ),
     "bands of base two for those of base ten": (
         (
             nominal_bands.NominalBands,

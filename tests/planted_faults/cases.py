@@ -20,6 +20,7 @@ from tests.cases import (
     test_limits,
     test_rail_cases,
     test_rail_sound,
+    test_rolling_cases,
     test_wheel_cases,
     test_wheel_ensembles,
     test_wheel_regions,
@@ -37,10 +38,15 @@ from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fract
 from validation.cases.rail import ellipse as rail_ellipse
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound_levels
-from validation.cases.rolling import roughness_from_force, track_stiffness, validity, validity_reduced
+from validation.cases.rolling import (
+    force_spectrum_headlines,
+    roughness_from_force,
+    track_stiffness,
+    validity,
+    validity_reduced,
+)
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
-from validation.engine import engine as ensemble
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import equivalent_displacement, free_vibration, indentation, integrators, rough_punch
@@ -78,7 +84,7 @@ def upside_down(half_space, gap, **settings):
 
 
 def twice_the_same(entropy, *key):
-    return ensemble.random_generator(entropy, *key[:-1], key[-1] // 2)
+    return random_generator(entropy, *key[:-1], key[-1] // 2)
 
 
 def area_whatever_the_force(strips):
@@ -143,6 +149,12 @@ linear_response = rough_springs.linear_response
 
 
 FAULTS = {
+    "a title that calls a quiet band loud": (
+        (force_spectrum_headlines, "too_loud", lambda decibels: f"{abs(decibels):.1f} dB too loud"),
+        functools.partial(
+            test_rolling_cases.test_the_title_of_springs_has_the_side_of_each_region, *test_rolling_cases.PLANTED[0]
+        ),
+    ),
     "a weighting of amplitudes taken twice": (
         (rail_sound_levels, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
         functools.partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
