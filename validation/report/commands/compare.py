@@ -140,9 +140,9 @@ def _found(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> l
         print(heading(problem.scene, problem.quantity, problem.wanted), flush=True)
         found = compared(
             problem.scene,
-            problem.quantity,
-            problem.tolerance,
-            problem.seed,
+            quantity=problem.quantity,
+            tolerance=problem.tolerance,
+            seed=problem.seed,
             solve_all=problem.solve_all,
             models=problem.models,
             callback=_announce,
