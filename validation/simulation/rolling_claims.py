@@ -43,6 +43,8 @@ sum over the contact that linear theory loses, h/d, and one. Envelopes of what w
 random scenes, for scenes that are not in the table of the calibration."""
 FORCE_RMS = "force-rms"
 """The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force."""
+SECOND_ORDER = 0.1
+"""Of h/d times the level of all bands: what the loss of contact puts into each band that linear theory finds quiet."""
 MEASURED_SCATTER = 0.5
 """Of the levels of one track about those of all that have its spectrum."""
 FORMULA, NODE, SPRING, CELL, POSITION = 1.0e-4, 4.5e-4, 6.0e-7, 2.0e-8, 1.0e-3
@@ -106,14 +108,19 @@ class CheapRollingModel(Model):
     def left_out(self, target: Target, value: FloatArray) -> float:
         """Error of bands in which measured heights have next to no waves: what linear theory leaves out fills them.
 
-        That is h/d of the level of all bands, in each of them; a drawn band has waves of its own throughout.
+        That is h/d of the level of all bands, in each of them.
         """
-        if not target.scene.ground.is_single or value.size == 1:
-            return 0.0
-        other = target.scene.roughness_ratio * float(np.linalg.norm(value))
-        return distance(np.hypot(value, other), value)
+        return filled(target, value, 1.0) if target.scene.ground.is_single else 0.0
 
 
 def _causes(quantity: RollingQuantity) -> tuple[float, float]:
     """The share of the contact that linear theory loses, and h/d, by the resonance."""
     return lost_contact(quantity.scene), quantity.scene.roughness_ratio * quantity.amplification
+
+
+def filled(target: Target, value: FloatArray, share: float) -> float:
+    """Error of quiet bands that have so much more: a share of h/d of the level of all bands."""
+    if value.size == 1:
+        return 0.0
+    other = share * target.scene.roughness_ratio * float(np.linalg.norm(value))
+    return distance(np.hypot(value, other), value)

@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 from validation.scenes.measured import OBLONG
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Target
-from validation.simulation.rolling_claims import FORCE_RMS, LINEAR_BANDS, NODE, CheapRollingModel
+from validation.simulation.rolling_claims import (
+    FORCE_RMS,
+    LINEAR_BANDS,
+    NODE,
+    SECOND_ORDER,
+    CheapRollingModel,
+    filled,
+)
 from validation.simulation.rolling_levels import FINE, LEAST, by_linear_theory, strip_of
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
@@ -45,9 +52,10 @@ class LinearFilter3D(CheapRollingModel):
         return Cost(work=nodes, unit="quadratures", seconds=NODE * nodes)
 
     def left_out(self, target: Target, value: NDArray[np.float64]) -> float:
-        """Of measured heights also what cells twice as long change."""
-        grid = distance(value, _of_heights(target.rolling, 1)) if target.scene.ground.is_single else 0.0
-        return super().left_out(target, value) + grid
+        """Of measured heights also what cells twice as long change; of drawn ones what fills their quiet bands."""
+        if not target.scene.ground.is_single:
+            return filled(target, value, SECOND_ORDER)
+        return super().left_out(target, value) + distance(value, _of_heights(target.rolling, 1))
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         quantity = target.rolling
