@@ -4,6 +4,10 @@ All lengths are in metres, forces in newtons; ``modulus`` is always the contact 
 ``import bem3d`` and ``import numpy as np``.
 """
 
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from bem3d.contact import Contact, Status, residual
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, EdgeWarning, ResolutionWarning, UnitsWarning
@@ -48,3 +52,19 @@ __all__ = [
     "solve_plain",
     "solve_polonsky_keer",
 ]
+
+
+def __dir__() -> list[str]:
+    """The public names."""
+    return sorted([*__all__, "__version__"])
+
+
+if TYPE_CHECKING:
+    __version__: str
+else:
+
+    def __getattr__(name: str) -> str:
+        """The version, from what pip has installed; read on first use, since that takes longer than it is worth."""
+        if name == "__version__":
+            return import_module("importlib.metadata").version("mdr-validation")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=sys.modules[__name__])

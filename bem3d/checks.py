@@ -10,6 +10,9 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 BoolArray = NDArray[np.bool_]
 Spectrum = Callable[[FloatArray], FloatArray]
+Loads = Sequence[float] | FloatArray
+OneOrTwo = float | tuple[float, float]
+"""One number for both axes, or two."""
 
 
 def finite(name: str, value: object) -> float:
@@ -124,6 +127,14 @@ def _finite(name: str, given: np.ndarray) -> FloatArray:
         broken = np.count_nonzero(~np.isfinite(array))
         raise ValueError(f"{name} must be finite, got {broken} NaN or infinite values out of {array.size}")
     return array
+
+
+def callable_spectrum(name: str, value: object) -> Spectrum:
+    """A callable C(q), or TypeError; an object that has one by this name is told apart from it."""
+    if not callable(value):
+        instead = f", give its .{name}" if hasattr(value, name) else ""
+        raise TypeError(f"{name} must be a callable {name}(q), got {type(value).__name__}{instead}")
+    return value
 
 
 def density(name: str, values: ArrayLike, shape: tuple[int, ...]) -> FloatArray:

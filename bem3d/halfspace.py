@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from bem3d import kernel
-from bem3d.checks import FloatArray, field, grid_shape, grid_spacing, positive
+from bem3d.checks import FloatArray, OneOrTwo, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import Convolution, PlainConvolution, Planning, padded_convolution
 
 KEEPING = threading.Lock()
@@ -62,7 +62,7 @@ class HalfSpace:
     """
 
     shape: tuple[int, int]
-    spacing: float | tuple[float, float]
+    spacing: OneOrTwo
     modulus: float
     periodic: bool = False
     planning: Planning = "estimate"
@@ -137,7 +137,7 @@ class HalfSpace:
         symbol = kernel.inverse_symbol(self.shape, self.steps, self.modulus)
         return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
 
-    def like(self, *, shape: tuple[int, int], spacing: float | tuple[float, float] | None = None) -> HalfSpace:
+    def like(self, *, shape: tuple[int, int], spacing: OneOrTwo | None = None) -> HalfSpace:
         """Half-space of the same material on another grid. The last few are kept, with their plans."""
         wanted = replace(self, shape=shape, spacing=self.spacing if spacing is None else spacing)
         if wanted == self:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bem3d.checks import FloatArray, count, finite, fraction, not_negative
+from bem3d.checks import FloatArray, Loads, count, finite, fraction, not_negative
 from bem3d.contact import Contact
 from bem3d.diagnostics import warn
 from bem3d.halfspace import HalfSpace
@@ -26,8 +26,8 @@ def indent(
     half_space: HalfSpace,
     gap: ArrayLike,
     *,
-    approaches: Sequence[float] | FloatArray | None = None,
-    forces: Sequence[float] | FloatArray | None = None,
+    approaches: Loads | None = None,
+    forces: Loads | None = None,
     stiffness: bool = False,
     tolerance: float = 1e-6,
     max_iterations: int = 500,
@@ -81,8 +81,8 @@ def indent(
 def _problems(
     half_space: HalfSpace,
     gap: ArrayLike,
-    approaches: Sequence[float] | FloatArray | None,
-    forces: Sequence[float] | FloatArray | None,
+    approaches: Loads | None,
+    forces: Loads | None,
 ) -> list[Problem]:
     """One a load, checked before the first is solved."""
     if (approaches is None) == (forces is None):

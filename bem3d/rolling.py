@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bem3d.checks import FloatArray, count, positive
+from bem3d.checks import FloatArray, OneOrTwo, count, positive
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import warn
 from bem3d.read_only import ReadOnly
@@ -53,8 +53,8 @@ class Rolling(ReadOnly):
 def roll(
     height: ArrayLike,
     *,
-    spacing: float | tuple[float, float],
-    radius: float | tuple[float, float],
+    spacing: OneOrTwo,
+    radius: OneOrTwo,
     modulus: float,
     transverse_profile: ArrayLike | None = None,
     approach: float | None = None,
@@ -145,8 +145,8 @@ def _joined(along: list[WheelContact]) -> Rolling:
 def rolling_force(
     height: ArrayLike,
     *,
-    spacing: float | tuple[float, float],
-    radius: float | tuple[float, float],
+    spacing: OneOrTwo,
+    radius: OneOrTwo,
     modulus: float,
     approach: float,
     tolerance: float = 1e-5,

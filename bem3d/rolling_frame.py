@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from bem3d.checks import BoolArray, FloatArray, IndexArray, grid_spacing, positive, positive_pair, strip
+from bem3d.checks import BoolArray, FloatArray, IndexArray, OneOrTwo, grid_spacing, positive, positive_pair, strip
 from bem3d.diagnostics import Diagnostic, diagnose_sphere, diagnose_units
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
@@ -59,8 +59,8 @@ class Track(ReadOnly):
     """
 
     height: FloatArray
-    spacing: float | tuple[float, float]
-    radius: float | tuple[float, float]
+    spacing: OneOrTwo
+    radius: OneOrTwo
     modulus: float
     transverse_profile: FloatArray | None = None
 

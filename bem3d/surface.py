@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from bem3d.checks import FloatArray, Spectrum, density, grid_shape, grid_spacing, positive
+from bem3d.checks import FloatArray, OneOrTwo, Spectrum, callable_spectrum, density, grid_shape, grid_spacing, positive
 from bem3d.diagnostics import diagnose_waves, warn
 from bem3d.memory import fits
 
@@ -27,7 +27,7 @@ def rough_surface(
     c2d: Spectrum,
     *,
     shape: tuple[int, int],
-    spacing: float | tuple[float, float],
+    spacing: OneOrTwo,
     rng: np.random.Generator,
     rms: float | None = None,
     amplitudes: Literal["fixed", "gaussian"] = "fixed",
@@ -112,8 +112,7 @@ def _amplitudes(variance: FloatArray, mirrored: NDArray[np.bool_], rms: float | 
 
 def _resolved(c2d: Spectrum, q: FloatArray, steps: tuple[float, float]) -> FloatArray:
     """c2d at the waves of the grid without the zero mode; ValueError where its curvature spectrum exceeds Nyquist."""
-    if not callable(c2d):
-        raise TypeError(f"c2d must be a callable c2d(q), got {type(c2d).__name__}")
+    c2d = callable_spectrum("c2d", c2d)
     values = np.zeros(q.shape)
     waves = q > 0
     values[waves] = density("c2d", c2d(q[waves]), q[waves].shape)

@@ -4,6 +4,10 @@ All lengths are in metres, forces in newtons; ``modulus`` is always the contact 
 ``import mdr`` and ``import numpy as np``.
 """
 
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from mdr.diagnostics import LinearityWarning, SpringContactWarning, SpringResolutionWarning, SpringUnitsWarning
 from mdr.foundation import LoadCurve, LoadPoint, load_curve, stiffness_under
 from mdr.profile import rough_profile, rough_profiles
@@ -49,3 +53,19 @@ __all__ = [
     "sphere_profile",
     "stiffness_under",
 ]
+
+
+def __dir__() -> list[str]:
+    """The public names."""
+    return sorted([*__all__, "__version__"])
+
+
+if TYPE_CHECKING:
+    __version__: str
+else:
+
+    def __getattr__(name: str) -> str:
+        """The version, from what pip has installed; read on first use, since that takes longer than it is worth."""
+        if name == "__version__":
+            return import_module("importlib.metadata").version("mdr-validation")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=sys.modules[__name__])

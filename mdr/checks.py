@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
+OneOrTwo = float | tuple[float, float]
+"""One number for both axes, or two."""
 
 
 def finite(name: str, value: object) -> float:
@@ -107,6 +109,14 @@ def stiffness_of_springs(name: str, modulus: float, length: float, springs: int 
     if not (math.isfinite(stiffness) and stiffness > 0):
         raise ValueError(f"modulus and {name} must give a finite stiffness, got {modulus} and {length}")
     return stiffness
+
+
+def callable_spectrum(name: str, value: object) -> Spectrum:
+    """A callable C(q), or TypeError; an object that has one by this name is told apart from it."""
+    if not callable(value):
+        instead = f", give its .{name}" if hasattr(value, name) else ""
+        raise TypeError(f"{name} must be a callable {name}(q), got {type(value).__name__}{instead}")
+    return value
 
 
 def density(name: str, values: ArrayLike) -> FloatArray:

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from mdr.checks import FloatArray, Spectrum, density, doubles, held, positive
+from mdr.checks import FloatArray, Spectrum, callable_spectrum, density, doubles, held, positive
 from mdr.checks import count as whole
 from mdr.diagnostics import Diagnostic, diagnose_waves, warn
 from mdr.memory import fits
@@ -190,8 +190,7 @@ def _random_waves(
 
 def _resolved(c1d: Spectrum, q: FloatArray, nyquist: float) -> FloatArray:
     """c1d at the waves of the grid; ValueError where its curvature spectrum extends beyond the Nyquist wavenumber."""
-    if not callable(c1d):
-        raise TypeError(f"c1d must be a callable c1d(q), got {type(c1d).__name__}")
+    c1d = callable_spectrum("c1d", c1d)
     values = density("c1d", c1d(q))
     if values.shape != q.shape:
         raise ValueError(f"c1d must return one value a wavenumber, got shape {values.shape} for {q.shape}")

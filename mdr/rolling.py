@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
-from mdr.checks import FloatArray, doubles, finite_array, held, positive
+from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive
 from mdr.diagnostics import Diagnostic, diagnose_linearity, warn
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling_track import RollingTrack
@@ -34,7 +34,7 @@ def roll(
     height: ArrayLike,
     *,
     spacing: float,
-    radius: float | tuple[float, float],
+    radius: OneOrTwo,
     modulus: float,
     approach: float | ArrayLike | None = None,
     force: float | None = None,
@@ -96,7 +96,7 @@ def rolling_force(
     height: ArrayLike,
     *,
     spacing: float,
-    radius: float | tuple[float, float],
+    radius: OneOrTwo,
     modulus: float,
     approach: float | ArrayLike,
 ) -> FloatArray:
@@ -138,7 +138,7 @@ def rolling_force(
     return rolled.force.copy()
 
 
-def _track(height: ArrayLike, spacing: float, radius: float | tuple[float, float], modulus: float) -> SpringTrack:
+def _track(height: ArrayLike, spacing: float, radius: OneOrTwo, modulus: float) -> SpringTrack:
     wheel = spring_wheel(radius, modulus)
     return SpringTrack(height, spacing, wheel.radius, wheel.modulus)
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, count, doubles, finite_array, held, positive
+from mdr.checks import FloatArray, OneOrTwo, count, doubles, finite_array, held, positive
 from mdr.diagnostics import diagnose_units, diagnose_wheel, warn
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling import smooth_approach
@@ -86,7 +86,7 @@ class RollingEnsemble:
         height: ArrayLike,
         *,
         spacing: float,
-        radius: float | tuple[float, float],
+        radius: OneOrTwo,
         modulus: float,
         force: float,
     ):

@@ -19,7 +19,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, Spectrum, density, doubles, finite_array, held, positive
+from mdr.checks import FloatArray, Spectrum, callable_spectrum, density, doubles, finite_array, held, positive
 from mdr.spectrum import gauss_legendre
 
 NODES = 24
@@ -73,8 +73,7 @@ def rolling_spectrum(
         positive("contact_radius", contact_radius)
     elif (wavenumber == 0).any():
         raise ValueError("q must not be zero where contact_radius is infinite, got a zero wavenumber")
-    if not callable(c2d):
-        raise TypeError(f"c2d must be a callable c2d(q), got {type(c2d).__name__}")
+    c2d = callable_spectrum("c2d", c2d)
     with doubles(q=float(wavenumber.max(initial=0.0)), edges=str(ends), contact_radius=contact_radius):
         flat = 0.0 if contact_radius == math.inf else 1 / contact_radius**2
         held(flat, ends[-1] ** 2)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.approach_by_sorting import borne_by
-from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
+from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive, stiffness_of_springs
 from mdr.diagnostics import Diagnostic, diagnose_units, diagnose_wheel, warn
 from mdr.elliptic_wheel import SpringWheel, spring_wheel
 from mdr.rolling import smooth_approach
@@ -23,8 +23,8 @@ MOST_SPRINGS = 2**20
 def roll_surface(
     height: ArrayLike,
     *,
-    spacing: float | tuple[float, float],
-    radius: float | tuple[float, float],
+    spacing: OneOrTwo,
+    radius: OneOrTwo,
     modulus: float,
     approach: float | None = None,
     force: float | None = None,

@@ -13,7 +13,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
-from mdr.checks import FloatArray, Spectrum, count, density, doubles, finite, finite_array, held, positive
+from mdr.checks import (
+    FloatArray,
+    Spectrum,
+    callable_spectrum,
+    count,
+    density,
+    doubles,
+    finite,
+    finite_array,
+    held,
+    positive,
+)
 
 # The wave at q_min = 2 pi / L carries most of the height; rounding must not push it out of the band.
 BAND_TOLERANCE = 1e-9
@@ -258,6 +269,8 @@ def _largest(values: FloatArray) -> float:
 
 
 def _values(name: str, given: ArrayLike | Spectrum, q: FloatArray) -> FloatArray:
+    if hasattr(given, name):
+        given = callable_spectrum(name, given)
     values = density(name, given(q) if callable(given) else given)
     try:
         np.broadcast_shapes(values.shape, q.shape)
