@@ -61,6 +61,13 @@ def count(name: str, value: object, *, least: int = 1) -> int:
     return int(value)
 
 
+def boolean(name: str, value: object) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, got {value!r}")
+    return bool(value)
+
+
 def grid_shape(shape: object) -> tuple[int, int]:
     """Cells along both axes."""
     if not isinstance(shape, (Sequence, np.ndarray)) or isinstance(shape, str) or len(shape) != 2:

@@ -10,7 +10,7 @@ import numpy as np
 
 from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
-from bem3d.diagnostics import Diagnostic, diagnose_pressure, diagnose_units
+from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units
 from bem3d.problem import Problem
 from bem3d.read_only import ReadOnly
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
@@ -99,8 +99,19 @@ class Contact(ReadOnly):
         return len(self.history) - 1
 
     @property
-    def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """Category and sentence of each warning about a converged contact."""
+    def warnings(self) -> tuple[str, ...]:
+        """What is warned of, with its numbers, if this contact has converged."""
+        return tuple(warning.detail for warning in self.diagnose())
+
+    @property
+    def diagnostics(self) -> tuple[tuple[type[ContactWarning], str], ...]:
+        """Category and sentence of each of the `warnings`."""
+        return tuple((type(warning), warning.detail) for warning in self.diagnose())
+
+    doubts = diagnostics  # name of 0.1, for one release
+
+    def diagnose(self) -> tuple[ContactWarning, ...]:
+        """The warnings that `solve` gives."""
         half_space, cells = self.problem.half_space, int(np.count_nonzero(self.pressure))
         units = diagnose_units(
             pressure=float(self.pressure.sum()) / max(cells, 1),
@@ -108,9 +119,8 @@ class Contact(ReadOnly):
             approach=self.approach - self.problem.first_touch if cells else 0.0,
             side=max(n * step for n, step in zip(half_space.shape, half_space.steps, strict=True)),
         )
-        return (*diagnose_pressure(self.pressure, periodic=half_space.periodic), *units)
-
-    doubts = diagnostics  # name of 0.1, for one release
+        edge = not (half_space.periodic or self.problem.indenter_ends_at_edge)
+        return (*diagnose_pressure(self.pressure, edge=edge), *units)
 
     @property
     def converged(self) -> bool:

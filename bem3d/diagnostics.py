@@ -18,13 +18,23 @@ HIGHEST_PRESSURE = 0.1
 class ContactWarning(UserWarning):
     """A contact may not be the one that was meant.
 
-    The base class of the warnings of `bem3d`: the problem was solved as it was given.
+    The base class of the warnings of `bem3d`: the problem was solved as it was given. The text has no numbers of the
+    solve, so that Python shows it once for each line of a script, however often that runs.
+
+    Attributes
+    ----------
+    detail : str
+        The same with its numbers. `Contact.warnings` has them of all solves.
 
     Examples
     --------
     >>> issubclass(bem3d.EdgeWarning, bem3d.ContactWarning)
     True
     """
+
+    def __init__(self, text: str = "", detail: str = ""):
+        super().__init__(text)
+        self.detail = detail or text
 
 
 class ResolutionWarning(ContactWarning):
@@ -44,7 +54,9 @@ class ResolutionWarning(ContactWarning):
 
 
 class EdgeWarning(ContactWarning):
-    """The contact reaches the edge of a grid in free space. It may be ignored for a punch that ends there.
+    """The contact reaches the edge of a grid in free space.
+
+    A punch that ends there says so by ``indenter_ends_at_edge=True``, and is not warned of.
 
     Examples
     --------
@@ -69,22 +81,19 @@ class UnitsWarning(ContactWarning):
     """
 
 
-Diagnostic = tuple[type[ContactWarning], str]
-
-
-def diagnose_pressure(pressure: FloatArray, *, periodic: bool) -> tuple[Diagnostic, ...]:
-    """Diagnostics of a pressure and its contact set.
+def diagnose_pressure(pressure: FloatArray, *, edge: bool) -> tuple[ContactWarning, ...]:
+    """Diagnostics of a pressure and its contact set; edge: whether the surface goes on there, out of the grid.
 
     A flat punch of N < 32 cells is too soft by about 0.3 / sqrt(N), measured on squares: that
     error remains where the cells in contact are the right ones. For a handful of cells even that is unknown.
     """
     contact = pressure > 0
     cells = int(np.count_nonzero(contact))
-    found = list(_diagnose_spike(pressure) if cells >= FEWEST_CELLS else ())
+    found: list[ContactWarning] = list(_diagnose_spike(pressure) if cells >= FEWEST_CELLS else ())
     if 0 < cells < FEWEST_CELLS:
         found.append(
-            (
-                ResolutionWarning,
+            ResolutionWarning(
+                f"fewer than {FEWEST_CELLS} cells in contact: refine the grid",
                 f"only {cells} cell{'s' * (cells != 1)} in contact: "
                 + (
                     "the answer is that of the grid, not of the surface"
@@ -95,18 +104,19 @@ def diagnose_pressure(pressure: FloatArray, *, periodic: bool) -> tuple[Diagnost
             )
         )
     inner = int(np.count_nonzero(contact[1:-1, 1:-1]))
-    if not periodic and cells > inner:
+    if edge and cells > inner:
         found.append(
-            (
-                EdgeWarning,
+            EdgeWarning(
+                "the contact reaches the edge of the grid, beyond which nothing carries: widen the grid, or give "
+                "indenter_ends_at_edge=True if the indenter ends there",
                 f"{cells - inner} of {cells} contact cells lie on the edge of the grid, beyond which nothing carries: "
-                "widen the grid, unless the indenter ends there",
+                "widen the grid, or give indenter_ends_at_edge=True if the indenter ends there",
             )
         )
     return tuple(found)
 
 
-def _diagnose_spike(pressure: FloatArray) -> tuple[Diagnostic, ...]:
+def _diagnose_spike(pressure: FloatArray) -> tuple[ContactWarning, ...]:
     """The cell of the highest pressure, if it touches alone, open all around, and carries half of the force.
 
     An asperity of one cell is as stiff as the cell, whatever the surface is there: 0.891 E* dx, by Love. What it
@@ -121,56 +131,61 @@ def _diagnose_spike(pressure: FloatArray) -> tuple[Diagnostic, ...]:
     if np.count_nonzero(around) > 1 or not part > MOST_ALONE:
         return ()
     return (
-        (
-            ResolutionWarning,
+        ResolutionWarning(
+            "one cell that touches alone carries most of the force: check its height, or refine the grid",
             f"cell ({i}, {j}), which touches alone, carries {part:.0%} of the force: the answer is that of the grid; "
             f"check its height, or refine the grid (up to {MOST_ALONE:.0%} is not warned of)",
         ),
     )
 
 
-def diagnose_units(*, pressure: float, modulus: float, approach: float, side: float) -> tuple[Diagnostic, ...]:
+def diagnose_units(*, pressure: float, modulus: float, approach: float, side: float) -> tuple[ContactWarning, ...]:
     """Diagnostics of a mean pressure under an E* [Pa], and an approach from the first touch on a grid [m]."""
-    found = []
+    causes, found = [], []
     if modulus != 1 and pressure > HIGHEST_PRESSURE * modulus:
+        causes.append(f"the mean pressure is above {HIGHEST_PRESSURE:g} E*")
         found.append(
             f"the mean pressure is {pressure / modulus:.2g} E* (up to {HIGHEST_PRESSURE:g} E* is not asked about)"
         )
     if approach > side:
+        causes.append("the approach beyond the first touch is more than the side of the grid")
         found.append(
             f"the approach beyond the first touch, {approach:.3g} m, is more than the side of the grid, {side:.3g} m"
         )
-    return ((UnitsWarning, f"{', and '.join(found)}: are the units right?"),) if found else ()
+    if not found:
+        return ()
+    return (UnitsWarning(*(f"{', and '.join(said)}: are the units right?" for said in (causes, found))),)
 
 
-def diagnose_sphere(cells: float) -> tuple[Diagnostic, ...]:
+def diagnose_sphere(cells: float) -> tuple[ContactWarning, ...]:
     """Diagnostics of a sphere whose smooth contact has so many cells, whatever roughness makes of it."""
     if cells >= FEWEST_CELLS:
         return ()
     return (
-        (
-            ResolutionWarning,
+        ResolutionWarning(
+            f"the contact of the smooth sphere has fewer than {FEWEST_CELLS} cells: refine the grid",
             f"the contact of the smooth sphere has only {cells:.2g} cells: refine the grid "
             f"({FEWEST_CELLS} cells or more are not warned of)",
         ),
     )
 
 
-def diagnose_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -> tuple[Diagnostic, ...]:
+def diagnose_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]) -> tuple[ContactWarning, ...]:
     """Diagnostics of a spectrum on a grid: values at the wavenumbers q, cells of these sides."""
     cells = 2 * math.pi / (float(q[values > 0].max(initial=0.0)) * max(steps)) if (values > 0).any() else math.inf
     if cells > FEWEST_CELLS_A_WAVE * (1 - 1e-9):
         return ()
     return (
-        (
-            ResolutionWarning,
+        ResolutionWarning(
+            f"the shortest wave of the spectrum has fewer than {FEWEST_CELLS_A_WAVE:.0f} cells: "
+            "lower q_max or refine the grid",
             f"the shortest wave of the spectrum has {cells:.2g} cells, fewer than {FEWEST_CELLS_A_WAVE:.0f}: "
             "lower q_max or refine the grid",
         ),
     )
 
 
-def warn(diagnostics: tuple[Diagnostic, ...]) -> None:
+def warn(diagnostics: tuple[ContactWarning, ...]) -> None:
     """Issue them as warnings of the caller of the public function that found them."""
-    for category, sentence in diagnostics:
-        warnings.warn(sentence, category, stacklevel=3)
+    for diagnostic in diagnostics:
+        warnings.warn(diagnostic, stacklevel=3)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from bem3d import kernel
-from bem3d.checks import FloatArray, OneOrTwo, field, grid_shape, grid_spacing, positive
+from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import Convolution, PlainConvolution, Planning, padded_convolution
 
 KEEPING = threading.Lock()
@@ -71,8 +71,7 @@ class HalfSpace:
         object.__setattr__(self, "shape", grid_shape(self.shape))
         object.__setattr__(self, "spacing", grid_spacing(self.spacing))
         object.__setattr__(self, "modulus", positive("modulus", self.modulus))
-        if not isinstance(self.periodic, (bool, np.bool_)):
-            raise TypeError(f"periodic must be True or False, got {self.periodic!r}")
+        boolean("periodic", self.periodic)
         if self.planning not in ("estimate", "measure"):
             raise ValueError(f'planning must be "estimate" or "measure", got {self.planning!r}')
 

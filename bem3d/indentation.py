@@ -29,6 +29,7 @@ def indent(
     approaches: Loads | None = None,
     forces: Loads | None = None,
     stiffness: bool = False,
+    indenter_ends_at_edge: bool = False,
     tolerance: float = 1e-6,
     max_iterations: int = 500,
     raise_on_failure: bool = True,
@@ -44,7 +45,7 @@ def indent(
     stiffness : bool, optional
         Whether each contact stores its ``frozen`` contact area, whose stiffness is good to about 1e-7. It costs about
         half as many operator applications as the contact itself, and saves a few of the next one's.
-    tolerance, max_iterations, raise_on_failure
+    indenter_ends_at_edge, tolerance, max_iterations, raise_on_failure
         As in `solve`.
 
     Yields
@@ -63,7 +64,7 @@ def indent(
     Warns
     -----
     ResolutionWarning, EdgeWarning, UnitsWarning
-        As `solve`, once of a kind, at the first load that gives cause. ``Contact.diagnostics`` has them for each.
+        As `solve`, once of a kind and cause, at the first load that gives it. ``Contact.warnings`` has them for each.
 
     Examples
     --------
@@ -73,7 +74,7 @@ def indent(
     >>> [f"{contact.stiffness():.3g} N/m" for contact in contacts]
     ['9.01e+07 N/m', '1.26e+08 N/m']
     """
-    problems = _problems(half_space, gap, approaches, forces)
+    problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     return _path(problems, stiffness, tolerance, max_iterations, raise_on_failure)
 
@@ -83,6 +84,7 @@ def _problems(
     gap: ArrayLike,
     approaches: Loads | None,
     forces: Loads | None,
+    indenter_ends_at_edge: bool,
 ) -> list[Problem]:
     """One a load, checked before the first is solved."""
     if (approaches is None) == (forces is None):
@@ -94,7 +96,9 @@ def _problems(
     accepted = finite if forces is None else not_negative
     first, *others = [accepted(f"{name}[{i}]", value) for i, value in enumerate(values.tolist())]
     prescribed = {"approach": first} if forces is None else {"force": first}
-    begin = Problem(half_space=half_space, gap=cast(FloatArray, gap), **prescribed)
+    begin = Problem(
+        half_space=half_space, gap=cast(FloatArray, gap), indenter_ends_at_edge=indenter_ends_at_edge, **prescribed
+    )
     return [begin, *(begin.under(value) for value in others)]
 
 
@@ -102,7 +106,7 @@ def _path(
     problems: list[Problem], stiffness: bool, tolerance: float, max_iterations: int, raise_on_failure: bool
 ) -> Iterator[Contact]:
     past: tuple[Contact, ...] = ()
-    warned: set[object] = set()
+    warned: set[str] = set()
     frozen: FixedContactArea | None = None
     for problem in problems:
         contact = solve_checked(problem, _predicted(problem, past), tolerance, max_iterations)
@@ -118,8 +122,9 @@ def _path(
                 raise_on_failure=raise_on_failure,
             )
             contact = replace(contact, frozen=frozen)
-        warn(tuple(found for found in contact.diagnostics if found[0] not in warned))
-        warned |= {category for category, _ in contact.diagnostics}
+        found = contact.diagnose()
+        warn(tuple(warning for warning in found if str(warning) not in warned))
+        warned |= {str(warning) for warning in found}
         past = (*past[-1:], contact) if contact.converged else ()
         yield contact
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bem3d.checks import FloatArray, field, finite, not_negative
+from bem3d.checks import FloatArray, boolean, field, finite, not_negative
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 
@@ -23,6 +23,8 @@ class Problem(ReadOnly):
         Rigid approach, of any sign [m]. Give either ``approach`` or ``force``.
     force : float, optional
         Normal force, zero or positive [N].
+    indenter_ends_at_edge : bool, optional
+        Whether the indenter is a punch that ends where its grid does. It is not warned of, and changes no result.
 
     Raises
     ------
@@ -46,12 +48,14 @@ class Problem(ReadOnly):
     gap: FloatArray
     approach: float | None = None
     force: float | None = None
+    indenter_ends_at_edge: bool = False
 
     def __post_init__(self) -> None:
         if not isinstance(self.half_space, HalfSpace):
             raise TypeError(f"half_space must be a bem3d.HalfSpace, got {type(self.half_space).__name__}")
         # a result carries the problem it answers, whatever the caller does with the array afterwards
         object.__setattr__(self, "gap", kept(field("gap", self.gap, self.half_space.shape)))
+        boolean("indenter_ends_at_edge", self.indenter_ends_at_edge)
         self._check_load()
 
     def _check_load(self) -> None:

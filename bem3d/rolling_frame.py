@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray, IndexArray, OneOrTwo, grid_spacing, positive, positive_pair, strip
-from bem3d.diagnostics import Diagnostic, diagnose_sphere, diagnose_units
+from bem3d.diagnostics import ContactWarning, diagnose_sphere, diagnose_units
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 from bem3d.smooth_wheel import SmoothContact, smooth_contact
@@ -136,7 +136,7 @@ class Track(ReadOnly):
         first, last = max(math.ceil(middle) - across, 0), min(math.floor(middle) + 1 + across, ny)
         return (-ahead, ahead + 1), (first, last)
 
-    def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
+    def diagnose(self, approach: float) -> tuple[ContactWarning, ...]:
         """Diagnostics of the contact of the smooth wheel, F / (pi a b) on average by Hertz."""
         (nx, ny), (dx, dy), smooth = self.height.shape, self.steps, self.smooth
         area = math.pi * math.sqrt(smooth.along * smooth.across) * approach

@@ -30,6 +30,7 @@ def solve(
     approach: float | None = None,
     force: float | None = None,
     start: Contact | ArrayLike | None = None,
+    indenter_ends_at_edge: bool = False,
     tolerance: float = 1e-6,
     max_iterations: int = 500,
     raise_on_failure: bool = True,
@@ -47,6 +48,8 @@ def solve(
         approach counts from where the gap is zero, periodic from the mean plane of the deformed surface.
     start : Contact or array_like, shape of the half-space, optional
         A previous contact, or a pressure, to begin with [Pa].
+    indenter_ends_at_edge : bool, optional
+        Whether the indenter is a punch that ends where its grid does. It is not warned of, and changes no result.
     tolerance : float, optional
         `residual` to reach, in (0, 1).
     max_iterations : int, optional
@@ -77,10 +80,16 @@ def solve(
     >>> print(f"{contact.force:.1f} N, by Hertz {4 / 3 * 1e11 * np.sqrt(0.1) * 5e-6**1.5:.1f} N")
     471.5 N, by Hertz 471.4 N
     """
-    problem = Problem(half_space=half_space, gap=cast(FloatArray, gap), approach=approach, force=force)
+    problem = Problem(
+        half_space=half_space,
+        gap=cast(FloatArray, gap),
+        approach=approach,
+        force=force,
+        indenter_ends_at_edge=indenter_ends_at_edge,
+    )
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     contact = solve_checked(problem, _start(start, problem), tolerance, max_iterations)
-    warn(contact.diagnostics)
+    warn(contact.diagnose())
     return raise_if_failed(contact) if raise_on_failure else contact
 
 

@@ -16,13 +16,24 @@ LARGEST_PART = 0.1
 class SpringContactWarning(UserWarning):
     """A result of springs may not be the one that was meant.
 
-    The base class of the warnings of `mdr`: the problem was solved as it was given. ``mdr.ContactWarning`` in 0.1.
+    The base class of the warnings of `mdr`: the problem was solved as it was given. The text has no numbers of the
+    call, so that Python shows it once for each line of a script, however often that runs. ``mdr.ContactWarning`` in
+    0.1.
+
+    Attributes
+    ----------
+    detail : str
+        The same with its numbers.
 
     Examples
     --------
     >>> issubclass(mdr.LinearityWarning, mdr.SpringContactWarning)
     True
     """
+
+    def __init__(self, text: str = "", detail: str = ""):
+        super().__init__(text)
+        self.detail = detail or text
 
 
 class SpringResolutionWarning(SpringContactWarning):
@@ -73,15 +84,12 @@ class SpringUnitsWarning(SpringContactWarning):
     >>> with warnings.catch_warnings(record=True) as found:
     ...     warnings.simplefilter("always")
     ...     contact = mdr.press_sphere(radius=0.01, modulus=200, force=100.0)
-    >>> str(found[0].message)
+    >>> found[0].message.detail
     'the radius of contact is 15.5 times that of the sphere: are the units right?'
     """
 
 
-Diagnostic = tuple[type[SpringContactWarning], str]
-
-
-def diagnose_load(pressed: NDArray[np.integer], springs: int) -> tuple[Diagnostic, ...]:
+def diagnose_load(pressed: NDArray[np.integer], springs: int) -> tuple[SpringContactWarning, ...]:
     """Diagnostics of loads that press so many of all springs.
 
     A stretch of contact of length l holds l / dx springs, rounded up or down: of n springs in one stretch the stiffness
@@ -95,38 +103,41 @@ def diagnose_load(pressed: NDArray[np.integer], springs: int) -> tuple[Diagnosti
     where = f" at {np.count_nonzero(few)} of {few.size} loads, at the lightest" if few.size > 1 else ""
     error = "the answer is that of the spacing, not of the profile" if fewest == 1 else f"k may be {1 / fewest:.0%} off"
     return (
-        (
-            SpringResolutionWarning,
+        SpringResolutionWarning(
+            f"fewer than {FEWEST_SPRINGS} springs in contact: take more springs",
             f"only {fewest} spring{'s' * (fewest != 1)} in contact{where}: {error}; take more springs "
             f"({FEWEST_SPRINGS} or more in contact are not warned of)",
         ),
     )
 
 
-def diagnose_wheel(springs: float) -> tuple[Diagnostic, ...]:
+def diagnose_wheel(springs: float) -> tuple[SpringContactWarning, ...]:
     """Diagnostics of a wheel whose smooth contact 2 a is so many springs long."""
     if springs >= FEWEST_SPRINGS * (1 - 1e-9):
         return ()
     return (
-        (
-            SpringResolutionWarning,
+        SpringResolutionWarning(
+            f"the contact of the smooth wheel has fewer than {FEWEST_SPRINGS} springs: take more",
             f"the contact of the smooth wheel has only {springs:.2g} springs: take more "
             f"({FEWEST_SPRINGS} or more are not warned of)",
         ),
     )
 
 
-def diagnose_units(*, approach: float, radius: float) -> tuple[Diagnostic, ...]:
+def diagnose_units(*, approach: float, radius: float) -> tuple[SpringContactWarning, ...]:
     """Diagnostics of a smooth sphere: a contact, a = sqrt(R d), of a radius above its own."""
     if approach <= radius:
         return ()
     part = math.sqrt(approach) / math.sqrt(radius)
     return (
-        (SpringUnitsWarning, f"the radius of contact is {part:.3g} times that of the sphere: are the units right?"),
+        SpringUnitsWarning(
+            "the radius of contact is above that of the sphere: are the units right?",
+            f"the radius of contact is {part:.3g} times that of the sphere: are the units right?",
+        ),
     )
 
 
-def diagnose_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[Diagnostic, ...]:
+def diagnose_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[SpringContactWarning, ...]:
     """Diagnostics of a spectrum on springs: values at the wavenumbers q.
 
     Springs a part 1 / n of a wave apart sum its force with an error of (pi / n) / sin(pi / n), 0.9 dB where n = 4.
@@ -136,8 +147,9 @@ def diagnose_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[D
     if springs >= FEWEST_SPRINGS_A_WAVE * (1 - 1e-9):
         return ()
     return (
-        (
-            SpringResolutionWarning,
+        SpringResolutionWarning(
+            f"the shortest wave of the spectrum has fewer than {FEWEST_SPRINGS_A_WAVE:.0f} springs: "
+            "lower q_max or take more points",
             f"the shortest wave of the spectrum has {springs:.2g} springs, fewer than {FEWEST_SPRINGS_A_WAVE:.0f}: "
             "lower q_max or take more points",
         ),
@@ -146,7 +158,7 @@ def diagnose_waves(values: FloatArray, q: FloatArray, spacing: float) -> tuple[D
 
 def diagnose_linearity(
     height: FloatArray, change: FloatArray, *, approach: float, reach: int
-) -> tuple[Diagnostic, ...]:
+) -> tuple[SpringContactWarning, ...]:
     """Diagnostics of a contact that keeps its length 2 a under roughness.
 
     Roughness h at an end of the contact moves it by h R / (2 a): one-sided springs bear E* R h^2 / (4 a) more there, to
@@ -162,8 +174,8 @@ def diagnose_linearity(
     if not part > LARGEST_PART:
         return ()
     return (
-        (
-            LinearityWarning,
+        LinearityWarning(
+            "roughness moves the ends of the contact, which a linear one does not know: roll one-sided springs",
             f"roughness of h_rms / d = {float(height.std()) / approach:.2g} moves the ends of the contact, which a "
             f"linear one does not know: to second order {part:.0%} of the fluctuation of its force; roll one-sided "
             f"springs ({LARGEST_PART:.0%} or less are not warned of)",
@@ -171,7 +183,7 @@ def diagnose_linearity(
     )
 
 
-def warn(diagnostics: tuple[Diagnostic, ...]) -> None:
+def warn(diagnostics: tuple[SpringContactWarning, ...]) -> None:
     """Issue them as warnings of the caller of the public function that found them."""
-    for category, sentence in diagnostics:
-        warnings.warn(sentence, category, stacklevel=3)
+    for diagnostic in diagnostics:
+        warnings.warn(diagnostic, stacklevel=3)

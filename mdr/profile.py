@@ -13,7 +13,7 @@ import numpy as np
 
 from mdr.checks import FloatArray, Spectrum, callable_spectrum, density, doubles, held, positive
 from mdr.checks import count as whole
-from mdr.diagnostics import Diagnostic, diagnose_waves, warn
+from mdr.diagnostics import SpringContactWarning, diagnose_waves, warn
 from mdr.memory import fits
 
 BYTES_A_POINT = 40
@@ -149,7 +149,7 @@ def _check_draw(rng: object, amplitudes: str) -> None:
 
 def _amplitudes(
     c1d: Spectrum, length: float, points: int, rms: float | None
-) -> tuple[FloatArray, np.ndarray, tuple[Diagnostic, ...]]:
+) -> tuple[FloatArray, np.ndarray, tuple[SpringContactWarning, ...]]:
     """B(q) of the waves that the points can carry, which of them is its own mirror image, and diagnostics."""
     mode = np.arange(1, points // 2 + 1)
     with doubles(length=length, points=points):

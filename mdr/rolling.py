@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive
-from mdr.diagnostics import Diagnostic, diagnose_linearity, warn
+from mdr.diagnostics import SpringContactWarning, diagnose_linearity, warn
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling_track import RollingTrack
 from mdr.spring_track import SpringTrack
@@ -145,7 +145,7 @@ def _track(height: ArrayLike, spacing: float, radius: OneOrTwo, modulus: float) 
 
 def _within_doubles(
     track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
-) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
+) -> tuple[RollingTrack, tuple[SpringContactWarning, ...]]:
     """`_rolled`; ValueError where its numbers are too large or too small."""
     load = {"force": force} if approach is None else {"approach": approach}
     given = {"height": float(np.abs(track.height).max()), "spacing": track.spacing, "radius": track.radius}
@@ -159,7 +159,7 @@ def _within_doubles(
 
 def _rolled(
     track: SpringTrack, approach: float | ArrayLike | None, force: float | None, contact: Contact
-) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
+) -> tuple[RollingTrack, tuple[SpringContactWarning, ...]]:
     """`roll`, and its diagnostics."""
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from mdr.approach_by_sorting import borne_by
 from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive, stiffness_of_springs
-from mdr.diagnostics import Diagnostic, diagnose_units, diagnose_wheel, warn
+from mdr.diagnostics import SpringContactWarning, diagnose_units, diagnose_wheel, warn
 from mdr.elliptic_wheel import SpringWheel, spring_wheel
 from mdr.rolling import smooth_approach
 from mdr.rolling_track import RollingTrack
@@ -84,7 +84,7 @@ def roll_surface(
 
 def _rolled(
     heights: FloatArray, steps: tuple[float, float], wheel: SpringWheel, approach: float | None, force: float | None
-) -> tuple[RollingTrack, tuple[Diagnostic, ...]]:
+) -> tuple[RollingTrack, tuple[SpringContactWarning, ...]]:
     (points, across), (dx, dy) = heights.shape, steps
     spring = stiffness_of_springs("spacing", wheel.modulus, dx)
     if force is None:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, finite_array, positive, stiffness_of_springs
-from mdr.diagnostics import Diagnostic, diagnose_units, diagnose_wheel
+from mdr.diagnostics import SpringContactWarning, diagnose_units, diagnose_wheel
 
 MOST_SPRINGS = 2**28
 """To each side of a wheel: more would take gigabytes and hours."""
@@ -27,7 +27,7 @@ class SpringTrack:
         """Springs of the track."""
         return self.height.size
 
-    def diagnose(self, approach: float) -> tuple[Diagnostic, ...]:
+    def diagnose(self, approach: float) -> tuple[SpringContactWarning, ...]:
         """Diagnostics of the contact of the smooth wheel."""
         if not approach > 0:
             return ()

@@ -1,5 +1,6 @@
 """Warnings, with numbers, of what a converged answer may still be wrong about."""
 
+import pickle
 import warnings
 
 import numpy as np
@@ -22,7 +23,7 @@ def said(function, *args, **settings):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         result = function(*args, **settings)
-    return result, [(w.category, str(w.message), w.filename) for w in caught]
+    return result, [(w.category, w.message.detail, w.filename) for w in caught]
 
 
 def test_few_cells():
@@ -149,7 +150,10 @@ def test_warnings_of_units_are_beyond_their_thresholds_alone(modulus, pressure, 
     """A modulus of one is the unit of pressure."""
     found = diagnostics.diagnose_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
     assert len(found) == (parts > 0)
-    assert sum(word in str(found) for word in ("mean pressure", "side of the grid")) == parts
+    assert (
+        sum(word in str([warning.detail for warning in found]) for word in ("mean pressure", "side of the grid"))
+        == parts
+    )
 
 
 GRID = "; refine the grid (32 cells or more are not warned of)"
@@ -171,24 +175,24 @@ def test_warning_of_few_cells_has_their_number(cells, sentence):
     inner = np.zeros(64)
     inner[:cells] = 1.0
     pressure[1:9, 1:9] = inner.reshape(8, 8)
-    found = diagnostics.diagnose_pressure(pressure, periodic=False)
-    assert [said for _, said in found] == ([] if sentence is None else [sentence + GRID])
+    found = diagnostics.diagnose_pressure(pressure, edge=True)
+    assert [warning.detail for warning in found] == ([] if sentence is None else [sentence + GRID])
 
 
 def test_warning_of_cells_at_the_edge_has_their_number():
     pressure = np.ones((10, 6))
     pressure[3:5, 2] = 0.0
-    assert diagnostics.diagnose_pressure(pressure, periodic=False)[0][1] == (
+    assert diagnostics.diagnose_pressure(pressure, edge=True)[0].detail == (
         "28 of 58 contact cells lie on the edge of the grid, beyond which nothing carries: "
-        "widen the grid, unless the indenter ends there"
+        "widen the grid, or give indenter_ends_at_edge=True if the indenter ends there"
     )
-    assert diagnostics.diagnose_pressure(pressure, periodic=True) == ()
+    assert diagnostics.diagnose_pressure(pressure, edge=False) == ()
 
 
 @pytest.mark.parametrize(("cells", "warned"), [(31.9, True), (32.0, False)])
 def test_warning_of_a_small_sphere_has_its_cells(cells, warned):
     said = "the contact of the smooth sphere has only 32 cells: refine the grid (32 cells or more are not warned of)"
-    assert [sentence for _, sentence in diagnostics.diagnose_sphere(cells)] == [said] * warned
+    assert [warning.detail for warning in diagnostics.diagnose_sphere(cells)] == [said] * warned
 
 
 @pytest.mark.parametrize(("short", "warned"), [(0.9e-9, 0), (1.1e-9, 1), (1.9e-9, 1)])
@@ -203,4 +207,74 @@ def test_a_spike_may_carry_half_of_the_force(height, warned):
     """Beside 32 cells of a unit each."""
     pressure = np.zeros((12, 12))
     pressure[1:5, 1:9], pressure[8, 8] = 1.0, height
-    assert len(diagnostics.diagnose_pressure(pressure, periodic=False)) == warned
+    assert len(diagnostics.diagnose_pressure(pressure, edge=True)) == warned
+
+
+def shown(call):
+    """Texts that Python's default filter shows of a call."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.resetwarnings()
+        call()
+    return [str(w.message) for w in caught]
+
+
+def test_a_loop_is_warned_once_of_a_cause():
+    """The numbers change from load to load, the text does not; the numbers are with the contacts."""
+    contacts = []
+
+    def loop():
+        for force in (0.01, 0.02, 0.04):
+            contacts.append(bem3d.solve(BODY, bowl(1), force=force))
+
+    edge = "the contact reaches the edge of the grid, beyond which nothing carries: widen the grid, or give "
+    assert shown(loop) == [
+        "fewer than 32 cells in contact: refine the grid",
+        edge + "indenter_ends_at_edge=True if the indenter ends there",
+    ]
+    assert len({contact.warnings[0] for contact in contacts}) > 1
+    assert contacts[0].warnings == tuple(sentence for _, sentence in contacts[0].diagnostics)
+
+
+def test_rolling_and_drawing_are_warned_of_once():
+    def loop():
+        for i in range(3):
+            radius = 1.0 + i / 10
+            bem3d.roll(np.zeros((16, 16)), spacing=1.0, radius=radius, modulus=1.0, approach=1.0, positions=1)
+            bem3d.rough_surface(
+                lambda q, last=2.0 + radius / 10: np.where(q < last, 1.0, 0.0),
+                shape=(16, 16),
+                spacing=1.0,
+                rng=np.random.default_rng(0),
+            )
+
+    assert shown(loop) == [
+        "the contact of the smooth sphere has fewer than 32 cells: refine the grid",
+        "the shortest wave of the spectrum has fewer than 4 cells: lower q_max or refine the grid",
+    ]
+
+
+def test_a_path_tells_each_cause_once():
+    """A spike and few cells are both of the resolution."""
+    gap = bowl(12) * np.ones((24, 24))
+    gap[5, 12] -= 6.0
+    _, found = said(lambda: list(bem3d.indent(BODY, gap, forces=[0.01, 0.02, 8.0, 8.1])))
+    assert [sentence.partition(" ")[0] for _, sentence, _ in found] == ["only", "cell"]
+
+
+@pytest.mark.parametrize("ends", [False, True])
+def test_a_punch_may_end_where_its_grid_does(ends):
+    """Told so, it is not warned of; every bit is the same."""
+    flat = np.zeros((24, 24))
+    contact, found = said(bem3d.solve, BODY, flat, force=1.0, indenter_ends_at_edge=ends)
+    assert [category for category, _, _ in found] == [bem3d.EdgeWarning] * (not ends)
+    (step,), on_path = said(lambda: list(bem3d.indent(BODY, flat, forces=[1.0], indenter_ends_at_edge=ends)))
+    assert [category for category, _, _ in on_path] == [bem3d.EdgeWarning] * (not ends)
+    assert (step.pressure == contact.pressure).all()
+    assert (contact.pressure == said(bem3d.solve, BODY, flat, force=1.0)[0].pressure).all()
+    with pytest.raises(TypeError, match="indenter_ends_at_edge must be True or False, got 1"):
+        bem3d.solve(BODY, flat, force=1.0, indenter_ends_at_edge=1)
+
+
+def test_a_warning_of_ones_own_and_its_copy():
+    warning = pickle.loads(pickle.dumps(bem3d.EdgeWarning("text", "text with 3")))
+    assert (str(warning), warning.detail, bem3d.ContactWarning("alone").detail) == ("text", "text with 3", "alone")

@@ -126,7 +126,7 @@ def test_recorded_messages_are_those_of_the_code(result):
     body, gap = spheres.half_space(8, 1 / 1.2), spheres.sphere(8, 1 / 1.2, 0.0625)
     with pytest.warns(bem3d.ResolutionWarning) as caught:
         bem3d.solve(body, gap, approach=1.0)
-    assert found(result, "cells").messages[2] == f"ResolutionWarning: {caught[0].message}"
+    assert found(result, "cells").messages[2] == f"ResolutionWarning: {caught[0].message.detail}"
     with pytest.raises(ValueError, match="time_step") as refused:
         simulate(WHEEL, HertzLaw(WHEEL), time_step=3.0 / WHEEL.eigenfrequency, steps=1)
     assert found(result, "step").messages[-1] == f"ValueError: {refused.value}"

@@ -1,7 +1,5 @@
 """A load path: each contact begins with the one before it, and its stiffness is the slope of the load curve."""
 
-import warnings
-
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -14,8 +12,8 @@ surface = bem3d.rough_surface(rough.c2d, shape=(n, n), spacing=side / n, rng=np.
 half_space = bem3d.HalfSpace(shape=(n, n), spacing=side / n, modulus=modulus)
 
 approaches = np.linspace(-0.5 * h, 2.5 * h, 61)
-warnings.simplefilter("ignore", bem3d.EdgeWarning)  # the punch ends where its grid does
-path = list(bem3d.indent(half_space, -surface, approaches=approaches, stiffness=True, tolerance=1e-8))
+punch = {"indenter_ends_at_edge": True, "tolerance": 1e-8}
+path = list(bem3d.indent(half_space, -surface, approaches=approaches, stiffness=True, **punch))
 force = np.array([contact.force for contact in path])
 stiffness = np.array([contact.stiffness() for contact in path])
 

@@ -165,4 +165,4 @@ def call_and_record_warnings(call: Callable[[], T]) -> tuple[T | None, str]:
         except REFUSALS as error:
             return None, f"{type(error).__name__}: {error}"
     given = [w for w in caught if not issubclass(w.category, (mdr.SpringUnitsWarning, bem3d.UnitsWarning))]
-    return answer, "; ".join(f"{w.category.__name__}: {w.message}" for w in given)
+    return answer, "; ".join(f"{w.category.__name__}: {getattr(w.message, 'detail', w.message)}" for w in given)
