@@ -12,8 +12,11 @@ surface = bem3d.rough_surface(rough.c2d, shape=(n, n), spacing=side / n, rng=np.
 half_space = bem3d.HalfSpace(shape=(n, n), spacing=side / n, modulus=modulus)
 
 approaches = np.linspace(-0.5 * h, 2.5 * h, 61)
-punch = {"indenter_ends_at_edge": True, "tolerance": 1e-8}
-path = list(bem3d.indent(half_space, -surface, approaches=approaches, stiffness=True, **punch))
+path = list(
+    bem3d.indent(
+        half_space, -surface, approaches=approaches, stiffness=True, indenter_ends_at_edge=True, tolerance=1e-8
+    )
+)
 force = np.array([contact.force for contact in path])
 stiffness = np.array([contact.stiffness() for contact in path])
 
