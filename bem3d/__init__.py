@@ -5,7 +5,6 @@ All lengths are in metres, forces in newtons; ``modulus`` is always the contact 
 """
 
 import sys
-from importlib import import_module
 from typing import TYPE_CHECKING
 
 from bem3d.contact import Contact, Status, residual
@@ -66,5 +65,7 @@ else:
     def __getattr__(name: str) -> str:
         """The version, from what pip has installed; read on first use, since that takes longer than it is worth."""
         if name == "__version__":
-            return import_module("importlib.metadata").version("mdr-validation")
+            from importlib import metadata
+
+            return metadata.version("mdr-validation")
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=sys.modules[__name__])

@@ -17,7 +17,11 @@ DOCS = ROOT / "reports" / "docs"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
 NAMED = {name for page in PAGES.values() for name in re.findall(r"\{py:\w+\}`(?:[^`<]*<)?~?([\w.]+)>?`", page)}
 THEORY = Path(validation.__file__).parent / "theory"
-HELPERS = {"validation.theory.closed_forms.positive", "validation.theory.transverse_structure.gauss"}
+HELPERS = {
+    "validation.theory.closed_forms.positive",
+    "validation.theory.gauss_legendre.gauss_legendre",
+    "validation.theory.transverse_structure.gauss",
+}
 METHODS = {
     *("mdr.geike", "mdr.line_trace", "mdr.load_curve", "mdr.rough_profile", "mdr.roll", "mdr.roll_surface"),
     *("mdr.rolling_spectrum", "mdr.sphere_profile", "mdr.stiffness_under", "mdr.press_sphere", "mdr.SelfAffine"),

@@ -3,11 +3,11 @@
 import functools
 
 from tests.engine import test_engine as test_ensemble
-from validation.engine import engine as ensemble
+from validation.engine import sources
 
 FAULTS = {
     "results of other libraries": (
-        (ensemble, "LIBRARIES", ("numpy",)),
+        (sources, "LIBRARIES", ("numpy",)),
         functools.partial(test_ensemble.test_another_version_of_a_library_is_another_version_of_the_numerics, "scipy"),
     ),
 }

@@ -9,7 +9,7 @@ from tests.report import test_answers, test_claims, test_figure_lines, test_prin
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.cases.punch import fractal_punch_text
-from validation.report import chapter, page, sounds
+from validation.report import chapter, formats, sounds
 from validation.report.answers import cells, words
 from validation.report.figures import rolling as rolling_figure
 
@@ -51,7 +51,7 @@ FAULTS = {
         test_sounds.test_files_differ_by_the_level_of_the_forces,
     ),
     "a contradicted claim under a green badge": (
-        (page, "format_status", green_by_its_criteria),
+        (formats, "format_status", green_by_its_criteria),
         functools.partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),
     ),
     "a statement of the book answered by numbers of another model": (
@@ -67,7 +67,7 @@ FAULTS = {
         test_printed.test_verdicts_of_fig_14_1_are_in_per_cent,
     ),
     "two signs of verdicts exchanged": (
-        (page, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
+        (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
         test_printed.test_rows_of_the_page_are_their_numbers,
     ),
     "undecided read as agree": (

@@ -16,7 +16,7 @@ from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.cases.selection import edge_evidence
-from validation.engine import engine as ensemble
+from validation.engine.random_numbers import random_generator
 from validation.scenes import measured
 from validation.selection import compare, hierarchy, scene_model, side_by_side, summary
 from validation.simulation import calibration, rolling_claims, sampling
@@ -73,7 +73,7 @@ def mean_over_bands(ratios):
 
 
 def the_same_every_time(entropy, *key):
-    return ensemble.random_generator(entropy, *key[:-1], 0)
+    return random_generator(entropy, *key[:-1], 0)
 
 
 def of_unit_modulus(**settings):

@@ -69,6 +69,7 @@ def made(numbers=(), **tables):
             table.name = name
     return SimpleNamespace(
         table=lambda name: named[name.replace("_", "-").replace(" ", "-")],
+        has_table=lambda name: name.replace("_", "-") in named,
         tables=tuple(tables.values()),
         numbers=numbers,
     )

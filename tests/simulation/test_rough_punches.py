@@ -111,7 +111,8 @@ def synthetic(exponent, *, area=1.0, refined=1.0):
 
     def outcome(stiffness, count):
         values = stiffness * (1 + 1e-3 * rng.standard_normal((count, 1)))
-        return {"stiffness": values, "area": area * values, "gap": values, "gradient": np.full(count, 1e-2)}
+        work = {name: np.full(values.shape, 10.0) for name in ("applications", "frozen applications")}
+        return {"stiffness": values, "area": area * values, "gap": values, "gradient": np.full(count, 1e-2), **work}
 
     bem = {r: outcome(stiffness_on_a_layer(kappa, LIMITS.cells), LIMITS.surfaces) for r in LIMITS.roll_offs}
     finer = {r: {n: refined * v[: LIMITS.refined] for n, v in bem[r].items()} for r in bem}

@@ -6,6 +6,7 @@ import importlib.metadata
 import importlib.util
 import json
 import sys
+import threading
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
@@ -21,6 +22,7 @@ LISTS = "iter_modules"
 """What lists a package; a module that calls it imports by name from packages that its statements name."""
 ENGINE = "validation.engine.engine"
 """It hands problems to their solves and keeps what they return: how it does so changes no result."""
+PARSING = threading.Lock()
 FACE = "validation"
 """Package that imports by name for its users alone; its modules never do so through it."""
 
@@ -161,7 +163,7 @@ def _meaning(path: Path) -> bytes:
     """Of code: without its comments and docstrings. Of data: the file."""
     if path.suffix != ".py":
         return _source(path)
-    tree = ast.parse(_source(path))
+    tree = _parsed(path)
     for node in ast.walk(tree):
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             # a constant by itself does nothing
@@ -181,7 +183,13 @@ def _names(path: Path) -> frozenset[str]:
 
 @cache
 def _tree(path: Path) -> ast.Module:
-    return ast.parse(_source(path))
+    return _parsed(path)
+
+
+def _parsed(path: Path) -> ast.Module:
+    # Python 3.11 counts the depth of trees for all threads together
+    with PARSING:
+        return ast.parse(_source(path))
 
 
 def _imports_by_name(module: str) -> bool:
