@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units
+from bem3d.formatting import span
 from bem3d.problem import Problem
 from bem3d.read_only import ReadOnly
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
@@ -68,15 +69,19 @@ class Contact(ReadOnly):
     F = 471.5 N, k = 1.42e+08 N/m, converged
     """
 
-    problem: Problem = field(repr=False)
+    problem: Problem
     tolerance: float
-    pressure: FloatArray = field(repr=False)
+    pressure: FloatArray
     approach: float
-    history: tuple[float, ...] = field(repr=False)
+    history: tuple[float, ...]
     operator_applications: int
     status: Status
-    coarse_applications: tuple[Level, ...] = field(default=(), repr=False)
-    frozen: FixedContactArea | None = field(default=None, repr=False)
+    coarse_applications: tuple[Level, ...] = ()
+    frozen: FixedContactArea | None = None
+
+    def __repr__(self) -> str:
+        load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}, area={span(self.area, 'm^2')}"
+        return f"Contact({load}, {self.status}, iterations={self.iterations})"
 
     @property
     def force(self) -> float:

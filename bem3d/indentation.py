@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import cast
 
@@ -14,6 +14,7 @@ from bem3d.contact import Contact
 from bem3d.diagnostics import warn
 from bem3d.halfspace import HalfSpace
 from bem3d.problem import Problem
+from bem3d.progress import Progress, steps
 from bem3d.solver import raise_if_failed, solve_checked
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 from bem3d.window_solve import InitialGuess
@@ -33,6 +34,7 @@ def indent(
     tolerance: float = 1e-6,
     max_iterations: int = 500,
     raise_on_failure: bool = True,
+    progress: Progress = False,
 ) -> Iterator[Contact]:
     """Press along a path of approaches or forces, loading or unloading, one contact each.
 
@@ -47,6 +49,8 @@ def indent(
         half as many operator applications as the contact itself, and saves a few of the next one's.
     indenter_ends_at_edge, tolerance, max_iterations, raise_on_failure
         As in `solve`.
+    progress : bool or callable, optional
+        True shows "3 of 40" on the standard error stream after each load. A function is called with both numbers instead.
 
     Yields
     ------
@@ -76,7 +80,7 @@ def indent(
     """
     problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
-    return _path(problems, stiffness, tolerance, max_iterations, raise_on_failure)
+    return _path(problems, stiffness, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
 
 
 def _problems(
@@ -103,7 +107,12 @@ def _problems(
 
 
 def _path(
-    problems: list[Problem], stiffness: bool, tolerance: float, max_iterations: int, raise_on_failure: bool
+    problems: list[Problem],
+    stiffness: bool,
+    tolerance: float,
+    max_iterations: int,
+    raise_on_failure: bool,
+    solved: Callable[[], object],
 ) -> Iterator[Contact]:
     past: tuple[Contact, ...] = ()
     warned: set[str] = set()
@@ -126,6 +135,7 @@ def _path(
         warn(tuple(warning for warning in found if str(warning) not in warned))
         warned |= {str(warning) for warning in found}
         past = (*past[-1:], contact) if contact.converged else ()
+        solved()
         yield contact
 
 

@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from bem3d.checks import FloatArray, OneOrTwo, count, positive
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import warn
+from bem3d.formatting import span
+from bem3d.progress import Progress, steps
 from bem3d.read_only import ReadOnly
 from bem3d.rolling_contact import RollingContact, WheelContact
 from bem3d.rolling_frame import Track
@@ -49,6 +51,10 @@ class Rolling(ReadOnly):
     operator_applications: NDArray[np.int64]
     converged: NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}, area={span(self.area, 'm^2')}"
+        return f"Rolling({load}, {np.count_nonzero(self.converged)}/{self.converged.size} converged)"
+
 
 def roll(
     height: ArrayLike,
@@ -63,6 +69,7 @@ def roll(
     tolerance: float = 1e-5,
     max_iterations: int = 500,
     raise_on_failure: bool = True,
+    progress: Progress = False,
 ) -> Rolling:
     """Roll a rigid wheel along a rough strip, quasi-statically.
 
@@ -78,6 +85,8 @@ def roll(
         Number of positions, from the first cell of axis 0. All by default.
     tolerance, max_iterations, raise_on_failure
         As in `solve`, at each position. The tolerance is about the relative error of the force.
+    progress : bool or callable, optional
+        As in `indent`, after each position.
 
     Returns
     -------
@@ -109,7 +118,11 @@ def roll(
     wheel = RollingContact(track, tolerance=tolerance, max_iterations=max_iterations)
     press = wheel.press if force is None else wheel.carry
     stop = len(track.height) if positions is None else count("positions", positions)
-    return _joined([_accepted(press(i, prescribed), i, wheel, raise_on_failure) for i in range(stop)])
+    solved, along = steps(progress, stop), []
+    for i in range(stop):
+        along.append(_accepted(press(i, prescribed), i, wheel, raise_on_failure))
+        solved()
+    return _joined(along)
 
 
 def _prescribed(approach: float | None, force: float | None) -> float:

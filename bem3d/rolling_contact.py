@@ -10,6 +10,7 @@ import numpy as np
 
 from bem3d.checks import FloatArray, count, finite, fraction, positive
 from bem3d.contact import Status
+from bem3d.formatting import span
 from bem3d.projected_cg import Load
 from bem3d.rolling_frame import Frame, Spans, Track
 from bem3d.rolling_solve import FramePressure, FrameSolve
@@ -52,6 +53,10 @@ class WheelContact:
     history: tuple[float, ...]
     operator_applications: int
     status: Status
+
+    def __repr__(self) -> str:
+        load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}, area={span(self.area, 'm^2')}"
+        return f"WheelContact({load}, {self.status}, iterations={len(self.history) - 1})"
 
     @property
     def residual(self) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray, count, field, fraction
 from bem3d.convergence import ConvergenceError
+from bem3d.formatting import span
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly
 from bem3d.window import Candidates, dot, smallest_box
@@ -43,6 +44,10 @@ class FixedContactArea(ReadOnly):
     history: tuple[float, ...]
     operator_applications: int
     converged: bool
+
+    def __repr__(self) -> str:
+        ended = "converged" if self.converged else "not converged"
+        return f"FixedContactArea(stiffness={span(self.stiffness, 'N/m')}, {ended}, iterations={self.iterations})"
 
     @property
     def residual(self) -> float:

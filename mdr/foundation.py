@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
 from mdr.diagnostics import diagnose_load, warn
+from mdr.formatting import span
 from mdr.read_only import ReadOnlyArrays
 
 Value = TypeVar("Value", float, FloatArray)
@@ -39,6 +40,10 @@ class LoadPoint(ReadOnlyArrays, Generic[Value]):
     approach: Value
     force: Value
     stiffness: Value
+
+    def __repr__(self) -> str:
+        load = f"approach={span(self.approach, 'm')}, force={span(self.force, 'N')}"
+        return f"LoadPoint({load}, stiffness={span(self.stiffness, 'N/m')})"
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +77,10 @@ class LoadCurve(ReadOnlyArrays):
     force: FloatArray
     stiffness: FloatArray
     spring: float
+
+    def __repr__(self) -> str:
+        springs = f"{self.approach.size} springs of {span(self.spring, 'N/m')}"
+        return f"LoadCurve({springs}, approach={span(self.approach, 'm')}, force={span(self.force, 'N')})"
 
     @overload
     def at_approach(self, approach: float) -> LoadPoint[float]: ...

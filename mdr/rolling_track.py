@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mdr.checks import FloatArray
+from mdr.formatting import span
 from mdr.read_only import ReadOnlyArrays
 
 
@@ -34,3 +35,7 @@ class RollingTrack(ReadOnlyArrays):
     approach: FloatArray
     stiffness: FloatArray
     examined: FloatArray
+
+    def __repr__(self) -> str:
+        load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}"
+        return f"RollingTrack({self.force.size} points, {load}, stiffness={span(self.stiffness, 'N/m')})"

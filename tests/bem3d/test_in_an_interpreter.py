@@ -32,3 +32,57 @@ def test_an_object_in_place_of_its_spectrum():
         bem3d.rough_surface(rough, shape=(8, 8), spacing=1.0, rng=np.random.default_rng(0))
     with pytest.raises(TypeError, match=r"got int$"):
         bem3d.rough_surface(3, shape=(8, 8), spacing=1.0, rng=np.random.default_rng(0))
+
+
+BODY = bem3d.HalfSpace(shape=(24, 24), spacing=1e-4, modulus=2e11)
+STRIP = {"height": np.zeros((64, 48)), "spacing": 1e-4, "radius": 0.5, "modulus": 2e11}
+
+
+def test_a_contact_is_a_line():
+    contact = bem3d.solve(BODY, np.zeros((24, 24)), force=500.0, indenter_ends_at_edge=True)
+    assert repr(contact) == (
+        f"Contact(force=500 N, approach={contact.approach:.4g} m, area=5.76e-6 m^2, converged, "
+        f"iterations={contact.iterations})"
+    ).replace("e-0", "e-")
+    cut = bem3d.solve(BODY, np.zeros((24, 24)), approach=-1.234567e-6)
+    assert repr(cut) == "Contact(force=0 N, approach=-1.235e-6 m, area=0 m^2, converged, iterations=0)"
+    area = bem3d.solve_fixed_area(BODY, contact.pressure > 0)
+    assert repr(area).startswith(f"FixedContactArea(stiffness={area.stiffness:.4g} N/m, converged, ".replace("+0", ""))
+    loose = bem3d.solve_fixed_area(BODY, contact.pressure > 0, max_iterations=1, tolerance=1e-9, raise_on_failure=False)
+    assert repr(loose).endswith("not converged, iterations=1)")
+    assert max(len(repr(result)) for result in (contact, area, loose)) <= 100
+
+
+def test_a_rolling_wheel_is_a_line():
+    track = 1e-6 * np.cos(2 * np.pi * np.arange(64) / 32)[:, np.newaxis] + STRIP["height"]
+    rolled = bem3d.roll(**STRIP | {"height": track}, approach=2.5e-6)
+    lowest, highest = rolled.force.min(), rolled.force.max()
+    assert repr(rolled).startswith(f"Rolling(force={lowest:.3g}..{highest:.3g} N, approach=2.5e-6 m, area=")
+    assert repr(rolled).endswith(" m^2, 64/64 converged)")
+    wheel = bem3d.RollingContact(bem3d.Track(**STRIP)).carry(0, 500.0)
+    assert repr(wheel).startswith("WheelContact(force=500 N, approach=1.915e-6 m, area=")
+    assert repr(wheel).endswith(f" m^2, converged, iterations={len(wheel.history) - 1})")
+    assert max(len(repr(result)) for result in (rolled, wheel)) <= 100
+
+
+def pressed(progress):
+    return list(bem3d.indent(BODY, np.zeros((24, 24)), forces=[0.0, 0.0, 0.0], progress=progress))
+
+
+def rolled(progress):
+    return bem3d.roll(**STRIP, approach=2.5e-6, positions=3, progress=progress).force
+
+
+@pytest.mark.parametrize("call", [pressed, rolled])
+def test_progress(call, capsys, monkeypatch):
+    told = []
+    call(lambda *numbers: told.append(numbers))
+    assert told == [(1, 3), (2, 3), (3, 3)]
+    call(False)
+    assert capsys.readouterr() == ("", "")
+    call(True)
+    assert capsys.readouterr() == ("", "\r1 of 3\r2 of 3\r3 of 3\n")
+    monkeypatch.setattr("sys.stderr", None)  # a program without a console
+    call(True)
+    with pytest.raises(TypeError, match=r"progress must be True, False or a function of \(done, total\), got 1"):
+        call(1)

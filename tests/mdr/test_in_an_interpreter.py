@@ -39,3 +39,26 @@ def test_an_object_in_place_of_its_spectrum(call, name):
     rough = mdr.SelfAffine(hurst=0.8, q_min=1.0, q_max=10.0, rms=1e-2)
     with pytest.raises(TypeError, match=rf"{name} must be a callable {name}\(q\), got SelfAffine, give its .{name}"):
         call(rough)
+
+
+CURVE = mdr.load_curve(np.linspace(-2e-6, 1e-6, 100), length=1e-3, modulus=1e9)
+WHEEL = {"spacing": 1e-4, "radius": 0.5, "modulus": 2e11}
+
+
+@pytest.mark.parametrize(
+    ("result", "line"),
+    [
+        (CURVE, "LoadCurve(100 springs of 1e4 N/m, approach=-1e-6..2e-6 m, force=0..1.5 N)"),
+        (CURVE.at_approach(3e-6), "LoadPoint(approach=3e-6 m, force=2.5 N, stiffness=1e6 N/m)"),
+        (CURVE.at_approach(np.array([2e-6, 4e-6])),
+         "LoadPoint(approach=2e-6..4e-6 m, force=1.5..3.5 N, stiffness=9.9e5..1e6 N/m)"),
+        (CURVE.at_force(np.empty(0)), "LoadPoint(approach=none, force=none, stiffness=none)"),
+        (mdr.press_sphere(radius=0.01, modulus=1e11, force=10.0),
+         "SphereContact(approach=8.255e-7 m, force=10 N, stiffness=1.817e7 N/m, contact_radius=9.086e-5 m)"),
+        (mdr.roll(1e-7 * np.cos(2 * np.pi * np.arange(256) / 64), **WHEEL, approach=2e-6),
+         "RollingTrack(256 points, force=499..567 N, approach=2e-6 m, stiffness=3.8e8..4.2e8 N/m)"),
+    ],
+)  # fmt: skip
+def test_a_result_is_a_line(result, line):
+    assert repr(result) == line
+    assert len(line) <= 100
