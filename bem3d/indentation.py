@@ -50,7 +50,7 @@ def indent(
     indenter_ends_at_edge, tolerance, max_iterations, raise_on_failure
         As in `solve`.
     progress : bool or callable, optional
-        True shows "3 of 40" on the standard error stream after each load. A function is called with both numbers instead.
+        True shows "3 of 40" on the standard error stream after each load. A function is called with both numbers.
 
     Yields
     ------

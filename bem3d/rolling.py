@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import cast
 
@@ -83,10 +84,8 @@ def roll(
         Either the approach to the plane of height zero [m] or the normal force [N], both positive.
     positions : int, optional
         Number of positions, from the first cell of axis 0. All by default.
-    tolerance, max_iterations, raise_on_failure
-        As in `solve`, at each position. The tolerance is about the relative error of the force.
-    progress : bool or callable, optional
-        As in `indent`, after each position.
+    tolerance, max_iterations, raise_on_failure, progress
+        As in `solve` and `indent`, at each position. The tolerance is about the relative error of the force.
 
     Returns
     -------
@@ -109,31 +108,41 @@ def roll(
     >>> print(f"{rolled.force.mean():.0f} N, by Hertz {4 / 3 * 2e11 * 0.5**0.5 * 2e-6**1.5:.0f} N")
     534 N, by Hertz 533 N
     """
-    heights, profile = cast(FloatArray, height), cast(FloatArray | None, transverse_profile)
-    track = Track(height=heights, spacing=spacing, radius=radius, modulus=modulus, transverse_profile=profile)
-    prescribed = _prescribed(approach, force)
-    smooth = prescribed if force is None else track.smooth.approach(prescribed / track.modulus)
+    track = _track(height, spacing, radius, modulus, transverse_profile)
+    prescribed, smooth = _prescribed(track, approach, force)
     _wide_enough(track, smooth)
     warn(track.diagnose(smooth))
     wheel = RollingContact(track, tolerance=tolerance, max_iterations=max_iterations)
     press = wheel.press if force is None else wheel.carry
     stop = len(track.height) if positions is None else count("positions", positions)
-    solved, along = steps(progress, stop), []
-    for i in range(stop):
-        along.append(_accepted(press(i, prescribed), i, wheel, raise_on_failure))
-        solved()
-    return _joined(along)
+    solved = steps(progress, stop)
+    return _joined([_accepted(press(i, prescribed), i, wheel, raise_on_failure, solved) for i in range(stop)])
 
 
-def _prescribed(approach: float | None, force: float | None) -> float:
-    """The one of the two that is given; ValueError for both or neither."""
+def _track(
+    height: ArrayLike, spacing: OneOrTwo, radius: OneOrTwo, modulus: float, transverse_profile: ArrayLike | None
+) -> Track:
+    """Strip and wheel, checked."""
+    heights, profile = cast(FloatArray, height), cast(FloatArray | None, transverse_profile)
+    return Track(height=heights, spacing=spacing, radius=radius, modulus=modulus, transverse_profile=profile)
+
+
+def _prescribed(track: Track, approach: float | None, force: float | None) -> tuple[float, float]:
+    """The one of the two that is given, and the approach of the smooth wheel; ValueError for both or neither."""
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach} and force={force}")
-    return positive("approach" if force is None else "force", approach if force is None else force)
+    if force is None:
+        d = positive("approach", approach)
+        return d, d
+    force = positive("force", force)
+    return force, track.smooth.approach(force / track.modulus)
 
 
-def _accepted(contact: WheelContact, position: int, wheel: RollingContact, raise_on_failure: bool) -> WheelContact:
-    """The contact at a position; ConvergenceError where it is no solution and that matters."""
+def _accepted(
+    contact: WheelContact, position: int, wheel: RollingContact, raise_on_failure: bool, solved: Callable[[], object]
+) -> WheelContact:
+    """The contact at a position, which is told; ConvergenceError where it is no solution and that matters."""
+    solved()
     if contact.converged or not raise_on_failure:
         return contact
     raise ConvergenceError(

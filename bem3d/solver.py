@@ -50,10 +50,8 @@ def solve(
         A previous contact, or a pressure, to begin with [Pa].
     indenter_ends_at_edge : bool, optional
         Whether the indenter is a punch that ends where its grid does. It is not warned of, and changes no result.
-    tolerance : float, optional
-        `residual` to reach, in (0, 1).
-    max_iterations : int, optional
-        Limit on each grid, at least 1.
+    tolerance, max_iterations
+        `residual` to reach, in (0, 1), and limit of iterations on each grid, at least 1.
     raise_on_failure : bool, optional
         Whether to raise, or to return a contact whose ``status`` says that it is no solution.
 
@@ -80,17 +78,17 @@ def solve(
     >>> print(f"{contact.force:.1f} N, by Hertz {4 / 3 * 1e11 * np.sqrt(0.1) * 5e-6**1.5:.1f} N")
     471.5 N, by Hertz 471.4 N
     """
-    problem = Problem(
-        half_space=half_space,
-        gap=cast(FloatArray, gap),
-        approach=approach,
-        force=force,
-        indenter_ends_at_edge=indenter_ends_at_edge,
-    )
+    problem = _stated(half_space, gap, approach, force, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     contact = solve_checked(problem, _start(start, problem), tolerance, max_iterations)
     warn(contact.diagnose())
     return raise_if_failed(contact) if raise_on_failure else contact
+
+
+def _stated(half_space: HalfSpace, gap: ArrayLike, approach: float | None, force: float | None, ends: bool) -> Problem:
+    """The problem, checked."""
+    heights = cast(FloatArray, gap)
+    return Problem(half_space=half_space, gap=heights, approach=approach, force=force, indenter_ends_at_edge=ends)
 
 
 def solve_checked(problem: Problem, start: InitialGuess | None, tolerance: float, max_iterations: int) -> Contact:
