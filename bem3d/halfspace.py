@@ -8,8 +8,8 @@ from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import fft
 
 from bem3d import kernel
 from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_spacing, positive
@@ -160,4 +160,4 @@ class HalfSpace:
 
 def _doubled(points: int) -> int:
     """An even and fast FFT length without images: at least 2n - 1."""
-    return 2 * int(fft.next_fast_len(points))
+    return 2 * int(scipy.fft.next_fast_len(points))

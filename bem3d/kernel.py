@@ -1,8 +1,8 @@
 """The Love solution: how a half-space yields under a uniformly pressed cell; free-space and periodic symbols."""
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import fft
 
 from bem3d.checks import FloatArray
 
@@ -49,7 +49,7 @@ def free_space_symbol(table: FloatArray, spacing: tuple[float, float], modulus: 
     a side, no cell meets the image of another. The kernel is even along both axes, so its transform is a cosine
     transform of one quadrant, of the same shape.
     """
-    return np.asarray(spacing[0] / (np.pi * modulus) * fft.dctn(table, type=1))
+    return np.asarray(spacing[0] / (np.pi * modulus) * scipy.fft.dctn(table, type=1))
 
 
 def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
@@ -79,8 +79,8 @@ def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus
 
 def wavenumbers(shape: tuple[int, int], spacing: tuple[float, float]) -> FloatArray:
     """|q| on the quadrant of the spectrum of a grid [rad/m]."""
-    qx = 2 * np.pi * fft.rfftfreq(shape[0], spacing[0])
-    qy = 2 * np.pi * fft.rfftfreq(shape[1], spacing[1])
+    qx = 2 * np.pi * scipy.fft.rfftfreq(shape[0], spacing[0])
+    qy = 2 * np.pi * scipy.fft.rfftfreq(shape[1], spacing[1])
     return np.asarray(np.hypot(qx[:, np.newaxis], qy[np.newaxis, :]))
 
 

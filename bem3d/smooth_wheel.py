@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from scipy import special
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,8 +40,8 @@ def smooth_contact(radii: tuple[float, float]) -> SmoothContact:
     if larger == smaller:
         return SmoothContact(along=larger, across=larger, sphere=larger)
     square = _axis_ratio(smaller / larger) ** 2
-    first_kind = float(special.elliprf(0, square, 1))
-    major = 2 * larger * float(special.elliprd(0, square, 1)) / (3 * first_kind)
+    first_kind = float(scipy.special.elliprf(0, square, 1))
+    major = 2 * larger * float(scipy.special.elliprd(0, square, 1)) / (3 * first_kind)
     along, across = (major, square * major) if radii[0] == larger else (square * major, major)
     return SmoothContact(along=along, across=across, sphere=(math.pi / (2 * first_kind)) ** 2 * major)
 
@@ -52,6 +51,6 @@ def _axis_ratio(radius_ratio: float) -> float:
 
     def excess(log_k: float) -> float:
         square = math.exp(2 * log_k)
-        return math.log(float(special.elliprd(0, square, 1) / special.elliprd(0, 1, square)) / radius_ratio)
+        return math.log(float(scipy.special.elliprd(0, square, 1) / scipy.special.elliprd(0, 1, square)) / radius_ratio)
 
     return math.exp(scipy.optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))

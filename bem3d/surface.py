@@ -11,8 +11,8 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import fft
 
 from bem3d.checks import FloatArray, OneOrTwo, Spectrum, callable_spectrum, density, grid_shape, grid_spacing, positive
 from bem3d.diagnostics import diagnose_waves, warn
@@ -81,12 +81,12 @@ def rough_surface(
     variance = (2 * np.pi) ** 2 / (lengths[0] * lengths[1]) * values
     spectrum = _amplitudes(variance, (j == 0) | (2 * j == shape[1]), rms) * _random_waves(i, j, shape, amplitudes, rng)
     spectrum *= _half_a_cell(i, shape[0]) * _half_a_cell(j, shape[1])
-    return np.asarray(fft.irfft2(spectrum, shape, norm="forward"))
+    return np.asarray(scipy.fft.irfft2(spectrum, shape, norm="forward"))
 
 
 def _waves(shape: tuple[int, int], lengths: tuple[float, float]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Numbers of waves along both axes, and wavenumbers, of the half spectrum of a real field."""
-    i = np.rint(fft.fftfreq(shape[0]) * shape[0])[:, np.newaxis]
+    i = np.rint(scipy.fft.fftfreq(shape[0]) * shape[0])[:, np.newaxis]
     j = np.arange(shape[1] // 2 + 1.0)[np.newaxis, :]
     return i, j, 2 * np.pi * np.hypot(i / lengths[0], j / lengths[1])
 

@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy
-from scipy import special
 
 from mdr.checks import positive
 
@@ -37,7 +36,7 @@ def spring_wheel(radius: float | Sequence[float], modulus: float) -> SpringWheel
         return SpringWheel(along, modulus, 1.0)
     larger = max(along, across)
     k = _axis_ratio(min(along, across) / larger)
-    whole = float(special.ellipkm1(k**2))
+    whole = float(scipy.special.ellipkm1(k**2))
     major = 2 * larger * _integral(k) / whole
     if along == larger:
         return SpringWheel(major, modulus * math.pi / (2 * whole), k)
@@ -50,11 +49,11 @@ def _axis_ratio(radius_ratio: float) -> float:
     def excess(log_k: float) -> float:
         k = math.exp(log_k)
         d = _integral(k)
-        return math.log(k**2 * d / (float(special.ellipkm1(k**2)) - d) / radius_ratio)
+        return math.log(k**2 * d / (float(scipy.special.ellipkm1(k**2)) - d) / radius_ratio)
 
     return math.exp(scipy.optimize.brentq(excess, math.log(radius_ratio), 0.0, xtol=1e-15))
 
 
 def _integral(k: float) -> float:
     """(K - E) / e^2 = R_D(0, k^2, 1) / 3, which keeps its digits where k is near one."""
-    return float(special.elliprd(0, k**2, 1)) / 3
+    return float(scipy.special.elliprd(0, k**2, 1)) / 3

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import special
 
 from mdr.checks import (
     FloatArray,
@@ -238,10 +238,16 @@ class SelfAffine:
         low, high = (q / self.q_max) ** 2, np.minimum(1.0, (q / self.q_min) ** 2)
         b, c = self.hurst + 0.5, 0.5
         # near t = 1 the complement keeps the digits that the difference of two values near one would lose
-        upper = special.betainc(c, b, 1 - low)
-        between = np.where(high < 1, special.betainc(b, c, high) - special.betainc(b, c, low), upper)
+        upper = scipy.special.betainc(c, b, 1 - low)
+        between = np.where(high < 1, scipy.special.betainc(b, c, high) - scipy.special.betainc(b, c, low), upper)
         with doubles(q_min=self.q_min, rms=self.rms):
-            trace = self._level * self.q_min * (q / self.q_min) ** (-2 * self.hurst - 1) * special.beta(b, c) * between
+            trace = (
+                self._level
+                * self.q_min
+                * (q / self.q_min) ** (-2 * self.hurst - 1)
+                * scipy.special.beta(b, c)
+                * between
+            )
             held(trace)
         return np.asarray(trace, dtype=np.float64)
 
