@@ -241,13 +241,8 @@ class SelfAffine:
         upper = scipy.special.betainc(c, b, 1 - low)
         between = np.where(high < 1, scipy.special.betainc(b, c, high) - scipy.special.betainc(b, c, low), upper)
         with doubles(q_min=self.q_min, rms=self.rms):
-            trace = (
-                self._level
-                * self.q_min
-                * (q / self.q_min) ** (-2 * self.hurst - 1)
-                * scipy.special.beta(b, c)
-                * between
-            )
+            whole = scipy.special.beta(b, c)
+            trace = self._level * self.q_min * (q / self.q_min) ** (-2 * self.hurst - 1) * whole * between
             held(trace)
         return np.asarray(trace, dtype=np.float64)
 

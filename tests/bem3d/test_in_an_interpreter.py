@@ -1,6 +1,8 @@
 """What a person sees at a prompt: names, signatures, one line a result, and progress."""
 
 import inspect
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -86,3 +88,11 @@ def test_progress(call, capsys, monkeypatch):
     call(True)
     with pytest.raises(TypeError, match=r"progress must be True, False or a function of \(done, total\), got 1"):
         call(1)
+
+
+def test_imports_are_few():
+    """What takes longer to import than all else waits for its first use."""
+    late = "'scipy.fft', 'scipy.special', 'scipy.optimize', 'importlib.metadata', 'pyfftw'"
+    command = f"import sys, bem3d, mdr; print([name for name in ({late}) if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
