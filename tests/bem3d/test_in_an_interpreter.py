@@ -9,6 +9,7 @@ import pytest
 
 import bem3d
 import mdr
+from bem3d import formatting
 
 FUNCTIONS = [name for name in bem3d.__all__ if inspect.isfunction(getattr(bem3d, name))]
 
@@ -96,3 +97,9 @@ def test_imports_are_few():
     command = f"import sys, bem3d, mdr; print([name for name in ({late}) if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
+
+
+def test_numbers_of_a_line():
+    assert formatting.span(np.empty(0), "m") == "none"
+    assert formatting.span(np.array([1.0, 1.0001]), "m") == "1 m"
+    assert [formatting.short(value, 3) for value in (1.5e-6, 2e11, 0.1, -1e-12)] == ["1.5e-6", "2e11", "0.1", "-1e-12"]
