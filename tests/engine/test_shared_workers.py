@@ -1,6 +1,8 @@
 """Jobs that share workers: in their order, ahead of their turn, and none left after an error."""
 
 import os
+import subprocess
+import sys
 import threading
 import time
 from concurrent.futures import CancelledError
@@ -107,3 +109,31 @@ def test_the_seconds_of_solves_are_counted(tmp_path):
         assert part.worked >= worked
         assert (part.worked == 0.0) == (worked == 0.0)
     assert replace(Engine(), progress=part) == Engine()
+
+
+FIRST_IN_THREADS = """
+import time
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from validation.engine.workers import Workers
+
+workers, together = Workers(2), threading.Barrier(8)
+
+def first(number):
+    together.wait()
+    time.sleep(number / 100)
+    return workers.submit(abs, -number).result()
+
+with ThreadPoolExecutor(8) as threads:
+    assert list(threads.map(first, range(8))) == list(range(8))
+workers.end()
+"""
+
+
+@pytest.mark.slow
+def test_threads_may_be_the_first_to_need_workers():
+    """In a fresh process: the library of processes is imported once, by one of them."""
+    run = subprocess.run([sys.executable, "-c", FIRST_IN_THREADS], capture_output=True, text=True, timeout=60)
+    assert run.returncode == 0, run.stderr

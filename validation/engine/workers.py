@@ -1,5 +1,6 @@
 """Worker processes of this machine: one queue for all that is at work, first come first served."""
 
+import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ThreadPoolExecutor
@@ -15,6 +16,7 @@ ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_
 """Of a library in a worker: the workers together have all cores."""
 IDLE = 300
 """Seconds after which a worker without work ends."""
+STARTING = threading.Lock()
 AHEAD = 4
 """Jobs at once: while the last solves of one come to their end, or are evaluated, those of the next are at work."""
 
@@ -79,9 +81,11 @@ class Workers:
             self._pool().shutdown(wait=True, kill_workers=True)  # type: ignore[call-arg]  # an executor of loky
 
     def _pool(self) -> Executor:
-        from joblib.externals import loky  # where processes are needed: it takes a tenth of a second
+        # two threads that import a package and a part of it at once find it half made
+        with STARTING:
+            from joblib.externals import loky  # where processes are needed: it takes a tenth of a second
 
-        pool: Executor = loky.get_reusable_executor(max_workers=self.count, timeout=IDLE, env=ONE_THREAD)
+            pool: Executor = loky.get_reusable_executor(max_workers=self.count, timeout=IDLE, env=ONE_THREAD)
         return pool
 
 

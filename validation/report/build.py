@@ -8,6 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import scipy.stats  # noqa: F401  # with most of scipy, before threads import its parts at once
+
 from validation.analysis.case import Case, Profile
 from validation.analysis.contents import as_csv, as_json
 from validation.engine.convergence import NotConvergedError, as_not_converged

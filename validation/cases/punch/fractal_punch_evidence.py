@@ -85,7 +85,7 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
-    quick=FractalPunch(),
+    quick=FractalPunch(hursts=(0.4, 0.7, 1.0)),
     full=FractalPunch(
         cells=256,
         surfaces=((0, 0, 2800, 550, 110), (0, 4500, 750, 210, 0), (1500, 300, 80, 16, 0), (300, 60, 20, 4, 0)),
