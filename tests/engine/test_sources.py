@@ -60,6 +60,13 @@ def test_a_module_that_lists_a_package_rests_on_its_modules():
     assert not [name for name in behind if name.startswith("validation.selection")]
 
 
+def test_a_solve_that_uses_the_face_rests_on_everything(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(tmp_path))
+    for number, line in enumerate(("import validation", "from validation import compare")):
+        (tmp_path / f"by_face_{number}.py").write_text(f"{line}\n")
+        assert modules_behind(import_module(f"by_face_{number}").__name__) >= {"validation.selection.compare"}
+
+
 def test_a_module_that_imports_by_name_rests_on_everything(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     (tmp_path / "by_name.py").write_text("from importlib import import_module\n\nimport_module('math')\n")

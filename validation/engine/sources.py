@@ -24,7 +24,7 @@ ENGINE = "validation.engine.engine"
 """It hands problems to their solves and keeps what they return: how it does so changes no result."""
 PARSING = threading.Lock()
 FACE = "validation"
-"""Package that imports by name for its users alone; its modules never do so through it."""
+"""Package that imports by name for its users: who imports it by itself may use anything."""
 
 
 @cache
@@ -85,7 +85,7 @@ def modules_behind(module: str) -> frozenset[str]:
 def _of_modules(module: str, classes: tuple[str, ...]) -> str:
     behind = {name for root in (module, *classes) for name in modules_behind(root)}
     paths = sorted({path for name in behind for path in _files_of(name)})
-    if not paths and module not in sys.builtin_module_names:
+    if not paths:
         raise RuntimeError(f"the source of {module} is not to be found: stored results could be of any version of it")
     return _digest(b"".join(_meaning(path) for path in paths))
 
@@ -196,11 +196,17 @@ def _imports_by_name(module: str) -> bool:
     path = _path(module)
     if path is None or module == FACE:
         return False
-    return bool(_names(path) & BY_NAME) and LISTS not in _names(path)
+    return FACE in _named(module) or (bool(_names(path) & BY_NAME) and LISTS not in _names(path))
 
 
 def _imported(module: str) -> set[str]:
     """Names that may be modules, and the packages around them."""
+    parts = [name.split(".") for name in _named(module) | {module}]
+    return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
+
+
+def _named(module: str) -> set[str]:
+    """What its import statements name, and the modules of packages that it lists."""
     path = _path(module)
     if path is None:
         return set()
@@ -215,8 +221,7 @@ def _imported(module: str) -> set[str]:
             found |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
     if LISTS in _names(path):
         found |= {name for name in _modules() if name.rpartition(".")[0] in found & _packages() - {package}}
-    parts = [name.split(".") for name in found | {module}]
-    return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
+    return found
 
 
 # read when the code is loaded: an edit during a run does not make old results new
