@@ -81,6 +81,14 @@ def test_cell_and_words_are_those_of_the_verdict(value, half, cell, begins):
     assert row.word == {"yes": "Yes", "open": "Open", "no": "No"}[cell]
 
 
+@pytest.mark.parametrize(
+    ("last", "half", "word"), [(2 * TEN, 0.0, "No or open"), (0.0, 0.0, "In part"), (0.0, 2 * TEN, "Open")]
+)
+def test_the_word_of_a_row_is_that_of_all_its_cells(last, half, word):
+    """The first of two places is open."""
+    assert mean_stiffness(at((0.1, 1.0), 0.0, 2 * TEN), at((1.0, 10.0), last, half)).word == word
+
+
 def test_one_counterexample_among_all_exponents_is_a_no():
     """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
     row = mean_stiffness(at((0.1, 1.0), 0.1, hurst=0.4), at((0.1, 1.0), 2.0, hurst=0.7), at((0.1, 1.0), 0.2, hurst=1.0))

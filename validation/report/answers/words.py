@@ -41,7 +41,7 @@ def first_word(cells: Sequence[RangeCell]) -> str:
         return "In part"
     if found == {Enough.NO}:
         return "No"
-    return "Open" if found == {Enough.OPEN} else "Not shown"
+    return "Open" if found == {Enough.OPEN} else "No or open"
 
 
 def sentence(cells: Sequence[RangeCell], axis: str, printed: Printed) -> str:
