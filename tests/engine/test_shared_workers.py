@@ -5,7 +5,7 @@ import subprocess
 import sys
 import threading
 import time
-from concurrent.futures import CancelledError
+from concurrent.futures import CancelledError, wait
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -99,6 +99,18 @@ def test_an_error_between_two_cases_ends_the_workers_of_all():
         workers.submit(slowly, 1)
     while threading.active_count() > before:
         time.sleep(0.01)
+
+
+def test_workers_end_though_some_of_their_work_was_cancelled():
+    """A case that fails cancels its solves while the end of the run kills the workers: nobody waits for either."""
+    workers = Workers(2)
+    waiting = [workers.submit(time.sleep, 30) for _ in range(8)]
+    assert waiting[-1].cancel()
+    ending = threading.Thread(target=workers.end, daemon=True)
+    ending.start()
+    ending.join(20)
+    assert not ending.is_alive()
+    assert not wait(waiting[:-1], timeout=5).not_done
 
 
 def test_the_seconds_of_solves_are_counted(tmp_path):

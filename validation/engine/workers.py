@@ -75,10 +75,16 @@ class Workers:
                 yield begun.popleft()
 
     def end(self) -> None:
-        """End all workers at once; nothing is submitted any more."""
+        """End all workers at once; nothing is submitted any more, and all that waits has failed."""
         self._over = True
         if self.count > 1:
-            self._pool().shutdown(wait=True, kill_workers=True)  # type: ignore[call-arg]  # an executor of loky
+            from joblib.externals.loky.backend.utils import kill_process_tree
+
+            pool = self._pool()
+            # loky's own end of a pool stops at a future that was cancelled, that of a lost worker does not
+            for process in list(pool._processes.values()):  # type: ignore[attr-defined]  # an executor of loky
+                kill_process_tree(process)
+            pool.shutdown(wait=True)
 
     def _pool(self) -> Executor:
         # two threads that import a package and a part of it at once find it half made
