@@ -16,6 +16,12 @@ def span(values: float | FloatArray, unit: str) -> str:
     return f"{lowest} {unit}" if lowest == highest else f"{lowest}..{highest} {unit}"
 
 
+def pair(unit: str, along: float, across: float) -> str:
+    """One number for both axes where they are equal, or two: "0.5 x 0.3 m"."""
+    both = [short(along, 4), short(across, 4)]
+    return f"{both[0]} {unit}" if along == across else f"{' x '.join(both)} {unit}"
+
+
 def short(value: float, digits: int) -> str:
     """So many digits, and no zeros in the exponent: 1.23e-6."""
     return f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")

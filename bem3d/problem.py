@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bem3d.checks import FloatArray, boolean, field, finite, not_negative
+from bem3d.formatting import span
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 
@@ -57,6 +58,14 @@ class Problem(ReadOnly):
         object.__setattr__(self, "gap", kept(field("gap", self.gap, self.half_space.shape)))
         boolean("indenter_ends_at_edge", self.indenter_ends_at_edge)
         self._check_load()
+
+    def __repr__(self) -> str:
+        cells = " x ".join(map(str, self.half_space.shape))
+        given = ("force", self.force, "N") if self.approach is None else ("approach", self.approach, "m")
+        load = f"{given[0]}={span(given[1] or 0.0, given[2])}"
+        more = ", periodic" * self.half_space.periodic + ", indenter_ends_at_edge" * self.indenter_ends_at_edge
+        modulus = span(self.half_space.modulus, "Pa")
+        return f"Problem({cells} cells, modulus={modulus}, gap={span(self.gap, 'm')}, {load}{more})"
 
     def _check_load(self) -> None:
         if (self.approach is None) == (self.force is None):

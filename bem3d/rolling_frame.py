@@ -11,6 +11,7 @@ import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray, IndexArray, OneOrTwo, grid_spacing, positive, positive_pair, strip
 from bem3d.diagnostics import ContactWarning, diagnose_sphere, diagnose_units
+from bem3d.formatting import pair, span
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
 from bem3d.smooth_wheel import SmoothContact, smooth_contact
@@ -75,6 +76,14 @@ class Track(ReadOnly):
             object.__setattr__(self, "transverse_profile", kept(z))
             radii = positive("radius", self.radius), equivalent_radius(z, self.steps[1])
             object.__setattr__(self, "radius", radii)
+
+    def __repr__(self) -> str:
+        cells, profile = " x ".join(map(str, self.height.shape)), self.transverse_profile
+        radius, spacing = (pair("m", *both) for both in (self.radii, self.steps))
+        across = f"radius={radius}" if profile is None else f"radius={span(self.radii[0], 'm')}"
+        across += "" if profile is None else f", transverse_profile={span(profile, 'm')}"
+        height, modulus = span(self.height, "m"), span(self.modulus, "Pa")
+        return f"Track({cells} cells of {spacing}, height={height}, {across}, modulus={modulus})"
 
     @cached_property
     def highest(self) -> float:

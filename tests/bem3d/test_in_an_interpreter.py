@@ -56,6 +56,32 @@ def test_a_contact_is_a_line():
     assert max(len(repr(result)) for result in (contact, area, loose)) <= 100
 
 
+def test_a_problem_is_a_line():
+    gap = np.zeros((24, 24))
+    gap[3, 4] = -2e-6
+    problem = bem3d.Problem(half_space=BODY, gap=gap, approach=1.5e-6)
+    assert repr(problem) == "Problem(24 x 24 cells, modulus=2e11 Pa, gap=-2e-6..0 m, approach=1.5e-6 m)"
+    periodic = bem3d.HalfSpace(shape=(4, 8), spacing=1.0, modulus=1.0, periodic=True)
+    forced = bem3d.Problem(half_space=periodic, gap=np.ones((4, 8)), force=500.0, indenter_ends_at_edge=True)
+    assert repr(forced) == ("Problem(4 x 8 cells, modulus=1 Pa, gap=1 m, force=500 N, periodic, indenter_ends_at_edge)")
+
+
+def test_a_track_is_a_line():
+    assert repr(bem3d.Track(**STRIP)) == "Track(64 x 48 cells of 0.0001 m, height=0 m, radius=0.5 m, modulus=2e11 Pa)"
+    height = np.linspace(-1e-6, 2e-6, 64 * 48).reshape(64, 48)
+    other = bem3d.Track(height=height, spacing=(1e-4, 2e-4), radius=(0.5, 0.3), modulus=2e11)
+    assert repr(other) == (
+        "Track(64 x 48 cells of 0.0001 x 0.0002 m, height=-1e-6..2e-6 m, radius=0.5 x 0.3 m, modulus=2e11 Pa)"
+    )
+    profile = -((np.arange(48) - 23.5) ** 2) * 1e-8 / 0.6 + 0.25e-8 / 0.6
+    measured = bem3d.Track(**STRIP, transverse_profile=profile)
+    assert repr(measured) == (
+        f"Track(64 x 48 cells of 0.0001 m, height=0 m, radius=0.5 m, transverse_profile={profile.min():.3g}..0 m, "
+        "modulus=2e11 Pa)"
+    ).replace("e-0", "e-")
+    assert max(len(repr(track)) for track in (other, measured)) <= 120
+
+
 def test_a_rolling_wheel_is_a_line():
     track = 1e-6 * np.cos(2 * np.pi * np.arange(64) / 32)[:, np.newaxis] + STRIP["height"]
     rolled = bem3d.roll(**STRIP | {"height": track}, approach=2.5e-6)
