@@ -6,34 +6,116 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import mdr
 from validation import compare, load_scene
 from validation.scenes.level_files import curve
 from validation.scenes.rail import RailScene
+from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import BED, LINEAR, LINEAR_ON_LINE, ONE_SIDED
+from validation.simulation.equivalent_displacement import BED, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
 from validation.simulation.model import Target, models_serving
+from validation.simulation.rail_ground import strip_of
 from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.spectral_springs import (
+    SPRINGS_GEIKE,
+    SPRINGS_ROLLING,
+    SpectralRail,
+    roll_spectral_springs,
+    twin_of,
+)
 from validation.theory.elliptic_contact import elliptic_contact
 
 RAIL = load_scene("rail")
 assert isinstance(RAIL, RailScene)
-EXACT_OVER_RIDGES = (LINEAR, LINEAR_ON_LINE, "springs on the line", "springs that read the surface")
+LINES = (SPRINGS_ROLLING, LINEAR_ON_LINE, LINEAR)
+EXACT_OVER_RIDGES = (LINEAR, LINEAR_ON_LINE, "springs on the line", "springs that read the surface", SPRINGS_ROLLING)
 
 
-def closed(scene, across):
-    """A3 of the linear filter, or twin, of each model."""
+def closed(scene, across, *names):
+    """A3 of the linear filter, or twin, of each model, or of those with these names."""
     quantity = RailQuantity(replace(scene, across=across), "contact-filter")
-    return quantity, {model.name: model.closed(quantity)[0] for model in models_serving(scene, "contact-filter")}
+    models = models_serving(quantity.scene, "contact-filter")
+    return quantity, {model.name: model.closed(quantity)[0] for model in models if model.name in names or not names}
 
 
-@pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5])
-def test_long_waves_pass(across):
+@pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
+def test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum(across):
     quantity, filters = closed(RAIL, across)
     long = quantity.wave < 0.05
-    assert long.sum() >= 5
+    assert long.sum() >= 5 and SPRINGS_ROLLING in filters
+    assert (filters.pop(SPRINGS_GEIKE, None) is None) == (across in ("ridges", 0.5))
     for name, a3 in filters.items():
         np.testing.assert_allclose(a3[long], 0.0, atol=0.03, err_msg=name)
+
+
+def falling(exponent):
+    """The rail with C_line ~ q^-p in all bands."""
+    q, n = RAIL.levels.bands.edges, exponent - 1
+    powers = 2e-9 * np.diff(np.log(q) if n == 0 else -(q**-n) / n)
+    return replace(RAIL, roughness=RoughnessLevels.of_powers(RAIL.levels.bands, powers, source="a power law"))
+
+
+@pytest.mark.parametrize("exponent", [1.0, 2.0, 2.5])
+def test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line(exponent):
+    """10 lg(pi q C_2D / C_line) of a power law: 0, 2.0 and 2.5 dB, however long the wave; others have 0 dB."""
+    quantity, filters = closed(falling(exponent), "isotropic", SPRINGS_GEIKE, LINEAR)
+    long = quantity.wave < 0.05
+    off = 10 * math.log10(math.sqrt(math.pi) * math.gamma((exponent + 1) / 2) / math.gamma(exponent / 2))
+    np.testing.assert_allclose(filters[SPRINGS_GEIKE][long], off, atol=0.03)
+    assert (np.abs(filters[LINEAR][long] - off) > 1).all() == (exponent > 1)
+
+
+def test_geikes_offset_on_the_limit_of_iso_3095_is_that_of_its_own_spectrum():
+    """C_1D(q) = pi q C_2D(q) by `mdr.geike`, over the line trace of the same surface, in the middle of each band."""
+    quantity, filters = closed(RAIL, "isotropic", SPRINGS_GEIKE, LINEAR_ON_LINE)
+    q = quantity.bands.centres
+    expected = 10 * np.log10(mdr.geike(q, quantity.line.isotropic) / RAIL.levels.c_line(q))
+    # not where the slope of the levels changes within a band
+    straight = (q > 20) & (quantity.wave < 0.3)
+    springs = filters[LINEAR_ON_LINE]
+    np.testing.assert_allclose((filters[SPRINGS_GEIKE] - springs)[straight], expected[straight], atol=0.05)
+    assert straight.sum() >= 4 and (expected[straight] > 2.5).all()
+
+
+def test_short_waves_under_springs_on_the_rolling_spectrum_have_the_level_of_the_half_space():
+    """On a circle, in the mean over bands, since zeros of springs do not fill; the line is (p + 1) / p too loud."""
+    quantity, filters = closed(replace(falling(2.0), crown_radius=0.46), "isotropic", *LINES)
+    short = quantity.wave > 10
+    over = {name: float((filters[name] - filters[LINEAR])[short].mean()) for name in LINES}
+    assert over[SPRINGS_ROLLING] == pytest.approx(0.0, abs=0.3)
+    assert over[LINEAR_ON_LINE] - over[SPRINGS_ROLLING] == pytest.approx(10 * math.log10(1.5), abs=0.05)
+
+
+@pytest.mark.parametrize("model", [SPRINGS_ROLLING, SPRINGS_GEIKE])
+def test_springs_of_input_spectra_follow_their_linear_twin_on_a_smoother_rail(model):
+    smoother = replace(RAIL, roughness=RAIL.levels.raised(-60.0))
+    for cells, error in ((6, 0.1), (12, 0.05)):
+        found = roll_spectral_springs(SpectralRail(strip=strip_of(smoother, "isotropic", cells, 0, 3), models=(model,)))
+        twin = found[twin_of(model)]
+        assert np.abs(found[model] - twin).max() < error * np.abs(twin).max()
+    # the line itself is another track
+    strip = strip_of(smoother, "isotropic", 12, 0, 3)
+    line = strip.along_middle(LINEAR_MODELS[LINEAR_ON_LINE](strip.contact))
+    assert np.abs(line - twin).max() > 0.05 * np.abs(twin).max()
+
+
+def test_geikes_rule_is_offered_on_isotropic_ground_alone():
+    for across, offered in (("isotropic", True), (None, True), ("ridges", False), (0.5, False)):
+        names = [model.name for model in models_serving(replace(RAIL, across=across), "contact-filter")]
+        assert (SPRINGS_GEIKE in names) == offered
+    with pytest.raises(ValueError, match="models must be of springs, rolling spectrum"):
+        SpectralRail(strip=strip_of(RAIL, "isotropic", 6, 0, 3), models=("moon",))
+
+
+@pytest.mark.slow
+def test_springs_of_input_spectra_are_named_to_compare():
+    found = compare(RAIL, "contact-filter", "1 dB", models=[SPRINGS_ROLLING, SPRINGS_GEIKE])
+    assert [one.name for one in found.selection.solved] == [SPRINGS_GEIKE, SPRINGS_ROLLING]
+    levels = {one.name: found.value_of(one) for one in found.selection.solved}
+    long = (found.wavelength_mm < 300) & (found.wavelength_mm > 100)
+    assert (np.abs(levels[SPRINGS_GEIKE][long] - 3.0) < 0.3).all()
+    assert (np.abs(levels[SPRINGS_ROLLING][long]) < 0.3).all()
 
 
 def test_over_ridges_models_are_sinc_squared_above_the_first_zero():

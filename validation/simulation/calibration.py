@@ -72,7 +72,7 @@ class MeasuredErrors:
                 return ErrorEstimate.out_of_range(reason)
         error = self.factor * shape * self._scale(np.clip(at, low, high), np.ones(len(self.errors), dtype=bool))
         leading = counted({name: conditions[name] for name in named[:2]})
-        reason = f"its error is interpolated between {len(self.errors)} measured scenes, at {leading}"
+        reason = f"errors reach so far on the nearest of {len(self.errors)} measured scenes, at {leading}"
         return ErrorEstimate(model=error, reason=reason)
 
     @cached_property

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
+from validation.engine.engine import Outcome
+from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import (
     LINEAR,
@@ -27,8 +29,7 @@ from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target
 from validation.simulation.rail_ground import StatedAcross, positions_along, strip_bands, strip_of
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
-from validation.theory.elliptic_contact import EllipticContact
-from validation.theory.transverse_structure import Filter
+from validation.simulation.rail_strip import RailStrip
 
 FloatArray = NDArray[np.float64]
 
@@ -78,12 +79,8 @@ class RailModel(Model):
         return isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
 
     @abstractmethod
-    def transfer(self, contact: EllipticContact) -> Filter:
-        """H(k_x, k_y), of a one-sided model that of its linear twin."""
-
     def closed(self, quantity: RailQuantity) -> FloatArray:
-        """A3 of the linear filter on the stated ground, (ends, bands) [dB]."""
-        return quantity.filtered(self.transfer(quantity.scene.contact))
+        """A3 of the linear filter, of a one-sided model that of its linear twin, (ends, bands) [dB]."""
 
     def find(self, quantity: RailQuantity, seed: int) -> FoundFilter:
         """Without a sample."""
@@ -91,7 +88,9 @@ class RailModel(Model):
         return FoundFilter(a3, self.model_error(quantity, a3), np.zeros_like(a3), np.zeros_like(a3))
 
     def model_error(self, quantity: RailQuantity, a3: FloatArray) -> FloatArray:
-        """Half-width that the model and the ground leave in each band [dB]."""
+        """Half-width that model and ground leave in each band, infinite for a radius in place of a profile [dB]."""
+        if isinstance(quantity.scene, ProfiledRail):
+            return np.full_like(a3, np.inf)
         apart = np.abs(a3 - quantity.linear.mean(axis=0))
         return np.asarray(apart + linear_error(quantity) + quantity.half_width)
 
@@ -105,6 +104,8 @@ class RailModel(Model):
 
     def beyond(self, quantity: RailQuantity) -> str:
         """Why no error is known; empty where one is."""
+        if isinstance(quantity.scene, ProfiledRail):
+            return f"errors were measured on two radii: {quantity.scene.stand_in}"
         contact = quantity.scene.contact
         aspect = contact.across / contact.along
         if quantity.lost > MOST_LOST:
@@ -132,8 +133,8 @@ class RailModel(Model):
 class LinearRailFilter(RailModel):
     """A linear filter whose mean over the stated ground is a quadrature."""
 
-    def transfer(self, contact: EllipticContact) -> Filter:
-        return LINEAR_MODELS[self.name](contact)
+    def closed(self, quantity: RailQuantity) -> FloatArray:
+        return quantity.filtered(LINEAR_MODELS[self.name](quantity.scene.contact))
 
 
 class RolledRailModel(RailModel):
@@ -143,8 +144,21 @@ class RolledRailModel(RailModel):
     cells: ClassVar = (COARSE, FINE)
     seconds: ClassVar = ITEM
 
-    def transfer(self, contact: EllipticContact) -> Filter:
-        return LINEAR_MODELS[ONE_SIDED[self.name].twin](contact)
+    def closed(self, quantity: RailQuantity) -> FloatArray:
+        return quantity.filtered(LINEAR_MODELS[self.twin](quantity.scene.contact))
+
+    @property
+    def twin(self) -> str:
+        """The name of its linear twin, and of that one's track."""
+        return ONE_SIDED[self.name].twin
+
+    def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
+        """Tracks along a strip of this model and of its twin, by their names [m]; failed: positions without any."""
+        return roll_rail(RolledRail(strip=strip, models=(self.name,)))
+
+    def grounds(self, quantity: RailQuantity) -> tuple[StatedAcross, ...]:
+        """What lies across on the strips of each end."""
+        return quantity.ends
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
         quantity = rail_quantity(target)
@@ -155,12 +169,23 @@ class RolledRailModel(RailModel):
     def find(self, quantity: RailQuantity, seed: int) -> FoundFilter:
         twin, inside = self.closed(quantity), in_strips(quantity)
         over, grid, sample = np.zeros((3, *twin.shape))
-        for i, across in enumerate(quantity.ends):
-            coarse, fine = (over_twin(quantity.scene, across, self.name, cells, seed) for cells in self.cells)
+        for i, across in enumerate(self.grounds(quantity)):
+            coarse, fine = (self.over_twin(quantity.scene, across, cells, seed) for cells in self.cells)
             over[i, inside], sample[i, inside] = fine
             grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
         a3 = (twin + over).mean(axis=0)
         return FoundFilter(a3, self.model_error(quantity, a3), grid.max(axis=0), sample.max(axis=0))
+
+    def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> tuple[FloatArray, FloatArray]:
+        """The model over its linear twin on the same strips, in their bands, and what the sample leaves of it [dB]."""
+        strips = [strip_of(scene, across, cells, i, seed) for i in range(STRIPS)]
+        outcomes = [self.roll(scene, strip) for strip in strips]
+        bands = Bands(tuple(strip_bands(scene).edges.tolist()))
+        if any(outcome["failed"] for outcome in outcomes):
+            return np.full((2, len(bands.centres)), np.nan)  # type: ignore[return-value]
+        found = log_over(self.name, self.twin, outcomes, strips[0].spacing, bands)
+        values, errors = zip(*((one.value, one.half_width) for one in found), strict=True)
+        return POWER_DECIBEL * np.array(values), POWER_DECIBEL * np.array(errors)
 
 
 def rail_quantity(target: Target) -> RailQuantity:
@@ -183,20 +208,6 @@ def linear_error(quantity: RailQuantity) -> FloatArray:
 def in_strips(quantity: RailQuantity) -> NDArray[np.bool_]:
     """Bands that a strip has."""
     return np.isin(quantity.bands.numbers, strip_bands(quantity.scene).numbers)
-
-
-def over_twin(
-    scene: RailScene, across: StatedAcross, model: str, cells: int, seed: int
-) -> tuple[FloatArray, FloatArray]:
-    """A model over its linear twin on the same strips, in their bands, and what the sample leaves of it [dB]."""
-    strips = [strip_of(scene, across, cells, i, seed) for i in range(STRIPS)]
-    outcomes = [roll_rail(RolledRail(strip=strip, models=(model,))) for strip in strips]
-    bands = Bands(tuple(strip_bands(scene).edges.tolist()))
-    if any(outcome["failed"] for outcome in outcomes):
-        return np.full((2, len(bands.centres)), np.nan)  # type: ignore[return-value]
-    found = log_over(model, ONE_SIDED[model].twin, outcomes, strips[0].spacing, bands)
-    values, errors = zip(*((one.value, one.half_width) for one in found), strict=True)
-    return POWER_DECIBEL * np.array(values), POWER_DECIBEL * np.array(errors)
 
 
 def worst(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> float:

@@ -16,9 +16,10 @@ import bem3d
 import mdr
 from validation.engine.engine import Outcome
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import BEM, LINE, LINEAR, LINEAR_MODELS, SPRINGS_THAT_READ
+from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_MODELS, SPRINGS_THAT_READ
 from validation.simulation.rail_ground import LENGTH, StatedAcross, strip_of
 from validation.simulation.rail_strip import RailStrip
+from validation.simulation.spectral_springs import geike_track
 
 FloatArray = NDArray[np.float64]
 
@@ -134,19 +135,6 @@ FORCES: dict[str, Callable[[HeldWheel], FloatArray]] = {
     SPRINGS_THAT_READ: _springs_that_read,
     GEIKE: _springs_of_geike,
 }
-
-
-def geike_track(strip: RailStrip) -> FloatArray:
-    """The middle line of an isotropic surface with each of its waves scaled to C_1D = pi |k| C_2D(|k|) of Geike's rule.
-
-    The waves keep their phases, and the scatter of their amplitudes.
-    """
-    line = strip.along_middle(LINEAR_MODELS[LINE](strip.contact))
-    k = np.abs(2 * np.pi * np.fft.fftfreq(line.size, strip.spacing))
-    of_line = strip.variance.sum(axis=1) * strip.width / (2 * math.pi)
-    mapped = math.pi * k * strip.variance[:, 0] * (strip.width / (2 * math.pi)) ** 2
-    ratio = np.divide(mapped, of_line, out=np.zeros_like(k), where=of_line > 0)
-    return np.asarray(np.fft.ifft(np.sqrt(ratio) * np.fft.fft(line)).real)
 
 
 def samples_of(force: FloatArray, samples: int) -> FloatArray:

@@ -15,16 +15,16 @@ from validation.cases.rail.filters import (
     weighted_difference,
 )
 from validation.cases.rail.published import a3_of_table, columns_of_table, compared
-from validation.cases.rail.rolled_filters import RIVALS, Key, RolledFiltersResult
+from validation.cases.rail.rolled_filters import RIVALS, Key, RolledFiltersResult, spectral_models
 from validation.simulation.equivalent_displacement import (
     BED,
     BEM,
     LINEAR,
     LINEAR_ON_LINE,
     LINEAR_ON_MEAN,
-    ONE_SIDED,
 )
 from validation.simulation.rail_ground import strip_bands
+from validation.simulation.spectral_springs import twin_of
 
 FloatArray = NDArray[np.float64]
 
@@ -35,9 +35,9 @@ def a3(result: RolledFiltersResult, key: Key, model: str) -> FloatArray:
     """Of a model in the bands of the strips [dB]; of a one-sided one, that of its twin and what it is over it."""
     scene, across = result.case.scene(key), ACROSS[key[2]]
     first = scene.levels.bands.longest - strip_bands(scene).longest
-    linear = linear_filter(scene, ONE_SIDED[model].twin if model in ONE_SIDED else model, across)
+    linear = linear_filter(scene, twin_of(model), across)
     known = linear[first : first + len(strip_bands(scene))]
-    if model not in ONE_SIDED:
+    if model == twin_of(model):
         return known
     return known + POWER_DECIBEL * np.array([one.value for one in result.over_twin(key, model)])
 
@@ -49,7 +49,7 @@ def bands_table(result: RolledFiltersResult) -> Table:
         bands = strip_bands(result.case.scene(key))
         keep = counted(a3(result, key, LINEAR))
         grid = POWER_DECIBEL * result.left_by_grid(key, BEM, LINEAR)
-        for model in (BEM, *FILTERS, *RIVALS):
+        for model in (BEM, *FILTERS, *RIVALS, *spectral_models(key)):
             half = [POWER_DECIBEL * one.half_width for one in result.over_twin(key, BEM)] if model == BEM else None
             for i, value in enumerate(a3(result, key, model)):
                 rows.append(

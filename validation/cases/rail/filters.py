@@ -11,6 +11,7 @@ from validation.scenes.level_files import curve
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import LINEAR_MODELS
 from validation.simulation.rail_ground import StatedAcross, line_of, structure_of
+from validation.simulation.spectral_springs import LINEAR_GEIKE, LINEAR_ROLLING, geike_power, rolling_transfer
 from validation.theory.contact_filters import remington_filter
 from validation.theory.elliptic_contact import EllipticContact
 
@@ -45,7 +46,8 @@ def linear_filter(
 ) -> FloatArray:
     """A3 of a linear model over the bands of the levels [dB]: int |H|^2 C_line dq over int C_line dq.
 
-    contact: another one in place of that of the scene.
+    contact: another one in place of that of the scene. Of Geike's rule it is that of isotropic ground, whatever lies
+    across.
     """
     bands, line, contact = scene.levels.bands, line_of(scene), contact or scene.contact
     axes = contact.along, contact.across
@@ -54,7 +56,9 @@ def linear_filter(
         power = line(q) * dq
         passed = power * remington_filter(q, radius=float(np.sqrt(axes[0] * axes[1])), alpha=1.0)
         return decibel(passed.sum(axis=1) / power.sum(axis=1))
-    transfer = LINEAR_MODELS[model](contact)
+    if model == LINEAR_GEIKE:
+        return decibel(geike_power(line, contact, bands.edges))
+    transfer = rolling_transfer(contact) if model == LINEAR_ROLLING else LINEAR_MODELS[model](contact)
     return decibel(structure_of(across, line).band_power(line, transfer, edges=bands.edges, semi_axes=axes))
 
 

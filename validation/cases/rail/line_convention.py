@@ -13,7 +13,7 @@ from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Ta
 from validation.analysis.over_range import worst
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
-from validation.analysis.wording import by_status, farthest_off
+from validation.analysis.wording import by_status, decibels, farthest_off
 from validation.cases.rail.filters import counted, decibel, linear_filter, scene_of
 from validation.cases.rail.published import RailWheel
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -258,7 +258,7 @@ def _claim(numbers: list[Number], sentence: str, quantity: str) -> JudgedClaim:
     return answered(
         sentence,
         mine,
-        f"at worst {off.value:+.1f} ± {off.uncertainty:.1f} dB off at {off.where['worst at']:g} mm, "
+        f"at worst {decibels(off)} off at {off.where['worst at']:g} mm, "
         f"{off.where['across']}, lines {off.where['spacing [mm]']:g} mm apart.",
         limits=", ".join(kept) if len(inside) < len(mine) else "",
         inside=inside if len(inside) < len(mine) else (),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import Bands
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.level_files import curve
 from validation.simulation.rail_ground import RailGround
@@ -52,6 +53,15 @@ class RailDynamic:
     tolerance: float = 1e-4
     seed: int = 20
 
+    def __post_init__(self) -> None:
+        try:
+            Bands(tuple(self.bands.edges.tolist())).on(self.length)
+        except ValueError:
+            raise ValueError(
+                f"periods must be so many that each band of the track has a wave, got {self.periods}, which are "
+                f"{self.length:.3g} m, for waves of up to {self.longest:g} m"
+            ) from None
+
     @cached_property
     def contact(self) -> EllipticContact:
         """At rest on the smooth rail."""
@@ -71,6 +81,12 @@ class RailDynamic:
         """sqrt(k / M) / 2 pi [Hz]."""
         return math.sqrt(self.contact.stiffness / self.mass) / (2 * math.pi)
 
+    @property
+    def length(self) -> float:
+        """Of a track [m]: whole semi-axes, about `periods` of the resonance and a half."""
+        unit = self.contact.along
+        return unit * round((self.periods + 0.5) * self.speed / self.resonance / unit)
+
     def problem(self, key: Key, realisation: int) -> WheelOnRail:
         offset, model, grid = key
         unit, cells = self.contact.along, self.cells if grid == FINE else self.coarse
@@ -81,7 +97,7 @@ class RailDynamic:
             radii=self.radii,
             force=self.load,
             modulus=self.modulus,
-            length=unit * round((self.periods + 0.5) * self.speed / self.resonance / unit),
+            length=self.length,
             width=unit * round(self.width * self.longest / unit),
             spacing=unit / cells,
             realisation=realisation,

@@ -15,7 +15,6 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import (
     BEM,
-    ONE_SIDED,
     ONE_SIDED_BED,
     SPRINGS_ON_LINE,
     SPRINGS_ON_MEAN,
@@ -25,6 +24,13 @@ from validation.simulation.equivalent_displacement import (
     roll_rail,
 )
 from validation.simulation.rail_ground import strip_bands, strip_of
+from validation.simulation.spectral_springs import (
+    SPRINGS_GEIKE,
+    SPRINGS_ROLLING,
+    SpectralRail,
+    roll_spectral_springs,
+    twin_of,
+)
 
 FloatArray = NDArray[np.float64]
 Key = tuple[RailWheel, float, str]
@@ -71,6 +77,15 @@ class RolledFilters:
             for i in range(self.strips)
         ]
 
+    def spectral_problems(self, key: Key, cells: int) -> list[SpectralRail]:
+        """The same strips under springs of input spectra."""
+        return [SpectralRail(strip=one.strip, models=spectral_models(key)) for one in self.problems(key, cells)]
+
+
+def spectral_models(key: Key) -> tuple[str, ...]:
+    """Springs of input spectra on a kind of strip: Geike's rule is for isotropic ground alone."""
+    return (SPRINGS_ROLLING, SPRINGS_GEIKE) if ACROSS[key[2]] == "isotropic" else (SPRINGS_ROLLING,)
+
 
 @dataclass(frozen=True)
 class RolledFiltersResult:
@@ -82,7 +97,7 @@ class RolledFiltersResult:
 
     def over_twin(self, key: Key, model: str, cells: int | None = None) -> list[Estimate]:
         """ln of the band power of a one-sided model over that of its linear twin on the same strips."""
-        return self.over(key, model, ONE_SIDED[model].twin, cells)
+        return self.over(key, model, twin_of(model), cells)
 
     def over(self, key: Key, model: str, other: str, cells: int | None = None) -> list[Estimate]:
         """The same over any other track; on the finer grid unless told."""
@@ -107,7 +122,13 @@ def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersRe
     groups: dict[tuple[Key, int], Sequence[RolledRail]] = {
         (key, cells): case.problems(key, cells) for key in case.keys for cells in case.cells
     }
-    outcomes = engine.map_groups(roll_rail, groups)
+    rolled = engine.map_groups(roll_rail, groups)
+    spectral = engine.map_groups(roll_spectral_springs, {(key, n): case.spectral_problems(key, n) for key, n in groups})
+    # positions that failed are those of boundary elements
+    outcomes = {
+        kind: [{**springs, **one} for springs, one in zip(spectral[kind], found, strict=True)]
+        for kind, found in rolled.items()
+    }
     lost = tuple(
         f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: {int(one['failed'])} positions"
         for ((wheel, offset, name), cells), found in outcomes.items()

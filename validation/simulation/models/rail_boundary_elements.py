@@ -5,9 +5,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.engine.engine import Outcome
+from validation.scenes.profiled_rail import ProfiledRail
+from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import BEM
+from validation.simulation.profiled_strip import roll_on_profile
 from validation.simulation.rail_models import POSITION, RolledRailModel, in_strips, linear_error
 from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.rail_strip import RailStrip
 
 
 class BoundaryElementsOnRail(RolledRailModel):
@@ -17,8 +22,18 @@ class BoundaryElementsOnRail(RolledRailModel):
     seconds: ClassVar = POSITION
 
     def model_error(self, quantity: RailQuantity, a3: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What the ground leaves; no error of its own."""
-        return np.where(in_strips(quantity), 0.0, linear_error(quantity)) + quantity.half_width
+        """What the ground leaves; no error of its own. Of a profile, short waves that a strip has not are unknown."""
+        inside, beyond = in_strips(quantity), linear_error(quantity)
+        if isinstance(quantity.scene, ProfiledRail):
+            shorter = np.arange(inside.size) > np.flatnonzero(inside).max()
+            beyond = np.where(shorter, np.inf, beyond)
+        return np.where(inside, 0.0, beyond) + quantity.half_width
+
+    def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
+        """With the profile across where the scene has one."""
+        if isinstance(scene, ProfiledRail):
+            return roll_on_profile(strip, scene.profile)
+        return super().roll(scene, strip)
 
     def beyond(self, quantity: RailQuantity) -> str:
         """It is the reference."""

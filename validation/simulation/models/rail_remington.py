@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from validation.simulation.rail_models import RailModel
 from validation.simulation.rail_quantity import RailQuantity
-from validation.theory.contact_filters import remington_filter, spring_bed_filter
+from validation.theory.contact_filters import remington_filter
 from validation.theory.elliptic_contact import EllipticContact
-from validation.theory.transverse_structure import Filter, Ridges
+from validation.theory.transverse_structure import Ridges
 
 ALPHA = 1.0
 """The usual choice, where the scene states no band of waves."""
@@ -21,10 +21,6 @@ class Remington(RailModel):
 
     name: ClassVar = "Remington"
     setting: ClassVar = "closed form on a circle, alpha of the scene or one"
-
-    def transfer(self, contact: EllipticContact) -> Filter:
-        b = _radius(contact)
-        return lambda along, across: spring_bed_filter(along, across, semi_axes=(b, b))
 
     def closed(self, quantity: RailQuantity) -> NDArray[np.float64]:
         """The same for each end."""

@@ -1,0 +1,111 @@
+"""Boundary elements on a strip with a measured shape across: a parabola is its radius, a worn one is not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import bem3d
+from validation import compare, load_scene
+from validation.scenes.profiled_rail import ProfiledRail
+from validation.scenes.rail import RailScene
+from validation.scenes.transverse_profile import TransverseProfile
+from validation.selection.summary import summary
+from validation.simulation import profiled_strip, rail_models
+from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_MODELS, lifted
+from validation.simulation.model import models_serving
+from validation.simulation.models import rail_boundary_elements
+from validation.simulation.rail_ground import strip_of
+
+RAIL = load_scene("rail")
+assert isinstance(RAIL, RailScene)
+Y = np.linspace(-30e-3, 30e-3, 241)
+
+
+def worn(y):
+    """A crown of 300 mm that turns into one of 40 mm, 2 mm from the middle, without an edge [m]."""
+    return -(y**2) / 0.6 - np.maximum(np.abs(y) - 2e-3, 0.0) ** 2 * (1 / 0.08 - 1 / 0.6)
+
+
+def profiled(height):
+    profile = TransverseProfile(y=tuple(Y.tolist()), height=tuple(height.tolist()), source="head.csv")
+    names = ("name", "radius", "load", "modulus", "material", "roughness", "speed", "across")
+    return ProfiledRail(**{name: getattr(RAIL, name) for name in names}, profile=profile)
+
+
+def rolled(strip, columns=slice(None), **shape):
+    """Without a scene: the strip, its wheel, and a shape across."""
+    found = bem3d.roll(
+        strip.surface[:, columns],
+        spacing=strip.spacing,
+        modulus=strip.modulus,
+        force=strip.force,
+        positions=6,
+        tolerance=3e-6,
+        **shape,
+    )
+    return lifted(found.approach)
+
+
+@pytest.mark.slow
+def test_a_parabola_rolls_as_its_radius():
+    scene = profiled(-(Y**2) / 0.6)
+    strip = strip_of(scene, "isotropic", 5, 0, 3)
+    found = profiled_strip.roll_on_profile(strip, scene.profile, positions=6)
+    expected = rolled(strip_of(RAIL, "isotropic", 5, 0, 3), radius=RAIL.radii)
+    np.testing.assert_allclose(found[BEM], expected, atol=1e-4 * np.abs(expected).max())
+    assert found["failed"] == 0 and found[LINEAR].shape == (strip.shape[0],)
+
+
+@pytest.mark.slow
+def test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact():
+    scene = profiled(worn(Y))
+    strip = strip_of(scene, "isotropic", 5, 0, 3)
+    found = profiled_strip.roll_on_profile(strip, scene.profile, positions=6)[BEM]
+    columns, z = profiled_strip.heights_across(strip, scene.profile)
+    places = (np.arange(strip.shape[1]) - (strip.shape[1] - 1) / 2)[columns] * strip.spacing
+    np.testing.assert_allclose(z, worn(places), atol=2e-7)
+    expected = rolled(strip, columns, radius=RAIL.radius, transverse_profile=worn(places))
+    np.testing.assert_allclose(found, expected, atol=0.01 * np.abs(expected).max())
+    radius = rolled(strip, radius=scene.radii)
+    assert np.abs(found - radius).max() > 0.03 * np.abs(expected).max()
+
+
+def test_models_of_two_radii_are_told_and_boundary_elements_take_the_profile(monkeypatch):
+    monkeypatch.setattr(rail_models, "STRIPS", 2)
+    monkeypatch.setattr(rail_boundary_elements.BoundaryElementsOnRail, "cells", (3, 4))
+    taken = []
+
+    def louder_than_linear(strip, profile):
+        taken.append(profile)
+        linear = strip.along_middle(LINEAR_MODELS[LINEAR](strip.contact))
+        return {LINEAR: linear, BEM: 10 ** (1 / 20) * linear, "failed": np.array(0.0)}
+
+    monkeypatch.setattr(rail_boundary_elements, "roll_on_profile", louder_than_linear)
+    scene = replace(profiled(worn(Y)), name="worn rail")
+    found = compare(scene, "contact-filter", "3 dB", models=[BEM, LINEAR])
+    assert taken and set(taken) == {scene.profile}
+    by_name = {one.name: one for one in found.models}
+    assert by_name[BEM].estimate.in_range and by_name[BEM].answer is not None and not by_name[BEM].answer.failed
+    for model in models_serving(scene, "contact-filter"):
+        if model.name != BEM:
+            assert not by_name[model.name].estimate.in_range
+            assert "errors were measured on two radii: the transverse profile of head.csv has a radius of 176 mm" in (
+                by_name[model.name].estimate.reason
+            )
+    text = " ".join(summary(found).split())
+    assert "profile of head.csv across, radius 176 mm fitted over the contact" in text
+    assert found.model == BEM and np.isinf(by_name[LINEAR].error)
+    over = found.value_of(by_name[BEM]) - found.value_of(by_name[LINEAR])
+    rolled_over = (found.wavelength_mm < 60) & (found.wavelength_mm > 3)
+    np.testing.assert_allclose(over, np.where(rolled_over, 1.0, 0.0), atol=1e-6)
+    # shorter waves than those of a strip: nothing rolled over them
+    assert np.isinf(found.errors_of(by_name[BEM])[found.wavelength_mm < 2.5]).all()
+
+
+@pytest.mark.parametrize("height", [-(Y**2) / 0.6, worn(Y)])
+def test_another_load_has_another_contact_and_its_own_radius(height):
+    scene = profiled(height)
+    lighter = replace(scene, load=scene.load / 20)
+    assert lighter.contact.across < scene.contact.across
+    assert lighter.radii[1] == pytest.approx(0.3, rel=0.02)
