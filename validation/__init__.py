@@ -19,7 +19,7 @@ MODULES = {
     "compare": "selection.compare",
     "load_scene": "scenes.load",
     "load_wheel_scene": "scenes.dynamic_wheel",
-    "measured": "scenes.measured",
+    "measured": "scenes.measured_surface",
     "summary": "selection.summary",
     "to_csv": "selection.exported",
     "to_json": "selection.exported",

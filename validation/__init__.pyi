@@ -7,7 +7,7 @@ from validation.scenes.indentation import IndentationScene as IndentationScene
 from validation.scenes.load import load_scene as load_scene
 from validation.scenes.material import Material as Material
 from validation.scenes.measured import MeasuredHeights as MeasuredHeights
-from validation.scenes.measured import measured as measured
+from validation.scenes.measured_surface import measured as measured
 from validation.scenes.rail import RailScene as RailScene
 from validation.scenes.rolling import RollingScene as RollingScene
 from validation.scenes.roughness import Roughness as Roughness

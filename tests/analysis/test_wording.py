@@ -9,6 +9,7 @@ from validation.analysis.evidence import Verdict
 from validation.analysis.wording import (
     by_status,
     by_verdict,
+    decibels,
     farthest_off,
     highest_and_lowest_off,
     joint_verdict,
@@ -75,3 +76,16 @@ def test_a_headline_belongs_to_a_figure_of_its_case():
     assert evidence([], [], **shown).headlines == shown["headlines"]
     with pytest.raises(ValueError, match="two"):
         evidence([], [], captions={"one": "Axes."}, headlines={"two": "Springs"})
+
+
+@pytest.mark.parametrize(
+    ("value", "half_width", "said"),
+    [
+        (0.24, 0.51, "+0.2 ± 0.5 dB"),
+        (-1.26, 0.04, "-1.3 dB"),
+        (-0.04, 0.01, "less than 0.05 dB"),
+        (-0.04, 0.3, "+0.0 ± 0.3 dB"),
+    ],
+)
+def test_a_level_has_an_interval_where_there_is_one(value, half_width, said):
+    assert decibels(point(value, half_width)) == said

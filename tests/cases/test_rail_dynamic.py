@@ -67,4 +67,9 @@ def test_a_strip_ends_half_a_natural_period_after_whole_ones():
     periods = problem.strip.length / CASE.speed * CASE.resonance
     assert periods == pytest.approx(CASE.periods + 0.5, abs=0.06)
     assert math.tau * CASE.resonance == pytest.approx(problem.wheel.eigenfrequency, rel=1e-9)
-    assert replace(CASE, periods=3).problem((0.0, BEM, FINE), 0).strip.length < problem.strip.length
+    assert replace(CASE, periods=9).problem((0.0, BEM, FINE), 0).strip.length > problem.strip.length
+
+
+def test_a_track_too_short_for_its_bands_is_refused_before_the_first_solve():
+    with pytest.raises(ValueError, match=r"periods must be so many that .* got 12, which are 1.15 m, for waves of"):
+        RailDynamic(longest=0.5, periods=12)

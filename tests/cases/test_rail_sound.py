@@ -57,7 +57,7 @@ def test_claims_and_words_change_with_the_levels():
     assert [claim.status for claim in same.claims] == [ClaimStatus.HOLDS] * 3
     assert [claim.status for claim in louder.claims] == [ClaimStatus.CONTRADICTED, *[ClaimStatus.HOLDS] * 2]
     assert "Farther off" not in same.finding
-    assert louder.finding.endswith("Farther off: springs of Geike's spectrum (+6.0 ± 0.0 dB).")
+    assert louder.finding.endswith("Farther off: springs of Geike's spectrum (+6.0 dB).")
     assert f"{GEIKE}, 6.0 dB louder" in louder.headlines["rail_sound"]
 
 

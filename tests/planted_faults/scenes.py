@@ -6,8 +6,25 @@ import math
 import numpy as np
 
 from tests.planted_faults.wrong import scaled, with_math
-from tests.scenes import test_materials, test_measured_heights, test_rail, test_steadiness
-from validation.scenes import material, measured, rail, roughness, roughness_levels, steadiness
+from tests.scenes import (
+    test_height_edits,
+    test_materials,
+    test_measured_heights,
+    test_profiled_rail,
+    test_rail,
+    test_steadiness,
+)
+from validation.scenes import (
+    height_edits,
+    material,
+    measured,
+    measured_surface,
+    rail,
+    roughness,
+    roughness_levels,
+    steadiness,
+    transverse_profile,
+)
 from validation.theory import rolling as rolling_theory
 
 measured_spectrum = measured._spectrum
@@ -17,6 +34,11 @@ def behind_the_mask(height):
     return np.asarray(height, dtype=np.float64)
 
 
+def over_twice_the_contact(profile, half_width):
+    return radius_of_parabola(profile, 2 * half_width)
+
+
+radius_of_parabola = transverse_profile.TransverseProfile.radius_within
 radii_of_rail = rail.RailScene.radii.fget
 slope_in_one_direction = roughness.Roughness.slope_along.fget
 
@@ -27,6 +49,18 @@ def half_of_the_level(height, spacing):
 
 
 FAULTS = {
+    "y^2 / R for y^2 / (2 R) in the radius of a transverse profile": (
+        (transverse_profile.TransverseProfile, "radius_within", scaled(radius_of_parabola, 2.0)),
+        functools.partial(test_profiled_rail.test_a_parabola_has_its_radius_under_any_load, 5e4),
+    ),
+    "a radius of more than the contact": (
+        (transverse_profile.TransverseProfile, "radius_within", over_twice_the_contact),
+        test_profiled_rail.test_a_radius_is_fitted_over_the_contact_and_not_over_the_whole_head,
+    ),
+    "the curvature of the other body taken off that of a profile": (
+        (test_profiled_rail, "both_together", lambda bodies, curvature: transverse_profile.both_together(bodies, 0.0)),
+        test_profiled_rail.test_a_hollow_wheel_and_a_crown_are_one_profile,
+    ),
     "measured heights over half of their mean square": (
         (measured, "_spectrum", half_of_the_level),
         test_measured_heights.test_the_spectrum_has_the_height,
@@ -36,11 +70,23 @@ FAULTS = {
         test_measured_heights.test_note_of_plateaus_that_neither_skewness_nor_kurtosis_shows,
     ),
     "heights behind a mask": (
-        (measured, "real_numbers", behind_the_mask),
+        (measured_surface, "real_numbers", behind_the_mask),
         test_measured_heights.test_points_without_data_are_refused,
     ),
+    "the mean of all heights for points without data": (
+        (height_edits, "filled_in", lambda height, spacing: np.where(np.isnan(height), np.nanmean(height), height)),
+        functools.partial(test_height_edits.test_few_points_are_filled_in_where_it_is_asked_for_and_told, "nan"),
+    ),
+    "cells taken for squares where points without data are filled in": (
+        (height_edits, "_weight", lambda step, least: 1.0),
+        test_height_edits.test_holes_at_an_edge_against_repeated_means,
+    ),
+    "the first square for the central one": (
+        (height_edits, "central_square", lambda height, spacing: height[-min(height.shape) :, -min(height.shape) :]),
+        test_height_edits.test_a_crop_is_told_and_its_points_alone_count,
+    ),
     "a surface in micrometres taken for one in metres": (
-        (measured, "_metres", lambda surface: 1.0),
+        (measured_surface, "_metres", lambda surface: 1.0),
         functools.partial(
             test_measured_heights.test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes, {"unit": "um"}
         ),

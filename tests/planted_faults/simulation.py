@@ -10,6 +10,7 @@ import mdr
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import (
     test_periodic_motion,
+    test_profiled_strip,
     test_rail_filters,
     test_rail_sound,
     test_reduced_models,
@@ -26,13 +27,16 @@ from validation.simulation import (
     integrators,
     mean_contact,
     pressed_layer,
+    profiled_strip,
     rail_models,
     rail_quantity,
-    rail_sound,
+    spectral_springs,
     wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
+from validation.simulation.equivalent_displacement import LINE, LINEAR_MODELS
 from validation.simulation.rough_punch import PunchRoughness
+from validation.theory import spring_input
 from validation.theory import wheel as wheel_theory
 
 
@@ -103,14 +107,58 @@ def middle_line(half_widths, points, step):
 
 def line_itself(strip):
     """A line trace in the place of Geike's spectrum."""
-    return strip.along_middle(rail_sound.LINEAR_MODELS[rail_sound.LINE](strip.contact))
+    return strip.along_middle(LINEAR_MODELS[LINE](strip.contact))
 
 
 def springs_on_middle_line(height, *, spacing, **wheel):
     return mdr.roll(height[:, height.shape[1] // 2], spacing=spacing[0], **wheel)
 
 
+def share_of_oblique_waves(along, across, *, semi_axes):
+    """sqrt(e(S)), which is not over e(k_x a_x): waves along the track are filtered twice."""
+    return 1 / np.sqrt(1 + (along * semi_axes[0]) ** 2 + (across * semi_axes[1]) ** 2)
+
+
+def surface_itself(along, across, *, semi_axes):
+    """The line, whose level is too high for short waves."""
+    return np.ones_like(along + across)
+
+
+def on_the_fitted_radius(strip, profile):
+    """The parabola that stands in for the profile."""
+    y = (np.arange(strip.shape[1]) - (strip.shape[1] - 1) / 2) * strip.spacing
+    return slice(None), -(y**2) / (2 * strip.radii[1])
+
+
 FAULTS = {
+    "a fitted radius in place of the transverse profile": (
+        (profiled_strip, "heights_across", on_the_fitted_radius),
+        test_profiled_strip.test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact,
+    ),
+    "the rolling spectrum of a rail that filters ridges": (
+        (spectral_springs, "rolling_input_filter", share_of_oblique_waves),
+        test_rail_filters.test_over_ridges_models_are_sinc_squared_above_the_first_zero,
+    ),
+    "the line taken for the rolling spectrum of a rail": (
+        (spectral_springs, "rolling_input_filter", surface_itself),
+        test_rail_filters.test_short_waves_under_springs_on_the_rolling_spectrum_have_the_level_of_the_half_space,
+    ),
+    "long waves that do not pass under springs on the rolling spectrum": (
+        (spectral_springs, "rolling_input_filter", scaled(spring_input.rolling_input_filter, 1.1)),
+        functools.partial(
+            test_rail_filters.test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum, "isotropic"
+        ),
+    ),
+    "the line trace taken for Geike's spectrum under springs on a rail": (
+        (spectral_springs, "geike_over_line", lambda wavenumber, ground: np.ones_like(wavenumber)),
+        functools.partial(
+            test_rail_filters.test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line, 2.0
+        ),
+    ),
+    "a one-sided spectrum of Geike's rule under springs on a rail": (
+        (spectral_springs, "geike_over_line", scaled(spring_input.geike_over_line, 2.0)),
+        test_rail_filters.test_geikes_offset_on_the_limit_of_iso_3095_is_that_of_its_own_spectrum,
+    ),
     "the line trace taken for Geike's spectrum": (
         (test_rail_sound, "geike_track", line_itself),
         test_rail_sound.test_geikes_track_has_his_spectrum_and_the_phases_of_the_line,

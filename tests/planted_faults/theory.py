@@ -8,9 +8,9 @@ import numpy as np
 
 import mdr
 from tests.planted_faults.wrong import one_sided_spectrum, scaled
-from tests.theory import test_closed_forms, test_rolling_theory, test_transverse_structure
+from tests.theory import test_closed_forms, test_rolling_theory, test_spring_input, test_transverse_structure
 from validation.analysis import spectra
-from validation.theory import closed_forms, transverse_structure
+from validation.theory import closed_forms, spring_input, transverse_structure
 from validation.theory import rolling as rolling_theory
 from validation.theory.line_spectrum import LineSpectrum
 
@@ -32,7 +32,21 @@ def line_for_rolling(q, c2d, edges, flat):
 feed = importlib.import_module("mdr.rolling_spectrum")
 
 
+def circle_for_the_ellipse(along, across, *, semi_axes):
+    return ellipse_of_springs(along, across, semi_axes=(semi_axes[0], semi_axes[0]))
+
+
+ellipse_of_springs = spring_input.rolling_input_filter
+
 FAULTS = {
+    "a circle for the ellipse in the rolling spectrum of a rail": (
+        (spring_input, "rolling_input_filter", circle_for_the_ellipse),
+        functools.partial(test_spring_input.test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel, 700.0),
+    ),
+    "Geike's rule over the line without pi": (
+        (spring_input, "geike_over_line", scaled(spring_input.geike_over_line, 1 / math.pi)),
+        functools.partial(test_spring_input.test_geikes_rule_over_the_line_of_a_power_law, 2.0),
+    ),
     "2/3 for 4/3 in the force of Hertz": (
         (closed_forms, "hertz_force", scaled(closed_forms.hertz_force, 0.5)),
         test_closed_forms.test_hertz_pressure_integrates_to_the_force,

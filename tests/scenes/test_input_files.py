@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from validation.__main__ import main
-from validation.scenes import height_files
+from validation.scenes import height_files, height_tables
 from validation.scenes.bundled import SCENES
 from validation.scenes.height_files import read_heights
 from validation.scenes.input_files import check_regular, contents_of
@@ -39,13 +39,7 @@ def header(path, shape, behind=b""):
         file.write(behind)
 
 
-def archive(path):
-    np.savez(path.with_suffix(".npz"), HEIGHT)
-    path.with_suffix(".npz").rename(path)
-
-
 MAKE = {
-    "an archive, .npz": archive,
     "an empty file": lambda path: path.write_bytes(b""),
     r"a header of \(10000000, 10000000\) values of 8 bytes, and 0 bytes": lambda path: header(path, (10**7, 10**7)),
     r"a header of \(64, 64\) values of 8 bytes, and 32760 bytes": lambda path: header(path, (64, 64), bytes(8 * 4095)),
@@ -139,8 +133,8 @@ def test_sizes_are_bounded(tmp_path, monkeypatch):
     ],
 )
 def test_tables_that_are_none_are_refused_in_one_line(tmp_path, monkeypatch, contents, said):
-    monkeypatch.setattr(height_files, "MOST_LINES", 99)
-    monkeypatch.setattr(height_files, "LONGEST_LINE", 100)
+    monkeypatch.setattr(height_tables, "MOST_LINES", 99)
+    monkeypatch.setattr(height_tables, "LONGEST_LINE", 100)
     (tmp_path / "face.csv").write_bytes(contents)
     with pytest.raises(ValueError, match=rf"^it \S+face\.csv must hold a table of numbers, got: {said}[^\n]*$"):
         read_heights("it", tmp_path / "face.csv")

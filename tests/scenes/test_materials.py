@@ -276,7 +276,9 @@ def test_measured_faces_are_understood_by_their_points():
     ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 32))
     scene = IndentationScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9, ground=ground)
     pairs = dict(describe(scene))
-    assert pairs["waves"].startswith("measured, 64 x 32 points on 1 m x 1 m; longest waves on a side: ")
+    assert pairs["waves"].startswith(
+        "measured, 64 x 32 points on 1 m x 1 m, 15.625 mm x 31.25 mm apart; longest waves on a side: "
+    )
     along = math.sqrt(np.mean((np.diff(height, axis=0) * 64) ** 2))
     assert float(pairs["rms slope h'"].partition(",")[0]) == pytest.approx(along, rel=0.01)
 

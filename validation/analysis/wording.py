@@ -51,6 +51,14 @@ def too_loud(decibels: float, digits: int = 1) -> str:
     return f"{abs(decibels):.{digits}f} dB too {'loud' if decibels > 0 else 'quiet'}"
 
 
+def decibels(number: Number) -> str:
+    """To a tenth, with an interval that has one: "+0.2 ± 0.5 dB", "+0.2 dB", "less than 0.05 dB"."""
+    value, half_width = (round(x, 1) + 0.0 for x in (number.value, number.uncertainty))
+    if not half_width:
+        return f"{value:+.1f} dB" if value else "less than 0.05 dB"
+    return f"{value:+.1f} ± {half_width:.1f} dB"
+
+
 def share(numbers: Sequence[Number], verdict: Verdict) -> str:
     """How many have a verdict: "17 of 28"."""
     return f"{sum(number.verdict is verdict for number in numbers)} of {len(numbers)}"

@@ -1,5 +1,6 @@
-"""Heights of one's own: a punch whose face was measured, from an array with its size; what each model says of it."""
+"""Heights of one's own: a punch whose face was measured, from an array with its size and from the file of a device."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -24,6 +25,20 @@ assert found.met and found.model.startswith("boundary elements")  # springs know
 assert ground.rms < 1e-6  # the mean plane is removed
 springs = next(one for one in found.models if one.model.is_mdr)
 assert springs.claimed > 0.44  # one surface scatters so much about the mean of its spectrum
+
+# the same face in a file: micrometres below a header, longer than wide, a point without data
+table = np.pad(1e6 * heights, ((4, 4), (0, 0)))
+table[40, 20] = np.nan
+np.savetxt("face.csv", table, delimiter=",", header="Instrument 7\nz [um]", comments="")
+keys = 'file = "face.csv"\nspacing = "15.625 um"\nunit = "um"\nskip = 2\ncrop = true\nfill = true\n'
+body = 'name = "my punch"\npunch = { side = "1 mm", load = "5 N" }\nmaterial = { contact_modulus = "230 GPa" }\n'
+Path("my_punch.toml").write_text(f"{body}[heights]\n{keys}")
+same = validation.load_scene("my_punch.toml")
+assert isinstance(same, validation.IndentationScene) and isinstance(same.ground, validation.MeasuredHeights)
+from_file = same.ground
+print(from_file.waves)
+assert from_file.edits.filled == 1 and from_file.edits.cropped_from == (72, 64)
+assert np.abs(from_file.height - ground.height).max() < 0.3e-6  # at the point that was filled in; elsewhere equal
 
 figure = Figure(layout="constrained")
 axes = figure.subplots()

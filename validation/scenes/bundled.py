@@ -1,10 +1,14 @@
 """The scenes that come with this package: a file each, beside this one."""
 
+import re
 from pathlib import Path
 
 from validation.scenes.printable import printable
 
 SCENES = Path(__file__).parent
+
+COMMENTED = re.compile(r"^# (\w+ = |\[[\w.]+\]\s)")
+"""The beginning of a line that would be one of the scene without its sign."""
 
 
 def bundled() -> tuple[str, ...]:
@@ -29,13 +33,13 @@ def path_of(scene: str | Path) -> Path:
 def line_for(key: str) -> str:
     """The line of a shipped scene for a key as "wheel.load", or for a table; empty where none has it.
 
-    Where no scene has the key in this table, one that has it in another.
+    Where no scene has the key in this table, one that has it in another. A line of a table in comments counts, too.
     """
     elsewhere, name = "", key.rpartition(".")[2]
     for scene in bundled():
         table = ""
         for line in path_of(scene).read_text(encoding="utf-8").splitlines():
-            code = line.partition("  #")[0].strip()
+            code = COMMENTED.sub(r"\1", line).partition("  #")[0].strip()
             if code.startswith("["):
                 table = f"{code[1:-1]}."
             if code == f"[{key}]" or (code.startswith(f"{name} = ") and f"{table}{name}" == key):

@@ -5,10 +5,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from mdr.checks import positive
+from validation.scenes.height_edits import SQUARE
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.printable import shortened
 from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
+from validation.scenes.units import in_unit
 from validation.theory import closed_forms
 
 Shape = Literal["sphere", "punch"]
@@ -115,12 +118,19 @@ class IndentationScene:
 
     def _check_measured(self, heights: object) -> None:
         if not isinstance(heights, MeasuredHeights):
-            raise TypeError(f"ground must be Roughness, MeasuredHeights or None, got {heights!r}")
+            hint = ": validation.measured(it) makes them" if hasattr(heights, "physical_sizes") else ""
+            raise TypeError(f"ground must be Roughness, MeasuredHeights or None, got {shortened(heights)}{hint}")
         longest, shortest = max(heights.sides), min(heights.sides)
-        if self.shape == "punch" and (longest - shortest > 1e-6 * longest or abs(longest / self.size - 1) > 1e-6):
+        if self.shape == "punch" and longest - shortest > SQUARE * longest:
+            raise ValueError(
+                f"heights must be as large as the punch, a square, got {heights.sides} m: cut out the central square, "
+                "as: crop = true (in Python: measured(surface, crop=True))"
+            )
+        if self.shape == "punch" and abs(longest / self.size - 1) > SQUARE:
+            side = in_unit(longest, "length", digits=9)
             raise ValueError(
                 f"heights must be as large as the punch, punch.side = {self.size:g} m, got {heights.sides} m: "
-                "see heights.spacing"
+                f'see heights.spacing, or as: side = "{side}"'
             )
         if self.shape == "sphere" and shortest < 3 * self.contact_radius:
             raise ValueError(

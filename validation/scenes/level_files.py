@@ -1,13 +1,13 @@
 """Files of roughness levels: a CSV of wavelength and dB re 1 um, its units in the names of its columns."""
 
-import csv
 import re
 from collections.abc import Sequence
 from pathlib import Path
 
 from validation.scenes.input_files import contents_of
-from validation.scenes.printable import printable, quoted, shortened
+from validation.scenes.printable import printable, quoted
 from validation.scenes.roughness_levels import RoughnessLevels
+from validation.scenes.two_columns import numbers_of, rows_of_two
 from validation.scenes.units import UNITS, quantity
 
 CURVES = Path(__file__).parent / "levels"
@@ -35,32 +35,15 @@ def read_levels(name: str, path: Path, *, source: str = "") -> RoughnessLevels:
     """
     text = contents_of(name, path, most=MOST_BYTES)
     try:
-        rows = _rows(text.decode("utf-8-sig"))
+        rows = rows_of_two(text.decode("utf-8-sig"), "a file of levels must have two columns, wavelength and level")
         metre = _metre(rows[0])
-        pairs = [_numbers(row, metre) for row in rows[1:]]
+        pairs = [(wavelength * metre, level) for wavelength, level in map(numbers_of, rows[1:])]
         if len(pairs) > 1 and pairs[0][0] < pairs[-1][0]:
             pairs.reverse()
         wavelengths, levels = zip(*pairs, strict=True) if pairs else ((), ())
         return RoughnessLevels(wavelengths=wavelengths, levels=levels, source=source or path.name)
     except ValueError as problem:
         raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
-
-
-def _rows(text: str) -> list[list[str]]:
-    """What stands in each line that is neither blank nor behind a #, the header first."""
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    sign = next((sign for sign in (";", ",", "\t") if sign in "".join(lines[:1])), ",")
-    rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=sign)]
-    if not rows:
-        raise ValueError("a file of levels must have two columns, wavelength and level, got none")
-    for row in rows:
-        if len(row) != 2:
-            shown = shortened(sign.join(row))
-            raise ValueError(
-                f"a file of levels must have two columns, wavelength and level, got {shown}: a line that is none of "
-                "these begins with a #, and numbers have decimal points"
-            )
-    return rows
 
 
 def _metre(header: Sequence[str]) -> float:
@@ -74,11 +57,3 @@ def _metre(header: Sequence[str]) -> float:
     if reference not in ([], ["1", "um"], ["1", "µm"], ["1", "μm"], ["um"], ["µm"], ["μm"]):
         raise ValueError(f"levels must be in dB re 1 um, got {header[1]!r}")
     return quantity("wavelength", f"1 {units[0]}", "length")
-
-
-def _numbers(row: Sequence[str], metre: float) -> tuple[float, float]:
-    try:
-        return float(row[0]) * metre, float(row[1])
-    except ValueError:
-        shown = " and ".join(map(repr, row))
-        raise ValueError(f"a row must be two numbers, with decimal points, got {shown}") from None

@@ -10,6 +10,8 @@ from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.height_files import heights_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material, material_of
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_surface import measured
 from validation.scenes.printable import printable
 from validation.scenes.rail import RailScene
 from validation.scenes.rail_file import is_rail, rail_of
@@ -29,8 +31,11 @@ from validation.scenes.roughness import roughness_of
 
 Scene = IndentationScene | RollingScene | RailScene
 
+OTHER_GROUNDS = ("roughness", "levels", "lines", "across", "alpha")
+"""Keys of a body or a rail that heights stand in place of."""
 
-def load_scene(scene: str | Path) -> Scene:
+
+def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     """Scene of a TOML file, or the shipped scene of that name.
 
     Parameters
@@ -38,6 +43,9 @@ def load_scene(scene: str | Path) -> Scene:
     scene : str or Path
         Path of a scene file, or the name of a shipped scene: "rail", "rolling_wheel", "rough_punch", "sphere" or
         "table_14_1". A name has no folder and no ".toml".
+    heights : object, optional
+        Measured heights in place of the roughness of the file: MeasuredHeights, or whatever `measured` takes, such as a
+        Topography of SurfaceTopography.
 
     Returns
     -------
@@ -61,8 +69,9 @@ def load_scene(scene: str | Path) -> Scene:
     """
     path = path_of(scene)
     tables = tables_of(path)
+    ground = heights if isinstance(heights, MeasuredHeights | None) else measured(heights)
     with file_named_in_errors(path):
-        return _scene_of(tables, path.parent)
+        return _scene_of(tables if ground is None else _with_heights(tables, ground), path.parent)
 
 
 def load_varied(scene: str | Path, key: str, value: str) -> Scene:
@@ -93,6 +102,15 @@ def _value(text: str) -> object:
         with suppress(ValueError):
             return read(text)
     return text
+
+
+def _with_heights(tables: dict[str, Any], heights: MeasuredHeights) -> dict[str, Any]:
+    """The tables of a scene with these heights in place of their roughness."""
+    if "wheel" in tables:
+        rail = tables.get("rail")
+        others = {key: value for key, value in tables.items() if key != "simulation"}
+        return {**others, "rail": _with_heights(rail if isinstance(rail, dict) else {}, heights)}
+    return {**{key: value for key, value in tables.items() if key not in OTHER_GROUNDS}, "heights": heights}
 
 
 def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:

@@ -1,19 +1,18 @@
 """Measured heights: checked, levelled, and asked what Geike's rule takes for granted, isotropy and Gaussian heights."""
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import positive
-from validation.scenes.known_heights import known_heights, real_numbers
-from validation.scenes.printable import shortened
-from validation.scenes.units import UNITS, in_unit, quantity
+from validation.scenes.height_edits import UNTOUCHED, HeightEdits
+from validation.scenes.known_heights import known_heights
+from validation.scenes.units import in_unit
 
 FloatArray = NDArray[np.float64]
 
@@ -39,7 +38,9 @@ class MeasuredHeights:
     height : array_like, shape (nx, ny)
         Heights, positive towards the other body [m]; 16 or more along each side.
     spacing : tuple of float
-        Distances (dx, dy) of the points [m].
+        Distances (dx, dy) of the points [m]. Square cells read the heights linearly between points.
+    edits : HeightEdits, optional
+        What was done to the heights before: nothing, unless `measured` or a scene file filled points in or cropped.
 
     Attributes
     ----------
@@ -67,10 +68,12 @@ class MeasuredHeights:
 
     height: FloatArray
     spacing: tuple[float, float]
+    edits: HeightEdits = UNTOUCHED
     tilt: float = field(init=False)
 
     def __post_init__(self) -> None:
-        height = _grid(self.height)
+        height = known_heights(self.height)
+        check_grid(height)
         for name, side in zip(("spacing[0]", "spacing[1]"), self.spacing, strict=True):
             positive(name, side)
         level = _levelled(height)
@@ -136,9 +139,10 @@ class MeasuredHeights:
 
     @property
     def waves(self) -> str:
-        """Points and sides, in words."""
-        sides = " x ".join(in_unit(side, "length") for side in self.sides)
-        return f"measured, {self.height.shape[0]} x {self.height.shape[1]} points on {sides}"
+        """Points and sides, distances of points where they differ, and what was done to the heights, in words."""
+        sides, steps = (" x ".join(in_unit(one, "length") for one in both) for both in (self.sides, self.spacing))
+        apart = f", {steps} apart" if abs(self.spacing[0] / self.spacing[1] - 1) > 1e-6 else ""
+        return f"measured, {self.height.shape[0]} x {self.height.shape[1]} points on {sides}{apart}{self.edits.words}"
 
     def mean_over_cells(self, shape: tuple[int, int], cell: float) -> FloatArray:
         """Mean heights over square cells about the middle, so that short waves are no longer ones [m]."""
@@ -156,7 +160,7 @@ class MeasuredHeights:
 
     def notes(self) -> tuple[str, ...]:
         """All that may be wrong about these heights though they are valid, in sentences."""
-        found = []
+        found = [*self.edits.notes]
         if self.slope > STEEP:
             found.append(
                 f"heights are steep, rms slope {self.slope:.2g}: theory is that of small slopes; are the units of "
@@ -232,67 +236,10 @@ def check_points(heights: MeasuredHeights, contact_radius: float) -> None:
         )
 
 
-def measured(surface: Any) -> MeasuredHeights:
-    """Measured heights of any object with heights and a size, as the `Topography` of SurfaceTopography.
-
-    Parameters
-    ----------
-    surface : object
-        With ``heights``, an array of shape (nx, ny) or a method that returns one, and ``physical_sizes``, (Lx, Ly).
-        Both are in metres, or in the unit that ``surface.unit`` or ``surface.info["unit"]`` names.
-
-    Returns
-    -------
-    MeasuredHeights
-        Heights about their mean plane, for the ``ground`` of a scene.
-
-    Raises
-    ------
-    TypeError
-        If the object has no heights or no size.
-    ValueError
-        If heights are masked or not finite, or sizes or unit are not valid.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> heights = np.random.default_rng(1).standard_normal((64, 64))
-    >>> face = validation.measured(SimpleNamespace(heights=heights, physical_sizes=(1000, 1000), unit="um"))
-    >>> print(f"rms height {face.rms:.3g} m on {face.sides[0]:.3g} m")
-    rms height 1e-06 m on 0.001 m
-    """
-    if not (hasattr(surface, "heights") and hasattr(surface, "physical_sizes")):
-        raise TypeError(f"surface must have heights and physical_sizes, got {type(surface).__name__}")
-    height = real_numbers(surface.heights() if callable(surface.heights) else surface.heights)
-    metres, sizes = _metres(surface), surface.physical_sizes
-    if not isinstance(sizes, (Sequence, np.ndarray)) or height.ndim != 2 or len(sizes) != 2:
-        raise ValueError(
-            f"heights must be two-dimensional with two physical_sizes, got shape {height.shape} and {shortened(sizes)}"
-        )
-    sides = [positive(f"physical_sizes[{i}]", size) * metres for i, size in enumerate(sizes)]
-    spacing = sides[0] / max(height.shape[0], 1), sides[1] / max(height.shape[1], 1)
-    return MeasuredHeights(height=height * metres, spacing=spacing)
-
-
-def _metres(surface: Any) -> float:
-    """The unit of a surface, one metre where it names none."""
-    info = getattr(surface, "info", None)
-    unit = getattr(surface, "unit", None) or (info.get("unit") if isinstance(info, Mapping) else None)
-    if unit is None:
-        return 1.0
-    try:
-        return quantity("unit", f"1 {unit}", "length")
-    except ValueError:
-        raise ValueError(
-            f"unit of the surface must be one of {', '.join(UNITS['length'])}, got {shortened(unit)}"
-        ) from None
-
-
-def _grid(height: ArrayLike) -> FloatArray:
-    values = known_heights(height)
+def check_grid(values: FloatArray) -> None:
+    """Raises ValueError for heights along one side, or with few points along one of two."""
     if values.ndim != 2 or min(values.shape) < FEWEST:
         raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
-    return values
 
 
 def _levelled(height: FloatArray) -> FloatArray:

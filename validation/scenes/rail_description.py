@@ -4,6 +4,7 @@ import math
 
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import RailScene
 from validation.scenes.units import in_unit
 
@@ -13,8 +14,8 @@ def of_rail(scene: RailScene) -> tuple[tuple[str, str], ...]:
     contact, levels = scene.contact, scene.levels
     slope = levels.slope
     return (
-        ("wheel", f"radius {in_unit(scene.radius, 'length')}, {_across(scene.transverse_radius)}, {_load(scene)}"),
-        ("rail", _across(scene.crown_radius)),
+        ("wheel", f"radius {in_unit(scene.radius, 'length')}, {_wheel_across(scene)}{_load(scene)}"),
+        _rail(scene),
         (
             "contact ellipse",
             f"a_x = {_short(contact.along)} along, a_y = {_short(contact.across)} across, of the smooth bodies",
@@ -27,6 +28,18 @@ def of_rail(scene: RailScene) -> tuple[tuple[str, str], ...]:
         ("rms slope h'", f"{slope:.3g} along the track, h' a_x/d = {slope * contact.along / contact.approach:.3g}"),
         ("what lies across", _structure(scene)),
     )
+
+
+def _wheel_across(scene: RailScene) -> str:
+    """With its comma; of a profile of both bodies it stands with the rail."""
+    return "" if isinstance(scene, ProfiledRail) else f"{_across(scene.transverse_radius)}, "
+
+
+def _rail(scene: RailScene) -> tuple[str, str]:
+    if not isinstance(scene, ProfiledRail):
+        return "rail", _across(scene.crown_radius)
+    radius = in_unit(scene.radii[1], "length", digits=3)
+    return "wheel and rail", f"profile of {scene.profile.source} across, radius {radius} fitted over the contact"
 
 
 def _load(scene: RailScene) -> str:

@@ -15,15 +15,20 @@ from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.printable import shortened
+from validation.scenes.profile_files import read_profile
+from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import Across, RailScene
 from validation.scenes.reader import FORCE, LENGTH, MASS, NUMBER, SPEED, WHOLE, Reader, nonblank_text, table
 from validation.scenes.roughness_levels import RoughnessLevels
+from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 from validation.scenes.units import in_unit, quantity
 
-OF_WHEEL = ("transverse_radius", "axle_load", "levels", "lines")
-OF_RAIL = ("crown_radius", "across", "alpha", "levels", "lines")
+OF_WHEEL = ("transverse_radius", "profile", "axle_load", "levels", "lines")
+OF_RAIL = ("crown_radius", "profile", "across", "alpha", "levels", "lines")
 """What stands in the scene of a rail alone, of its wheel and of its rail."""
 GROUNDS = ("levels", "lines", "heights")
+SHAPES_OF_RAIL, SHAPES_OF_WHEEL = ("crown_radius", "profile"), ("transverse_radius", "profile")
+"""Across the track."""
 
 
 def is_rail(tables: dict[str, Any]) -> bool:
@@ -41,29 +46,39 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "lines": partial(_lines, folder=folder),
         "heights": partial(heights_of, folder=folder),
     }
-    on_wheel = {key: ground[key] for key in ("levels", "lines")}
+    shape: dict[str, Reader] = {"profile": partial(_profile, folder=folder)}
+    on_wheel = shape | {key: ground[key] for key in ("levels", "lines")}
+    on_rail = shape | ground
     readers: dict[str, Reader] = {
         "name": nonblank_text,
         "material": material_of,
         "wheel": partial(table, WHEEL | on_wheel, (*WHEEL, *on_wheel)),
-        "rail": partial(table, RAIL | ground, (*RAIL, *ground)),
+        "rail": partial(table, RAIL | on_rail, (*RAIL, *on_rail)),
     }
     found = table(readers, (), "", tables)
     wheel, rail, material = found["wheel"], found["rail"], found["material"]
     roughness, of_roughness = _both(_one(rail, "rail", GROUNDS), _one(wheel, "wheel", GROUNDS, least=0))
     load, of_load = _load(wheel)
-    return RailScene(
-        name=found["name"],
-        radius=_radius(wheel),
-        load=load,
-        modulus=material.modulus,
-        material=material,
-        roughness=roughness,
-        across=_one(rail, "rail", ("across", "alpha"), least=0),
-        crown_radius=rail.get("crown_radius"),
-        notes=(*of_load, *of_roughness),
-        **{key: wheel[key] for key in ("transverse_radius", "speed", "mass") if key in wheel},
-    )
+    given: dict[str, Any] = {
+        "name": found["name"],
+        "radius": _radius(wheel),
+        "load": load,
+        "modulus": material.modulus,
+        "material": material,
+        "roughness": roughness,
+        "across": _one(rail, "rail", ("across", "alpha"), least=0),
+        "notes": (*of_load, *of_roughness),
+        **{key: wheel[key] for key in ("speed", "mass") if key in wheel},
+    }
+    of_rail = _one(rail, "rail", SHAPES_OF_RAIL, least=0)
+    of_wheel = _one(wheel, "wheel", SHAPES_OF_WHEEL, least=0)
+    if not any(isinstance(body, TransverseProfile) for body in (of_rail, of_wheel)):
+        return RailScene(**given, crown_radius=of_rail, transverse_radius=of_wheel)
+    key = "rail" if isinstance(of_rail, TransverseProfile) else "wheel"
+    with _key_in_errors(key):
+        profile = _together(of_rail, of_wheel)
+        fitted_radius(profile, along=given["radius"], modulus=given["modulus"], load=load)
+    return ProfiledRail(**given, profile=profile)
 
 
 def _one(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
@@ -77,6 +92,12 @@ def _one(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int 
 def _radius(wheel: dict[str, Any]) -> float:
     one: float = _one(wheel, "wheel", ("radius", "diameter"))
     return one / 2 if "diameter" in wheel else one
+
+
+def _together(*bodies: TransverseProfile | float | None) -> TransverseProfile:
+    """Of rail and wheel, of which one has a profile; the other may have a radius, or be straight."""
+    curvature = sum(1 / body for body in bodies if isinstance(body, float))
+    return both_together([body for body in bodies if isinstance(body, TransverseProfile)], curvature)
 
 
 def _load(wheel: dict[str, Any]) -> tuple[float, tuple[str, ...]]:
@@ -144,6 +165,11 @@ def _key_in_errors(name: str) -> Iterator[None]:
         yield
     except ValueError as problem:
         raise ValueError(f"{name}.{problem}") from None
+
+
+def _profile(name: str, given: object, *, folder: Path) -> TransverseProfile:
+    """Of a file beside the scene."""
+    return read_profile(name, folder / nonblank_text(name, given))
 
 
 def _decibels(name: str, given: object) -> float:

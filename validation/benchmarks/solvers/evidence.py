@@ -50,7 +50,7 @@ def evidence(result: SolverComparisonResult) -> Evidence:
         numbers=(*agreement, *speed),
         claims=claims_of(result, speed, agreement),
         finding=f"{headline(speed)}." if speed else "",
-        headlines={"race": headline(speed)} if speed else {},
+        headlines=({"race": headline(speed)} if speed else {}) | {"race-wheel": _over_plain_sums(result.wheel)},
         tables=(
             _runs(result.problems, "heats"),
             _scaling(result),
@@ -269,6 +269,16 @@ def _standing(result: SolverComparisonResult, periodic: bool, name: str, others:
         f"{where}: first on {np.count_nonzero(by_median > 1)} of {len(pairs)} problems; "
         f"{_mean(by_median):.1f} times as fast in the geometric mean of medians ({_mean(by_fastest):.1f} by fastest "
         f"runs), {by_median.min():.1f} to {by_median.max():.1f} times on single problems."
+    )
+
+
+def _over_plain_sums(wheel: Table) -> str:
+    """Of the finest springs, from the least rough track to the roughest."""
+    finest = wheel.where(**{"a/dx": wheel["a/dx"].max()})
+    ratios = finest["wheel-steps a second"] / finest["plain sums a second"]
+    return (
+        f"With {finest['a/dx'][0]:g} springs to a radius a step is {ratios.min():.3g} to {ratios.max():.3g} times as "
+        "fast as a plain sum over all of them"
     )
 
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from itertools import groupby
 
 import numpy as np
 
@@ -10,7 +9,7 @@ from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, Verdict, numbers_with, table_of
 from validation.analysis.statistics import DECIBEL, Estimate
-from validation.analysis.wording import by_status, sentence
+from validation.analysis.wording import by_status, farthest_off, sentence, share
 from validation.cases.punch.bandwidth import Bandwidth, BandwidthResult, run
 from validation.cases.punch.bandwidth_levels import MEAN, STATISTICS, BandwidthLevels, levels
 from validation.cases.punch.bandwidth_numbers import (
@@ -119,23 +118,20 @@ def _judged(claim: str, subject: str, numbers: Sequence[Number]) -> JudgedClaim:
     inside = next((_from(numbers, first) for first in starts if _all_agree(_from(numbers, first))), [])
     quantities = {n.quantity for n in inside}
     whole = len(inside) == len(numbers) or len(quantities) < len(STATISTICS)
-    answer = "; ".join(f"in {quantity} by {_by_decade(numbers, quantity)}" for quantity in STATISTICS)
+    answer = "; ".join(f"in {quantity} {_worst_decade(numbers, quantity)}" for quantity in STATISTICS)
     return answered(
         claim,
         numbers,
-        f"{subject} MDR over boundary elements changes, at the worst force of each decade, {answer}.",
+        f"{subject} MDR over boundary elements changes {answer}.",
         limits="" if whole else f"Fbar from {_ends(inside[0])[0]:g} on",
         inside=() if whole else inside,
     )
 
 
-def _by_decade(numbers: Sequence[Number], quantity: str) -> str:
-    """What is worst in each decade."""
+def _worst_decade(numbers: Sequence[Number], quantity: str) -> str:
+    """By how much at worst, and how many of its decades are within the tolerance."""
     mine = numbers_with(numbers, f"{CHANGE}, {quantity}")
-    decades = groupby(sorted(mine, key=_ends), key=lambda n: _ends(n)[0])
-    worst = (_per_cent(max(decade, key=lambda n: abs(n.value) + n.uncertainty)) for _, decade in decades)
-    # two decades share a force, which may be the worst of both
-    return ", ".join(dict.fromkeys(worst))
+    return f"by {_per_cent(farthest_off(mine))} at worst ({share(mine, Verdict.AGREE)} agree)"
 
 
 def _from(numbers: Sequence[Number], first: float) -> list[Number]:

@@ -85,7 +85,10 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
-    quick=FractalPunch(hursts=(0.4, 0.7, 1.0)),
+    quick=FractalPunch(
+        hursts=(0.4, 0.7, 1.0),
+        surfaces=((0, 0, 20, 8, 4), (0, 60, 20, 8, 0), (100, 24, 8, 4, 0), (40, 12, 6, 4, 0)),
+    ),
     full=FractalPunch(
         cells=256,
         surfaces=((0, 0, 2800, 550, 110), (0, 4500, 750, 210, 0), (1500, 300, 80, 16, 0), (300, 60, 20, 4, 0)),

@@ -26,7 +26,7 @@ def height_of(number: Number) -> float:
     return height
 
 
-def from_to(values: Sequence[float], digits: int = 1) -> str:
-    """Both ends with their signs: "+3.4 to +4.3"."""
-    low, high = (f"{value:+.{digits}f}" for value in (min(values), max(values)))
+def from_to(values: Sequence[float], digits: int = 1, *, signed: bool = True) -> str:
+    """Both ends, with their signs where these tell something: "+3.4 to +4.3"."""
+    low, high = (f"{value:{'+' if signed else ''}.{digits}f}" for value in (min(values), max(values)))
     return low if low == high else f"{low} to {high}"

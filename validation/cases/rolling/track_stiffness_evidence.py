@@ -8,7 +8,7 @@ import numpy as np
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.difference import difference
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, numbers_with, table_of
 from validation.analysis.over_range import root_mean_square, worst
 from validation.analysis.statistics import (
     POWER_DECIBEL,
@@ -17,7 +17,7 @@ from validation.analysis.statistics import (
     jackknife_error,
     log_ratio_of_means,
 )
-from validation.analysis.wording import by_status, farthest_off
+from validation.analysis.wording import by_status, farthest_off, share
 from validation.cases.rolling.claims import from_to
 from validation.cases.rolling.force_spectrum_numbers import (
     FORD_THOMPSON,
@@ -188,6 +188,7 @@ def _claims(case: TrackStiffness, numbers: list[Number]) -> tuple[JudgedClaim, .
 
     geike = over("geike")
     levels = of(geike, LEVEL, RMS + LEVEL)
+    rms = numbers_with(levels, RMS + LEVEL)
     others = [n for rule in INPUT_SPECTRA if rule != "geike" for n in of(over(rule), DEVIATION)]
     return (
         answered(CLAIM, of(geike, DEVIATION), f"the relative deviation is {_percent(of(geike, DEVIATION))}."),
@@ -200,11 +201,8 @@ def _claims(case: TrackStiffness, numbers: list[Number]) -> tuple[JudgedClaim, .
         answered(
             "Springs with Geike's spectrum have the level of the stiffness in each one-third octave.",
             levels,
-            "; ".join(
-                f"at Fbar = {n.where['Fbar']:g} the rms over bands is {n.value:.1f} dB"
-                for n in numbers_with(levels, RMS + LEVEL)
-            )
-            + f", the worst bands are {from_to([n.value for n in numbers_with(levels, LEVEL)])} dB off.",
+            f"the rms over bands is {from_to([n.value for n in rms], signed=False)} dB, the worst band of a force is "
+            f"{from_to([n.value for n in numbers_with(levels, LEVEL)])} dB off.",
         ),
         answered(
             "The line trace or the rolling-equivalent spectrum mends the fluctuation of stiffness.",
@@ -226,9 +224,11 @@ def _claims(case: TrackStiffness, numbers: list[Number]) -> tuple[JudgedClaim, .
 
 
 def _percent(numbers: Sequence[Number]) -> str:
-    return ", ".join(
-        f"{100 * n.value:+.0f} ± {100 * n.uncertainty:.0f} % off at Fbar = {n.where['Fbar']:g} ({n.verdict})"
-        for n in numbers
+    """At the force where it is farthest off, and how many forces are within the margin."""
+    off = farthest_off(numbers)
+    return (
+        f"{100 * off.value:+.0f} ± {100 * off.uncertainty:.0f} % off at worst, at Fbar = {off.where['Fbar']:g} "
+        f"({share(numbers, Verdict.AGREE)} agree)"
     )
 
 
@@ -287,7 +287,7 @@ CASE = Case(
     place=6,
     claim=CLAIM,
     answers="Fluctuation of stiffness along a track: the link from Fig. 14.1 to rolling",
-    quick=TrackStiffness(),
+    quick=TrackStiffness(strips=5, refined=2),
     full=TrackStiffness(
         forces=(0.3, 1.0, 3.0, 10.0),
         length=32,

@@ -192,7 +192,7 @@ CASE = Case(
     place=2,
     claim=CLAIM,
     answers="Fig. 14.5: the break that moves with the distance, its cause, and the share of leakage in the plateau",
-    quick=WheelDistance(),
+    quick=WheelDistance(wheels=40, causes=10),
     full=WheelDistance(
         scene=TABLE,
         doublings=6,

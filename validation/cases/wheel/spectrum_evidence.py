@@ -6,7 +6,7 @@ import numpy as np
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Verdict, with_reference
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, with_reference
 from validation.analysis.over_range import root_mean_square, signed_mean, worst
 from validation.analysis.wording import by_status, sentence, share, title
 from validation.cases.wheel import spectrum_tables as tables
@@ -59,15 +59,16 @@ def evidence(result: WheelResult) -> Evidence:
         *([tables.shown_parameters({base: mine, **varied})] if varied else []),
     )
     claims, captions = _claims(found, ranges, moved, levels, case.scene), _captions(case)
+    drawn = tables.tables_of(result, spectra)
     return Evidence(
         title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
         method=_method(case.scene, spectra[base]),
         numbers=(*identities(batches), *found.values(), *ranges.values(), *moved.values()),
-        tables=tables.tables_of(result, spectra),
+        tables=drawn,
         page_tables=shown,
         claims=claims,
         finding=finding(claims),
-        headlines={name: text for name, text in headlines(claims).items() if name in captions},
+        headlines={name: text for name, text in (_touching(drawn) | headlines(claims)).items() if name in captions},
         conclusions=(
             *_hidden(case.scene),
             *conclusions(mine),
@@ -199,6 +200,20 @@ def finding(claims: Sequence[JudgedClaim]) -> str:
     return sentence(f"on springs, {_predicted(claims[0])}", *_oscillation(claims))
 
 
+def _touching(drawn: Sequence[Table]) -> dict[str, str]:
+    """What the roughness does to the contact at the moment that is drawn."""
+    springs, pressure = (next(table for table in drawn if table.name == name) for name in ("springs", "pressure"))
+    inside = np.abs(springs["x / a"]) < 1
+    carrying = np.mean(springs["compression / d"][inside] > 0)
+    largest = np.nanmax(pressure["p / p0"])
+    return {
+        "wheel-contact": (
+            f"At one moment {100 * carrying:.0f} % of the springs inside Hertz's contact carry load; the largest "
+            f"pressure of boundary elements is {largest:.2f} times Hertz's"
+        )
+    }
+
+
 def headlines(claims: Sequence[JudgedClaim]) -> dict[str, str]:
     found = {"wheel": title(_predicted(claims[0]), *_oscillation(claims))}
     moved = [(name, claim) for claim in claims for name, text in MOVED.items() if claim.claim == text]
@@ -263,7 +278,7 @@ CASE = Case(
     answers=(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),
-    quick=WheelSpectrum(),
+    quick=WheelSpectrum(realisations=40, varied=10),
     full=WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
     run=run,
     evidence=evidence,

@@ -117,7 +117,7 @@ def _printed(cell: RangeCell) -> str:
     if isinstance(cell.place, str):
         return cell.place
     low, high = ends(cell.place)
-    return f"{low:.2g}" if low == high else f"{low:g} to {high:g}"
+    return f"{low:.2g}" if low == high else f"{low:.3g} to {high:.3g}"
 
 
 def _instead(cells: Sequence[RangeCell], question: Question, evidence: Mapping[str, Evidence]) -> list[OfferedModel]:

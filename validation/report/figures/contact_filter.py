@@ -14,6 +14,8 @@ SHOWN = (
     "linear, on the mean across",
     "spring bed (DPRS), linear",
     "Remington, alpha = 1",
+    "springs, rolling spectrum",
+    "springs, Geike's rule",
 )
 SHIFT = 10.0
 
@@ -29,7 +31,8 @@ def draw(evidence: Evidence) -> Figure:
     for axis in axes[:2]:
         axis.set_ylim(-1.5, 6.5)
     _published(axes[-1], evidence.table("published"))
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    named = dict(pair for axis in axes[:-1] for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
+    figure.legend(named.values(), named.keys(), loc="outside lower center", ncols=3)
     return figure
 
 
@@ -38,9 +41,11 @@ def _over_linear(axis: Axes, found: Table, ground: str) -> None:
     keep = reference["counted"]
     wave = reference["wavelength [mm]"][keep]
     axis.axhspan(-1, 1, color="#000000", alpha=0.07, linewidth=0)
+    known = set(found.columns["model"])
     for i, model in enumerate(SHOWN):
-        excess = found.where(model=model)["A3 [dB]"] - reference["A3 [dB]"]
-        axis.plot(wave, excess[keep], label=model, **{**graded(i, len(SHOWN)), "marker": MARKERS[i + 1]})
+        if model in known:
+            excess = found.where(model=model)["A3 [dB]"] - reference["A3 [dB]"]
+            axis.plot(wave, excess[keep], label=model, **{**graded(i, len(SHOWN)), "marker": MARKERS[i + 1]})
     points = found.where(model=POINTS)
     excess, half = (points["A3 [dB]"] - reference["A3 [dB]"])[keep], points["± [dB]"][keep]
     axis.errorbar(wave, excess, yerr=half, label=POINTS, capsize=2, zorder=3, **BEM)

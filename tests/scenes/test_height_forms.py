@@ -1,0 +1,283 @@
+"""Files of heights as instruments and scripts write them: each form is read as it was written, or refused by key."""
+
+import re
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from validation.__main__ import main
+from validation.scenes import height_files
+from validation.scenes.bundled import SCENES
+from validation.scenes.description import description_lines
+from validation.scenes.load import load_scene
+from validation.scenes.measured import MeasuredHeights
+
+PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
+HEIGHT = 1e-7 * np.random.default_rng(1).standard_normal((64, 64))
+
+
+def scene_of(folder, file, *lines, spacing='"1 um"', side="64 um"):
+    start = PUNCH.partition("[roughness]")[0].replace('"1 mm"', f'"{side}"').replace("23.076923 N", "0.01 N")
+    path = folder / "scene.toml"
+    text = "\n".join((start, "[heights]", f'file = "{file}"', f"spacing = {spacing}", *lines))
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def heights_in(folder, file, *lines, **settings):
+    return load_scene(scene_of(folder, file, *lines, **settings)).ground
+
+
+def level(height, spacing=(1e-6, 1e-6)):
+    return pytest.approx(MeasuredHeights(height=height, spacing=spacing).height, rel=1e-9, abs=1e-18)
+
+
+def refused(folder, file, *lines, said, **settings):
+    with pytest.raises(ValueError, match=said) as problem:
+        heights_in(folder, file, *lines, **settings)
+    sentence = str(problem.value)
+    assert sentence.startswith(f"scene {folder}/scene.toml: heights")
+    assert "\n" not in sentence
+    assert len(sentence) < 400 + 3 * len(str(folder))
+
+
+def rows_of(height, delimiter=","):
+    return "".join(delimiter.join(map(repr, row)) + "\n" for row in height.tolist())
+
+
+# Headers
+
+
+HEADER = "Instrument 7\nDate: 2024-05-01, 12:30\nX;Y;Z\n"
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", " "])
+def test_header_lines_are_skipped(tmp_path, delimiter):
+    (tmp_path / "face.csv").write_text(HEADER + rows_of(HEIGHT, delimiter))
+    assert heights_in(tmp_path, "face.csv", "skip = 3").height == level(HEIGHT)
+
+
+@pytest.mark.parametrize("mark", ["#", "%", "//", "  #"])
+def test_comments_above_the_numbers_are_left_out(tmp_path, mark):
+    lines = "".join(f"{mark} {line}\n" for line in HEADER.splitlines())
+    (tmp_path / "face.csv").write_text(f"{lines}\n{rows_of(HEIGHT)}")
+    assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
+    assert heights_in(tmp_path, "face.csv", "skip = 2").height == level(HEIGHT)
+
+
+@pytest.mark.parametrize("lines", [("skip = 1",), ()])
+def test_a_header_in_another_encoding_is_left_out(tmp_path, lines):
+    header = b"" if lines else b"# "
+    (tmp_path / "face.txt").write_bytes(header + "Höhe in µm\n".encode("latin-1") + rows_of(HEIGHT, " ").encode())
+    assert heights_in(tmp_path, "face.txt", *lines).height == level(HEIGHT)
+
+
+def test_the_sentence_about_a_header_says_how_many_lines_to_skip(tmp_path):
+    (tmp_path / "face.csv").write_text(HEADER.replace(";", ",") + rows_of(HEIGHT))
+    for lines in ((), ("skip = 1",)):
+        said = r"got: could not convert string .* \(a header begins with #, or is left out, as: skip = 3\)$"
+        refused(tmp_path, "face.csv", *lines, said=said)
+    refused(tmp_path, "face.csv", "skip = 67", said=r"got: no line below the 67 to skip$")
+
+
+def test_an_empty_field_is_no_height(tmp_path):
+    (tmp_path / "face.csv").write_text("1,2,3\n4,,6\n")
+    refused(tmp_path, "face.csv", said=r"could not convert string '' to float64 .* \(a point without data is nan\)$")
+
+
+@pytest.mark.parametrize("given", ["-1", "1.5", '"3"', "true", "[3]"])
+def test_lines_to_skip_are_a_whole_number(tmp_path, given):
+    np.savetxt(tmp_path / "face.csv", HEIGHT, delimiter=",")
+    refused(tmp_path, "face.csv", f"skip = {given}", said=r"heights\.skip must be (a whole|at least 0|a number)")
+
+
+# Archives
+
+
+def test_an_array_of_an_archive_is_read_by_its_key(tmp_path):
+    np.savez(tmp_path / "face.npz", x=np.arange(64), heights=HEIGHT)
+    assert heights_in(tmp_path, "face.npz", 'key = "heights"').height == level(HEIGHT)
+    np.savez_compressed(tmp_path / "face.npz", z=HEIGHT.astype(np.float32), y=HEIGHT)
+    (tmp_path / "face.npz").rename(tmp_path / "FACE.NPZ")
+    assert heights_in(tmp_path, "FACE.NPZ", 'key = "y"').height == level(HEIGHT)
+
+
+def test_a_key_that_an_archive_does_not_have_is_refused_with_those_that_it_has(tmp_path):
+    np.savez(tmp_path / "face.npz", x=np.arange(64), heights=HEIGHT)
+    which = r', the archive has "x", "heights", as: key = "heights", of \S+/face\.npz$'
+    refused(tmp_path, "face.npz", said="heights.key is missing" + which)
+    refused(tmp_path, "face.npz", 'key = "height"', said='heights.key must be in the archive, got "height"' + which)
+    refused(tmp_path, "face.npz", "key = 3", said=r"heights\.key must be a text")
+    np.savez(tmp_path / "many.npz", **{f"a{i}": HEIGHT for i in range(15)})
+    refused(tmp_path, "many.npz", said=r'"a0", .*"a11" and 3 more, as: key = "a')
+    np.savez(tmp_path / "none.npz")
+    refused(tmp_path, "none.npz", said=r"heights\.key is of no use, the archive is empty, of ")
+    (tmp_path / "face.npz").rename(tmp_path / "face.npy")
+    refused(tmp_path, "face.npy", said=r"heights\.key is missing, the archive has")
+
+
+def test_keys_that_a_file_has_no_use_for_are_refused(tmp_path):
+    np.save(tmp_path / "face.npy", HEIGHT)
+    np.savetxt(tmp_path / "face.csv", HEIGHT)
+    refused(tmp_path, "face.npy", "skip = 1", said=r"heights\.skip must be left out of a file of numpy, got face\.npy$")
+    refused(tmp_path, "face.csv", 'key = "z"', said=r"heights\.key must be left out but for an \.npz, got face\.csv$")
+    refused(
+        tmp_path, "face.npy", 'key = "z"', said=r"got: one array without a name, for which heights\.key has no use$"
+    )
+
+
+def test_broken_archives_are_refused(tmp_path, monkeypatch):
+    path = tmp_path / "face.npz"
+    np.savez(path, heights=HEIGHT)
+    whole = path.read_bytes()
+    key = 'key = "heights"'
+    path.write_bytes(whole[:-30])
+    refused(tmp_path, "face.npz", key, said=r"got: an archive that cannot be read, File is not a zip file$")
+    path.write_bytes(whole[:5000] + b"\x00\x01" + whole[5002:])
+    refused(tmp_path, "face.npz", key, said=r"got: an archive that cannot be read, Bad CRC-32")
+    np.savez(path, heights=np.full((64, 64), None))
+    refused(tmp_path, "face.npz", key, said=r"got: objects in place of numbers$")
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("heights.npy", b"no array")
+    refused(tmp_path, "face.npz", key, said=r"got: the magic string is not correct")
+    np.savez_compressed(path, heights=np.zeros((64, 64)))
+    monkeypatch.setattr(height_files, "MOST_BYTES", 8 * 64 * 64)
+    refused(tmp_path, "face.npz", key, said=r"got: an array of 32896 bytes, more than 32768$")
+
+
+# What is done to the heights
+
+
+def test_heights_with_few_points_without_data_are_filled_in_and_told(tmp_path, capsys):
+    holes = HEIGHT.copy()
+    holes[5, 7] = np.nan
+    np.savetxt(tmp_path / "face.csv", holes, delimiter=",")
+    said = r"heights: heights must be known everywhere, got 1 of 4096 \(0\.0244 %\) .*, as: fill = true$"
+    refused(tmp_path, "face.csv", said=said)
+    refused(tmp_path, "face.csv", "fill = false", said=said)
+    path = scene_of(tmp_path, "face.csv", "fill = true")
+    scene = load_scene(path)
+    holes[5, 7] = (HEIGHT[4, 7] + HEIGHT[6, 7] + HEIGHT[5, 6] + HEIGHT[5, 8]) / 4
+    assert scene.ground.height == level(holes)
+    (note,) = (line for line in description_lines(scene) if line.startswith("note: heights had no data"))
+    assert "at 1 point (0.0244 %), which were filled in" in note
+    assert any(
+        "64 x 64 points on 64 µm x 64 µm, 1 point (0.0244 %) filled in" in line for line in description_lines(scene)
+    )
+    holes[:, 3] = np.nan
+    np.savetxt(tmp_path / "face.csv", holes, delimiter=",")
+    refused(
+        tmp_path, "face.csv", "fill = true", said=r"got 64 of 4096 \(1\.56 %\) .*: cut out a part that is known; fewer"
+    )
+    assert main(["compare", str(path)]) == 2
+    assert "cut out a part that is known; fewer than 1 % can be filled in" in capsys.readouterr().err
+
+
+def test_a_rectangular_face_is_cropped_where_it_is_asked_for_and_told(tmp_path):
+    face = 1e-7 * np.random.default_rng(2).standard_normal((96, 64))
+    np.save(tmp_path / "face.npy", face)
+    refused(tmp_path, "face.npy", said=r"heights must be as large as the punch, a square, got .*, as: crop = true \(")
+    scene = load_scene(scene_of(tmp_path, "face.npy", "crop = true"))
+    assert scene.ground.height == level(face[16:80])
+    assert "note: heights are the central square of 96 x 64 points, as asked by crop." in description_lines(scene)
+    refused(tmp_path, "face.npy", "crop = true", side="96 um", said=r'or as: side = "64 µm"$')
+
+
+def test_points_of_two_distances(tmp_path):
+    face = 1e-7 * np.random.default_rng(2).standard_normal((64, 32))
+    np.save(tmp_path / "face.npy", face)
+    found = heights_in(tmp_path, "face.npy", spacing='["1 um", "2 um"]')
+    assert found.spacing == (1e-6, 2e-6)
+    assert found.height == level(face, (1e-6, 2e-6))
+    assert "64 x 32 points on 64 µm x 64 µm, 1 µm x 2 µm apart" in found.waves
+
+
+@pytest.mark.parametrize(
+    ("spacing", "said"),
+    [
+        (
+            '["1 um"]',
+            r'heights\.spacing must be a length or two, as \["1 um", "2 um"\] along x and y, got \[\'1 um\'\]$',
+        ),
+        ("[]", r"heights\.spacing must be a length or two"),
+        ('["1 um", "0 um"]', r'heights\.spacing\[1\] must be positive, got "0 um"$'),
+        ('["-1 um", "1 um"]', r'heights\.spacing\[0\] must be positive, got "-1 um"$'),
+        ('"1 N"', r'heights\.spacing must be a length, as "0\.5 m", in one of m, '),
+        ("1e-6", r"heights\.spacing must be a length"),
+        ('["1 um", 2]', r"heights\.spacing\[1\] must be a length"),
+        ('"nan um"', r'heights\.spacing must be finite, got "nan um"$'),
+    ],
+)
+def test_spacings_that_are_none_are_refused(tmp_path, spacing, said):
+    np.save(tmp_path / "face.npy", HEIGHT)
+    refused(tmp_path, "face.npy", spacing=spacing, said=said)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        (("fill = 1",), r"heights\.fill must be true or false, got 1, as: fill = true$"),
+        (('crop = "yes"',), r"heights\.crop must be true or false, got 'yes', as: crop = true$"),
+        (("fil = true",), r"heights\.fil is unknown, heights must be made of file, spacing, .*, as: fill = true$"),
+        (('unit = "inch"',), r"heights\.unit must be one of m, mm, .*, got 'inch', as: unit = \"um\"$"),
+        (('unit = ""',), r"heights\.unit must be one of m, mm, .*, got '', as: unit = \"um\"$"),
+        (("unit = 3",), r"heights\.unit must be one of m, mm, .*, got 3, as: unit = \"um\"$"),
+    ],
+)
+def test_wishes_that_are_none_are_refused(tmp_path, lines, said):
+    np.save(tmp_path / "face.npy", HEIGHT)
+    refused(tmp_path, "face.npy", *lines, said=said)
+
+
+def test_keys_that_are_missing_are_shown_as_a_line(tmp_path):
+    path = scene_of(tmp_path, "face.npy")
+    text = path.read_text()
+    for line, right in (('file = "face.npy"', 'file = "face.npy"'), ('spacing = "1 um"', 'spacing = "1 um"')):
+        path.write_text(text.replace(line, ""))
+        key = line.split()[0]
+        with pytest.raises(
+            ValueError, match=rf"heights\.{key} is missing, heights must have it, as: {re.escape(right)}$"
+        ):
+            load_scene(path)
+
+
+@pytest.mark.parametrize("shape", [(0, 0), (64,), (64, 15), (16, 16, 16)])
+@pytest.mark.parametrize("lines", [(), ("crop = true", "fill = true")])
+def test_arrays_of_another_shape_are_refused(tmp_path, shape, lines):
+    np.save(tmp_path / "face.npy", np.ones(shape))
+    said = rf"heights: heights must be 16 points or more along two sides, got shape {re.escape(str(shape))}$"
+    refused(tmp_path, "face.npy", *lines, said=said)
+
+
+@pytest.mark.parametrize("unit", ["um", "µm", "\N{GREEK SMALL LETTER MU}m", "nm", "Å", "pm", "mm"])
+def test_units_of_heights(tmp_path, unit):
+    metre = {"n": 1e9, "Å": 1e10, "p": 1e12, "m": 1e3}.get(unit[0], 1e6)
+    np.save(tmp_path / "face.npy", metre * HEIGHT)
+    assert heights_in(tmp_path, "face.npy", f'unit = "{unit}"').height == level(HEIGHT)
+
+
+@pytest.mark.parametrize("name", ["rough_punch", "rolling_wheel"])
+def test_the_keys_of_heights_are_in_the_comments_of_the_scenes(name):
+    text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    _, _, below = text.partition("heights]  ")
+    keys = ("file", "spacing", "unit", "skip", "key", "fill") + (("crop",) if name == "rough_punch" else ())
+    for key in keys:
+        assert re.search(rf"^# {key} = ", below, re.MULTILINE), key
+
+
+PAGE = (Path(__file__).parents[2] / "reports" / "docs" / "own_data.md").read_text(encoding="utf-8")
+
+
+def test_the_page_has_a_row_for_each_key():
+    with pytest.raises(ValueError, match=r"must be made of (.*)$") as problem:
+        height_files.heights_of("heights", {"none": 1}, folder=Path())
+    keys = str(problem.value).partition("made of ")[2].split(", ")
+    assert re.findall(r"^\| `(\w+)` \|", PAGE, re.MULTILINE) == keys
+
+
+def test_the_page_prints_what_it_says(capsys):
+    (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    exec(code, {})
+    assert f"prints `{capsys.readouterr().out.strip()}`." in PAGE

@@ -1,0 +1,200 @@
+"""Scenes with measured heights beside those without, and `compare` of them: what is read, what is refused by name."""
+
+import math
+import re
+from functools import partial
+
+import numpy as np
+import pytest
+
+import bem3d
+import mdr
+from tests.scenes.test_scene_files import written
+from validation.__main__ import main
+from validation.report.commands import compare as command_compare
+from validation.scenes.bundled import SCENES
+from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.load import load_scene
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling import RollingScene
+
+N, DX = 256, 1e-6
+BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)
+IN_FILE = r"scene \S+scene\.toml: "
+PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
+ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
+
+
+def drawn(seed=1, c2d=BAND.c2d):
+    return bem3d.rough_surface(c2d, shape=(N, N), spacing=DX, rng=np.random.default_rng(seed), rms=1e-7)
+
+
+def heights(height, spacing=(DX, DX)):
+    return MeasuredHeights(height=height, spacing=spacing)
+
+
+def with_heights(folder, file, *, unit="", side="0.256 mm"):
+    start, _, _ = PUNCH.partition("[roughness]")
+    text = f'{start}\n[heights]\nfile = "{file}"\nspacing = "1 um"\n{unit}'
+    return written(folder, ("1 mm", side), ("23.076923 N", "0.01 N"), text=text)
+
+
+def test_shipped_scenes_are_what_they_say():
+    sphere, rolling = load_scene("sphere"), load_scene("rolling_wheel")
+    assert isinstance(sphere, IndentationScene)
+    assert isinstance(rolling, RollingScene)
+    assert sphere.contact_radius == pytest.approx(rolling.contact_radius) == pytest.approx(1.982e-3, rel=1e-3)
+    assert load_scene("rough_punch").reduced_load == pytest.approx(0.1, rel=1e-6)
+    assert load_scene("table_14_1") == RollingScene.of_wheel(load_wheel_scene("table_14_1"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("suffix", ["npy", "csv", "txt", "tsv"])
+def test_heights_are_read_from_a_file_beside_the_scene(tmp_path, suffix):
+    height = drawn()
+    if suffix == "npy":
+        np.save(tmp_path / "face.npy", height)
+    else:
+        np.savetxt(tmp_path / f"face.{suffix}", height, delimiter={"csv": ",", "txt": " ", "tsv": "\t"}[suffix])
+    scene = load_scene(with_heights(tmp_path, f"face.{suffix}"))
+    assert scene.ground.height == pytest.approx(heights(height).height, rel=1e-12, abs=1e-20)
+    assert scene.ground.spacing == (1e-6, 1e-6)
+
+
+def test_a_unit_of_heights_is_taken(tmp_path):
+    np.save(tmp_path / "face.npy", 1e6 * drawn())
+    scene = load_scene(with_heights(tmp_path, "face.npy", unit='unit = "um"'))
+    assert scene.ground.rms == pytest.approx(1e-7, rel=0.05)
+
+
+def test_files_without_heights_are_refused(tmp_path):
+    (tmp_path / "face.csv").write_bytes(b"1, 2\n3, 4\n")
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}heights: heights must be 16 points"):
+        load_scene(with_heights(tmp_path, "face.csv"))
+    np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
+    with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
+        load_scene(with_heights(tmp_path, "face.npy"))
+    with pytest.raises(OSError, match=r"^heights.file .* cannot be read: No such file"):
+        load_scene(with_heights(tmp_path, "none.npy"))
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "words"),
+    [
+        (PUNCH, "[punch]", "[block]", ["a scene must have one table of sphere, punch and wheel", "none"]),
+        (PUNCH, "[material]", '[sphere]\nradius = "1 m"\n[material]', ["a scene must have one", "sphere and punch"]),
+        (PUNCH, 'side = "1 mm"', "", ["punch.side is missing"]),
+        (PUNCH, "side =", "radius =", ["punch.radius is unknown", "side, load"]),
+        (PUNCH, "poisson_ratio = 0.3", "poisson_ratio = 0.6", ["material.poisson_ratio must", "0.6"]),
+        (PUNCH, "rms =", "RMS =", ["roughness.RMS is unknown", "rms, hurst, longest, shortest"]),
+        (PUNCH, 'longest = "1 mm"', 'longest = "2 mm"', ["roughness.longest must", "0.001 m", "0.002 m"]),
+        (ROLLING, "[rail.roughness]", "[rail]\n[stuff]", ["stuff is unknown", "name, wheel, material, rail"]),
+        (ROLLING, 'load = "4905 N"', 'load = "4905 N"\nspeed = "20 m/s"', ["wheel.speed is unknown", "radius, load"]),
+    ],
+)
+def test_scenes_are_refused_by_key_and_value(tmp_path, text, old, new, words):
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{'.*'.join(map(re.escape, words))}"):
+        load_scene(written(tmp_path, (old, new), text=text))
+
+
+def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
+    start, _, _ = ROLLING.partition("[rail.roughness]")
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have roughness or heights, got a smooth one$"):
+        load_scene(written(tmp_path, text=start + "[rail]\n"))
+    with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
+        load_scene("rough_wheel")
+
+
+def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
+    np.save(tmp_path / "face.npy", drawn())
+    text = PUNCH + '\n[heights]\nfile = "face.npy"\nspacing = "1 um"\n'
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}a scene must have roughness or heights, got both$"):
+        load_scene(written(tmp_path, text=text))
+
+
+@pytest.mark.parametrize(
+    ("key", "changes", "got"),
+    [
+        ("shape", {"shape": "cone"}, "'cone'"),
+        ("punch.side", {"size": 0.0}, "0.0"),
+        ("punch.load", {"load": math.nan}, "nan"),
+        ("modulus", {"modulus": -1.0}, "-1.0"),
+        ("name", {"name": " "}, "' '"),
+    ],
+)
+def test_scenes_at_the_prompt_are_refused_by_key_and_value(key, changes, got):
+    settings = {"name": "it", "shape": "punch", "size": 1.0, "load": 1.0, "modulus": 1.0}
+    with pytest.raises(ValueError, match=f"^{key} must .*, got {got}$"):
+        IndentationScene(**{**settings, **changes})
+
+
+def test_heights_must_cover_the_body():
+    ground = heights(drawn())
+    settings = {"name": "it", "load": 1.0, "modulus": 1e9, "ground": ground}
+    with pytest.raises(ValueError, match=r"^heights must be as large as the punch, punch.side = 0.001 m"):
+        IndentationScene(shape="punch", size=1e-3, **settings)
+    with pytest.raises(ValueError, match=r"^heights must be three contact radii wide"):
+        IndentationScene(shape="sphere", size=1.0, **settings)
+    with pytest.raises(ValueError, match=r"^rail.heights must be .* long and .* wide"):
+        RollingScene(radius=1.0, **settings)
+    far = {**settings, "ground": MeasuredHeights(height=ground.height, spacing=(0.2, 0.2)), "load": 1e-3}
+    for scene in (partial(RollingScene, radius=1e-3), partial(IndentationScene, shape="sphere", size=1e-3)):
+        with pytest.raises(ValueError, match=r"^heights.spacing must be no more than the contact radius, .* 0.2 m"):
+            scene(**far)
+
+
+# The command
+
+
+def test_compare_prints_result_error_cost_and_reason(capsys):
+    assert main(["compare", "sphere"]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith("Smooth sphere: stiffness within 10 %\n")
+    # a = (3 F R / 4 E*)^(1/3), k = 2 E* a
+    stiffness = 2 * 236.25e9 * (0.75 * 4905 * 0.5 / 236.25e9) ** (1 / 3)
+    assert f"stiffness = {stiffness / 1e8:.4f}e8 N/m" in text
+    assert "closed form" in text
+
+
+@pytest.mark.parametrize(
+    ("word", "shown"), [("5%", "5 %"), ("0.05", "5 %"), ("0.4238 dB", "0.42 dB"), (" 20 % ", "20 %")]
+)
+def test_tolerances_come_in_three_forms(capsys, word, shown):
+    assert main(["compare", "sphere", "--tolerance", word]) == 0
+    assert f"within {shown}\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("word", ["0", "-1%", "nan", "inf", "five", "5 percent", ""])
+def test_tolerances_that_are_none_are_refused(capsys, word):
+    with pytest.raises(SystemExit) as refusal:
+        main(["compare", "sphere", "--tolerance", word])
+    assert refusal.value.code == 2
+    assert "--tolerance" in capsys.readouterr().err
+
+
+def test_what_a_scene_cannot_answer_is_refused(capsys):
+    assert main(["compare", "sphere", "--quantity", "acceleration"]) == 2
+    assert "error: quantity must be one of stiffness for scene 'Smooth sphere'" in capsys.readouterr().err
+    assert main(["compare", "nowhere"]) == 2
+    assert "error: scene must be a file" in capsys.readouterr().err
+
+
+def test_what_cannot_be_reached_is_no_success(capsys, tmp_path):
+    np.save(tmp_path / "face.npy", drawn()[:64, :64])
+    path = with_heights(tmp_path, "face.npy", side="0.064 mm")
+    assert main(["compare", str(path), "--tolerance", "0.001%"]) == 3
+    assert "not reached: the tolerance of 0.001 %" in capsys.readouterr().out
+
+
+def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
+    seeds, compared = [], command_compare.compared
+
+    def seen(scene, **settings):
+        seeds.append(settings["seed"])
+        return compared(scene, **settings)
+
+    monkeypatch.setattr(command_compare, "compared", seen)
+    for words in ([], ["--seed", "0"], ["--seed", "7"]):
+        assert main(["compare", "sphere", *words]) == 0
+    assert seeds == [0, 0, 7]

@@ -1,0 +1,148 @@
+"""What is done to measured heights where it is asked for: the central square cut out, single points filled in."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.scenes.known_heights import check_known, check_not_infinite
+
+FloatArray = NDArray[np.float64]
+
+MOST_FILLED = 0.01
+"""Of the points without data: a larger part is no longer a detail of the surface."""
+SQUARE = 1e-6
+"""By how much both sides of a square may differ, over one of them."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeightEdits:
+    """What was done to measured heights: how many points were filled in, of which shape the central square was cut."""
+
+    filled: int = 0
+    share: float = 0.0
+    cropped_from: tuple[int, int] | None = None
+
+    @property
+    def words(self) -> str:
+        """For a description, after a list of other words."""
+        cropped = f", the central square of {_shape(self.cropped_from)}" if self.cropped_from else ""
+        return cropped + (f", {self._points} filled in" if self.filled else "")
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """In sentences."""
+        found = []
+        if self.cropped_from:
+            found.append(f"heights are the central square of {_shape(self.cropped_from)} points, as asked by crop.")
+        if self.filled:
+            found.append(
+                f"heights had no data at {self._points}, which were filled in from their neighbours, as asked by fill: "
+                "short waves are missing there, and a summit would be lost."
+            )
+        return tuple(found)
+
+    @property
+    def _points(self) -> str:
+        return f"{self.filled} {'point' if self.filled == 1 else 'points'} ({100 * self.share:.3g} %)"
+
+
+UNTOUCHED = HeightEdits()
+
+
+def edited(
+    height: FloatArray, spacing: tuple[float, float], *, crop: bool, fill: bool, asked_by: str
+) -> tuple[FloatArray, HeightEdits]:
+    """The heights as they were asked for, and what was done.
+
+    The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for.
+    Raises ValueError for infinite heights, for points without data that are not to be filled in, and for `MOST_FILLED`
+    of them and more.
+    """
+    part = central_square(height, spacing) if crop else height
+    check_not_infinite(part)
+    unknown = np.isnan(part)
+    count, share = int(unknown.sum()), float(unknown.mean()) if part.size else 0.0
+    if not (fill and share < MOST_FILLED):
+        advice = f"fewer than 1 % can be filled in from their neighbours, as: {asked_by}"
+        check_known(part, advice if share < MOST_FILLED else f"cut out a part that is known; {advice}")
+    done = HeightEdits(filled=count, share=share, cropped_from=None if part.shape == height.shape else height.shape)
+    return filled_in(part, spacing) if count else part, done
+
+
+def central_square(height: FloatArray, spacing: tuple[float, float]) -> FloatArray:
+    """The largest square about the middle that is a whole number of points along both sides.
+
+    Raises ValueError where there is none of half of the shorter side.
+    """
+    (nx, ny), (dx, dy) = height.shape, spacing
+    along = np.arange(nx, 0, -1)
+    across = np.rint(along * (dx / dy)).astype(np.int64)
+    fits = (across >= 1) & (across <= ny) & (np.abs(across * dy - along * dx) <= SQUARE * along * dx)
+    if not fits.any() or 2 * along[fits][0] * dx < min(nx * dx, ny * dy):
+        raise ValueError(
+            f"crop must find a square of whole points, got {_shape(height.shape)} points, {dx:.5g} x {dy:.5g} m apart: "
+            "resample the heights onto square points"
+        )
+    first_x, first_y = (nx - along[fits][0]) // 2, (ny - across[fits][0]) // 2
+    return height[first_x : first_x + along[fits][0], first_y : first_y + across[fits][0]]
+
+
+def filled_in(height: FloatArray, spacing: tuple[float, float]) -> FloatArray:
+    """Points without data by harmonic interpolation about the mean plane of the others.
+
+    At such a point the discrete Laplacian is zero, 1/dx^2 and 1/dy^2 its weights: on square cells the point is the mean
+    of its four neighbours. So no point becomes a summit or a valley, and a plane stays a plane up to its edge.
+    """
+    from scipy.sparse import csr_array
+    from scipy.sparse.linalg import spsolve
+
+    unknown = np.isnan(height)
+    plane = _plane(height, ~unknown)
+    rest = np.where(unknown, 0.0, height - plane)
+    number = np.where(unknown, np.cumsum(unknown).reshape(height.shape) - 1, -1)
+    i, j = np.nonzero(unknown)
+    diagonal, right = np.zeros(i.size), np.zeros(i.size)
+    rows, columns, values = [], [], []
+    for di, dj, step in ((1, 0, spacing[0]), (-1, 0, spacing[0]), (0, 1, spacing[1]), (0, -1, spacing[1])):
+        weight = _weight(step, min(spacing))
+        row = np.flatnonzero((i + di >= 0) & (i + di < height.shape[0]) & (j + dj >= 0) & (j + dj < height.shape[1]))
+        next_to = i[row] + di, j[row] + dj
+        diagonal[row] += weight
+        right[row] += weight * rest[next_to]
+        others = number[next_to]
+        rows.append(row[others >= 0])
+        columns.append(others[others >= 0])
+        values.append(np.full(rows[-1].size, -weight))
+    every = np.arange(i.size)
+    matrix = csr_array(
+        (np.concatenate([*values, diagonal]), (np.concatenate([*rows, every]), np.concatenate([*columns, every])))
+    )
+    found = height.copy()
+    found[unknown] = np.asarray(spsolve(matrix, right)) + plane[unknown]
+    return found
+
+
+def _weight(step: float, least: float) -> float:
+    """1 / dx^2 over that of the shorter distance."""
+    return (least / step) ** 2
+
+
+def _plane(height: FloatArray, known: NDArray[np.bool_]) -> FloatArray:
+    """The plane of least squares through the known heights, everywhere."""
+    x, y = (np.linspace(-1.0, 1.0, n) for n in height.shape)
+    values = np.where(known, height, 0.0)
+    in_x, in_y = known.sum(axis=1), known.sum(axis=0)
+    moments = np.array(
+        [
+            [in_x.sum(), in_x @ x, in_y @ y],
+            [in_x @ x, in_x @ x**2, x @ known @ y],
+            [in_y @ y, x @ known @ y, in_y @ y**2],
+        ]
+    )
+    mean, slope_x, slope_y = np.linalg.solve(moments, [values.sum(), x @ values.sum(axis=1), values.sum(axis=0) @ y])
+    return np.asarray(mean + slope_x * x[:, np.newaxis] + slope_y * y)
+
+
+def _shape(shape: tuple[int, ...]) -> str:
+    return " x ".join(map(str, shape))

@@ -1,0 +1,143 @@
+"""A measured profile across the track, of a rail, a wheel or both together: heights over y in place of a radius."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike, NDArray
+
+from mdr.checks import finite
+from validation.theory.elliptic_contact import elliptic_contact
+
+FloatArray = NDArray[np.float64]
+
+FEWEST, MOST = 7, 100_000
+"""Points of a profile."""
+IN_CONTACT = 5
+"""Points of a profile in the contact, at the least: with fewer its shape there is not known."""
+REACH = 2.0
+"""Semi-axes across that a profile has on both sides of its highest point, at the least."""
+STRAIGHT = 100.0
+"""Radius across over that along, at the most: straighter is no contact of an ellipse."""
+CLOSE = 1e-9
+"""Relative error of the width over which a radius is fitted."""
+DENSE = 20_001
+"""Places at which the highest point of two bodies is looked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TransverseProfile:
+    """Heights over the places across, a cubic spline between them.
+
+    y: places across the track, ascending [m]; height: of the body there, positive towards the other body [m]; source:
+    where they come from. Raises ValueError or TypeError for fewer than seven points, places that do not ascend, values
+    that are no finite numbers, and a highest point at an end.
+    """
+
+    y: tuple[float, ...]
+    height: tuple[float, ...]
+    source: str = "given"
+
+    def __post_init__(self) -> None:
+        for name in ("y", "height"):
+            values = [finite(f"{name}[{i}]", value) for i, value in enumerate(getattr(self, name))]
+            object.__setattr__(self, name, tuple(values))
+        if not FEWEST <= len(self.y) <= MOST or len(self.height) != len(self.y):
+            raise ValueError(
+                f"profile must have {FEWEST} to {MOST} points, a y and a height each, got {len(self.y)} and "
+                f"{len(self.height)}"
+            )
+        if not (np.diff(self.y) > 0).all():
+            at = int(np.argmax(np.diff(self.y) <= 0))
+            raise ValueError(f"y must ascend, got {self.y[at + 1]:g} m behind {self.y[at]:g} m")
+        if not 0 < int(np.argmax(self.height)) < len(self.y) - 1:
+            raise ValueError(
+                f"height must be largest between the ends, towards the other body, got its largest at an end, y = "
+                f"{self.y[int(np.argmax(self.height))]:g} m"
+            )
+
+    def __call__(self, y: ArrayLike) -> FloatArray:
+        """Heights at places across, of any shape [m]; NaN beyond both ends."""
+        return np.asarray(self._spline(np.asarray(y, dtype=np.float64)))
+
+    @property
+    def reach(self) -> float:
+        """How far it goes from y = 0 to the nearer end [m]."""
+        return min(-self.y[0], self.y[-1])
+
+    @cached_property
+    def _spline(self) -> "scipy.interpolate.CubicSpline":
+        return scipy.interpolate.CubicSpline(self.y, self.height, extrapolate=False)
+
+    def radius_within(self, half_width: float) -> float:
+        """R of the parabola c_0 + c_1 y - y^2 / (2 R) of least squares over abs(y) < half_width [m].
+
+        half_width: positive, within the reach [m]. Infinite where the profile does not fall from its middle.
+        """
+        t = np.linspace(-1, 1, 101)
+        curvature = -2 * float(np.polyfit(t, self(t * half_width), 2)[0]) / half_width**2
+        return 1 / curvature if curvature > 0 else math.inf
+
+
+def both_together(bodies: Sequence[TransverseProfile], curvature: float) -> TransverseProfile:
+    """Wheel and rail as one profile over a plane: their heights added, zero at the highest point, which is y = 0.
+
+    bodies: with a profile, one or two, their y of the same place across the track; curvature: of the one without, zero
+    where it is straight [1/m]. Raises ValueError where two have no common width, or are highest at an end of it.
+    """
+    first, last = max(body.y[0] for body in bodies), min(body.y[-1] for body in bodies)
+    if not first < last:
+        raise ValueError(
+            f"profile of wheel and rail must have places in common, got one from {1e3 * first:.4g} mm on and one up to "
+            f"{1e3 * last:.4g} mm"
+        )
+
+    def height(at: FloatArray) -> FloatArray:
+        return np.asarray(sum((body(at) for body in bodies), -curvature * at**2 / 2))
+
+    dense = np.linspace(first, last, DENSE)
+    at = int(np.argmax(height(dense)))
+    if not 0 < at < DENSE - 1:
+        raise ValueError(
+            f"profile of wheel and rail together must be highest between its ends, {1e3 * first:.4g} and "
+            f"{1e3 * last:.4g} mm, got its highest point at {1e3 * dense[at]:.4g} mm"
+        )
+    top = float(dense[at])
+    own = np.unique(np.concatenate([body.y for body in bodies]))
+    y = own[(own >= first) & (own <= last)]
+    found = height(y) - height(np.array([top]))
+    return TransverseProfile(
+        y=tuple((y - top).tolist()),
+        height=tuple(found.tolist()),
+        source=" and ".join(body.source for body in bodies),
+    )
+
+
+def fitted_radius(profile: TransverseProfile, *, along: float, modulus: float, load: float) -> float:
+    """The radius across that a profile has by least squares over the ellipse of contact of that same radius [m].
+
+    Hertz's contact with (along, R) has the semi-axis a_y; R is that of the parabola over abs(y) < a_y. profile: highest
+    at y = 0; along: the radius along the track [m]; modulus: E* [Pa]; load [N]. Raises ValueError for a profile that is
+    narrower than twice the contact, has fewer than five points in it, or does not fall from its highest point.
+    """
+
+    def wider(half_width: float) -> float:
+        """By how much the contact is wider than what a radius was fitted over, of its logarithm."""
+        radius = min(profile.radius_within(half_width), STRAIGHT * along)
+        return math.log(elliptic_contact((along, radius), modulus=modulus, force=load).across / half_width)
+
+    least, most = float(np.sort(np.abs(profile.y))[IN_CONTACT - 1]), profile.reach / REACH
+    if not least < most or wider(most) > 0:
+        raise ValueError(
+            f"profile must reach to twice the contact and have {IN_CONTACT} points in it at the least, got "
+            f"{1e3 * profile.reach:.4g} mm to the nearer end, and a contact of more than {1e3 * most:.4g} mm to a side"
+        )
+    if wider(least) < 0:
+        raise ValueError(
+            f"profile must have {IN_CONTACT} points in the contact at the least, got so many within "
+            f"{1e3 * least:.3g} mm of its highest point, and a contact that is narrower"
+        )
+    return profile.radius_within(float(scipy.optimize.brentq(wider, least, most, rtol=CLOSE)))
