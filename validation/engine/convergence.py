@@ -4,6 +4,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
+FEWEST = 3
+"""Converged realisations that an error bar needs."""
+
 
 class NotConvergedError(RuntimeError):
     """Too little has converged for any evidence; `unconverged` lists what has not."""
@@ -14,6 +17,13 @@ class NotConvergedError(RuntimeError):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return NotConvergedError, (str(self), self.unconverged)
+
+
+def require_realisations(**counts: int) -> None:
+    """Raise ValueError where a count of realisations, by the name of its setting, is too small for an error bar."""
+    for name, count in counts.items():
+        if count < FEWEST:
+            raise ValueError(f"{name} must be at least {FEWEST}, got {count}")
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, cross_levels, levels, waves
-from validation.engine.convergence import NotConvergedError
+from validation.engine.convergence import FEWEST, NotConvergedError
 from validation.engine.engine import Engine, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.simulation.surface import draw_surface
@@ -139,8 +139,8 @@ def roll_strips(groups: Mapping[K, Sequence[Strip]], engine: Engine) -> tuple[di
     )
     for key, found in outcomes.items():
         converged = sum(not outcome["failed"] for outcome in found)
-        if converged < 3:
-            raise NotConvergedError(f"{converged} strips of {key} converged, 3 are needed", unconverged)
+        if converged < FEWEST:
+            raise NotConvergedError(f"{converged} strips of {key} converged, {FEWEST} are needed", unconverged)
     return outcomes, unconverged
 
 

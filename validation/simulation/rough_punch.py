@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 import bem3d
 import mdr
-from validation.engine.convergence import NotConvergedError
+from validation.engine.convergence import FEWEST, NotConvergedError
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
@@ -216,9 +216,9 @@ def describe_failures(problems: list[Surface], outcomes: list[Outcome]) -> tuple
 def require_converged(outcomes: Iterable[Outcome], unconverged: Sequence[str]) -> None:
     """Raise NotConvergedError unless three surfaces at the least have converged at each force."""
     for outcome in outcomes:
-        fewest = int(np.isfinite(outcome["stiffness"]).sum(axis=0).min())
-        if fewest < 3:
-            raise NotConvergedError(f"{fewest} surfaces converged at one of the forces, 3 are needed", unconverged)
+        converged = int(np.isfinite(outcome["stiffness"]).sum(axis=0).min())
+        if converged < FEWEST:
+            raise NotConvergedError(f"{converged} surfaces converged at one force, {FEWEST} are needed", unconverged)
 
 
 def _gradient(height: FloatArray) -> float:

@@ -10,7 +10,7 @@ from validation.analysis.spectra import Bands
 from validation.analysis.statistics import Estimate
 from validation.cases.rail.filters import ACROSS, scene_of
 from validation.cases.rail.published import RailWheel
-from validation.engine.convergence import NotConvergedError
+from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import (
@@ -37,7 +37,6 @@ Key = tuple[RailWheel, float, str]
 """Wheel, dB over the levels, and what lies across, by its name."""
 
 RIVALS = (SPRINGS_THAT_READ, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, ONE_SIDED_BED)
-FEWEST = 3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +54,9 @@ class RolledFilters:
     strips: int = 4
     cells: tuple[int, int] = (6, 9)
     seed: int = 20
+
+    def __post_init__(self) -> None:
+        require_realisations(strips=self.strips)
 
     @property
     def keys(self) -> list[Key]:

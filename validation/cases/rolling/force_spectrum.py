@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from validation.analysis.spectra import Bands
+from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, roll_strips, roll_tracks, strip_levels
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
@@ -32,6 +33,9 @@ class RollingSettings:
     tracks: int
     springs: int = 32
     seed: int = 144
+
+    def __post_init__(self) -> None:
+        require_realisations(strips=self.strips)
 
     @property
     def bands(self) -> Bands:
@@ -62,6 +66,9 @@ class ForceSpectrum(RollingSettings):
     rough_strips: int = 6
     refined: int = 6
     tracks: int = 60
+
+    def __post_init__(self) -> None:
+        require_realisations(strips=self.strips, rough_strips=self.rough_strips, refined=self.refined)
 
     @property
     def spectrum(self) -> PiecewisePowerLaw:

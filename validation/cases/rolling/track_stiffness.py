@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.engine.convergence import NotConvergedError
+from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks, crop_to_reach
 from validation.simulation.rough_punch import (
@@ -56,6 +56,9 @@ class TrackStiffness:
     surfaces: int = 30
     profiles: int = 400
     seed: int = 153
+
+    def __post_init__(self) -> None:
+        require_realisations(strips=self.strips, refined=self.refined, surfaces=self.surfaces)
 
     @property
     def spectrum(self) -> PiecewisePowerLaw:
@@ -171,8 +174,8 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> TrackStiffnessResult:
         if one["failed"]
     )
     for key, found in strips.items():
-        if sum(not one["failed"] for one in found) < 3:
-            raise NotConvergedError(f"fewer than 3 strips of {key} converged", lost)
+        if sum(not one["failed"] for one in found) < FEWEST:
+            raise NotConvergedError(f"fewer than {FEWEST} strips of {key} converged", lost)
     along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in strips.items()}
     tracks = {(force, rule): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
     loads = {force: (force / LOADS_BELOW, force) for force in case.forces}

@@ -21,6 +21,7 @@ from validation.cases.rolling.validity_reduced import (
     over_boundary_elements,
     roll_reduced,
 )
+from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
@@ -54,6 +55,9 @@ class Validity:
     width: int = 12
     cells: int = 8
     seed: int = 151
+
+    def __post_init__(self) -> None:
+        require_realisations(strips=self.strips)
 
     @property
     def levels(self) -> list[tuple[str, float]]:

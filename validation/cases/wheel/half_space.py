@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from validation.engine.convergence import NotConvergedError
+from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
@@ -42,6 +42,9 @@ class Wheel3D:
     groups: int = 5
     batch: int = 100
     seed: int = 148
+
+    def __post_init__(self) -> None:
+        require_realisations(strips=self.strips)
 
     @property
     def strip(self) -> WheelStrip:
@@ -104,9 +107,9 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
         if outcome["failed"]
     )
     converged = sum(not outcome["failed"] for outcome in strips[FINEST])
-    if converged < 3 or any(outcome["failed"] for name in (COARSER, LOOSE, TIGHT) for outcome in strips[name]):
+    if converged < FEWEST or any(outcome["failed"] for name in (COARSER, LOOSE, TIGHT) for outcome in strips[name]):
         raise NotConvergedError(
-            f"{converged} strips converged on {case.cells} cells to a radius, 3 are needed", unconverged
+            f"{converged} strips converged on {case.cells} cells to a radius, {FEWEST} are needed", unconverged
         )
     springs = engine.map_groups(simulate_ensemble, {name: case.ensembles(name) for name in INPUT_SPECTRA})
     failed = [name for name, some in springs.items() if any(outcome["failed"] for outcome in some)]
