@@ -172,18 +172,19 @@ def recorded(monkeypatch, name):
 
 
 def files_of(name, evidence):
-    """A CSV for each table, both formats of the figure for each caption, one of each at least, and a WAV a sound."""
+    """A CSV for each table that is not played, a figure for each caption, one of each at least, and a WAV a sound."""
     assert evidence.tables and name in evidence.captions
-    data = {f"data/{name}-{table.name}.csv" for table in evidence.tables}
+    played = evidence.sounds.table if evidence.sounds else None
+    data = {f"data/{name}-{table.name}.csv" for table in evidence.tables if table.name != played}
     sounds = {f"sounds/{name}-{sound.name}.wav" for sound in evidence.sounds.tracks} if evidence.sounds else set()
-    pictures = {f"figures/{f}.{end}" for f in evidence.captions for end in ("svg", "pdf")}
+    pictures = {f"figures/{figure}.svg" for figure in evidence.captions}
     return {"results.json", *data, *pictures, *sounds}
 
 
 NUMBERS = ("results.json", "data/*.csv", "sounds/*.wav")
-FIGURES = ("figures/*.svg", "figures/*.pdf")
+FIGURES = ("figures/*.svg",)
 REDRAWN = ("hertz", "geike")
-"""Of figures that are drawn twice: one file format is written by the same code for all, from tables that are equal."""
+"""Of figures that are drawn twice: all are written by the same code, from tables that are equal."""
 
 
 @pytest.mark.slow

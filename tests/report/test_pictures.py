@@ -3,13 +3,11 @@
 import tomllib
 
 import pytest
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from validation.engine.progress import Part
 from validation.engine.workers import Workers
 from validation.report import durations, pictures
 from validation.report.contents import CASES, TIMED
-from validation.report.style import panels
 
 
 class Evidence:
@@ -21,25 +19,12 @@ class Section:
         self.evidence = evidence
 
 
-@pytest.mark.slow
-def test_a_figure_is_laid_out_once_for_both_formats(monkeypatch):
-    laid_out = []
-    execute = ConstrainedLayoutEngine.execute
-    monkeypatch.setattr(
-        ConstrainedLayoutEngine, "execute", lambda self, figure: (laid_out.append(figure), execute(self, figure))
-    )
-    monkeypatch.setattr(pictures, "drawing", lambda name: lambda evidence: panels(1, 2)[0])
-    svg, pdf = pictures.draw_figure("hertz", Evidence(), "quick")
-    assert svg.startswith(b"<?xml") and pdf.startswith(b"%PDF")
-    assert len(laid_out) == 1
-
-
 def test_figures_come_by_their_names_and_are_counted(monkeypatch):
-    monkeypatch.setattr(pictures, "draw_figure", lambda name, evidence, profile: (name.encode(), profile.encode()))
+    monkeypatch.setattr(pictures, "draw_figure", lambda name, evidence, profile: f"{name} {profile}".encode())
     progress = Part("figures")
     drawn = pictures.Pictures(Workers(1), progress, "quick")
     drawn.draw(Section(Evidence()))
-    assert drawn.found() == {name: (name.encode(), b"quick") for name in "abc"}
+    assert drawn.found() == {name: f"{name} quick".encode() for name in "abc"}
     assert progress.line == "figures: drawn 3/3"
     # a case that failed has none
     drawn.draw(Section(None))

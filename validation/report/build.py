@@ -12,6 +12,7 @@ import scipy.stats  # noqa: F401  # with most of scipy, before threads import it
 
 from validation.analysis.case import Case, Profile
 from validation.analysis.contents import as_csv, as_json
+from validation.analysis.evidence import Evidence
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
 from validation.engine.progress import Part, Progress
@@ -116,7 +117,7 @@ def _provenance(sections: Sequence[Section], profile: Profile, engine: Engine, p
 
 def _files(
     sections: Sequence[Section],
-    pictures: Mapping[str, tuple[bytes, bytes]],
+    pictures: Mapping[str, bytes],
     profile: Profile,
     about: dict[str, object],
     scene: WheelScene | None,
@@ -124,15 +125,13 @@ def _files(
 ) -> dict[str, bytes]:
     """All that a report is, the page last.
 
-    pictures: SVG and PDF of each figure; about: its provenance; documentation: its address, or empty.
+    pictures: SVG of each figure; about: its provenance; documentation: its address, or empty.
     """
     files: dict[str, bytes] = {}
-    for name, (svg, pdf) in pictures.items():
-        files |= {f"{FIGURES}/{name}.svg": svg, f"{FIGURES}/{name}.pdf": pdf}
+    files |= {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
     for section in sections:
-        for table in section.evidence.tables if section.evidence else ():
-            files[f"data/{section.name}-{table.name}.csv"] = as_csv(table)
-        files |= sound_files(section.name, section.evidence) if section.evidence else {}
+        if section.evidence:
+            files |= _data_files(section.name, section.evidence) | sound_files(section.name, section.evidence)
     files["provenance.json"] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]
@@ -147,5 +146,11 @@ def _files(
     for section in timed:
         files[f"{section.name}.json"] = as_json(results_of([section], profile))
     about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
-    files["index.html"] = page(sections, profile, {name: svg for name, (svg, _) in pictures.items()}, about, scene)
+    files["index.html"] = page(sections, profile, pictures, about, scene)
     return files
+
+
+def _data_files(name: str, evidence: Evidence) -> dict[str, bytes]:
+    """CSV of all tables of a case but the one that is played, which its WAV files hold."""
+    played = evidence.sounds.table if evidence.sounds else None
+    return {f"data/{name}-{table.name}.csv": as_csv(table) for table in evidence.tables if table.name != played}

@@ -1,6 +1,7 @@
 """An SVG of matplotlib without invisible parts: indentation, comments, unused names, digits beyond any printer."""
 
 import re
+from itertools import groupby
 
 REMARK = re.compile(r"\s*(<!--.*?-->|<metadata>.*?</metadata>)", re.DOTALL)
 UNUSED = re.compile(r'<g id="[^"]*">')
@@ -18,6 +19,12 @@ PLACED = re.compile(r'(<use [^>]*)transform="translate\((\S+) (\S+)\)"/>')
 LOOK = re.compile(r'(?: (?:clip-path|style)="[^"]*")+')
 PROPERTY = re.compile(r'(clip-path|style)="([^"]*)"')
 RULES_END = "</style>"
+MARK = re.compile(r'<use href="(#\w+)"(?: x="([^"]*)")?(?: y="([^"]*)")? class="(\w+)"/>\n')
+CLIPPED = re.compile(r"\.(\w+)\{[^}]*clip-path")
+PIECE = re.compile(r"([MLQCZz])([^MLQCZz]*)")
+FINE = re.compile(r"\.\d{3}")
+FEW = 3
+"""Marks that are as short one by one."""
 
 
 def compact(svg: str) -> str:
@@ -25,7 +32,8 @@ def compact(svg: str) -> str:
     svg = UNUSED.sub("<g>", REMARK.sub("", svg)).replace(LINK, "href=").replace(SPACE, "")
     svg = PATH.sub(lambda path: COMMAND.sub(r"\1", path.group()).strip(), svg)
     svg = INDENTATION.sub("\n", DECIMALS.sub(_printed, svg))
-    return _ungrouped(_classed(_renamed(PLACED.sub(_place, svg))))
+    svg = _marked(_ungrouped(_classed(_renamed(PLACED.sub(_place, svg)))))
+    return PATH.sub(_relative, svg)
 
 
 def _printed(number: re.Match[str]) -> str:
@@ -73,3 +81,54 @@ def _ungrouped(svg: str) -> str:
         if not silent:
             lines.append(line)
     return "".join(lines)
+
+
+def _marked(svg: str) -> str:
+    """A series of one mark as a path that has it at every point, but where each mark is clipped by itself."""
+    clipped = set(CLIPPED.findall(svg))
+    lines: list[str] = []
+    for number, ((name, look), series) in enumerate(groupby(svg.splitlines(keepends=True), _mark_of)):
+        marks = list(series)
+        if len(marks) <= FEW or look in clipped or not name:
+            lines += marks
+            continue
+        points = "L".join(f"{found[2] or 0} {found[3] or 0}" for found in map(MARK.fullmatch, marks) if found)
+        lines.append(
+            f'<marker id="m{number}" markerUnits="userSpaceOnUse" overflow="visible">'
+            f'<use href="{name}" class="{look}"/></marker>\n'
+            f'<path d="M{points}" style="fill:none;marker:url(#m{number})"/>\n'
+        )
+    return "".join(lines)
+
+
+def _mark_of(line: str) -> tuple[str, str]:
+    """Which mark a line draws, and how it looks; two empty words where it draws none."""
+    found = MARK.fullmatch(line)
+    return (found[1], found[4]) if found else ("", "")
+
+
+def _relative(path: re.Match[str]) -> str:
+    """Each point from the last one, which takes fewer digits and rounds nothing: all are whole hundredths."""
+    if FINE.search(path.group()):
+        return path.group()
+    pieces: list[str] = []
+    here = start = (0, 0)
+    for command, numbers in PIECE.findall(path.group()):
+        if command in "Zz":
+            pieces.append("z")
+            here = start
+            continue
+        values = [round(100 * float(number)) for number in numbers.split()]
+        points = list(zip(values[::2], values[1::2], strict=True))
+        pieces.append(
+            command.lower() + " ".join(_short(to - at) for point in points for to, at in zip(point, here, strict=True))
+        )
+        here = points[-1]
+        start = here if command == "M" else start
+    return "".join(pieces).replace(" -", "-")
+
+
+def _short(hundredths: int) -> str:
+    """Without zeros that say nothing."""
+    number = f"{hundredths / 100:.2f}".rstrip("0").rstrip(".")
+    return re.sub(r"^(-?)0\.", r"\1.", number)

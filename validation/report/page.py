@@ -1,6 +1,6 @@
 """The page of a report: sections and pictures into the templates beside it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -34,7 +34,7 @@ def scene_summary(scene: WheelScene) -> dict[str, object]:
 def page(
     sections: Sequence[Section],
     profile: Profile,
-    pictures: dict[str, bytes],
+    pictures: Mapping[str, bytes],
     about: dict[str, object],
     scene: WheelScene | None,
 ) -> bytes:

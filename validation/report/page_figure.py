@@ -38,7 +38,7 @@ class PageFigure:
     @property
     def drawn_again_by(self) -> str:
         """One line of Python, run in the folder of the report."""
-        return f'from validation.report.redraw import redraw; redraw(".", "{self.name}").savefig("{self.name}.png")'
+        return f'from validation.report.redraw import redraw; redraw(".", "{self.name}").savefig("{self.name}.pdf")'
 
     def citation(self, about: Mapping[str, object], profile: str) -> str:
         return (

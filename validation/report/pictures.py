@@ -8,18 +8,18 @@ from validation.engine.progress import Part
 from validation.engine.workers import Workers
 from validation.report.figures import drawing
 from validation.report.section import Section
-from validation.report.style import drawn, pdf, svg
+from validation.report.style import drawn, svg
 
 FIGURES = "figures"
 """The part of a run in which they are drawn, and their folder."""
 
 
 class Pictures:
-    """SVG and PDF of each figure. progress: the part of the run that is told of them."""
+    """SVG of each figure. progress: the part of the run that is told of them."""
 
     def __init__(self, workers: Workers, progress: Part, profile: Profile):
         self._workers, self._progress, self._profile = workers, progress, profile
-        self._begun: dict[str, Future[tuple[bytes, bytes]]] = {}
+        self._begun: dict[str, Future[bytes]] = {}
 
     def draw(self, section: Section) -> None:
         """Have the figures of a case drawn."""
@@ -31,14 +31,11 @@ class Pictures:
             self._begun[name] = self._workers.submit(draw_figure, name, section.evidence, self._profile)
             self._begun[name].add_done_callback(lambda _: self._progress.step())
 
-    def found(self) -> dict[str, tuple[bytes, bytes]]:
+    def found(self) -> dict[str, bytes]:
         """All that were to be drawn, as soon as they are."""
         return {name: picture.result() for name, picture in self._begun.items()}
 
 
-def draw_figure(name: str, evidence: Evidence, profile: Profile) -> tuple[bytes, bytes]:
-    """SVG and PDF of a figure, which is laid out once for both."""
-    figure = drawn(drawing(name), evidence, profile)
-    of_web = svg(figure)
-    figure.set_layout_engine("none")
-    return of_web, pdf(figure)
+def draw_figure(name: str, evidence: Evidence, profile: Profile) -> bytes:
+    """SVG of a figure."""
+    return svg(drawn(drawing(name), evidence, profile))

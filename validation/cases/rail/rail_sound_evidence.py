@@ -30,11 +30,12 @@ def evidence(result: RailSoundResult) -> Evidence:
     ]
     judged = [_claim(claim, numbers_with(numbers, LEVEL, LABELS[model])) for model, claim in _claims(result.case)]
     table = levels.sounds_table()
+    signals = levels.waveforms_table(), levels.samples_table()
     return Evidence(
         title="Hear it: a wheel on a rail by four models",
         method=_method(result.case),
         numbers=tuple(numbers),
-        tables=(table, levels.bands_table(), levels.frequencies_table(), levels.samples_table()),
+        tables=(table, levels.bands_table(), levels.frequencies_table(), *signals),
         conclusions=(_below_the_band(levels),),
         captions={"rail_sound": _caption(levels)},
         headlines={"rail_sound": farthest(numbers)},

@@ -22,6 +22,8 @@ SILENT = -30.0
 """dB over boundary elements; a model that is quieter still counts as this."""
 LOWEST, FEWEST_WAVES = 20.0, 5
 """First frequency of one-third octaves [Hz], and waves of a period below it."""
+SHOWN = 0.02
+"""Seconds of the waveforms that are drawn."""
 LEAST = -40.0
 """dB re 1 N: of 0.01 N, a tenth of the last digit of the samples."""
 
@@ -125,6 +127,12 @@ class SoundLevels:
             "samples",
             {column_of(model): np.round(self.result.signal(model), 1).tolist() for model in self.case.sounding},
         )
+
+    def waveforms_table(self) -> Table:
+        """The first samples, at their times."""
+        shown = {name: column[: round(SHOWN * self.case.rate)] for name, column in self.samples_table().columns.items()}
+        time = 1000 * np.arange(len(next(iter(shown.values())))) / self.case.rate
+        return Table("waveforms", {"t [ms]": time.tolist(), **shown})
 
 
 def column_of(model: str) -> str:

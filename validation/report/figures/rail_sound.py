@@ -7,8 +7,6 @@ from matplotlib.figure import Figure
 from validation.analysis.evidence import Evidence, Table
 from validation.report.style import GUIDE, Style, tick
 
-SHOWN = 0.02
-"""Seconds."""
 STYLES: tuple[Style, ...] = (
     {"color": "#0072B2", "linestyle": "-", "linewidth": 4.0},
     {"color": "#000000", "linestyle": "--", "linewidth": 1.0, "marker": "x", "markersize": 5},
@@ -20,24 +18,23 @@ DECADES = 50, 100, 200, 500, 1000, 2000, 5000, 10000
 
 def draw(evidence: Evidence) -> Figure:
     """Waveforms, one under another, beside the levels."""
-    samples, rate = evidence.table("samples"), float(evidence.table("sounds")["samples a second"][0])
+    waveforms = evidence.table("waveforms")
     figure = Figure(figsize=(9.0, 4.6), layout="constrained")
-    names = list(samples.columns)
+    names = list(waveforms.columns)[1:]
     axes = figure.subplot_mosaic([[name, "levels"] for name in names], width_ratios=(1.25, 1))
-    _waveforms([axes[name] for name in names], samples, rate)
+    _waveforms([axes[name] for name in names], waveforms)
     _levels(axes["levels"], evidence)
     axes[names[0]].set_title("(a)", loc="left")
     axes["levels"].set_title("(b)", loc="left")
     return figure
 
 
-def _waveforms(axes: list[Axes], samples: Table, rate: float) -> None:
-    count = round(SHOWN * rate)
-    time = 1000 * np.arange(count) / rate
-    most = max(float(np.abs(samples[name][:count]).max()) for name in samples.columns) / 1000
-    for axis, name, style in zip(axes, samples.columns, STYLES, strict=False):
-        axis.plot(time, samples[name][:count] / 1000, color=style["color"], linewidth=1.0)
-        axis.set(ylim=(-1.1 * most, 1.1 * most), xlim=(0, 1000 * SHOWN), ylabel="F [kN]")
+def _waveforms(axes: list[Axes], waveforms: Table) -> None:
+    time, *names = waveforms.columns
+    most = max(float(np.abs(waveforms[name]).max()) for name in names) / 1000
+    for axis, name, style in zip(axes, names, STYLES, strict=False):
+        axis.plot(waveforms[time], waveforms[name] / 1000, color=style["color"], linewidth=1.0)
+        axis.set(ylim=(-1.1 * most, 1.1 * most), xlim=(0, waveforms[time][-1]), ylabel="F [kN]")
         axis.set_title(name.removesuffix(" [N]"), loc="right", pad=2)
         axis.tick_params(labelbottom=axis is axes[-1])
     axes[-1].set_xlabel("t [ms]")
