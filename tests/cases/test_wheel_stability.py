@@ -59,6 +59,9 @@ def test_all_criteria_are_met(result):
     evidence = wheel_stability_evidence.evidence(result)
     assert [n.sentence for n in evidence.numbers if not n.met] == []
     assert evidence.unconverged == ()
+    (spaced,) = (claim for claim in evidence.claims if "quarter of the shortest wave" in claim.claim)
+    assert spaced.claim.startswith("On low roughness")
+    assert f"at h/d = {SMALL.spacing_heights[0]:g}" in spaced.answer
 
 
 @pytest.mark.slow

@@ -321,6 +321,7 @@ def test_decibels_are_printed_as_their_quantity():
     assert per_cent(MARGINS["10 %"]) == "+10 %"
     assert per_cent(-1e-9) == "+0 %"
     assert times(20.0) == "10 times"
+    assert times(51.0) == "350 times"
     assert in_decibels(-0.01) == "+0 dB"
     assert from_to(-1.0, 2.5, in_decibels) == "-1 to +2.5 dB"
     assert from_to(2.0, 2.0, in_decibels) == "+2 dB"

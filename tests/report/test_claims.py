@@ -205,8 +205,25 @@ def test_of_many_numbers_the_farthest_is_printed():
     assert answer.answer.startswith(
         "No: 4 numbers: 3 agree, 1 differ; farthest from its reference: x, H = 2: 8.5 beside"
     )
+    assert "nearest" not in answer.answer
     (some,) = answers(entry(quantity="x", where={"H": 1.0}), [section])
     assert (some.status, some.answer) == (ClaimStatus.HOLDS, "Yes: x, H = 1: 1.05 beside 1 dB (agree within 0.1).")
+
+
+def test_of_numbers_that_differ_the_nearest_is_printed_too():
+    """The mildest counterexample tells whether a statement fails inside of its own range."""
+    numbers = tuple(number(v, where={"H": v}, role=Role.FINDING) for v in (1.0, 8.5, 3.0, 2.0))
+    (answer,) = answers(entry(quantity="x"), [section_of(JudgedClaim(claim="So.", answer="It is.", numbers=numbers))])
+    assert "3 differ; farthest from its reference: x, H = 8.5: 8.5 beside" in answer.answer
+    assert "; nearest that differs: x, H = 2: 2 beside" in answer.answer
+
+
+def test_a_model_and_a_time_say_what_they_are_not():
+    """A model chosen by its own estimate is no result, and a run from stored solves has no cost."""
+    page = (Path(formats.__file__).parent / "templates" / "claims.html").read_text(encoding="utf-8")
+    assert "not by the results of the case" in page
+    assert "leaves out solves that an earlier run had stored" in page
+    assert '"Cost"' not in page
 
 
 @pytest.mark.parametrize(

@@ -144,13 +144,20 @@ def chapter_results(sections: Sequence[Section]) -> list[dict[str, object]]:
 
 
 def _answer(numbers: Sequence[Number]) -> str:
-    """Few numbers each with its reference; of more, the counts and the one that is farthest from its reference."""
+    """Few numbers each with its reference; of more, counts, the farthest, and the nearest of several that differ."""
     if len(numbers) <= FEW:
         return "; ".join(map(_printed, numbers)) + "."
     counts = {verdict: sum(number.verdict is verdict for number in numbers) for verdict in Verdict}
     found = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
-    farthest = max(numbers, key=lambda n: (abs(n.difference) + n.uncertainty) / n.tolerance if n.tolerance else 0.0)
-    return f"{len(numbers)} numbers: {found}; farthest from its reference: {_printed(farthest)}."
+    farthest = max(numbers, key=_distance)
+    differing = [number for number in numbers if number.verdict is Verdict.DIFFER]
+    nearest = f"; nearest that differs: {_printed(min(differing, key=_distance))}" if len(differing) > 1 else ""
+    return f"{len(numbers)} numbers: {found}; farthest from its reference: {_printed(farthest)}{nearest}."
+
+
+def _distance(number: Number) -> float:
+    """The far end of its interval, in tolerances."""
+    return (abs(number.difference) + number.uncertainty) / number.tolerance if number.tolerance else 0.0
 
 
 def _printed(number: Number) -> str:

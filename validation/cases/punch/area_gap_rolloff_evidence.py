@@ -9,7 +9,7 @@ from validation.analysis.evidence import Evidence, JudgedClaim, Number, Verdict,
 from validation.analysis.statistics import (
     DECIBEL,
 )
-from validation.analysis.wording import by_status, in_a_word, sentence
+from validation.analysis.wording import by_status, farthest_off, in_a_word, sentence
 from validation.cases.punch.area_gap_rolloff import MdrLimits, MdrLimitsResult, run
 from validation.cases.punch.area_gap_rolloff_numbers import (
     AREA,
@@ -80,13 +80,13 @@ def claims_of(numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
             WITH_ROLL_OFF,
             rolled_off,
             Verdict.AGREE,
-            f"it has {_times(rolled_off)} the stiffness of boundary elements.",
+            f"over that of boundary elements it is {_farthest(rolled_off)}.",
         ),
         (
             "MDR has the relative deviation of the stiffness.",
             deviation,
             Verdict.AGREE,
-            f"it has {_times(deviation)} that of boundary elements.",
+            f"over that of boundary elements it is {_farthest(deviation)}.",
         ),
     ]
     for method in METHODS:
@@ -100,8 +100,22 @@ def claims_of(numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
 def _times(numbers: Sequence[Number]) -> str:
     """From the smallest to the largest ratio, at the worst forces of all decades and roll-offs."""
     ratios = sorted(math.exp(n.value / DECIBEL) for n in numbers)
-    ends = dict.fromkeys(f"{ratio:.2g}" for ratio in (*ratios[:1], *ratios[-1:]))
+    ends = dict.fromkeys(f"{float(f'{ratio:.2g}'):g}" for ratio in (*ratios[:1], *ratios[-1:]))
     return f"{' to '.join(ends)} times"
+
+
+def _farthest(numbers: Sequence[Number]) -> str:
+    """The ratio that is farthest off, with its interval; of those that differ where there are any.
+
+    A ratio from few surfaces may be far off and say nothing.
+    """
+    if not numbers:
+        return ""
+    worst = farthest_off(numbers)
+    ends = (worst.value, worst.value - worst.uncertainty, worst.value + worst.uncertainty)
+    ratio, low, high = (f"{math.exp(end / DECIBEL):.2g}" for end in ends)
+    decided = sum(n.verdict is not Verdict.UNDECIDED for n in numbers)
+    return f"{ratio} ({low} to {high}) at {worst.conditions}; {decided} of {len(numbers)} are decided"
 
 
 def headline(claims: Sequence[JudgedClaim]) -> str:

@@ -41,7 +41,8 @@ SLACK = 1.15
 """By which h' a/d may lie above a limit."""
 USUAL = (LINEAR, LINE, READ, BED)
 CLAIM = (
-    f"A rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to h' a/d of {LIMIT:g}."
+    "In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to h' a/d of "
+    f"{LIMIT:g}."
 )
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
@@ -208,33 +209,48 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
         return f"{largest.value:.2f} dB at the most, at h' a/d = {_slope(largest):g}, of strips up to {reached:g}"
 
     layer, read = below(LAYER, LIMIT), below(READ, LIMIT_OF_READ)
-    last = max({_slope(one) for one in numbers if _slope(one) <= SLACK * LIMIT}, default=0.0)
-    usual = [one for one in numbers if one.model in USUAL and _slope(one) == last]
-    listed = ", ".join(f"{one.value:.2f} dB ({one.model})" for one in usual)
+    usual = at_limit(numbers)
+    at = sorted({_slope(one) for one in usual})
+    listed = "; ".join(
+        f"at h' a/d = {slope:g} the rms over octaves is "
+        + ", ".join(
+            f"{one.value:.2f} ± {one.uncertainty:.2f} dB ({one.model})" for one in usual if _slope(one) == slope
+        )
+        for slope in at
+    )
     cheap = below(COARSEST, LIMIT)
     work = partial(_work, table)
     return (
         answered(CLAIM, layer, f"its rms over octaves is {worst(layer)}."),
         answered(
-            f"Springs that read the surface follow boundary elements within 1 dB up to h' a/d of {LIMIT_OF_READ:g}.",
+            "In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
+            f"{LIMIT_OF_READ:g}.",
             read,
-            f"their rms over octaves is {worst(read)}, for {work(READ):.3g} times the work of springs on a line.",
+            f"their rms over octaves is {worst(read)}, for {_digits(work(READ))} times the work of springs on a line.",
         ),
         answered(
             f"At h' a/d of {LIMIT:g}, linear theory, springs and the bed of the field are more than 1 dB off boundary "
-            "elements.",
+            "elements in octaves.",
             usual,
-            f"at h' a/d = {last:g} the rms over octaves is {listed}.",
+            f"{listed}.",
             confirmed_by=Verdict.DIFFER,
         ),
         answered(
-            f"Boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of {LIMIT:g}.",
+            "In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
+            f"{LIMIT:g}.",
             cheap,
-            f"their rms over octaves is {worst(cheap)}, for {work(COARSEST):.3g} times the work of springs "
-            f"on a line, where the pressed layer takes {work(LAYER):.3g} times that, on half of the cells "
-            f"{work(COARSE_LAYER):.3g} times.",
+            f"their rms over octaves is {worst(cheap)}, for {_digits(work(COARSEST))} times the work of "
+            f"springs on a line, where the pressed layer takes {_digits(work(LAYER))} times that, on half of the cells "
+            f"{_digits(work(COARSE_LAYER))} times.",
         ),
     )
+
+
+def at_limit(numbers: Sequence[Number]) -> list[Number]:
+    """Of the usual models, from all strips about as rough as the roughest up to the limit: no strip is chosen."""
+    usual = [one for model in USUAL for one in up_to(numbers, model, LIMIT)]
+    roughest = max((_slope(one) for one in usual), default=0.0)
+    return [one for one in usual if _slope(one) >= roughest / SLACK]
 
 
 def up_to(numbers: Sequence[Number], model: str, limit: float) -> list[Number]:
@@ -275,6 +291,11 @@ def _slope(number: Number) -> float:
     found = number.where["h' a/d"]
     assert isinstance(found, float)
     return found
+
+
+def _digits(value: float) -> str:
+    """Three of them, without an exponent: 4110, 47.6."""
+    return f"{_rounded(value):g}"
 
 
 def _work(table: Table, model: str) -> float:

@@ -98,9 +98,9 @@ def _claims(
             f"by {max(abs(n.value) for n in kept):.1g} at most.",
         ),
         answered(
-            "Springs a quarter of the shortest wave apart represent the track.",
+            "On low roughness springs a quarter of the shortest wave apart have the last one-third octave within 1 dB.",
             [quarter],
-            f"the last one-third octave is {quarter.value:+.2f} ± {quarter.uncertainty:.2f} dB off.",
+            f"at h/d = {quarter.where['h/d']:g} it is {quarter.value:+.2f} ± {quarter.uncertainty:.2f} dB off.",
         ),
     ]
     if lifted:
@@ -119,7 +119,7 @@ def headlines(claims: Sequence[JudgedClaim]) -> dict[str, str]:
             fails="velocity Verlet does not keep the energy",
             undecided="whether velocity Verlet keeps the energy is open",
         ),
-        f"springs a quarter wave apart are enough: {in_a_word(spaced)}",
+        f"springs a quarter wave apart are enough on low roughness: {in_a_word(spaced)}",
         *(f"wheels lift off where linear theory pulls: {in_a_word(claim)}" for claim in lifted),
     ]
     return {"wheel_stability": title(_stable(stable)), "wheel_stability-rough": title(*rough)}

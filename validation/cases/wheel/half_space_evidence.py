@@ -54,11 +54,7 @@ def _claims(numbers: Sequence[Number], bands: Sequence[Number]) -> tuple[JudgedC
         return numbers_with(numbers, LEVEL, OVER_BEM[model])
 
     def found(model: str) -> str:
-        return "; ".join(
-            f"{n.where['range']} {mean_over_range(bands, str(n.where['range']), model):+.1f} dB in the mean, "
-            f"{n.value:+.1f} dB in the worst one-third octave"
-            for n in of(model)
-        )
+        return "; ".join(over_range(n, bands, model) for n in of(model))
 
     slope, contrast = numbers_with(numbers, SLOPE_3, "bem3d"), numbers_with(numbers, CONTRAST)
     also = [f"the slope of region 3 is {n.value:.2f} beside {n.reference:.2f}" for n in slope]
@@ -78,6 +74,15 @@ def _claims(numbers: Sequence[Number], bands: Sequence[Number]) -> tuple[JudgedC
         ),
         by_model("Linear theory in three dimensions has the acceleration of the wheel.", LINEAR_3D),
         by_model("Springs of the rolling spectrum have the acceleration of the wheel in three dimensions.", ROLLING),
+    )
+
+
+def over_range(number: Number, bands: Sequence[Number], model: str) -> str:
+    """The mean over a range, and the worst band with its interval: the widest is the worst, not the largest."""
+    where = str(number.where["range"])
+    return (
+        f"{where} {mean_over_range(bands, where, model):+.1f} dB in the mean, "
+        f"{number.value:+.1f} ± {number.uncertainty:.1f} dB in the worst one-third octave"
     )
 
 

@@ -29,12 +29,14 @@ from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
-CLAIM = "The acceleration of a wheel has four regions, each of known level and slope (Fig. 14.4)."
+CLAIM = "On springs the peak and the regions of Fig. 14.4 lie where theory has them; region 3 has its level and slope."
+PERIOD_IS_CONSTANT = "Region 3 oscillates with the constant period π v₀ / a."
 DOWN_TO_ZEROS = "Region 3 oscillates as sin²(q a), down to its zeros."
 MOVED = {
     PEAK: "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
     JUMP: "Region 3 begins at q_min v₀, whatever the speed and the cut-off.",
     SLOPE: "The slope of region 3 is -2 H - 3, whatever the parameters.",
+    BREAK + PREDICTED: "The break lies where region 3 meets the predicted floor, whatever the parameters.",
 }
 """Claims about one parameter changed at a time."""
 Features = dict[str, Number]
@@ -118,10 +120,11 @@ def _claims(
     claims = [answered(CLAIM, of_figure, f"on springs {', '.join(parts)}.")]
     if PERIOD in mine:
         claims.append(
-            answered(
-                "Region 3 oscillates with the constant period π v₀ / a.",
-                [mine[PERIOD]],
-                f"the period is {beside(mine[PERIOD])} rad/s {period_range(scene)}.",
+            of_period(
+                mine[PERIOD],
+                moved.get(PERIOD),
+                f"the period is {beside(mine[PERIOD])} rad/s {period_range(scene)}",
+                scene.name,
             )
         )
     if "contrast" in ranges:
@@ -142,6 +145,19 @@ def _claims(
             for key, saying in MOVED.items()
             if key in moved
         ),
+    )
+
+
+def of_period(mine: Number, moved: Number | None, found: str, scene: str) -> JudgedClaim:
+    """Of the scene, and of the worst scene with one parameter changed, if there are any: the claim names none."""
+    if moved is None:
+        return answered(PERIOD_IS_CONSTANT, [mine], f"{found}.")
+    return answered(
+        PERIOD_IS_CONSTANT,
+        [mine, moved],
+        f"{found}; {moved.conditions}: {with_reference(moved)}.",
+        limits=scene,
+        inside=[mine],
     )
 
 

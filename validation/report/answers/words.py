@@ -18,8 +18,8 @@ def per_cent(decibels: float) -> str:
 
 
 def times(decibels: float) -> str:
-    """Of an amplitude: 0.53 times."""
-    return f"{math.exp(decibels / DECIBEL):.2g} times"
+    """Of an amplitude: 0.53 times, 350 times."""
+    return f"{float(f'{math.exp(decibels / DECIBEL):.2g}'):g} times"
 
 
 def in_decibels(decibels: float) -> str:
