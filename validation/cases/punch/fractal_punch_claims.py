@@ -1,14 +1,12 @@
 """The claims of Fig. 14.1, the numbers that test them, and the answers."""
 
-import math
 from collections.abc import Sequence
 
 from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.evidence import JudgedClaim, Number
-from validation.analysis.statistics import DECIBEL
 from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGIN, MEAN, DecadeComparison, numbers_of
 from validation.cases.punch.fractal_punch_numbers import PUBLISHED
-from validation.cases.punch.fractal_punch_text import counts
+from validation.cases.punch.fractal_punch_text import NONE_LEFT, counts, in_words, nothing_left
 from validation.simulation.rough_punch import BEM
 
 CLAIM = "MDR has the fluctuation of the stiffness of rough punches (Fig. 14.1)."
@@ -45,11 +43,14 @@ def _by_decade(mine: Sequence[DecadeComparison]) -> str:
     found = []
     for first in _firsts(mine):
         numbers = numbers_of(c for c in mine if c.first == first)
-        ends = (min(n.value for n in numbers), max(n.value for n in numbers))
-        low, high = (f"{100 * math.expm1(end / DECIBEL):+.0f}" for end in ends)
-        span = f"{low} %" if low == high else f"{low} to {high} %"
+        low, high = (_end(find(numbers, key=lambda n: n.value)) for find in (min, max))
+        span = high if low == high else f"{low.removesuffix(' %')} to {high}"
         found.append(f"{span} from Fbar = {first:g} to {10 * first:g} ({counts(numbers)})")
     return ", ".join(found)
+
+
+def _end(number: Number) -> str:
+    return NONE_LEFT if nothing_left(number) else in_words(number.value, number.unit)
 
 
 def _law(laws: Sequence[Number]) -> list[JudgedClaim]:

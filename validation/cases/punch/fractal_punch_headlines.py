@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 from validation.analysis.evidence import JudgedClaim, Number, Verdict
-from validation.analysis.statistics import DECIBEL
 from validation.analysis.wording import by_status, by_verdict, highest_and_lowest_off, sentence, share
 from validation.cases.punch.ensembles import Row
 from validation.cases.punch.fractal_punch_claims import CLAIM, OF_LAW, OF_MEAN
@@ -11,12 +10,11 @@ from validation.cases.punch.fractal_punch_decades import (
     DEVIATION,
     MARGIN,
     MEAN,
-    NOTHING_LEFT,
     DecadeComparison,
     numbers_of,
 )
 from validation.cases.punch.fractal_punch_numbers import PUBLISHED
-from validation.cases.punch.fractal_punch_text import in_words
+from validation.cases.punch.fractal_punch_text import NONE_LEFT, in_words, nothing_left
 from validation.simulation.rough_punch import BEM
 
 
@@ -75,14 +73,10 @@ def _of_mean_curve(what: str, name: str, comparisons: Sequence[DecadeComparison]
 def _off(numbers: Sequence[Number]) -> str:
     """The largest difference of each sign: "+31 % at Fbar = 0.1, none left at Fbar = 10"."""
     return ", ".join(
-        f"{'none left' if _nothing_left(number) else in_words(number.value, number.unit)} at Fbar = "
+        f"{NONE_LEFT if nothing_left(number) else in_words(number.value, number.unit)} at Fbar = "
         f"{number.where['Fbar']:.2g}"
         for number in highest_and_lowest_off(numbers)
     )
-
-
-def _nothing_left(number: Number) -> bool:
-    return number.quantity == DEVIATION and number.value <= DECIBEL * NOTHING_LEFT * (1 - 1e-9)
 
 
 def _left(curves: Sequence[Row]) -> str:

@@ -10,7 +10,9 @@ from validation.analysis.statistics import DECIBEL
 from validation.cases.punch.ensembles import Row
 from validation.cases.punch.fractal_punch import FractalPunch, FractalPunchResult
 from validation.cases.punch.fractal_punch_decades import (
+    DEVIATION,
     MARGINS,
+    NOTHING_LEFT,
     QUANTITIES,
     DecadeComparison,
 )
@@ -19,6 +21,8 @@ from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
 
 MAX_SAMPLE = 100.0
 """Times the sample: a verdict that needs more is practically undecidable."""
+NONE_LEFT = "none left"
+"""Of a deviation: less than 1 % of that of the other."""
 
 
 def method(case: FractalPunch) -> str:
@@ -42,8 +46,8 @@ def method(case: FractalPunch) -> str:
         "intervals that hold at 95 % for all forces of a decade at once. Grid: boundary elements are extrapolated to "
         "cells of no size, to first order from the two finest grids; ± grid is the distance to the extrapolation from "
         "the next two, with the change from twice the springs. The rest is the error of the model. The verdict of a "
-        "decade is that of its worst force; a deviation below 1 % of the other counts as 1 % of it. An undecided "
-        "verdict says how many times the sample would decide it at the "
+        "decade is that of its worst force; a deviation below 1 % of the other is none left, and counts as 1 % of it. "
+        "An undecided verdict says how many times the sample would decide it at the "
         'same value and grid error. With "grid error too large" no sample size would: finer cells lower that error. '
         f"In the figures, boundary elements are extrapolated to cells of no size; symbols are open where the mean "
         f"contact has fewer than {FEW_CELLS} cells."
@@ -201,11 +205,18 @@ def cost(result: FractalPunchResult, rows: Sequence[Row]) -> tuple[str, str]:
 
 def _interval(number: Number) -> str:
     """Value and ends of the whole interval, decibels as per cent, and where in the decade."""
-    half = number.uncertainty
-    middle, low, high = (in_words(number.value + end, number.unit) for end in (0.0, -half, half))
     worst = number.where.get("worst at")
     where = "" if worst is None else f" at Fbar = {worst:.2g}"
+    if nothing_left(number):
+        return f"{NONE_LEFT}{where}"
+    half = number.uncertainty
+    middle, low, high = (in_words(number.value + end, number.unit) for end in (0.0, -half, half))
     return f"{middle} ({low.removesuffix(' %')} to {high.removesuffix(' %')}){where}"
+
+
+def nothing_left(number: Number) -> bool:
+    """Whether a deviation stands at the floor that is judged in the place of less: it has no interval."""
+    return number.quantity.startswith(DEVIATION) and number.value <= DECIBEL * NOTHING_LEFT * (1 - 1e-9)
 
 
 def in_words(value: float, unit: str) -> str:
