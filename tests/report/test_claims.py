@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from tests.report.test_printed import evidence_with, html_of, number
 from validation import benchmarks, cases
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
+from validation.analysis.over_range import worst
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.contents import CASES, TIMED
@@ -216,6 +217,17 @@ def test_of_numbers_that_differ_the_nearest_is_printed_too():
     (answer,) = answers(entry(quantity="x"), [section_of(JudgedClaim(claim="So.", answer="It is.", numbers=numbers))])
     assert "3 differ; farthest from its reference: x, H = 8.5: 8.5 beside" in answer.answer
     assert "; nearest that differs: x, H = 2: 2 beside" in answer.answer
+
+
+def test_the_page_says_which_point_of_a_range_is_the_worst():
+    """The surest of those that differ, not the largest: 5.8 dB that are hardly known stand behind 5.1 that are."""
+    sure, large = (
+        number(1.0 + off, sample=half, where={"q a": at}, role=Role.FINDING)
+        for at, off, half in ((2.0, 5.1, 0.2), (16.0, 5.8, 1.7))
+    )
+    assert worst([sure, large], "q a").where["worst at"] == 2.0
+    page = (Path(formats.__file__).parent / "templates" / "reading.html").read_text(encoding="utf-8")
+    assert "A larger value with a wider interval may" in page
 
 
 def test_a_model_and_a_time_say_what_they_are_not():

@@ -78,7 +78,7 @@ def _claims(numbers: Sequence[Number], bands: Sequence[Number]) -> tuple[JudgedC
 
 
 def over_range(number: Number, bands: Sequence[Number], model: str) -> str:
-    """The mean over a range, and the worst band with its interval: the widest is the worst, not the largest."""
+    """The mean over a range, and the worst band with its interval: it need not have the largest value."""
     where = str(number.where["range"])
     return (
         f"{where} {mean_over_range(bands, where, model):+.1f} dB in the mean, "
