@@ -194,7 +194,7 @@ def test_the_line_beside_a_figure_draws_it_again(tmp_path, monkeypatch):
     line = re.search(r"<code>(.*?)</code>", text)[1].replace("&#34;", '"')
     monkeypatch.chdir(tmp_path)
     exec(line)
-    assert (tmp_path / "geike.png").stat().st_size > 1000
+    assert (tmp_path / "geike.pdf").stat().st_size > 1000
     assert svg(redraw(tmp_path, "geike")) == (tmp_path / "figures" / "geike.svg").read_bytes()
     with pytest.raises(ValueError, match="nowhere"):
         redraw(tmp_path, "nowhere")
