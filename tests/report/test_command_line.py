@@ -50,9 +50,9 @@ SMALL = {
     "fractal_punch": FractalPunch(
         hursts=(0.4, 1.0),
         cells=16,
-        surfaces=((0, 40, 20, 8, 0),) * 2,
-        profiles=60,
-        fine_profiles=20,
+        surfaces=((0, 12, 6, 4, 0),) * 2,
+        profiles=30,
+        fine_profiles=10,
         points=64,
         decades=(-1, 1),
     ),
@@ -317,7 +317,7 @@ def limited(monkeypatch, is_lost):
 
 @pytest.mark.slow
 def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch):
-    """One surface of eighty fails at its largest force: named, counted, and the report still stands."""
+    """One surface of twenty-four fails at its largest force: named, counted, and the report still stands."""
     seen = []
 
     def is_lost(half_space, gap, force):
@@ -331,7 +331,7 @@ def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch)
     assert results["unconverged"][0].startswith("surface 0, H = 0.4, 8² cells, Fbar = 10: residual")
     assert len(results["numbers"]) > 10
     curves = (tmp_path / "data" / "fractal_punch-curves.csv").read_text().splitlines()
-    assert [line.rpartition(",")[2] for line in curves[1:]] == ["40"] * 6 + ["39"] + ["40"] * 7
+    assert [line.rpartition(",")[2] for line in curves[1:]] == ["12"] * 6 + ["11"] + ["12"] * 7
     assert "surface 0, H = 0.4" in (tmp_path / "index.html").read_text()
 
 
