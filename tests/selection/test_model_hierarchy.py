@@ -607,7 +607,7 @@ def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
 def test_a_measured_track_is_rolled_itself():
     rng = np.random.default_rng(3)
     rough = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=3.0, rms=1.0)
-    height = bem3d.rough_surface(rough.c2d, shape=(192, 96), spacing=1 / 8, rng=rng, rms=2e-3)
+    height = bem3d.rough_surface(rough.c2d, shape=(104, 96), spacing=1 / 8, rng=rng, rms=2e-3)
     scene = wheel(ground=MeasuredHeights(height=height, spacing=(1 / 8, 1 / 8)))
     linear = model_of_kind("linear filter, 3D", scene, "force-rms", 0.1).solve()
     found = grids_of(scene, "force-rms", 0.1)[-1].solve()
