@@ -5,6 +5,7 @@ VENV := .venv
 RUN := $(VENV)/bin/python -m
 READY := $(VENV)/ready
 PEERS := $(VENV)/peers
+AXE := $(VENV)/accessibility
 STRENGTH := $(VENV)/strength
 DOCS := $(VENV)/docs
 # the oldest dependencies have no files for Python 3.14
@@ -14,7 +15,7 @@ OLDEST := .venv-oldest
 RECORD := .coverage-times.xml
 RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference race docs check fast test oldest-python oldest thorough coverage verdicts mutation lint types format clean
+.PHONY: report full-report reference race docs check fast test accessibility oldest-python oldest thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -49,6 +50,9 @@ oldest-python:
 oldest: oldest-python $(if $(OLDEST_PYTHON),$(OLDEST)/ready)  ## the tests not marked slow, on the oldest versions that pyproject.toml allows
 	# an old library says of its own imports that they are deprecated
 	$(OLDEST)/bin/python -m pytest -q -n auto -m "not slow" -W ignore::DeprecationWarning $(ARGS)
+
+accessibility: $(AXE)  ## the page of a report by axe-core in a headless chromium, which has to be there
+	$(RUN) pytest -q tests/report/test_axe.py $(ARGS)
 
 thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
@@ -108,6 +112,10 @@ $(PEERS): $(READY)
 
 $(DOCS): $(READY)
 	$(RUN) pip install --quiet --group docs
+	touch $@
+
+$(AXE): $(READY)
+	$(RUN) pip install --quiet --group accessibility
 	touch $@
 
 $(STRENGTH): $(READY)

@@ -73,7 +73,7 @@ def test_a_silent_range_is_said_to_be_silent():
     silent = evidence(result(**{GEIKE: tone(1000) + tone(4000)}))
     assert number_with(silent.numbers, LEVEL, GEIKE, part=LOW).value == -30
     assert "below the band -30 dB or less" in silent.claims[0].answer
-    assert silent.headlines["rail_sound"].endswith(f"{GEIKE}, 30.0 dB or more quieter {LOW}.")
+    assert silent.headlines["rail_sound"].endswith(f"{GEIKE}, 30.0 dB or more quieter {LOW}")
     assert "33.3 % by boundary elements" in silent.conclusions[0] and f" 0.0 % by {GEIKE}" in silent.conclusions[0]
 
 

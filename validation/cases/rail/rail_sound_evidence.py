@@ -38,7 +38,7 @@ def evidence(result: RailSoundResult) -> Evidence:
         tables=(table, levels.bands_table(), levels.frequencies_table(), *signals),
         conclusions=(_below_the_band(levels),),
         captions={"rail_sound": _caption(levels)},
-        headlines={"rail_sound": farthest(numbers)},
+        headlines={"rail_sound": farthest(numbers).removesuffix(".")},
         finding=which_sound_alike(numbers),
         claims=tuple(judged),
         page_tables=(table,),

@@ -167,7 +167,7 @@ def _plateau(numbers: Sequence[Number]) -> str:
         100 * 10 ** (number_with(numbers, LEVEL, f"{kind}, over {OPEN}", region=PLATEAU).value / 10)
         for kind in (LINEAR_OPEN, STEADY)
     )
-    return f"{leakage:.0f} % of the power of region 2 is leakage, {nonlinear:.1g} % nonlinearity"
+    return f"{leakage:.0f} % of the power of region 2 is leakage, {float(f'{nonlinear:.1g}'):g} % nonlinearity"
 
 
 def _captions(case: WheelDistance) -> dict[str, str]:

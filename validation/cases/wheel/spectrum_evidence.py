@@ -253,8 +253,8 @@ def _oscillation(claims: Sequence[JudgedClaim]) -> list[str]:
         by_status(
             claim,
             holds="the oscillation of region 3 is that of sin²(q a)",
-            fails=f"at zero {worst_one.where['worst at']:g} the oscillation has {worst_one.value:.1f} dB of "
-            f"{worst_one.reference:.0f}",
+            fails=f"at zero {worst_one.where['worst at']:g} the oscillation has "
+            f"{round(worst_one.value, 1) + 0.0} dB of {worst_one.reference:.0f}",
             undecided=f"whether the oscillation lasts to zero {worst_one.where['worst at']:g} is open",
         )
         for claim in claims
