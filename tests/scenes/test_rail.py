@@ -41,7 +41,11 @@ def test_frequency_is_that_of_the_speed():
 
 @pytest.mark.parametrize(
     ("other", "said"),
-    [({"load": 5e6}, "largest pressure is .* more than 4 GPa"), ({"crown_radius": 2e-3}, "wider than the crown")],
+    [
+        ({"load": 5e6}, "largest pressure is .* more than 4 GPa"),
+        ({"crown_radius": 2e-3}, "wider than the crown"),
+        ({"crown_radius": 300.0}, "163 mm across, the head of a rail has 72 mm"),
+    ],
 )
 def test_doubts_are_told(other, said):
     assert any(re.search(said, doubt) for doubt in scene(**other).diagnose())

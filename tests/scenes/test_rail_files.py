@@ -284,6 +284,8 @@ PLACES = 'positions = ["0 mm", "5 mm"]'
             (PLACES,),
             "lines.heights must be known everywhere, got 1000 of",
         ),
+        (1e6 * LINE, (PLACES,), "lines.levels must lie between .* is the unit another"),
+        (0 * LINE, (PLACES,), "lines.file must have heights, got zeros alone"),
     ],
 )
 def test_lines_are_refused_by_what_is_wrong(tmp_path, height, keys, said):

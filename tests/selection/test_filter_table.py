@@ -42,8 +42,11 @@ def test_waves_longer_than_those_of_the_scene_pass_and_shorter_ones_are_left_out
     levels = RAIL.levels
     inner = slice(5, 20)
     short = replace(levels, wavelengths=levels.wavelengths[inner], levels=levels.levels[inner])
-    found = filter_table(filtered(replace(RAIL, roughness=short), [-1.04] * 15))["a3_dB"]
-    assert found[:5].tolist() == [0.0] * 5 and found[5:20].tolist() == [-1.0] * 15 and np.isnan(found[20:]).all()
+    scene, a3 = replace(RAIL, roughness=short), np.array([-0.04] + [-1.04] * 14)
+    found = filter_table(filtered(scene, a3))["a3_dB"]
+    assert found[:6].tolist() == [0.0] * 6 and found[6:20].tolist() == [-1.0] * 14 and np.isnan(found[20:]).all()
+    # where the longest of them does not pass, longer ones are not known to
+    assert np.isnan(filter_table(filtered(scene, a3 - 0.1))["a3_dB"][:5]).all()
 
 
 def test_what_is_no_filter_is_refused(tmp_path, capsys):

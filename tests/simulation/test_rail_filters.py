@@ -9,13 +9,14 @@ import pytest
 import mdr
 from validation import compare, load_scene
 from validation.scenes.level_files import curve
+from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation import rail_models
 from validation.simulation.equivalent_displacement import BED, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
 from validation.simulation.model import Target, models_serving
-from validation.simulation.rail_ground import strip_of
+from validation.simulation.rail_ground import smoothed_error, smoothing, strip_of
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.spectral_springs import (
     SPRINGS_GEIKE,
@@ -25,6 +26,8 @@ from validation.simulation.spectral_springs import (
     twin_of,
 )
 from validation.theory.elliptic_contact import elliptic_contact
+from validation.theory.line_spectrum import LineSpectrum
+from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")
 assert isinstance(RAIL, RailScene)
@@ -188,6 +191,31 @@ def test_a_model_that_differs_from_linear_theory_says_by_how_much():
         model = next(one for one in models_serving(RAIL, "contact-filter") if one.name == name)
         error = model.model_error(quantity, filters[name])
         assert (error >= apart).all() and apart.max() > 1
+
+
+@pytest.mark.parametrize("across", ["isotropic", None])
+@pytest.mark.parametrize("lines", [1, 3])
+def test_measured_lines_of_isotropic_ground_have_its_filter(lines, across):
+    """Bands of lines scatter: no isotropic surface has them as they are, one has them smoothed."""
+    bands, rng = RAIL.levels.bands.within(1.0, 2.5e-3), np.random.default_rng(0)
+    q, weight = bands.quadrature()
+    sigma, x = np.sqrt(2 * 2 * weight * RAIL.levels.c_line(q)), 1e-3 * np.arange(4000)
+    height = np.zeros((x.size, lines))
+    for k, s in zip(q.ravel(), sigma.ravel(), strict=True):
+        a, b = s * rng.standard_normal((2, lines)) / math.sqrt(2)
+        height += np.outer(np.cos(k * x), a) + np.outer(np.sin(k * x), b)
+    measured = MeasuredLines(height=height, spacing=1e-3, positions=tuple(range(lines)))
+    found = RailQuantity(replace(RAIL, roughness=measured, across=across), "contact-filter")
+    assert found.unreal == "" and smoothing(found.scene) > 0
+    with pytest.raises(ValueError, match="no isotropic surface has this line"):
+        IsotropicGround(LineSpectrum(*(tuple(each.tolist()) for each in measured.levels.nodes)))
+    own = RailQuantity(replace(RAIL, across=across), "contact-filter").linear.mean(axis=0)
+    own = own[np.isin(RAIL.levels.bands.numbers, found.bands.numbers)]
+    off = np.abs(found.linear.mean(axis=0) - own)[own > -15]
+    assert (off <= smoothed_error(found.scene)).all() and (found.left_by_ground >= smoothed_error(found.scene)).all()
+    # twice as many waves leave less by the root of two
+    twice = replace(measured, height=np.tile(height, (2, 1)))
+    assert smoothed_error(replace(found.scene, roughness=twice)) <= 1.001 * smoothed_error(found.scene) / math.sqrt(2)
 
 
 def test_steep_levels_are_no_isotropic_ground():

@@ -87,6 +87,16 @@ def test_the_mean_over_isotropic_ground(q):
     assert float(found) == pytest.approx(2 * passed / float(RAIL(q)), rel=3e-3)
 
 
+def test_a_filter_that_does_not_see_across_has_the_mean_of_ridges():
+    """Also where much of the power lies far across: C_line ~ 1/q has a level of its own in each octave."""
+    flat = LineSpectrum((1.0, 1e4), (1.0, 1e-4))
+    q = np.array([5.0, 50.0, 1000.0])
+    found = IsotropicGround(flat).mean_square(q, lambda along, across: np.cos(along) + 0 * across, semi_axis=4e-3)
+    assert found == pytest.approx(
+        Ridges().mean_square(q, lambda along, across: np.cos(along), semi_axis=4e-3), rel=2e-3
+    )
+
+
 def test_ground_without_its_shortest_waves_has_the_line_that_is_left():
     """A cut at q_max takes waves from the line below it too, and the mean is over what is left."""
     ground = IsotropicGround(RAIL, q_max=2e3)

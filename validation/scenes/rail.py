@@ -21,6 +21,8 @@ Across = Literal["ridges", "isotropic"] | float | None
 
 MAX_PRESSURE = 4e9
 """Largest pressure [Pa] that a half-space of steel is asked for."""
+HALF_HEAD = 0.036
+"""Half of the width of the head of a rail [m], 72 mm of 60E1."""
 WIDE = 0.1
 """Semi-axis of the contact over the radius along it: beyond it the bodies are no half-spaces."""
 
@@ -143,6 +145,12 @@ class RailScene:
                     f"the contact is wider than the crown of the bodies: {semi_axis / radius:.3g} of the radius {side} "
                     f"the track, {in_unit(radius, 'length')}, more than a tenth: no half-space."
                 )
+        if contact.across > HALF_HEAD:
+            width, head = in_unit(2 * contact.across, "length", digits=3), in_unit(2 * HALF_HEAD, "length")
+            yield (
+                f"the contact is wider than the crown: {width} across, the head of a rail has {head}; are the units of "
+                "rail.crown_radius and wheel.load right?"
+            )
         if (known := self.levels.bands) != NominalBands():
             yield (
                 f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing, and "

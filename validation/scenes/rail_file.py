@@ -155,7 +155,11 @@ def _lines(name: str, given: object, *, folder: Path) -> MeasuredLines:
     found = table(readers, ("unit", "positions", "longest", "shortest"), name, given)
     height = np.atleast_2d(read_heights(f"{name}.file", folder / found.pop("file"))) * found.pop("unit", 1.0)
     with _key_in_errors(name):
-        return MeasuredLines(height=height.T if len(height) == 1 else height, **found)
+        lines = MeasuredLines(height=height.T if len(height) == 1 else height, **found)
+        if not lines.height.any():
+            raise ValueError("file must have heights, got zeros alone")
+        _ = lines.levels  # heights in a wrong unit are refused here, by their levels
+        return lines
 
 
 @contextmanager

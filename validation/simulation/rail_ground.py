@@ -2,12 +2,14 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.rail import RailScene
 from validation.simulation.rail_strip import RailStrip
 from validation.theory.line_spectrum import LineSpectrum
@@ -19,6 +21,12 @@ StatedAcross = Literal["ridges", "isotropic"] | float
 LONGEST, SHORTEST = 10.0, 0.45
 """Wavelengths over a_x between which strips are rough: longer waves lift the wheel as a whole, shorter ones need cells
 of a tenth of a_x and less."""
+NEPER_OF_POWER = 10 / math.log(10)
+"""Decibels of a natural logarithm of power."""
+BAND = 10**0.05 - 10**-0.05
+"""Width of a one-third octave over its centre."""
+MOST_SMOOTHED, MOST_PASSES = 5 / NEPER_OF_POWER, 256
+"""Rms of a line's scatter [Np of power], the same 5 dB as of a single line of four waves, and passes of a mean."""
 LENGTH, WIDTH = 60, 12
 """Of a strip, in larger semi-axes at the least."""
 
@@ -31,9 +39,57 @@ def structure_of(across: StatedAcross, line: LineSpectrum) -> TransverseStructur
 
 
 def line_of(scene: RailScene) -> LineSpectrum:
-    """C_line of the levels of a scene."""
+    """C_line of the levels of a scene; of measured lines smoothed as little as isotropic ground needs."""
     q, density = scene.levels.nodes
-    return LineSpectrum(tuple(q.tolist()), tuple(density.tolist()))
+    line = LineSpectrum(tuple(q.tolist()), tuple(density.tolist()))
+    scattered = isinstance(scene.roughness, MeasuredLines) and scene.across in ("isotropic", None)
+    return smoothed_to_isotropic(line) if scattered else line
+
+
+@lru_cache(maxsize=64)
+def smoothed_to_isotropic(line: LineSpectrum) -> LineSpectrum:
+    """The line that an isotropic surface can have, by running means of the level over three bands.
+
+    Bands of a measured line scatter by decibels, and Abel's inverse takes their differences. The line itself where an
+    isotropic surface has it, or where smoothing by an rms of `MOST_SMOOTHED` is not enough.
+    """
+    level, passes = np.log(line.densities), 1
+    wanted = level
+    while not _is_isotropic(found := LineSpectrum(line.wavenumbers, tuple(np.exp(level).tolist()))):
+        for _ in range(passes):
+            ends = np.concatenate([level[:1], level, level[-1:]])
+            level = (ends[:-2] + 2 * level + ends[2:]) / 4
+        passes *= 2
+        if np.sqrt(np.mean((level - wanted) ** 2)) > MOST_SMOOTHED or passes > MOST_PASSES:
+            return line
+    return found
+
+
+def smoothing(scene: RailScene) -> float:
+    """Rms by which a line was smoothed for isotropic ground [dB]."""
+    change = np.log(line_of(scene).densities) - np.log(scene.levels.nodes[1])
+    return float(NEPER_OF_POWER * np.sqrt(np.mean(change**2)))
+
+
+def smoothed_error(scene: RailScene) -> float:
+    """95 % half-width of A3 that smoothing leaves [dB], zero of a line that needed none.
+
+    Twice the scatter, 10 lg(e) / sqrt(m) dB, of a band of m waves of the lines, where waves are as long as half of the
+    contact's circumference.
+    """
+    if not isinstance(scene.roughness, MeasuredLines) or not smoothing(scene):
+        return 0.0
+    points, lines = scene.roughness.height.shape
+    waves = lines * points * scene.roughness.spacing * BAND / (math.pi * scene.contact.along)
+    return 2 * NEPER_OF_POWER / math.sqrt(waves)
+
+
+def _is_isotropic(line: LineSpectrum) -> bool:
+    try:
+        IsotropicGround(line)
+    except ValueError:
+        return False
+    return True
 
 
 @dataclass(frozen=True, kw_only=True)

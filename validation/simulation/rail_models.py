@@ -27,7 +27,14 @@ from validation.simulation.equivalent_displacement import (
 )
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target
-from validation.simulation.rail_ground import StatedAcross, positions_along, strip_bands, strip_of
+from validation.simulation.rail_ground import (
+    StatedAcross,
+    positions_along,
+    smoothed_error,
+    smoothing,
+    strip_bands,
+    strip_of,
+)
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.simulation.rail_strip import RailStrip
 
@@ -92,7 +99,7 @@ class RailModel(Model):
         if isinstance(quantity.scene, ProfiledRail):
             return np.full_like(a3, np.inf)
         apart = np.abs(a3 - quantity.linear.mean(axis=0))
-        return np.asarray(apart + linear_error(quantity) + quantity.half_width)
+        return np.asarray(apart + linear_error(quantity) + quantity.left_by_ground)
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
         quantity = rail_quantity(target)
@@ -227,6 +234,12 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     causes = [f"h' a_x / d = {quantity.lost:.2g} of waves down to {shortest:g} mm"]
     if (apart := abs(a3[at] - quantity.linear.mean(axis=0)[at])) > LINEAR_ERROR:
         causes.insert(0, f"{apart:.2g} dB off {LINEAR}, on this ground")
+    if (rms := smoothing(quantity.scene)) > 0:
+        causes.insert(
+            0,
+            f"the lines were smoothed by {rms:.2g} dB rms, so that isotropic ground has them, which leaves ± "
+            f"{smoothed_error(quantity.scene):.2g} dB",
+        )
     if quantity.scene.across is None:
         causes.insert(
             0, f"across is not given, ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"

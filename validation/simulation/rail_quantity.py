@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import LINEAR, LINEAR_MODELS
-from validation.simulation.rail_ground import StatedAcross, line_of, lost_contact_number, structure_of
+from validation.simulation.rail_ground import StatedAcross, line_of, lost_contact_number, smoothed_error, structure_of
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import Filter, TransverseStructure
 
@@ -77,6 +77,11 @@ class RailQuantity:
     def half_width(self) -> FloatArray:
         """Half of the difference of both ends in each band; zero where the ground is stated [dB]."""
         return np.asarray(np.ptp(self.linear, axis=0) / 2)
+
+    @cached_property
+    def left_by_ground(self) -> FloatArray:
+        """Half-width that what lies across, and a line that was smoothed for it, leave in each band [dB]."""
+        return self.half_width + smoothed_error(self.scene)
 
     @cached_property
     def wave(self) -> FloatArray:

@@ -121,8 +121,10 @@ class IsotropicGround(TransverseStructure):
         along = np.asarray(q, dtype=np.float64)[..., np.newaxis]
         least, largest = float(along.min()), float(along.max())
         k, dk = gauss(_panels_across(least, FARTHEST * max(largest, 1 / semi_axis), math.pi / semi_axis))
-        passed = (transfer(along, k) ** 2 * self.c2d(np.hypot(along, k))) @ (2 * dk)
-        return np.asarray(passed / self.line_power(along[..., 0]))
+        power, density = self.line_power(along[..., 0]), self.c2d(np.hypot(along, k))
+        # a filter that does not see k_y lets the waves beyond the last panel pass as those at its end
+        beyond = np.maximum(power - density @ (2 * dk), 0.0) * transfer(along, k[-1:])[..., 0] ** 2
+        return np.asarray(((transfer(along, k) ** 2 * density) @ (2 * dk) + beyond) / power)
 
     def line_power(self, q: ArrayLike) -> FloatArray:
         """C_line of the surface without its waves beyond q_max [m^3]."""

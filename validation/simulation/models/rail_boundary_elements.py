@@ -27,7 +27,7 @@ class BoundaryElementsOnRail(RolledRailModel):
         if isinstance(quantity.scene, ProfiledRail):
             shorter = np.arange(inside.size) > np.flatnonzero(inside).max()
             beyond = np.where(shorter, np.inf, beyond)
-        return np.where(inside, 0.0, beyond) + quantity.half_width
+        return np.where(inside, 0.0, beyond) + quantity.left_by_ground
 
     def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
         """With the profile across where the scene has one."""
