@@ -313,7 +313,7 @@ CASE = Case(
     chapter=Chapter.RAIL,
     place=1,
     claim=CLAIM,
-    answers="the contact of a wheel with two radii, and what a circle in its place costs",
+    answers="The contact of a wheel with two radii, and what a circle in its place costs",
     quick=Ellipse(),
     full=Ellipse(cells=(16, 32, 64, 128)),
     run=run,

@@ -338,7 +338,7 @@ CASE = Case(
     chapter=Chapter.RAIL,
     place=4,
     claim=CLAIM,
-    answers="whether lines are averaged as energies or as heights, and what lies across a rail",
+    answers="Whether lines are averaged as energies or as heights, and what lies across a rail",
     quick=LineConvention(),
     full=LineConvention(strips=400),
     run=run,

@@ -208,7 +208,7 @@ CASE = Case(
     chapter=Chapter.RAIL,
     place=3,
     claim=CLAIM,
-    answers="how rough a rail may be before its contact filter depends on the roughness",
+    answers="How rough a rail may be before its contact filter depends on the roughness",
     quick=RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=4, cells=(6, 8), seed=21),
     full=RolledFilters(offsets=(0.0, 5.0, 10.0, 15.0, 20.0), across=(GROUND,), strips=10, cells=(7, 10), seed=21),
     run=run_filters,
