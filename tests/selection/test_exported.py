@@ -7,6 +7,7 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import validation
@@ -51,6 +52,9 @@ def test_a_spectrum_is_written_band_by_band():
     assert found["value"] == pytest.approx(result.value.tolist())
     assert found["wavelength_mm"] == pytest.approx((2e3 * math.pi / result.wavenumbers).tolist())
     assert found["error"] == pytest.approx([result.error] * result.value.size)
+    amplitudes = {name: 10 ** (np.array(halves) / 20) - 1 for name, halves in found["error_parts"].items()}
+    whole = amplitudes["model"] + np.hypot(amplitudes["grid"], amplitudes["sample"])
+    assert 20 * np.log10(1 + whole) == pytest.approx(found["error"])
     assert (found["unit"], found["frequency_hz"], found["met"]) == ("dB re 1 N", [], True)
     assert found["tolerance_dB"] == pytest.approx(3.0)
     mine = [row for row in rows_of(result) if row["selected"] == "True"]
@@ -90,6 +94,7 @@ def test_the_error_of_a_number_is_in_its_unit():
         Comparison(punch(load=1.0), "stiffness", select_model([Finding(value=(5.0,), parts=(0.1, 0, 0))], 0.2))
     )
     assert (found["value"], found["error"]) == ([5.0], pytest.approx([0.5]))
+    assert found["error_parts"] == {"model": pytest.approx([0.5]), "grid": [0.0], "sample": [0.0]}
     assert found["models"][0]["error"] == pytest.approx(0.1)
 
 

@@ -113,6 +113,21 @@ def test_errors_are_in_decibels_where_the_tolerance_is():
     assert Tolerance(0.1).shown(0.1202) == "12 %"
 
 
+def test_an_error_beyond_the_tolerance_is_not_printed_as_the_tolerance():
+    """20 lg 1.1272 = 1.04 dB."""
+    decibel = tolerance_of("1 dB")
+    assert [decibel.shown_beside(e) for e in (0.1272, 0.12203, 0.5, 0.1, math.inf)] == [
+        "1.04 dB",
+        "1.0001 dB",
+        "3.5 dB",
+        "0.83 dB",
+        "unknown",
+    ]
+    assert Tolerance(0.1).shown_beside(0.1002) == "10.02 %" and Tolerance(0.1).shown_beside(0.1) == "10 %"
+    text = summary(compared(Finding(parts=(0.1002, 0, 0)), tolerance=0.1))
+    assert "the smallest error is 10.02 %" in text
+
+
 def test_what_would_help_is_said_where_nothing_is_enough():
     for parts, cause in (((0.5, 0, 0), "the model's"), ((0, 0.5, 0), "by the grid"), ((0, 0, 0.5), "scatter")):
         lines = summary(compared(Finding(parts=parts))).splitlines()

@@ -113,9 +113,23 @@ class Comparison:
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
         """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
-        error, value = candidate.error, self.value_of(candidate)
         if candidate.answer is not None and (bands := candidate.answer.band_errors):
             return np.asarray(bands["model"] + np.hypot(bands["grid"], bands["sample"]))
+        return self._half_widths(candidate, candidate.error)
+
+    def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:
+        """What model, grid and sample leave of `errors_of`, by their names; none of a model that was not solved."""
+        if (answer := candidate.answer) is None:
+            return {}
+        known = answer.band_errors
+        return dict(known) or {
+            name: self._half_widths(candidate, part)
+            for name, part in (("model", answer.model), ("grid", answer.grid), ("sample", answer.sample))
+        }
+
+    def _half_widths(self, candidate: Candidate, error: float) -> FloatArray:
+        """Of a relative error of all numbers together."""
+        value = self.value_of(candidate)
         return np.full(value.shape, 20 * math.log10(1 + error)) if self.is_level else error * np.abs(value)
 
     @property

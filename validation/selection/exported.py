@@ -9,7 +9,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Answer, Candidate
+from validation.selection.hierarchy import Candidate
 
 
 def to_json(comparison: Comparison) -> str:
@@ -53,7 +53,7 @@ def _found(comparison: Comparison) -> dict[str, object]:
         "model": comparison.model or None,
         "value": _numbers(comparison.value),
         "error": [None] * comparison.value.size if best is None else _numbers(comparison.errors_of(best)),
-        "error_parts": {} if best is None or best.answer is None else _parts(best.answer),
+        "error_parts": {} if best is None else _parts(comparison, best),
         "wavelength_mm": _numbers(comparison.wavelength_mm),
         "frequency_hz": _numbers(comparison.frequency_hz),
         "nominal_hz": _numbers(comparison.nominal_hz),
@@ -134,9 +134,9 @@ def _became(comparison: Comparison, one: Candidate) -> dict[str, object]:
     }
 
 
-def _parts(answer: Answer) -> dict[str, list[float | None]]:
-    """Half-widths of model, grid and sample in each band [dB], where they are known of each."""
-    return {name: _numbers(halves) for name, halves in answer.band_errors.items()}
+def _parts(comparison: Comparison, one: Candidate) -> dict[str, list[float | None]]:
+    """Half-widths of model, grid and sample, in the unit of the error."""
+    return {name: _numbers(halves) for name, halves in comparison.error_parts_of(one).items()}
 
 
 def _numbers(values: Iterable[float]) -> list[float | None]:

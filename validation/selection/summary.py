@@ -96,7 +96,7 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     if not math.isfinite(springs.error):
         return f"not known to be enough, because {springs.reason}"
     how = "claimed" if springs.answer is None else "found"
-    errors = f"({tolerance.shown(springs.error)} {how}, {tolerance} wanted)"
+    errors = f"({tolerance.shown_beside(springs.error)} {how}, {tolerance} wanted)"
     if springs.error > selection.tolerance:
         return f"not enough {errors}, because {springs.reason}"
     cheaper = selection.best
@@ -111,7 +111,7 @@ def claim_of(comparison: Comparison, one: Candidate) -> str:
 
 def found_of(comparison: Comparison, one: Candidate) -> str:
     """The error that a solve left, in the unit of the tolerance."""
-    return "—" if one.answer is None else comparison.tolerance.shown(one.error)
+    return "—" if one.answer is None else comparison.tolerance.shown_beside(one.error)
 
 
 def became_of(one: Candidate) -> str:
@@ -184,7 +184,7 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
         if comparison.models:
             yield f"what would help: {other or _another_scene(comparison)}"
         return
-    yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown(best.error)}"
+    yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
     causes = {
         "the model's: lower roughness has less": best.answer.model,
         "left by the grid: longer waves (`shortest`), or heights on more points, have less": best.answer.grid,

@@ -19,6 +19,16 @@ class Tolerance:
             return "unknown"
         return f"{short(20 * math.log10(1 + error))} dB" if self.in_decibels else f"{short(100 * error)} %"
 
+    def shown_beside(self, error: float) -> str:
+        """With as many digits as it takes to differ from the tolerance: 1.04 dB beside 1 dB."""
+        text = self.shown(error)
+        if text != str(self) or error <= self.relative or not math.isfinite(error):
+            return text
+        unit = "dB" if self.in_decibels else "%"
+        wanted, found = (20 * math.log10(1 + e) if self.in_decibels else 100 * e for e in (self.relative, error))
+        digits = next((n for n in range(3, 16) if f"{found:.{n}g}" != f"{wanted:.{n}g}"), 16)
+        return f"{found:.{digits}g} {unit}"
+
     def __str__(self) -> str:
         return self.shown(self.relative)
 
