@@ -16,6 +16,7 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
+from validation.analysis.evidence import Role
 from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
@@ -181,6 +182,12 @@ def files_of(name, evidence):
     return {"results.json", *data, *pictures, *sounds}
 
 
+def no_identity_is_a_finding(evidence):
+    """What is its reference to rounding, with nothing left open, would be so for every input."""
+    exact = [n.label for n in evidence.numbers if abs(n.difference) + n.uncertainty < 1e-9 * max(abs(n.reference), 1)]
+    assert not set(exact) & {n.label for n in evidence.numbers if n.role is Role.FINDING}
+
+
 NUMBERS = ("results.json", "data/*.csv", "sounds/*.wav")
 FIGURES = ("figures/*.svg",)
 REDRAWN = ("hertz", "geike")
@@ -203,6 +210,7 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
     players_of_all_sounds(one)
     assert evidences[0].claims[0].claim == CASES[name].claim
     in_the_book(name, evidences[0])
+    no_identity_is_a_finding(evidences[0])
     by_one, drawn = contents(one, *NUMBERS), contents(one, *FIGURES)
     if name not in REDRAWN:
         request.getfixturevalue("without_figures")

@@ -1,5 +1,6 @@
 """A periodic wave pressed against the half-space: the periodic operator against Westergaard."""
 
+import math
 import warnings
 from dataclasses import dataclass
 from functools import partial
@@ -137,7 +138,9 @@ def evidence(result: WestergaardResult) -> Evidence:
         claims=(claim,),
         finding=f"{headline(claim)}.",
         headlines={"westergaard": headline(claim)},
-        conclusions=(f"At least {100 * edges:.0f} % of the squared error is in the two cells at the edges.",),
+        conclusions=(
+            f"At least {math.floor(1000 * edges) / 10:g} % of the squared error is in the two cells at the edges.",
+        ),
         captions={
             "westergaard": (
                 "(a) Pressure at each mean pressure, finest grid, some of its cells. (b) Relative L2 error of the "

@@ -206,8 +206,7 @@ def _crown(case: Ellipse, crown: float) -> list[dict[str, object]]:
 
 
 def _worst_of_crown(rows: list[dict[str, object]], case: Ellipse, crown: float, across: str) -> Number:
-    """The worst of the bands that count; where the ellipse is a circle, there is nothing to find."""
-    is_circle = math.isclose(1000 * crown, case.wheel.diameter / 2)
+    """The worst of the bands that count."""
     points = [
         Number(
             quantity=EXCESS,
@@ -218,12 +217,17 @@ def _worst_of_crown(rows: list[dict[str, object]], case: Ellipse, crown: float, 
             tolerance=1.0,
             reason="1 dB: a tolerance of the field",
             unit="dB",
-            role=Role.IDENTITY if is_circle else Role.FINDING,
+            role=_role_of(case, crown),
         )
         for row in rows
         if row["crown [mm]"] == 1000 * crown and row["across"] == across and row["counted"]
     ]
     return worst(points, "wavelength [mm]")
+
+
+def _role_of(case: Ellipse, crown: float) -> Role:
+    """An ellipse that is a circle is compared with itself."""
+    return Role.IDENTITY if math.isclose(1000 * crown, case.wheel.diameter / 2) else Role.FINDING
 
 
 def _weighted(case: Ellipse, crown: float, name: str) -> Number:
@@ -241,7 +245,7 @@ def _weighted(case: Ellipse, crown: float, name: str) -> Number:
             tolerance=1.0,
             reason="1 dB: a tolerance of the field",
             unit="dB(A)",
-            role=Role.FINDING,
+            role=_role_of(case, crown),
         )
         for speed in SPEEDS
     ]

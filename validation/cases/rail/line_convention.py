@@ -196,7 +196,7 @@ def _over_line(result: LineConventionResult, quantity: str, ground: str, spacing
             reason=FIELD,
             unit="dB",
             sample=float(half[i]),
-            role=Role.IDENTITY if ground == RIDGES and quantity == HEIGHTS else Role.FINDING,
+            role=Role.IDENTITY if ground == RIDGES else Role.FINDING,
         )
         for i in keep
     ]
