@@ -312,7 +312,7 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Speed against accuracy: error against cost of every method, and the cheapest within each error",
-    quick=Precision(fractal=RoughPunchProblem(realisations=10, profiles=80), rolling=RollingProblem(length=16)),
+    quick=Precision(fractal=RoughPunchProblem(realisations=8, profiles=60), rolling=RollingProblem(length=16)),
     full=FULL,
     run=run,
     evidence=evidence,

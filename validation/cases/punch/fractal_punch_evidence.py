@@ -87,7 +87,7 @@ CASE = Case(
     answers="Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
     quick=FractalPunch(
         hursts=(0.4, 0.7, 1.0),
-        surfaces=((0, 0, 20, 8, 4), (0, 60, 20, 8, 0), (100, 24, 8, 4, 0), (40, 12, 6, 4, 0)),
+        surfaces=((0, 0, 16, 8, 4), (0, 45, 16, 8, 0), (70, 18, 8, 4, 0), (30, 10, 6, 4, 0)),
     ),
     full=FractalPunch(
         cells=256,

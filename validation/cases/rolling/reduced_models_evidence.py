@@ -226,7 +226,8 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
             "In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
             f"{LIMIT_OF_READ:g}.",
             read,
-            f"their rms over octaves is {worst(read)}, for {_digits(work(READ))} times the work of springs on a line.",
+            f"their rms over octaves is {worst(read)}, for {_digits(work(READ))} times the counted work of springs on "
+            "a line, nearly all of it heights that are added up.",
         ),
         answered(
             f"At h' a/d of {LIMIT:g}, linear theory, springs and the bed of the field are more than 1 dB off boundary "
@@ -239,7 +240,7 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
             "In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
             f"{LIMIT:g}.",
             cheap,
-            f"their rms over octaves is {worst(cheap)}, for {_digits(work(COARSEST))} times the work of "
+            f"their rms over octaves is {worst(cheap)}, for {_digits(work(COARSEST))} times the counted work of "
             f"springs on a line, where the pressed layer takes {_digits(work(LAYER))} times that, on half of the cells "
             f"{_digits(work(COARSE_LAYER))} times.",
         ),

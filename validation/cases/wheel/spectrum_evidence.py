@@ -294,7 +294,7 @@ CASE = Case(
     answers=(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),
-    quick=WheelSpectrum(realisations=40, varied=10),
+    quick=WheelSpectrum(realisations=30, varied=10),
     full=WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
     run=run,
     evidence=evidence,

@@ -24,7 +24,8 @@ def _worked(evidence: Evidence) -> str:
 
 def _times_springs(model: str, evidence: Evidence) -> str:
     mine = evidence.table("reduced_models").where(model=model)["work over springs on a line"]
-    return f"{float(f'{mine.mean():.2g}'):,g} times the work of springs on a line"
+    least, most = (f"{float(f'{times:.2g}'):,g}" for times in (mine.min(), mine.max()))
+    return f"{least if least == most else f'{least} to {most}'} times the counted work of springs on a line"
 
 
 def steps(evidence: Evidence) -> str:
