@@ -180,7 +180,7 @@ CASE = Case(
     place=2,
     claim=CLAIM,
     answers="Fig. 14.3: rolling force over isotropic roughness, where each model holds",
-    quick=ForceSpectrum(refined=3, tracks=40),
+    quick=ForceSpectrum(tracks=40),
     full=ForceSpectrum(
         heights=(0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
         last=20.0,
