@@ -49,8 +49,8 @@ oldest-python:
 
 oldest: oldest-python $(if $(OLDEST_PYTHON),$(OLDEST)/ready)  ## the tests not marked slow, on the oldest versions that pyproject.toml allows
 	# an old library says of its own imports that they are deprecated
-	# planted faults try the tests, not the libraries
-	$(OLDEST)/bin/python -m pytest -q -n auto -m "not slow" -W ignore::DeprecationWarning --ignore=tests/planted_faults $(ARGS)
+	# planted faults try the tests and cases what they say, not the libraries
+	$(OLDEST)/bin/python -m pytest -q -n auto -m "not slow" -W ignore::DeprecationWarning --ignore=tests/planted_faults --ignore=tests/cases $(ARGS)
 
 accessibility: $(AXE)  ## the page of a report by axe-core in a headless chromium, which has to be there
 	$(RUN) pytest -q tests/report/test_axe.py $(ARGS)

@@ -81,7 +81,10 @@ class Workers:
             from joblib.externals.loky.backend.utils import kill_process_tree
 
             pool = self._pool()
-            # loky's own end of a pool stops at a future that was cancelled, that of a lost worker does not
+            # the end of a pool, and in older versions that of a lost worker, stops at a future that was cancelled
+            for item in list(pool._pending_work_items.values()):  # type: ignore[attr-defined]
+                if item.future.cancelled():
+                    item.future = Future()
             for process in list(pool._processes.values()):  # type: ignore[attr-defined]  # an executor of loky
                 kill_process_tree(process)
             pool.shutdown(wait=True)
