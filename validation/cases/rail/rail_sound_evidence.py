@@ -38,7 +38,7 @@ def evidence(result: RailSoundResult) -> Evidence:
         tables=(table, levels.bands_table(), levels.frequencies_table(), *signals),
         conclusions=(_below_the_band(levels),),
         captions={"rail_sound": _caption(levels)},
-        headlines={"rail_sound": farthest(numbers).removesuffix(".")},
+        headlines={"rail_sound": farthest(numbers)},
         finding=which_sound_alike(numbers),
         claims=tuple(judged),
         page_tables=(table,),
@@ -168,7 +168,7 @@ def farthest(numbers: list[Number]) -> str:
     worst = max(numbers, key=lambda number: abs(number.value))
     size, side = abs(worst.value), "louder" if worst.value > 0 else "quieter"
     more = " or more" if worst.value <= SILENT else ""
-    return f"Farthest from boundary elements: {worst.model}, {size:.1f} dB{more} {side} {worst.where['part']}."
+    return f"Farthest from boundary elements: {worst.model}, {size:.1f} dB{more} {side} {worst.where['part']}"
 
 
 def _below_the_band(levels: SoundLevels) -> str:

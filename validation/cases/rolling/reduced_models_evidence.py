@@ -226,8 +226,8 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
             "In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
             f"{LIMIT_OF_READ:g}.",
             read,
-            f"their rms over octaves is {worst(read)}, for {_digits(work(READ))} times the counted work of springs on "
-            "a line, nearly all of it heights that are added up.",
+            f"their rms over octaves is {worst(read)}, for {_digits(work(READ))} times the counted work (springs and "
+            "heights that are read) of springs on a line.",
         ),
         answered(
             f"At h' a/d of {LIMIT:g}, linear theory, springs and the bed of the field are more than 1 dB off boundary "
