@@ -139,6 +139,8 @@ def test_results_hold_every_claim():
         "limits": "below 1",
         "verdicts": {"agree": 1, "differ": 1, "undecided": 0},
         "numbers": ["y0", "y1"],
+        "confirmed by": "agree",
+        "inside": ["y0"],
     }
 
 

@@ -16,6 +16,7 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
+from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Role
 from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
@@ -42,6 +43,8 @@ from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES
 from validation.report.figures import drawing
 from validation.report.figures import hertz as hertz_figure
+from validation.report.kept import kept_sections
+from validation.report.section import results_of
 from validation.simulation.rough_punch import press_surface
 
 ROOT = Path(__file__).parents[2]
@@ -189,6 +192,17 @@ def no_identity_is_a_finding(evidence):
     assert not exact
 
 
+def read_back_whole(folder):
+    """A case that is kept by a later report says all that it said."""
+    kept = kept_sections(folder, "quick", anew=())
+    said = json.loads((folder / "results.json").read_text())
+    assert json.loads(as_json(results_of(kept, "quick"))) == {name: said[name] for name in ("profile", "cases")}
+    (section,) = kept
+    assert section.files == contents(folder, "data/*.csv", "sounds/*.wav")
+    tables = {f"data/{section.name}-{table.name}.csv": as_csv(table) for table in section.evidence.tables}
+    assert tables == contents(folder, "data/*.csv")
+
+
 NUMBERS = ("results.json", "data/*.csv", "sounds/*.wav")
 FIGURES = ("figures/*.svg",)
 REDRAWN = ("hertz", "geike")
@@ -212,6 +226,7 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
     assert evidences[0].claims[0].claim == CASES[name].claim
     in_the_book(name, evidences[0])
     no_identity_is_a_finding(evidences[0])
+    read_back_whole(one)
     by_one, drawn = contents(one, *NUMBERS), contents(one, *FIGURES)
     if name not in REDRAWN:
         request.getfixturevalue("without_figures")

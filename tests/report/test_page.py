@@ -23,7 +23,7 @@ from validation.report.verdict_map import map_of
 PICTURES = {"geike": b"<svg>curves</svg>", "hertz": b"<svg>sphere</svg>"}
 ABOUT = {
     **dict.fromkeys(("python", "system", "workers"), ""),
-    **{"libraries": {}, "seeds": {}, "timed": (), "seconds": dict.fromkeys(PICTURES, 1.0)},
+    **{"libraries": {}, "seeds": {}, "kept": {}, "timed": (), "seconds": dict.fromkeys(PICTURES, 1.0)},
     **{"version": "1.2.3", "commit": "abc1234", "documentation": ""},
 }
 FIELDS = [VerdictCell("+1 %", Verdict.AGREE), VerdictCell("+9 %", Verdict.DIFFER), "no value"]

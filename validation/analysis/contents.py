@@ -14,8 +14,8 @@ INTEGER = re.compile(r"-?\d+")
 
 
 def as_json(value: object) -> bytes:
-    """Readable, sorted, strict: no NaN, no infinity."""
-    return (json.dumps(value, indent=1, sort_keys=True, allow_nan=False, ensure_ascii=False) + "\n").encode()
+    """Readable, in the order of the value, strict: no NaN, no infinity."""
+    return (json.dumps(value, indent=1, allow_nan=False, ensure_ascii=False) + "\n").encode()
 
 
 def as_csv(table: Table) -> bytes:

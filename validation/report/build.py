@@ -24,9 +24,10 @@ from validation.report.documentation import documentation_beside
 from validation.report.durations import expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
+from validation.report.kept import PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import page, scene_summary
 from validation.report.pictures import FIGURES, Pictures
-from validation.report.provenance import provenance
+from validation.report.provenance import provenance, with_kept
 from validation.report.section import Section, results_of
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
@@ -42,6 +43,7 @@ def build(
     scene: WheelScene | None = None,
     executor: str = LOCAL,
     progress: bool = True,
+    keep: bool = False,
     callback: Callable[[Section], None] = lambda section: None,
 ) -> list[Section]:
     """Run the cases, write the report folder, return what it holds.
@@ -49,13 +51,17 @@ def build(
     names: of cases in `CASES` or `TIMED`; profile: "quick" or "full"; out: a new folder or an earlier report;
     workers: processes; seed: for every case that draws, None for the seed of each case; scene: for every case of a
     dynamic wheel, None for its own; executor: see `Engine`;
-    progress: a line on a terminal, lines in a log; callback: called with each case as it is finished.
+    progress: a line on a terminal, lines in a log; keep: the other cases of the report in `out`, as they are;
+    callback: called with each case as it is finished.
     Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
-    Raises ValueError for a folder that holds something else or that another run is at, an executor that is none, or a
-    case without its figure file; see `Engine` for what is raised where a run cannot be finished.
+    Raises ValueError for a folder that holds something else or that another run is at, an executor that is none, a
+    case without its figure file, and cases that cannot be kept; see `Engine` for what is raised where a run cannot be
+    finished.
     """
     for name in names:
         drawing(name)  # a case without its figure file ends the run before the first solve
+    kept = kept_sections(out, profile, names) if keep else []
+    before = kept_provenance(out) if keep else {}
     engine = Engine(workers=workers, store=out / REALISATIONS, executor=executor)
     with (
         Folder(out) as folder,
@@ -64,6 +70,8 @@ def build(
         Workers(workers if executor == LOCAL else 1) as processes,
     ):
         pictures = Pictures(processes, shown.parts[FIGURES], profile)
+        for section in kept:
+            pictures.draw(section)
         settings = {name: _case(name).settings(profile, seed, scene) for name in names}
 
         def run(name: str) -> Any:
@@ -76,6 +84,9 @@ def build(
             with shown.aside():
                 callback(sections[-1])
         about = _provenance(sections, profile, engine, shown)
+        if kept:
+            about = with_kept(about, before, kept)
+            sections = sorted([*sections, *kept], key=lambda section: list(CASES | TIMED).index(section.name))
         folder.replace(_files(sections, pictures.found(), profile, about, scene, documentation_beside(out)))
     return sections
 
@@ -100,7 +111,8 @@ def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> S
     of = partial(Section, name, case, case.model_needed(settings), asdict(settings))
     try:
         with as_not_converged():
-            return of(case.evidence(result.result()))
+            evidence = case.evidence(result.result())
+        return of(evidence, files=_data_files(name, evidence) | sound_files(name, evidence))
     except NotConvergedError as error:
         return of(None, (str(error), *error.unconverged))
     finally:
@@ -130,9 +142,8 @@ def _files(
     files: dict[str, bytes] = {}
     files |= {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
     for section in sections:
-        if section.evidence:
-            files |= _data_files(section.name, section.evidence) | sound_files(section.name, section.evidence)
-    files["provenance.json"] = as_json(about)
+        files |= section.files
+    files[PROVENANCE] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]
     # the statements of the book are about its own scene

@@ -11,6 +11,7 @@ from validation.report import formats
 from validation.report.answers.first_screen import MAP, answered_questions
 from validation.report.chapter import ERRATA, chapter_of
 from validation.report.page_figure import figures_of
+from validation.report.provenance import kept_from
 from validation.report.section import Section, answer_of, total_of
 from validation.report.sounds import sound_place
 from validation.report.verdict_map import map_of
@@ -58,6 +59,7 @@ def page(
             validity_map=None if scene else figures.get(MAP),
             few_findings=FEW_FINDINGS,
             about=about,
+            kept=kept_from(about),
             zip=zip,
             scene=scene_summary(scene) if scene else None,
             unsteady=unsteady,

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 from urllib.parse import quote
 
 from validation.report.figure_tables import tables_of
@@ -40,10 +41,12 @@ class PageFigure:
         """One line of Python, run in the folder of the report."""
         return f'from validation.report.redraw import redraw; redraw(".", "{self.name}").savefig("{self.name}.pdf")'
 
-    def citation(self, about: Mapping[str, object], profile: str) -> str:
+    def citation(self, about: Mapping[str, Any], profile: str) -> str:
+        """about: provenance of the report, with the commits of the cases that it has kept."""
+        commit = about["kept"].get(self.case, about["commit"])
         return (
             f"Figure {self.number}, “{self.finding}”, in: Reduced contact models: validation report "
-            f"(mdr-validation {about['version']}, commit {about['commit']}, profile {profile}), "
+            f"(mdr-validation {about['version']}, commit {commit}, profile {profile}), "
             f"index.html#{self.anchor}"
         )
 

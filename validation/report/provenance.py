@@ -4,9 +4,12 @@ import importlib.metadata
 import os
 import platform
 import subprocess
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from validation.engine.engine import LOCAL, Engine
+from validation.report.section import Section
 
 ROOT = Path(__file__).parents[2]
 LIBRARIES = ("numpy", "scipy", "pyfftw", "matplotlib", "joblib")
@@ -24,12 +27,34 @@ def provenance(profile: str, seeds: dict[str, object], engine: Engine, seconds: 
         "workers": engine.workers if engine.executor == LOCAL else "those of a dask scheduler",
         "seconds": {name: round(value, 2) for name, value in seconds.items()},
         "commit": _commit(),
+        "kept": {},
         "version": importlib.metadata.version("mdr-validation"),
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
         "cores": os.cpu_count(),
         "libraries": {name: importlib.metadata.version(name) for name in LIBRARIES},
     }
+
+
+def with_kept(about: dict[str, Any], before: Mapping[str, Any], kept: Sequence[Section]) -> dict[str, Any]:
+    """The same with seeds, seconds and commits of the cases that are kept from a report with the provenance before."""
+    names = [section.name for section in kept]
+    earlier = {
+        part: {name: value for name, value in before[part].items() if name in names} for part in ("seeds", "seconds")
+    }
+    return {
+        **about,
+        **{part: found | about[part] for part, found in earlier.items()},
+        "kept": {name: before["kept"].get(name, before["commit"]) for name in names},
+    }
+
+
+def kept_from(about: Mapping[str, Any]) -> dict[str, list[str]]:
+    """Which cases were kept as made at each commit."""
+    found: dict[str, list[str]] = {}
+    for name, commit in about["kept"].items():
+        found.setdefault(commit, []).append(name)
+    return found
 
 
 def _commit() -> str:

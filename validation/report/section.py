@@ -1,15 +1,19 @@
 """A section of the report: one case with its evidence, and its part of results.json."""
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
+from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict, VerdictCell
 
 
 @dataclass(frozen=True)
 class Section:
-    """A case in the report: the model it needs, its settings, its evidence or the reasons why there is none."""
+    """A case in the report: the model it needs, its settings, its evidence or the reasons why there is none.
+
+    files: the data behind its figures and its sounds, by their places in the report folder.
+    """
 
     name: str
     entry: Case
@@ -17,6 +21,7 @@ class Section:
     settings: dict[str, object]
     evidence: Evidence | None
     failure: tuple[str, ...] = ()
+    files: Mapping[str, bytes] = field(default_factory=dict)
 
     @property
     def numbers(self) -> tuple[Number, ...]:
@@ -59,8 +64,9 @@ def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, objec
 
 
 def case_results(section: Section) -> dict[str, object]:
-    """Everything that the page says of a case, as plain values."""
+    """Everything that the page says of a case, as plain values; its tables are in files of their own."""
     return {
+        **_words(section.evidence),
         "claim": section.entry.claim,
         "claims": [
             {
@@ -70,6 +76,8 @@ def case_results(section: Section) -> dict[str, object]:
                 "limits": claim.limits,
                 "verdicts": {verdict: claim.count(verdict) for verdict in Verdict},
                 "numbers": [number.label for number in claim.numbers],
+                "confirmed by": claim.confirmed_by,
+                "inside": [number.label for number in claim.inside],
             }
             for claim in section.claims
         ],
@@ -89,3 +97,30 @@ def case_results(section: Section) -> dict[str, object]:
         "conclusions": list(section.evidence.conclusions) if section.evidence else [],
         "unconverged": list(section.unconverged),
     }
+
+
+def _words(evidence: Evidence | None) -> dict[str, object]:
+    """What it says beside its numbers and claims; nothing where a case failed."""
+    if evidence is None:
+        return {}
+    return {
+        "title": evidence.title,
+        "finding": evidence.finding,
+        "method": evidence.method,
+        "figures": [
+            {"name": name, "headline": evidence.headlines.get(name, ""), "caption": caption}
+            for name, caption in evidence.captions.items()
+        ],
+        "page tables": [
+            {"name": table.name, "columns": {name: list(map(_plain, cells)) for name, cells in table.columns.items()}}
+            for table in evidence.page_tables
+        ],
+        "sounds": asdict(evidence.sounds) if evidence.sounds else None,
+    }
+
+
+def _plain(cell: object) -> object:
+    """A cell as strict JSON can hold it, printed the same."""
+    if isinstance(cell, VerdictCell):
+        return asdict(cell)
+    return str(cell) if isinstance(cell, float) and not math.isfinite(cell) else cell

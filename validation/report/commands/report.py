@@ -24,9 +24,14 @@ def describe(making: argparse.ArgumentParser) -> None:
         "--only",
         nargs="+",
         action="extend",
-        choices=list(CASES),
+        choices=[*CASES, *TIMED],
         metavar="CASE",
         help="run only these cases; `cases` lists them",
+    )
+    making.add_argument(
+        "--keep",
+        action="store_true",
+        help="with --only: keep the other cases of the earlier report in --out (default: reports/PROFILE) as they are",
     )
     making.add_argument(
         "--out",
@@ -63,7 +68,9 @@ def report(arguments: argparse.Namespace) -> Exit:
     timed = timed_here()
     everything = [*CASES, *timed] if arguments.scene is None else ["wheel"]
     names = list(dict.fromkeys(arguments.only or everything))
-    some = names if arguments.only or arguments.scene else ()
+    if arguments.keep and not arguments.only:
+        raise ValueError("--keep is for --only, got it alone: without --only no case is left to be kept")
+    some = names if (arguments.only or arguments.scene) and not arguments.keep else ()
     out = arguments.out or Path("reports") / "-".join([arguments.profile, *some])
     return built(names, out, arguments)
 
@@ -92,6 +99,7 @@ def built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exi
         seed=arguments.seed,
         scene=scene,
         executor=arguments.executor,
+        keep=arguments.keep,
         callback=partial(_print_section, unsteady=unsteady),
     )
     if not unsteady and any(section.claims for section in sections):

@@ -15,7 +15,7 @@ def describe(timing: argparse.ArgumentParser, name: str) -> None:
         "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"
     )
     timing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the rough surfaces")
-    timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None)
+    timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None, keep=False)
 
 
 def clock(arguments: argparse.Namespace) -> Exit:
