@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import select
 import sys
 import traceback
 from collections.abc import Sequence
@@ -27,6 +28,9 @@ COMMANDS = {
 }
 """A module of `validation.report.commands` each, imported when its command is given."""
 
+STDOUT = 1
+"""Its file descriptor."""
+
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run one command, return its exit status."""
@@ -37,15 +41,23 @@ def main(words: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
             return status
     except (Exception, KeyboardInterrupt) as error:
+        if isinstance(error, BrokenPipeError) and _nobody_reads():
+            # what is left in the buffer would be written, and fail, once more
+            os.dup2(os.open(os.devnull, os.O_WRONLY), STDOUT)
+            return Exit.UNFINISHED
         status, sentence = _ended(error, f"; {RESUME_NOTE}" if "out" in arguments else "")
         if status is Exit.FAULT:
             traceback.print_exc()
-        if isinstance(error, BrokenPipeError):
-            # what is left in its buffer would be written, and fail, once more
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         with suppress(OSError):
             print(printable(sentence, lines=isinstance(error, SceneError)), file=sys.stderr)
         return status
+
+
+def _nobody_reads() -> bool:
+    """Whether standard output is a pipe whose reader has ended, as after `| head`."""
+    output = select.poll()
+    output.register(STDOUT, 0)
+    return any(event & select.POLLERR for _, event in output.poll(0))
 
 
 def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:

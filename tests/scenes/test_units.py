@@ -44,6 +44,10 @@ EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit i
         ("7 mm/s", "speed", 0.007),
         ("-2 m/s", "speed", -2.0),
         ("0 m", "length", 0.0),
+        ("10N", "force", 10.0),
+        ("50kN", "force", 50e3),
+        ("5e-3mm", "length", 5e-6),
+        (" 72  km/h ", "speed", 20.0),
     ],
 )
 def test_a_quantity_is_the_nearest_float(text, dimension, value):
@@ -78,7 +82,6 @@ def test_metric_prefixes_do_not_round(digits):
         None,
         ["0.5 m"],
         "0.5",
-        "0.5m",
         "m",
         "",
         "0.5 kg",
@@ -88,6 +91,9 @@ def test_metric_prefixes_do_not_round(digits):
         "0,5 m",
         "0x1 m",
         "1 m 2 mm",
+        "0.5 m m",
+        "0.5 dm",
+        "0. 5m",
     ],
 )
 def test_other_forms_are_refused_with_an_example_and_the_units(wrong):

@@ -47,11 +47,18 @@ def test_models_have_their_names_and_beginnings(names, expected):
     assert [model.name for model in models_named(models, names, 0.4)] == expected
 
 
-@pytest.mark.parametrize("names", ["boundary elements 12²", "linear filter", "", "mdr,,bem"])
+@pytest.mark.parametrize("names", ["boundary elements 12²", "", "mdr,,bem"])
 def test_other_names_are_refused_with_those_that_there_are(names, capsys):
     assert main(["compare", "rolling_wheel", "--quantity", "force-spectrum", "--models", names]) == 2
     said = capsys.readouterr().err
     assert '"linear filter, 1D", "linear filter, 3D", "springs"' in said and "models must be mdr, bem or" in said
+
+
+def test_a_beginning_of_several_names_is_refused_with_these(capsys):
+    assert main(["compare", "rolling_wheel", "--quantity", "force-spectrum", "--models", "linear"]) == 2
+    assert (
+        'error: models: "linear" begins 2 names, "linear filter, 1D", "linear filter, 3D"\n' in capsys.readouterr().err
+    )
 
 
 def test_names_with_commas_stand_in_a_list_with_commas():

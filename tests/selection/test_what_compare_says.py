@@ -1,6 +1,7 @@
 """What `compare` prints: every model with its claim, errors in the unit that was asked, and whether MDR is enough."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from tests.selection.test_model_hierarchy import PARTS, Fake, Finding, punch, wh
 from validation.scenes.load import bundled_for_compare
 from validation.selection.compare import Comparison, quantities_of
 from validation.selection.hierarchy import select_model
-from validation.selection.side_by_side import side_by_side
+from validation.selection.side_by_side import error_of_difference, side_by_side
 from validation.selection.summary import BECAME, WIDTH, label, sentences_on_mdr, summary
 from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
@@ -151,8 +152,25 @@ def test_all_models_are_solved_and_the_selected_one_stays():
     assert [one.name for one in every.selection.solved] == ["skipped", "enough", "dearer"]
     assert side_by_side(some) == []
     rows = side_by_side(every)[3:-1]
-    # 20 lg 1.5 and 20 lg 1.1 from the model with the smallest error
-    assert [row.split()[-2:] for row in rows] == [["+3.52", "+50.0"], ["+0.83", "+10.0"], ["0.00", "0.0"]]
+    # 20 lg 1.5 and 20 lg 1.1 from the model with the smallest error, ± 20 lg 1.51 and 20 lg 1.11
+    assert [re.split(r"  +", row)[-2:] for row in rows] == [
+        ["+3.52 ± 3.6", "+50.0 ± 51"],
+        ["+0.83 ± 0.91", "+10.0 ± 11"],
+        ["—", "—"],
+    ]
+
+
+def test_the_error_of_a_difference_is_both_errors_together():
+    """Of the models the sum; grid and sample are independent: 0.1 + 0.02 + sqrt(0.03² + 0.04² + 0.12²) = 0.25."""
+    coarse, fine = Finding(parts=(0.1, 0.03, 0.04)), Finding(parts=(0.02, 0.12, 0.0), name="fine")
+    found = compared(coarse, fine, solve_all=True)
+    one, other = found.selection.solved
+    (error,) = error_of_difference(found, one, other)
+    assert error == pytest.approx(20 * math.log10(1.25))
+    assert error == error_of_difference(found, other, one)
+    unknown = replace(coarse, parts=(math.inf, 0, 0))
+    (line, _) = side_by_side(compared(unknown, fine, solve_all=True))[3:-1]
+    assert line.count("± unknown") == 2
 
 
 def test_spectra_stand_side_by_side_in_decibels():
@@ -164,6 +182,8 @@ def test_spectra_stand_side_by_side_in_decibels():
         for models in ([rough, fine], [replace(fine, value=(0.0999999,) * count), fine])
     )
     assert all(line.split()[-1] == "0.0" for line in side_by_side(same)[-1 - count : -1])  # no sign of a zero
+    # 20 lg 1.1 and 20 lg 1.01
+    assert any(line == f"  A: {rough.name}, ± 0.91 dB in the rms over bands" for line in side_by_side(found))
     rows = [line.split() for line in side_by_side(found)[-1 - count : -1]]
     assert [row[1:] for row in rows] == [["-20.0", "+6.0"]] * count
     assert [float(row[0]) for row in rows] == pytest.approx(2e3 * math.pi / found.wavenumbers, rel=1e-3)

@@ -11,10 +11,19 @@ from validation.report.compared import figure_of_models
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
 from validation.selection.compare import MOVING, Comparison
-from validation.selection.exported import levels_of_models, to_json_of
+from validation.selection.exported import SCHEMA_OF_JSON, levels_of_models, to_json_of
 from validation.selection.hierarchy import Candidate
 from validation.selection.several import overview_of, same_quantity, selected_of_several, table_of_several
-from validation.selection.side_by_side import differences, levels_beside, numbers_beside, reference_of
+from validation.selection.side_by_side import (
+    TOGETHER,
+    differences,
+    error_of_difference,
+    half_width,
+    levels_beside,
+    numbers_beside,
+    per_cent,
+    reference_of,
+)
 from validation.selection.summary import (
     ASSUMED,
     age_of_errors,
@@ -31,14 +40,19 @@ from validation.selection.summary import (
 )
 from validation.selection.tolerance import short
 
-PAGE, JSON, CSV = "index.html", "comparison.json", "data/levels.csv"
+PAGE, JSON, SCHEMA, CSV = "index.html", "comparison.json", "comparison.schema.json", "data/levels.csv"
 Columns = Mapping[str, Sequence[str]]
 
 
 def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -> dict[str, bytes]:
     """All that the folder holds, the page last. about: its provenance."""
     table = levels_of_models(found[0]) if len(found) == 1 else table_of_several(found)
-    files = {JSON: to_json_of(found).encode(), CSV: as_csv(table), "provenance.json": as_json(about)}
+    files = {
+        JSON: to_json_of(found).encode(),
+        CSV: as_csv(table),
+        SCHEMA: SCHEMA_OF_JSON.read_bytes(),
+        "provenance.json": as_json(about),
+    }
     drawn = {f"scene-{i}": (one.scene.name, levels_of_models(one)) for i, one in enumerate(found, 1) if _solved(one)}
     if len(found) > 1 and same_quantity(found) and any(map(_solved, found)):
         drawn["all"] = (table.name, selected_of_several(table))
@@ -94,6 +108,7 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
         "letters": letters,
         "reference": reference_of(found).name if beside else "",
         "unit": found.unit,
+        "together": TOGETHER,
         "age": age_of_errors(found),
         "cost": cost_of(found),
         "alternative": f"{found.quantity} of {scene.name} by {', '.join(one.name for one in found.selection.solved)}",
@@ -117,11 +132,15 @@ def _apart(found: Comparison, one: Candidate) -> str:
     """The largest difference from the model with the smallest error, in any band."""
     if one not in found.selection.solved:
         return "—"
-    off = differences(found, one, reference_of(found))
-    largest = float(off[abs(off).argmax()])
+    reference = reference_of(found)
+    if one is reference:
+        return "—"
+    off = differences(found, one, reference)
+    worst = abs(off).argmax()
+    largest, error = (float(values[worst]) for values in (off, error_of_difference(found, one, reference)))
     if found.is_level or found.in_decibels:
-        return f"{'+' if largest > 0 else ''}{short(largest)} dB"
-    return f"{100 * (10 ** (largest / 20) - 1):+.2g} %"
+        return f"{'+' if largest > 0 else ''}{short(largest)} {half_width(error)} dB"
+    return f"{per_cent(largest):+.2g} {half_width(per_cent(error))} %"
 
 
 def _asked(found: Comparison) -> str:

@@ -50,7 +50,7 @@ DECIMAL = Context(prec=60, traps=[InvalidOperation])
 def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = False) -> float:
     """The float nearest to a quantity of the given dimension, in SI units.
 
-    text: a decimal number and a unit, with a space between them; positive: whether it must be above zero.
+    text: a decimal number and a unit, with or without a space between them; positive: whether it must be above zero.
     Raises ValueError naming the quantity that is of another form or dimension, not finite, or not positive.
     """
     found = _read(text, dimension)
@@ -73,13 +73,14 @@ def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
 
 def _read(text: object, dimension: Dimension) -> float | None:
     """The quantity, or None if the text is of another form or dimension."""
-    words = text.split() if isinstance(text, str) else []
     # the micro sign and the Greek letter look the same
-    unit = UNITS[dimension].get(words[1].replace("\N{GREEK SMALL LETTER MU}", "µ")) if len(words) == 2 else None
-    if unit is None:
+    words = text.strip().replace("\N{GREEK SMALL LETTER MU}", "µ") if isinstance(text, str) else ""
+    ending = max((unit for unit in UNITS[dimension] if words.endswith(unit)), key=len, default=None)
+    if ending is None:
         return None
+    unit = UNITS[dimension][ending]
     try:
-        number = DECIMAL.create_decimal(words[0])
+        number = DECIMAL.create_decimal(words.removesuffix(ending).strip())
     except InvalidOperation:
         return None
     if not number.is_finite():

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
@@ -10,6 +11,8 @@ from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
+
+SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 
 
 def to_json(comparison: Comparison) -> str:
@@ -23,7 +26,7 @@ def to_json(comparison: Comparison) -> str:
     Returns
     -------
     str
-        An object with the keys of "What compare writes" in reports/README.md; null for what is not known.
+        An object as validation/selection/comparison.schema.json describes it; null for what is not known.
 
     Examples
     --------

@@ -44,11 +44,17 @@ def _of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[
         found = _cheapest_grid(kind, tolerance)
     else:
         found = [model for model in models if asked and model.name.lower().startswith(asked)]
-        found = found if len(found) == 1 else []
+        if len(found) > 1:
+            raise ValueError(f"models: {quoted(name)} begins {len(found)} names, {_names(found)}")
     if not found:
-        has = ", ".join(quoted(model.name) for model in models)
-        raise ValueError(f"models must be mdr, bem or names of models of this scene, {has}, got {quoted(name)}")
+        raise ValueError(
+            f"models must be mdr, bem or names of models of this scene, {_names(models)}, got {quoted(name)}"
+        )
     return found
+
+
+def _names(models: Sequence[SceneModel]) -> str:
+    return ", ".join(quoted(model.name) for model in models)
 
 
 def _cheapest_grid(grids: Sequence[SceneModel], tolerance: float) -> list[SceneModel]:

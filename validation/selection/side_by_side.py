@@ -1,4 +1,4 @@
-"""All models that were solved, beside the one with the smallest error: differences in decibels."""
+"""All models that were solved, beside the one with the smallest error: differences in decibels, with their errors."""
 
 import math
 import string
@@ -12,6 +12,8 @@ from validation.selection.hierarchy import Candidate
 Columns = dict[str, list[str]]
 NAMES = "by"
 """The column of the names of models."""
+TOGETHER = "both errors together: of the models the sum, of grid and sample the root of the sum of squares"
+"""How the half-width of a difference follows from the errors of both models."""
 
 
 def side_by_side(comparison: Comparison) -> list[str]:
@@ -33,6 +35,25 @@ def differences(comparison: Comparison, candidate: Candidate, reference: Candida
     return np.asarray(20 * np.log10(candidate.answer.value / reference.answer.value))
 
 
+def error_of_difference(comparison: Comparison, candidate: Candidate, reference: Candidate) -> np.ndarray:
+    """Half-widths of 95 % of `differences` [dB]: `TOGETHER`; infinite where one is unknown."""
+    ours, theirs = (_parts(comparison, one) for one in (candidate, reference))
+    random = [part for parts in (ours, theirs) for part in (parts["grid"], parts["sample"])]
+    both = ours["model"] + theirs["model"] + np.sqrt(np.sum(np.square(random), axis=0))
+    return np.asarray(both if comparison.is_level else 20 * np.log10(1 + both))
+
+
+def _parts(comparison: Comparison, one: Candidate) -> dict[str, np.ndarray]:
+    """Errors by their names: of levels in dB, else relative."""
+    scale = 1.0 if comparison.is_level else np.abs(comparison.value_of(one))
+    return {name: part / scale for name, part in comparison.error_parts_of(one).items()}
+
+
+def half_width(error: float, digits: int = 2) -> str:
+    """As "± 1.2", or "± unknown"."""
+    return f"± {float(f'{error:.{digits}g}'):g}" if math.isfinite(error) else "± unknown"
+
+
 def _signed(value: float, digits: int) -> str:
     """With its sign, but for a zero."""
     return f"{rounded:+.{digits}f}" if (rounded := round(value, digits)) else f"{0:.{digits}f}"
@@ -48,27 +69,33 @@ def axis_of(comparison: Comparison) -> Columns:
 
 
 def numbers_beside(comparison: Comparison) -> Columns:
-    """A row a model that was solved: its number, its error, and how far it is from the reference."""
+    """A row a model that was solved: its number, its error, and how far it is from the reference, with the error."""
     reference, columns = reference_of(comparison), Columns()
     for one in comparison.selection.solved:
         (value,), (half,) = comparison.value_of(one), comparison.errors_of(one)
-        (off,) = differences(comparison, one, reference)
+        (off,), (apart,) = (of(comparison, one, reference) for of in (differences, error_of_difference))
+        here = one is reference
         row = {
             NAMES: one.name,
             f"{comparison.quantity} [{comparison.unit}]": f"{value:.4g}",
             "±": f"{half:.2g}" if math.isfinite(half) else "unknown",
-            "difference [dB]": _signed(float(off), 2),
-            "[%]": _signed(float(100 * (10 ** (off / 20) - 1)), 1),
+            "difference [dB]": "—" if here else f"{_signed(float(off), 2)} {half_width(apart)}",
+            "[%]": "—" if here else f"{_signed(per_cent(off), 1)} {half_width(per_cent(apart))}",
         }
         for name, text in row.items():
             columns.setdefault(name, []).append(text)
     return columns
 
 
+def per_cent(decibels: float) -> float:
+    """Of an amplitude, from its level [dB]."""
+    return float(100 * (10 ** (decibels / 20) - 1))
+
+
 def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     """A row a band: the level of the reference, and what is to be added to it for each other model.
 
-    Returns the names of these models by their letters, and the columns.
+    Returns the names of these models by their letters, with the error of the difference, and the columns.
     """
     reference = reference_of(comparison)
     others = [one for one in comparison.selection.solved if one is not reference]
@@ -78,7 +105,20 @@ def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     columns["level"] = [f"{level:.1f}" for level in comparison.value_of(reference).round(1) + 0.0]
     for letter, one in letters.items():
         columns[letter] = [_signed(off, 1) for off in differences(comparison, one, reference).tolist()]
-    return {letter: one.name for letter, one in letters.items()}, columns
+    errors = {letter: error_of_difference(comparison, one, reference) for letter, one in letters.items()}
+    return {letter: f"{one.name}, {_range(one, errors[letter])}" for letter, one in letters.items()}, columns
+
+
+def _range(one: Candidate, errors: np.ndarray) -> str:
+    """± 1.2 dB, of the root mean square over bands; from the smallest to the largest where each band has its own."""
+    assert one.answer is not None  # as solved
+    ends = [half_width(float(end)) for end in (errors.min(), errors.max())]
+    shown = ends[0] if ends[0] == ends[1] else f"{ends[0]} to {ends[1][2:]}"
+    return (
+        shown
+        if "unknown" in shown
+        else f"{shown} dB in {'each band' if one.answer.band_errors else 'the rms over bands'}"
+    )
 
 
 def columns_as_lines(columns: Mapping[str, list[str]]) -> Iterator[str]:
@@ -90,12 +130,13 @@ def columns_as_lines(columns: Mapping[str, list[str]]) -> Iterator[str]:
 
 
 def _numbers(comparison: Comparison) -> Iterator[str]:
-    yield f"side by side; differences from {reference_of(comparison).name}"
+    yield f"side by side; differences from {reference_of(comparison).name}, ± {TOGETHER}"
     yield from (f"  {line}" for line in columns_as_lines(numbers_beside(comparison)))
 
 
 def _spectra(comparison: Comparison) -> Iterator[str]:
     letters, columns = levels_beside(comparison)
-    yield f"side by side: level by {reference_of(comparison).name} [{comparison.unit}], and from there to"
+    level = f"level by {reference_of(comparison).name} [{comparison.unit}]"
+    yield f"side by side: {level}, and from there to the others, ± {TOGETHER}"
     yield from (f"  {letter}: {name}" for letter, name in letters.items())
     yield from columns_as_lines(columns)

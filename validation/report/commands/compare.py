@@ -61,7 +61,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "fit,springs"'
     )
     for name, what in (
-        ("--json", "write the result for other programs; the keys are in reports/README.md"),
+        ("--json", "write the result for other programs; `--report` writes it with a schema that describes its keys"),
         ("--csv", "write a row a number or a band, of each model that was solved"),
         ("--cnossos", "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
         ("--figure", "draw the models that were solved, in a .svg, .png or .pdf"),
