@@ -1,9 +1,13 @@
 """Figures are drawn once, by workers, while other cases are solved; and how long all of it is expected to take."""
 
+import math
 import tomllib
 
 import pytest
+from matplotlib.figure import Figure
 
+from validation.analysis.evidence import Evidence as CaseEvidence
+from validation.analysis.evidence import Table
 from validation.engine.progress import Part
 from validation.engine.workers import Workers
 from validation.report import durations, pictures
@@ -29,6 +33,17 @@ def test_figures_come_by_their_names_and_are_counted(monkeypatch):
     # a case that failed has none
     drawn.draw(Section(None))
     assert len(drawn.found()) == 3
+
+
+def test_a_figure_is_drawn_from_what_its_files_hold(monkeypatch):
+    """Infinities are empty there and digits end: drawn with them, it would not be what `redraw` draws."""
+    table = Table("levels", {"off": [-math.inf, 1 / 3]})
+    evidence = CaseEvidence(title="a", method="", numbers=(), tables=(table,), conclusions=(), captions={"a": ""})
+    seen = []
+    monkeypatch.setattr(pictures, "drawing", lambda name: lambda evidence: seen.append(evidence) or Figure())
+    pictures.draw_figure("a", evidence, "full")
+    (off,) = (found.table("levels")["off"] for found in seen)
+    assert math.isnan(off[0]) and off[1] == 0.3333333333
 
 
 @pytest.mark.parametrize("profile", ["quick", "full"])

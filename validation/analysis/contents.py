@@ -41,6 +41,11 @@ def from_csv(name: str, text: str) -> Table:
     return Table(name, {column: _values(cells) for column, cells in zip(names, found, strict=True)})
 
 
+def as_written(table: Table) -> Table:
+    """What a reader of its CSV file has."""
+    return from_csv(table.name, as_csv(table).decode())
+
+
 def _values(cells: Sequence[str]) -> Sequence[object]:
     """Of one column, which has one type."""
     if all(cell in BOOLEAN for cell in cells):

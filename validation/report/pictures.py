@@ -1,8 +1,10 @@
 """The figures of the cases, drawn by the workers while other cases are solved."""
 
 from concurrent.futures import Future
+from dataclasses import replace
 
 from validation.analysis.case import Profile
+from validation.analysis.contents import as_written
 from validation.analysis.evidence import Evidence
 from validation.engine.progress import Part
 from validation.engine.workers import Workers
@@ -37,5 +39,6 @@ class Pictures:
 
 
 def draw_figure(name: str, evidence: Evidence, profile: Profile) -> bytes:
-    """SVG of a figure."""
-    return svg(drawn(drawing(name), evidence, profile))
+    """SVG of a figure, from its tables as their files have them, so that `redraw` gives the same bytes."""
+    written = replace(evidence, tables=tuple(as_written(table) for table in evidence.tables))
+    return svg(drawn(drawing(name), written, profile))

@@ -22,7 +22,7 @@ def draw(evidence: Evidence) -> Figure:
     table = evidence.table("levels")
     omega, bem = table["omega [rad/s]"], table["bem3d [dB]"]
     open_ = table["± sample [dB]"] + table["± grid [dB]"] + np.nan_to_num(table["± solver [dB]"])
-    below = np.isinf(table["linear, 1D (14.12) over bem3d [dB]"])
+    below = ~np.isfinite(table["linear, 1D (14.12) over bem3d [dB]"])
     if below.any():
         plateau = 0.9 * float(omega[0]), float(table["to [rad/s]"][below][-1])
         levels.axvspan(*plateau, color="#000000", alpha=0.06, linewidth=0)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, graded, panels, tick
+from validation.report.style import BEM, EXACT, GUIDE, MDR, Style, graded, panels, tick, visible
 
 SCHEMES: dict[str, Style] = {
     "explicit Euler": {"color": "#D55E00", "marker": "^"},
@@ -53,7 +53,8 @@ def _points(axis: Axes, x: np.ndarray, y: np.ndarray, name: str, **style: Any) -
 def _period(axis: Axes, name: str, rows: Table) -> None:
     x = rows["omega dt"]
     below = x < LIMITS.get(name, 2.0)
-    theory = np.abs(x / rows["angle by theory [rad]"] - 1)
+    # ten digits of an angle hold no smaller difference
+    theory = visible(np.abs(x / rows["angle by theory [rad]"] - 1), above=1e-8)
     axis.plot(x[below], theory[below], color=SCHEMES[name]["color"], linewidth=0.8)
     _points(axis, x[below], rows["error of the period"][below], name, label=name)
 
