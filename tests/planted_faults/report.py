@@ -42,6 +42,10 @@ FAULTS = {
         (cells.RangeCell, "enough", property(enough_by_most)),
         test_answers.test_one_counterexample_among_all_exponents_is_a_no,
     ),
+    "cells that overlap": (
+        (cells, "_apart", lambda found: dict(sorted(found.items()))),
+        test_answers.test_ranges_that_overlap_are_one_cell,
+    ),
     "the power of a ratio printed for its amplitude": (
         (words, "DECIBEL", statistics.POWER_DECIBEL),
         test_answers.test_decibels_are_printed_as_their_quantity,

@@ -230,6 +230,30 @@ def test_area_and_gap_are_both_needed_and_told_apart():
     assert words_of(row_of("area-and-gap", half))[1:-1] == ["no"]
 
 
+def test_ranges_that_overlap_are_one_cell():
+    """The area was measured less far than the gap: both are numbers of the same cell."""
+
+    def ratio(quantity, decade, value):
+        where = {rolled_off.ROLL_OFF: 1, "Fbar": decade}
+        return at(decade, value, where=where, quantity=quantity)
+
+    numbers = [
+        ratio(quantity, decade, value)
+        for quantity, last, value in ((rolled_off.AREA, 2.15, 20.0), (rolled_off.GAP, 10.0, -6.0))
+        for decade in ((0.1, 1.0), (1.0, last))
+    ]
+    row = row_of("area-and-gap", section_of("mdr_limits", numbers, WORKED, hurst=0.7))
+    assert [cell.place for cell in row.strip] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
+
+
+def test_differences_below_and_above_are_told_apart():
+    """What differs is nowhere near zero: a single range would say that it were."""
+    row = mean_stiffness(*(at((0.1, 1.0), value, hurst=value) for value in (-3.0, -2.0, 2.0, 3.0)))
+    assert "4 of 4 numbers differ: -29 to -21 % and +26 to +41 %" in row.answer
+    row = mean_stiffness(at((0.1, 1.0), -3.0))
+    assert "it differs: -29 %" in row.answer
+
+
 def test_a_rail_is_judged_over_its_slope_in_the_bands_that_count():
     def off(offset, waves, value):
         where = {"offset [dB]": offset, "waves": waves, "wavelength [mm]": (8.0, 100.0)}

@@ -1,6 +1,6 @@
 """Whether a model is enough, place by place of the range that decides, by the verdicts of all its numbers there."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import groupby
@@ -64,14 +64,28 @@ class NumberSource:
             place = self.place(evidence, number) if self.place else number.where[self.axis]
             found.setdefault(place, []).append(number)
         every = {self._series(number) for numbers in found.values() for number in numbers}
-        places = list(found) if any(isinstance(place, str) for place in found) else sorted(found, key=ends)
+        if not any(isinstance(place, str) for place in found):
+            found = _apart(found)
         return [
-            RangeCell(place, tuple(found[place]), len(every - {self._series(number) for number in found[place]}))
-            for place in places
+            RangeCell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}))
+            for place, numbers in found.items()
         ]
 
     def _series(self, number: Number) -> tuple[object, ...]:
         return (number.quantity, *(number.where.get(name) for name in self.series))
+
+
+def _apart(found: Mapping[Place, list[Number]]) -> dict[Place, list[Number]]:
+    """In the order of the axis; ranges that overlap, as where one quantity was measured less far, are one place."""
+    joined: list[tuple[Place, list[Number]]] = []
+    for place in sorted(found, key=ends):
+        low, high = ends(place)
+        if joined and low < ends(joined[-1][0])[1]:
+            before, numbers = joined.pop()
+            joined.append(((ends(before)[0], max(high, ends(before)[1])), [*numbers, *found[place]]))
+        else:
+            joined.append((place, found[place]))
+    return dict(joined)
 
 
 def ends(place: Place) -> tuple[float, float]:

@@ -69,13 +69,14 @@ def _found(enough: Enough, numbers: Sequence[Number], printed: Printed) -> str:
 
 
 def _by_quantity(numbers: Sequence[Number], printed: Printed) -> str:
-    """The least and the largest; apart where there are several quantities."""
+    """The least and the largest, below and above the reference; apart where there are several quantities."""
     quantities = list(dict.fromkeys(number.quantity for number in numbers))
     found = []
     for quantity in quantities:
         values = [number.difference for number in numbers if number.quantity == quantity]
+        sides = [[value for value in values if value < 0], [value for value in values if value >= 0]]
         name = f"{quantity} " if len(quantities) > 1 else ""
-        found.append(f"{name}{from_to(min(values), max(values), printed)}")
+        found.append(name + " and ".join(from_to(min(side), max(side), printed) for side in sides if side))
     return ", ".join(found)
 
 
