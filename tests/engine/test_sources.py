@@ -119,9 +119,52 @@ def test_a_solve_without_source_is_refused():
         version_behind("nowhere", None)
 
 
-@pytest.mark.parametrize(("more", "same"), [(b"  # of arrays", True), (b"\nTWO = 2", False)])
-def test_the_version_of_a_package_is_that_of_its_code(edited, more, same):
-    version = sources.version_of(("mdr",))
-    assert version != sources.version_of(("bem3d",))
-    edited(sources._modules()["mdr.foundation"], b"import numpy as np", b"import numpy as np" + more)
-    assert (sources.version_of(("mdr",)) == version) is same
+SPRINGS = "validation.simulation.models.springs_pressed"
+LEFT_OUT = ("validation.scenes", "validation.simulation.models", "validation.simulation.calibration", "mdr.formatting")
+
+
+@pytest.mark.parametrize(
+    ("module", "old", "new", "same"),
+    [
+        ("mdr.foundation", b"import numpy as np", b"import numpy as np  # of arrays", True),
+        ("mdr.foundation", b"import numpy as np", b"import numpy as np\nTWO = 2", False),
+        ("mdr.foundation", b"return f", b"return 'springs' + f", True),
+        ("mdr.foundation", b"from mdr.formatting import span", b"from mdr.formatting import pair, span", True),
+        ("mdr.formatting", b"def span", b"def wide_span", True),
+        ("mdr.rolling_surface", b"def ", b"def other_", True),
+        ("mdr.spectrum", b"def ", b"def other_", False),
+        ("validation.simulation.models.springs_rolling", b"def ", b"def other_", True),
+        (SPRINGS, b"def ", b"def other_", False),
+    ],
+)
+def test_the_version_of_a_model_is_that_of_the_code_behind_its_numbers(edited, module, old, new, same):
+    """Not of what prints, nor of functions of the method that it does not use."""
+    version = sources.version_of((SPRINGS,), LEFT_OUT)
+    edited(sources._modules()[module], old, new)
+    assert (sources.version_of((SPRINGS,), LEFT_OUT) == version) is same
+
+
+@pytest.mark.parametrize(
+    ("text", "whole"),
+    [
+        ("import mdr\nmdr.load_curve", False),
+        ("from mdr import load_curve", False),
+        ("import mdr as springs\nsprings.load_curve", True),
+        ("import mdr\nprint(mdr)", True),
+        ("import mdr\nmdr.Wheels", True),
+    ],
+)
+def test_of_a_method_the_modules_count_whose_names_are_used(tmp_path, monkeypatch, text, whole):
+    """All of them where that cannot be read from the source."""
+    monkeypatch.syspath_prepend(str(tmp_path))
+    name = f"own_{abs(hash(text))}"
+    (tmp_path / f"{name}.py").write_text(text)
+    import_module(name)
+    behind = modules_behind(name, by_names=True)
+    assert "mdr.foundation" in behind
+    assert ("mdr.rolling_surface" in behind) is whole
+
+
+def test_a_version_of_nothing_is_refused():
+    with pytest.raises(RuntimeError, match="the source of nowhere is not to be found"):
+        sources.version_of(("nowhere",))

@@ -17,9 +17,12 @@ from validation.selection.calibrate import (
     RESONANCES,
     CalibrationRun,
     CalibrationScene,
+    calibration_age,
     calibration_lines,
     write_calibration,
+    write_table,
 )
+from validation.selection.calibration_check import check_calibration
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
 from validation.simulation.calibration import MeasuredErrors, calibrated, conditions_by_kind
@@ -163,9 +166,54 @@ def test_dynamic_wheels_of_the_design_excite_no_resonance(quantity):
 
 def test_the_table_says_when_how_and_with_which_code_it_was_measured():
     about = calibration.provenance()
-    assert set(about) == {"measured", "code", "command"}
+    assert {"measured", "command"} <= set(about) <= {"measured", "command", "checked"}
     assert about["command"].startswith("mdr-validation calibrate --punches ")
     assert calibration_lines()[0].startswith(f"errors of models: calibrated {about['measured']}, ")
+
+
+def test_the_table_was_measured_with_the_code_of_today_or_gave_the_same_numbers():
+    """Where this fails, `mdr-validation calibrate --check 2` measures some scenes again."""
+    assert calibration_lines()[0].endswith("by today's code")
+
+
+def test_models_whose_code_is_another_are_named(tmp_path, monkeypatch):
+    rows = calibration.rows_of(calibration.TABLE)
+    of_springs = [{**row, "code": "0" * 12} if row["model"] == "springs" else row for row in rows]
+    write_table(calibration.provenance(), of_springs, tmp_path / "table.csv")
+    asked = Target(wheel(), "force-rms")
+    assert calibration_age(tmp_path / "table.csv", asked).endswith("by other code than today's: springs")
+    assert "sphere stiffness, springs" in calibration_age(tmp_path / "table.csv")
+    assert calibration_age(calibration.TABLE, asked).endswith("by today's code")
+
+
+class MeasuredAgain:
+    """An engine whose solves have the errors of the table times a factor."""
+
+    def __init__(self, factor):
+        self.factor, self.points = factor, []
+
+    def map(self, solve, points):
+        self.points = list(points)
+        rows = {(r["kind"], r["number"], r["quantity"], r["model"]): r for r in calibration.rows_of(calibration.TABLE)}
+        found = []
+        for point in points:
+            mine = [rows.get((point.kind, str(point.number), point.quantity, one.name)) for one in point.cheap]
+            errors = [self.factor * float(row["error"]) if row else math.nan for row in mine]
+            found.append({"error": np.array(errors), "reference": np.array(0.1), "failed": np.array(0.0)})
+        return found
+
+
+@pytest.mark.parametrize(("factor", "same"), [(1.0, True), (1.0005, True), (1.01, False)])
+def test_rows_take_the_version_of_today_where_some_measured_again_are_the_same(tmp_path, factor, same):
+    path, engine = tmp_path / "table.csv", MeasuredAgain(factor)
+    rows = calibration.rows_of(calibration.TABLE)
+    write_table(calibration.provenance(), [{**row, "code": "0" * 12} for row in rows], path)
+    differing = check_calibration(2, engine, path)
+    assert len(engine.points) == 2 * sum(len(quantities) for quantities in QUANTITIES.values())
+    assert (not differing) is same
+    assert (calibration.rows_of(path) == rows) is same
+    assert ("checked" in calibration.provenance(path)) or not same
+    assert same or all("today" in line for line in differing)
 
 
 def test_every_cheap_model_is_in_the_table_with_scenes_enough():
@@ -220,7 +268,7 @@ def test_a_table_is_measured_once(tmp_path, monkeypatch):
 
 
 def test_the_fit_claims_less_under_more_waves():
-    """Errors over the root of the number of waves cover punches with one wave on a side as they cover others."""
+    """Errors times the waves on a side cover punches with one wave as they cover others."""
     measured = calibration.table()["punch", "stiffness", "fit"]
     one = measured.points[:, 1] < math.log10(1.2)
     inside = measured.errors <= measured.factor * measured.left_out()

@@ -25,6 +25,10 @@ ENGINE = "validation.engine.engine"
 PARSING = threading.Lock()
 FACE = "validation"
 """Package that imports by name for its users: who imports it by itself may use anything."""
+METHODS = ("mdr", "bem3d")
+"""Packages whose first file only exports names of their modules."""
+PRINTING, FORMATTING = {"__repr__", "__str__"}, "formatting"
+"""Functions that only print, and the module of each method that they alone use."""
 
 
 @cache
@@ -33,9 +37,20 @@ def version_of_numerics() -> str:
     return _digest(b"".join(_source(path) for package in NUMERICS for path in sources_of(package)))
 
 
-def version_of(packages: Iterable[str]) -> str:
-    """Digest of what the code of packages does, without comments, docstrings and libraries."""
-    return hashlib.sha256(b"".join(_meaning(path) for name in packages for path in sources_of(name))).hexdigest()
+def version_of(modules: Iterable[str], without: Iterable[str] = ()) -> str:
+    """Digest of what modules do, and of what they use of all that they import, directly or not.
+
+    without: packages and modules that are left out, but where they are among the modules. Of a method that is imported
+    as a whole the modules count whose names are used. Libraries, comments, docstrings and what only prints do not
+    count. Raises RuntimeError where no source is found.
+    """
+    starts = tuple(f"{name}." for name in without)
+    left_out = frozenset(name for name in _modules() if f"{name}.".startswith(starts))
+    behind = {name for module in modules for name in modules_behind(module, left_out, by_names=True)}
+    paths = [_modules()[name] for name in sorted(behind & set(_modules()))]
+    if not paths:
+        raise RuntimeError(f"the source of {', '.join(modules)} is not to be found")
+    return hashlib.sha256(b"".join(_meaning(path) for path in paths)).hexdigest()
 
 
 def version_behind(module: str, problem: object) -> str:
@@ -65,19 +80,23 @@ def sources_of(package: str) -> list[Path]:
 
 
 @cache
-def modules_behind(module: str) -> frozenset[str]:
+def modules_behind(module: str, without: frozenset[str] = frozenset(), *, by_names: bool = False) -> frozenset[str]:
     """The module itself and all of the numerics that it imports, directly or not, also inside of functions.
 
-    The engine is left out, and what it alone imports.
+    The engine and the modules without are left out, and what these alone import. by_names: of a method that is
+    imported as a whole, whether the modules count whose names are used, or all.
     """
-    known = _modules()
+    known, left_out = _modules(), {ENGINE, *without}
     found, left = set[str](), {module}
     while left:
         name = left.pop()
         found.add(name)
         if _imports_by_name(name):
-            return frozenset((found | set(known)) - {ENGINE})
-        left |= (_imported(name) & set(known)) - found - {ENGINE}
+            return frozenset((found | set(known)) - left_out)
+        imported = _imported(name)
+        if by_names:
+            imported = (imported - {*METHODS, FACE}).union(*(_used_of(method, name) for method in METHODS))
+        left |= (imported & set(known)) - found - left_out
     return frozenset(found)
 
 
@@ -168,7 +187,14 @@ def _meaning(path: Path) -> bytes:
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             # a constant by itself does nothing
             node.value = ast.Constant(None)
+        if isinstance(node, ast.ClassDef):
+            node.body = [part for part in node.body if getattr(part, "name", "") not in PRINTING]
+    tree.body = [part for part in tree.body if not _is_for_printing(part)]
     return ast.dump(tree).encode()
+
+
+def _is_for_printing(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.ImportFrom) and (statement.module or "") in {f"{m}.{FORMATTING}" for m in METHODS}
 
 
 @cache
@@ -222,6 +248,38 @@ def _named(module: str) -> set[str]:
     if LISTS in _names(path):
         found |= {name for name in _modules() if name.rpartition(".")[0] in found & _packages() - {package}}
     return found
+
+
+def _used_of(method: str, module: str) -> set[str]:
+    """The modules of a method whose names a module takes from it; all where it takes it whole, or names not found."""
+    path = _path(module)
+    if path is None or module == method:
+        return set()
+    nodes = list(ast.walk(_tree(path)))
+    names = [node.attr for node in nodes if isinstance(node, ast.Attribute) and _is_named(node.value, method)]
+    whole = sum(_is_named(node, method) for node in nodes) > len(names)
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            whole |= any(alias.name == method and alias.asname for alias in node.names)
+        if isinstance(node, ast.ImportFrom) and node.module == method:
+            names += [alias.name for alias in node.names]
+    exported = _exported(method)
+    return set(exported.values()) if whole or not set(names) <= set(exported) else {exported[name] for name in names}
+
+
+def _is_named(node: ast.AST, name: str) -> bool:
+    return isinstance(node, ast.Name) and node.id == name
+
+
+@cache
+def _exported(method: str) -> dict[str, str]:
+    """The modules of the names that a method exports."""
+    return {
+        alias.name: node.module
+        for node in ast.walk(_tree(_modules()[method]))
+        if isinstance(node, ast.ImportFrom) and (node.module or "") in _modules() and node.module
+        for alias in node.names
+    }
 
 
 # read when the code is loaded: an edit during a run does not make old results new

@@ -3,7 +3,7 @@
 import csv
 import io
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
 from pathlib import Path
@@ -21,7 +21,7 @@ from validation.scenes.roughness import Roughness
 from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
 from validation.simulation.calibrated_range import CONDITIONS
-from validation.simulation.calibration import TABLE, code_version, conditions_by_kind, provenance, table
+from validation.simulation.calibration import TABLE, code_behind, conditions_by_kind, kind_of, provenance, table
 from validation.simulation.model import GridModel, Model, Target, models_serving
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import hertz_force
@@ -58,6 +58,8 @@ DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
 longest over the shortest wave; and of the Hurst exponent."""
 SHORTEST = {"punch": 48, "sphere": 16, "rolling": 12, "wheel": 12}
 """Of the shortest wave: as many on a side at the most, and q a."""
+COLUMNS = ("kind", "quantity", "number", "model", *CONDITIONS, "shape", "error", "reference", "code")
+"""Of the table; code: digest of what a row was measured with, and of what gave the same numbers since."""
 RESONANCES, IN_BAND = (math.log10(1.2), math.log10(6)), 3.5
 """lg of the frequency of the longest wave over the resonance of a dynamic wheel; of the shortest, at the least."""
 
@@ -110,7 +112,7 @@ class CalibrationScene:
     @property
     def cheap(self) -> tuple[Model, ...]:
         """The models that are measured."""
-        return tuple(m for m in models_serving(self.scene, self.quantity) if not isinstance(m, GridModel))
+        return cheap_models(self.target(MODEL_TOLERANCE))
 
 
 def measure_errors(point: CalibrationScene) -> Outcome:
@@ -137,10 +139,10 @@ def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
 class CalibrationRun:
     """How many scenes of each kind; each of a wheel is solved for both of its quantities."""
 
-    punches: int = 60
+    punches: int = 100
     spheres: int = 120
     rolling: int = 20
-    wheels: int = 16
+    wheels: int = 40
     seed: int = 19
 
     @property
@@ -160,16 +162,19 @@ def write_calibration(run: CalibrationRun, engine: Engine = SERIAL, path: Path |
     points = run.points
     outcomes = engine.map(measure_errors, points)
     rows = [row for point, outcome in zip(points, outcomes, strict=True) for row in rows_of_point(point, outcome)]
-    text = io.StringIO()
     counts = f"--punches {run.punches} --spheres {run.spheres} --rolling {run.rolling} --wheels {run.wheels}"
-    size = f"{counts} --seed {run.seed}"
-    today = datetime.now(tz=UTC).date().isoformat()
-    text.write(f"# measured: {today}\n# code: {code_version()}\n")
-    text.write(f"# command: mdr-validation calibrate {size}\n")
-    writer = csv.DictWriter(text, ["kind", "quantity", "number", "model", *CONDITIONS, "shape", "error", "reference"])
+    about = {"measured": today().isoformat(), "command": f"mdr-validation calibrate {counts} --seed {run.seed}"}
+    write_table(about, rows, path or TABLE)
+
+
+def write_table(about: Mapping[str, str], rows: Sequence[Mapping[str, object]], path: Path) -> None:
+    """about: lines of the provenance."""
+    text = io.StringIO()
+    text.writelines(f"# {name}: {value}\n" for name, value in about.items())
+    writer = csv.DictWriter(text, COLUMNS)
     writer.writeheader()
     writer.writerows(rows)
-    write_whole(path or TABLE, text.getvalue().encode())
+    write_whole(path, text.getvalue().encode())
 
 
 def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, object]]:
@@ -186,6 +191,7 @@ def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, o
             "shape": f"{model.shape(point.target(MODEL_TOLERANCE)):.5g}",
             "error": f"{error:.5g}",
             "reference": f"{float(outcome['reference']):.3g}",
+            "code": code_behind(model, point.target(MODEL_TOLERANCE)),
         }
         for model, error in zip(point.cheap, outcome["error"], strict=True)
         if np.isfinite(error)
@@ -203,11 +209,36 @@ def calibration_lines(path: Path | None = None) -> list[str]:
     return lines
 
 
-def calibration_age(path: Path = TABLE) -> str:
-    """Age of the table, and whether the methods are still those that it was measured with."""
+def calibration_age(path: Path = TABLE, target: Target | None = None) -> str:
+    """Age of the table, and the models that it was measured with whose code is another today.
+
+    target: of a comparison, whose models alone are asked for.
+    """
     about = provenance(path)
     if not about:
         return "errors of models: no calibration"
-    days = (datetime.now(tz=UTC).date() - date.fromisoformat(about["measured"])).days
-    same = "the code of today" if about["code"] == code_version() else "other code than today's"
-    return f"errors of models: calibrated {about['measured']}, {days} days ago, code {about['code']}, {same}"
+    days = (today() - date.fromisoformat(about["measured"])).days
+    if target is None:
+        asked = [
+            point.target(MODEL_TOLERANCE) for point in CalibrationRun(punches=1, spheres=1, rolling=1, wheels=1).points
+        ]
+        other = [f"{kind_of(one)} {one.quantity}, {name}" for one in asked for name in of_other_code(one, path)]
+    else:
+        other = of_other_code(target, path)
+    code = f"by other code than today's: {'; '.join(other)}" if other else "by today's code"
+    return f"errors of models: calibrated {about['measured']}, {days} days ago, {code}"
+
+
+def of_other_code(target: Target, path: Path = TABLE) -> list[str]:
+    """Models of a target whose errors were measured with other code than today's."""
+    found = [(one, table(path).get((kind_of(target), target.quantity, one.name))) for one in cheap_models(target)]
+    return [one.name for one, mine in found if mine and mine.codes != {code_behind(one, target)}]
+
+
+def cheap_models(target: Target) -> tuple[Model, ...]:
+    """Those that claim errors."""
+    return tuple(m for m in models_serving(target.scene, target.quantity) if not isinstance(m, GridModel))
+
+
+def today() -> date:
+    return datetime.now(tz=UTC).date()

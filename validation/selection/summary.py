@@ -14,6 +14,7 @@ from validation.selection.compare import MOVING, UNITS, Comparison
 from validation.selection.hierarchy import Answer, Candidate, Status
 from validation.selection.side_by_side import axis_of, columns_as_lines, side_by_side
 from validation.selection.tolerance import Tolerance, short
+from validation.simulation.model import Target
 from validation.simulation.rail_models import MEASURED_ON_STRIPS
 
 WIDTH = 100
@@ -162,7 +163,9 @@ def bands_of(comparison: Comparison, one: Candidate) -> dict[str, list[str]]:
 
 def age_of_errors(comparison: Comparison) -> str:
     """Where the errors of the models are from."""
-    return MEASURED_ON_STRIPS if isinstance(comparison.scene, RailScene) else calibration_age()
+    if isinstance(comparison.scene, RailScene):
+        return MEASURED_ON_STRIPS
+    return calibration_age(target=Target(comparison.scene, comparison.quantity))
 
 
 def cost_of(comparison: Comparison) -> str:

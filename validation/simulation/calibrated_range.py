@@ -39,8 +39,9 @@ def counted(conditions: Conditions) -> str:
 
 LOAD, HEIGHT, WAVES, HURST = "F / (E* h L)", "h/d", "longest waves on a side", "Hurst exponent"
 LONG, SHORT, RATIO = "q a of the longest wave", "q a of the shortest wave", "longest over shortest wave"
+MOVING_LONG = "q a of the longest wave above the resonance"
 """What decides how far cheap models are off, in words."""
-CONDITIONS = (LOAD, HEIGHT, WAVES, LONG, RATIO, HURST)
+CONDITIONS = (LOAD, HEIGHT, WAVES, LONG, MOVING_LONG, RATIO, HURST)
 """Those of the calibration."""
 SPHERE_SHAPE = (1.0, 0.05, 0.005)
 """What the errors of a rough sphere go with: the contact that is lost, h q a / d of the longest wave, and what the
@@ -62,11 +63,12 @@ def conditions_of(scene: IndentationScene) -> dict[str, float]:
 
 
 def rolling_conditions(quantity: RollingQuantity) -> dict[str, float]:
-    """The same of a wheel, whose h/d is by its resonance."""
+    """The same of a wheel; of a moving one h/d is by its resonance, and the waves are those that count."""
     scene, ground = quantity.scene, quantity.scene.ground
     first, last = (q * scene.contact_radius for q in (ground.q_min, quantity.q_max))
     height = scene.roughness_ratio * quantity.amplification
-    conditions = {HEIGHT: height, LONG: first, SHORT: last, RATIO: last / first}
+    longest = {MOVING_LONG: quantity.longest_moving * scene.contact_radius} if quantity.dynamic else {LONG: first}
+    conditions = {HEIGHT: height, **longest, SHORT: last, RATIO: last / first}
     return conditions if ground.hurst is None else {**conditions, HURST: ground.hurst}
 
 

@@ -18,11 +18,12 @@ from validation.simulation.calibrated_range import (
     HURST,
     LOAD,
     LONG,
+    MOVING_LONG,
     conditions_of,
     counted,
     rolling_conditions,
 )
-from validation.simulation.model import ErrorEstimate, Model, Target
+from validation.simulation.model import ErrorEstimate, GridModel, Model, Target, models_serving
 
 FloatArray = NDArray[np.float64]
 Key = tuple[str, str, str]
@@ -38,11 +39,20 @@ LEADS = 2.0
 """Weight of the load or the height in the distance between scenes; of every other condition, one."""
 MARGIN = 0.15
 """Decades by which a scene may lie beyond the outermost of the table; of the Hurst exponent, as much."""
-OPEN_ABOVE, OPEN_BELOW = (LOAD,), (HEIGHT, LONG)
+OPEN_ABOVE, OPEN_BELOW = (LOAD,), (HEIGHT, LONG, MOVING_LONG)
 """Beyond these ends of the table the error at the end holds: a punch under a high load is a flat one, low roughness
 changes next to nothing, and waves much longer than the contact only move it."""
-MEASURED_CODE = ("mdr", "bem3d")
-"""What an error of a model depends on."""
+NO_NUMBERS = (
+    "mdr.formatting",
+    "bem3d.formatting",
+    "bem3d.progress",
+    "validation.scenes",
+    "validation.simulation.models",
+    "validation.simulation.calibration",
+)
+"""What is left out of the code behind an error: what prints, files of scenes, other models, and the claims."""
+DRAWN = ("validation.scenes.indentation", "validation.scenes.rolling", "validation.scenes.roughness")
+"""What the scenes of the table are made of."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,13 +60,15 @@ class MeasuredErrors:
     """Errors of one model over a sample of scenes.
 
     names: of the conditions; points: their coordinates, (scenes, conditions): decades, and the Hurst exponent itself;
-    shapes: what the errors are expected to go with, one where nothing is known of that.
+    shapes: what the errors are expected to go with, one where nothing is known of that; codes: digests of the code
+    that measured them.
     """
 
     names: tuple[str, ...]
     points: FloatArray
     errors: FloatArray
     shapes: FloatArray
+    codes: frozenset[str] = frozenset()
 
     def estimate(self, conditions: Mapping[str, float], shape: float = 1.0) -> ErrorEstimate:
         """The root mean square of the errors nearby over their shapes, times the factor that covers them."""
@@ -115,11 +127,17 @@ def calibrated(model: Model, target: Target) -> ErrorEstimate:
     return measured.estimate(conditions, model.shape(target))
 
 
+def kind_of(target: Target) -> str:
+    """Of the scene, in the table."""
+    if isinstance(target.scene, IndentationScene):
+        return target.scene.shape
+    return "wheel" if target.rolling.dynamic else "rolling"
+
+
 def conditions_by_kind(target: Target) -> tuple[str, dict[str, float]]:
     """Kind of the scene, and what decides how far cheap models are off."""
-    if isinstance(target.scene, IndentationScene):
-        return target.scene.shape, conditions_of(target.scene)
-    return "wheel" if target.rolling.dynamic else "rolling", rolling_conditions(target.rolling)
+    pressed = isinstance(target.scene, IndentationScene)
+    return kind_of(target), conditions_of(target.scene) if pressed else rolling_conditions(target.rolling)
 
 
 def _coordinate(name: str, value: float) -> float:
@@ -143,7 +161,7 @@ def _errors_of(rows: Sequence[Mapping[str, str]]) -> MeasuredErrors:
     names = tuple(name for name in CONDITIONS if rows[0][name])
     points = [[_coordinate(name, float(row[name])) for name in names] for row in rows]
     errors, shapes = (np.array([float(row[name]) for row in rows]) for name in ("error", "shape"))
-    return MeasuredErrors(names, np.array(points), errors, shapes)
+    return MeasuredErrors(names, np.array(points), errors, shapes, frozenset(row.get("code", "") for row in rows))
 
 
 def rows_of(path: Path) -> list[dict[str, str]]:
@@ -153,11 +171,17 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 
 
 def provenance(path: Path = TABLE) -> dict[str, str]:
-    """When, how and with which code the table was measured."""
+    """When and how the table was measured, and when some of its scenes gave the same numbers again."""
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
     return dict(line[1:].strip().split(": ", 1) for line in lines if line.startswith("#"))
 
 
-def code_version() -> str:
-    """Digest of the code of both methods."""
-    return version_of(MEASURED_CODE)[:12]
+def code_behind(model: Model, target: Target) -> str:
+    """Digest of the code that an error of a model rests on: its solve, that of boundary elements, and their scenes."""
+    judges = [one for one in models_serving(target.scene, target.quantity) if isinstance(one, GridModel)]
+    return _version(tuple(sorted({type(one).__module__ for one in (model, *judges)})))
+
+
+@cache
+def _version(modules: tuple[str, ...]) -> str:
+    return version_of((*modules, *DRAWN), NO_NUMBERS)[:12]

@@ -28,6 +28,7 @@ from validation.simulation.sampling import distance
 
 FloatArray = NDArray[np.float64]
 Rule = tuple[float, float, float]
+MovingRule = tuple[float, float, float, float]
 LINEAR_BANDS: Rule = (2.0, 0.5, 0.015)
 LINEAR_RMS: Rule = (1.2, 0.05, 0.002)
 GEIKE_BANDS: Rule = (2.0, 0.5, 0.55)
@@ -41,8 +42,14 @@ LAYER_RMS: Rule = (0.02, 0.03, 0.005)
 surface, and of the pressed layer, in bands and in the rms: a
 sum over the contact that linear theory loses, h/d, and one. Envelopes of what was measured beside boundary elements on
 random scenes, for scenes that are not in the table of the calibration."""
+LINEAR_MOVING: MovingRule = (1.2, 3.0, 0.0, 0.008)
+SPRINGS_MOVING: MovingRule = (0.5, 0.0, 0.06, 0.02)
+"""The same in the rms of the acceleration, of linear theory and of springs: a sum over the contact lost, (h/d)^2 times
+what the resonance adds to the force, whose frequency falls with the height, q a of the longest wave above it, whose
+level springs miss, and one: what the reference leaves."""
 FORCE_RMS = "force-rms"
 """The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force."""
+MOVING_RMS = "acceleration-rms"
 SECOND_ORDER = 0.1
 """Of h/d times the level of all bands: what the loss of contact puts into each band that linear theory finds quiet."""
 MEASURED_SCATTER = 0.5
@@ -59,12 +66,13 @@ in wider bands is taken from Table 14.1 alone."""
 class CheapRollingModel(Model):
     """A model below boundary elements: its error is a rule in bands, and another in the rms.
 
-    bands, rms: the rules; on_bands, on_rms: what else the error rests on; own: error of one measured track about all
-    that have its spectrum.
+    bands, rms, moving: the rules, of a moving wheel that in bands where there is no other; on_bands, on_rms: what else
+    the error rests on; own: error of one measured track about all that have its spectrum.
     """
 
     bands: ClassVar[Rule]
     rms: ClassVar[Rule] = LINEAR_RMS
+    moving: ClassVar[MovingRule | None] = None
     on_bands: ClassVar[str] = ""
     on_rms: ClassVar[str] = ""
     own: ClassVar[float] = MEASURED_SCATTER
@@ -88,12 +96,16 @@ class CheapRollingModel(Model):
         return replace(expected, model=expected.model + own, reason="; ".join(filter(None, reasons)))
 
     def shape(self, target: Target) -> float:
+        if self.moving and target.quantity == MOVING_RMS:
+            return float(np.dot(self.moving, (*_causes_of_moving(target.rolling), 1.0)))
         return float(np.dot(self.rms if target.quantity == FORCE_RMS else self.bands, (*_causes(target.rolling), 1.0)))
 
     def _by_envelope(self, target: Target, why: str) -> ErrorEstimate:
         """why: the scene is not one of the table."""
         quantity = target.rolling
-        conditions = {**rolling_conditions(quantity), HEIGHT: target.scene.roughness_ratio}
+        scene = target.scene
+        longest = scene.ground.q_min * scene.contact_radius
+        conditions = {**rolling_conditions(quantity), LONG: longest, HEIGHT: scene.roughness_ratio}
         if reason := outside(conditions, RANGES):
             return ErrorEstimate.out_of_range(reason)
         lost, ratio = _causes(quantity)
@@ -116,6 +128,12 @@ class CheapRollingModel(Model):
 def _causes(quantity: RollingQuantity) -> tuple[float, float]:
     """The share of the contact that linear theory loses, and h/d, by the resonance."""
     return lost_contact(quantity.scene), quantity.scene.roughness_ratio * quantity.amplification
+
+
+def _causes_of_moving(quantity: RollingQuantity) -> tuple[float, float, float]:
+    """The share of the contact lost, (h/d)^2 times what the resonance adds, and q a of the longest wave that counts."""
+    lost, ratio = _causes(quantity)
+    return lost, ratio**2 * (quantity.amplification - 1), quantity.longest_moving * quantity.scene.contact_radius
 
 
 def filled(target: Target, value: FloatArray, share: float) -> float:

@@ -91,6 +91,11 @@ class RollingQuantity:
         return WAVES * ground.q_min if ground.is_single else ground.q_min
 
     @property
+    def longest_moving(self) -> float:
+        """The longest wave of the ground that counts: of a moving wheel, an octave above its resonance [rad/m]."""
+        return max(self.scene.ground.q_min, self._above_resonance)
+
+    @property
     def _above_resonance(self) -> float:
         """The wave an octave above the resonance of a wheel with a mass [rad/m]."""
         return 2 * self.scene.body.eigenfrequency / (self.scene.speed or 1.0) if self.dynamic else 0.0

@@ -9,6 +9,7 @@ from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
 from validation.selection.calibrate import CalibrationRun, calibration_lines, write_calibration
+from validation.selection.calibration_check import check_calibration
 
 COUNTED = {
     "punches": "rough punches",
@@ -36,11 +37,21 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
     )
     calibrating.add_argument("--out", type=Path, metavar="FILE", help="the table (default: that of the package)")
     calibrating.add_argument("--show", action="store_true", help="show what the table holds, and measure nothing")
+    calibrating.add_argument(
+        "--check",
+        type=at_least(1),
+        metavar="N",
+        help="measure N scenes of each kind again; rows take the version of today's code where all are the same",
+    )
     calibrating.set_defaults(command=calibrate)
 
 
 def calibrate(arguments: argparse.Namespace) -> Exit:
-    """Measure the errors of cheap models beside boundary elements, or show those that were measured."""
+    """Measure the errors of cheap models beside boundary elements, or check or show those that were measured."""
+    if arguments.check:
+        differing = check_calibration(arguments.check, Engine(workers=arguments.workers), arguments.out)
+        print("\n".join(differing or calibration_lines(arguments.out)))
+        return Exit.CRITERION_FAILED if differing else Exit.MET
     if not arguments.show:
         run = CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
         with progress_of("calibration", arguments.workers) as progress:

@@ -38,8 +38,8 @@ class FittedRoughPunch(Model):
         return replace(expected, model=expected.model + own)
 
     def shape(self, target: Target) -> float:
-        """The stiffness of few waves is not that of a mean face: the error falls as their number grows."""
-        return float(conditions_of(target.scene)[WAVES] ** -0.5)
+        """Few waves are no mean face: N on a side are N^2 parts, whose mean scatters as 1 / N about a bias that stays."""
+        return float(conditions_of(target.scene)[WAVES] ** -0.75)
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         scene, height = target.scene, ground_of(target.scene).rms

@@ -13,6 +13,7 @@ from validation.simulation.model import Cost, ErrorEstimate, Target
 from validation.simulation.rolling_claims import (
     FORCE_RMS,
     LINEAR_BANDS,
+    LINEAR_MOVING,
     NODE,
     SECOND_ORDER,
     CheapRollingModel,
@@ -30,6 +31,7 @@ class LinearFilter3D(CheapRollingModel):
     setting: ClassVar = "a contact that keeps its radius"
 
     bands: ClassVar = LINEAR_BANDS
+    moving: ClassVar = LINEAR_MOVING
     own: ClassVar = 0.0
 
     def serves(self, scene: Any, quantity: str) -> bool:

@@ -8,7 +8,15 @@ from numpy.typing import NDArray
 
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Target
-from validation.simulation.rolling_claims import FED_BANDS, FORCE_RMS, NODE, SPRING, SPRINGS_RMS, CheapRollingModel
+from validation.simulation.rolling_claims import (
+    FED_BANDS,
+    FORCE_RMS,
+    NODE,
+    SPRING,
+    SPRINGS_MOVING,
+    SPRINGS_RMS,
+    CheapRollingModel,
+)
 from validation.simulation.rolling_levels import RollingGrid, on_springs, springs_to_a_radius
 
 TRACKS = 60
@@ -26,6 +34,7 @@ class SpringsRolling(CheapRollingModel):
 
     bands: ClassVar = FED_BANDS
     rms: ClassVar = SPRINGS_RMS
+    moving: ClassVar = SPRINGS_MOVING
     on_bands: ClassVar = "springs have the right level only in the mean over bands"
 
     def resolutions(self, target: Target) -> tuple[Resolution, ...]:
