@@ -38,7 +38,7 @@ class FittedRoughPunch(Model):
         return replace(expected, model=expected.model + own)
 
     def shape(self, target: Target) -> float:
-        """Few waves are no mean face: N on a side are N^2 parts, whose mean scatters as 1 / N about a bias that stays."""
+        """Few waves are no mean face: N on a side are N^2 parts, whose mean scatters as 1 / N about a bias."""
         return float(conditions_of(target.scene)[WAVES] ** -0.75)
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
