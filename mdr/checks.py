@@ -51,8 +51,8 @@ def count(name: str, value: object, *, least: int) -> int:
     return int(value)
 
 
-def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None) -> FloatArray:
-    """Finite real numbers, of ``ndim`` axes and not empty where ``ndim`` is given."""
+def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None, copy: bool = True) -> FloatArray:
+    """Finite real numbers, of ``ndim`` axes and not empty where ``ndim`` is given; a copy, unless only read."""
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         raise ValueError(
             f"{name} must have a value everywhere, got {int(np.ma.getmaskarray(values).sum())} masked ones"
@@ -63,7 +63,7 @@ def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None) -> Fl
         raise ValueError(f"{name} must be a regular array of numbers, got rows of different length") from None
     if given.dtype.kind not in "fiu":
         raise TypeError(f"{name} must hold real numbers, got dtype {given.dtype}")
-    array = given.astype(np.float64)
+    array = given.astype(np.float64, copy=copy)
     if ndim is not None and (array.ndim != ndim or array.size == 0):
         raise ValueError(f"{name} must have {ndim} axis and at least one value, got shape {array.shape}")
     broken = np.count_nonzero(~np.isfinite(array))
@@ -95,7 +95,7 @@ def held(*results: float | FloatArray, positive: bool = False) -> None:
 
 def _printed(value: object) -> str:
     if np.ndim(value) > 0:  # type: ignore[arg-type]
-        return f"{np.size(value)} values"  # type: ignore[arg-type]
+        return f"values up to {np.abs(np.asarray(value)).max():g}"
     return f"{value:g}" if isinstance(value, (int, float)) else str(value)
 
 

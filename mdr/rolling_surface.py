@@ -14,8 +14,8 @@ from mdr.elliptic_wheel import SpringWheel, spring_wheel
 from mdr.rolling import smooth_approach
 from mdr.rolling_track import RollingTrack
 
-MOST_NUMBERS = 2**20
-"""Springs times positions that are sorted at once."""
+MOST_NUMBERS = 2**16
+"""Springs times positions at once: few enough to stay in the cache."""
 MOST_SPRINGS = 2**20
 """To each side of a wheel: of more, a single position would take tens of megabytes and seconds."""
 
@@ -70,13 +70,13 @@ def roll_surface(
     >>> print(f"{rolled.force.min():.1f} to {rolled.force.max():.1f} N")
     499.3 to 567.0 N
     """
-    heights = finite_array("height", height, ndim=2)
+    heights = finite_array("height", height, ndim=2, copy=False)
     dx, dy = spacing if isinstance(spacing, tuple) else (spacing, spacing)
     steps, wheel = (positive("spacing", dx), positive("spacing", dy)), spring_wheel(radius, modulus)
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
     load = {"force": force} if approach is None else {"approach": approach}
-    with doubles(height=float(np.abs(heights).max()), spacing=steps[0], modulus=wheel.modulus, **load):
+    with doubles(height=heights, spacing=steps[0], modulus=wheel.modulus, **load):
         rolled, diagnostics = _rolled(heights, steps, wheel, approach, force)
     warn(diagnostics)
     return rolled
@@ -95,14 +95,18 @@ def _rolled(
     for name, size, contact in (("longer", points * dx, 2 * a), ("wider", across * dy, 2 * a * wheel.aspect)):
         if size <= contact:
             raise ValueError(f"height must be {name} than the contact, {contact:.6g} m, got a strip of {size:.6g} m")
-    reach = _reach(wheel, (d if force is None else d - float(heights.min())) + float(heights.max()), dx)
-    inside, offsets = int(a / dx), np.arange(-reach, reach + 1)
+    inside = int(a / dx)
     half_widths = wheel.aspect * np.sqrt(np.maximum(a**2 - (dx * np.arange(inside + 2)) ** 2, 0.0))
-    read, column = heights @ weights_across(half_widths, across, dy), np.minimum(np.abs(offsets), inside + 1)
-    found, block = [], max(1, MOST_NUMBERS // offsets.size)
+    weights = weights_across(half_widths, across, dy)
+    # the contact is widest at its middle, and heights beside it are not read
+    first, last = np.flatnonzero(weights[:, 0])[[0, -1]]
+    under = slice(first, last + 1)
+    read = weights[under].T @ heights[:, under].T
+    reach = _reach(wheel, (d if force is None else d - float(read.min())) + float(read.max()), dx)
+    offsets, block = np.arange(-reach, reach + 1), max(1, MOST_NUMBERS // (2 * reach + 1))
+    bows, found = np.asarray((dx * offsets) ** 2 / wheel.radius), []
     for first in range(0, points, block):
-        rows = np.arange(first, min(first + block, points))[:, np.newaxis]
-        level = read[(rows + offsets) % points, column] - (dx * offsets) ** 2 / wheel.radius
+        level = _levels(read, bows, range(first, min(first + block, points)))
         found.append(_at_approach(level, d) if force is None else _under_force(level, force / spring))
     total, depth, pressed = np.concatenate(found, axis=1)
     rolled = RollingTrack(
@@ -126,16 +130,31 @@ def weights_across(half_widths: FloatArray, points: int, step: float) -> FloatAr
     return np.asarray(np.diff(np.arcsin(np.clip(edges / narrow, -1.0, 1.0)), axis=0) / np.pi)
 
 
+def _levels(read: FloatArray, bows: FloatArray, positions: range) -> FloatArray:
+    """H_j(x_i + x_j) - x_j^2 / R_1, shape (springs, positions).
+
+    read: H by the distance from the wheel, its last row of all springs beyond; bows: x_j^2 / R_1 from end to end.
+    """
+    (rows, points), reach = read.shape, bows.size // 2
+    level = np.empty((bows.size, len(positions)))
+    for i, bow in enumerate(bows.tolist()):
+        line, start = read[min(abs(i - reach), rows - 1)], (positions.start + i - reach) % points
+        end = start + len(positions)
+        near = line[start:end] if end <= points else line.take(np.arange(start, end), mode="wrap")
+        np.subtract(near, bow, out=level[i])
+    return level
+
+
 def _at_approach(level: FloatArray, approach: float) -> FloatArray:
     """Sum of compressions, approach, and springs in contact of each position."""
-    compression = approach + level
-    total = np.maximum(compression, 0.0).sum(axis=1)
-    return np.stack([total, np.full(total.size, approach), np.count_nonzero(compression > 0, axis=1)])
+    compression = np.maximum(level + approach, 0.0)
+    total = compression.sum(axis=0)
+    return np.stack([total, np.full(total.size, approach), np.count_nonzero(compression, axis=0)])
 
 
 def _under_force(level: FloatArray, wanted: float) -> FloatArray:
     """The same where the sum is given."""
-    borne = borne_by(level, wanted)
+    borne = borne_by(np.ascontiguousarray(level.T), wanted)
     return np.stack([np.full(borne.approach.size, wanted), borne.approach, borne.pressed])
 
 
