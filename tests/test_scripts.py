@@ -35,7 +35,7 @@ def test_an_example_is_short_and_can_fail(name):
     tree = ast.parse(text)
     assert ast.get_docstring(tree)
     assert sum(isinstance(node, ast.Assert) for node in ast.walk(tree)) >= 1
-    assert len(text.splitlines()) <= 60
+    assert 20 <= len(text.splitlines()) <= 40
 
 
 def test_all_examples_are_listed():

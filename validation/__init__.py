@@ -22,6 +22,7 @@ MODULES = {
     "measured": "scenes.measured_surface",
     "summary": "selection.summary",
     "to_csv": "selection.exported",
+    "to_figure": "report.compared",
     "to_json": "selection.exported",
 }
 """Where each name of the face is defined; `__init__.pyi` says the same to type checkers and editors."""

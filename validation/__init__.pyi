@@ -1,5 +1,6 @@
 """What `validation` offers, for type checkers and editors."""
 
+from validation.report.compared import to_figure as to_figure
 from validation.report.contents import CASES as CASES
 from validation.scenes.dynamic_wheel import WheelScene as WheelScene
 from validation.scenes.dynamic_wheel import load_wheel_scene as load_wheel_scene

@@ -73,6 +73,29 @@ def test_stored_solves_are_no_work_of_this_run(clock):
     assert run.seconds_left == pytest.approx(1000, rel=0.2)
 
 
+def test_time_in_which_stored_solves_are_loaded_tells_nothing_of_the_pace(clock):
+    run = Progress({"first": 1000.0, "second": 1000.0}, shown=False, clock=clock)
+    clock.now = 300.0
+    run.parts["first"].begin("solve", total=100, found=100)
+    run.parts["first"].finish()
+    assert run.seconds_left == pytest.approx(1000)
+    clock.now = 600.0
+    done_at_pace(clock, 1.0, run, run.parts["second"])
+    assert clock.now == 1600.0
+    assert run.seconds_left == 0
+
+
+def test_what_is_left_of_a_part_that_was_half_stored_goes_at_its_own_pace(clock):
+    """The first solves after those that were stored count at once."""
+    run = Progress({"only": 1000.0}, shown=False, clock=clock)
+    run.parts["only"].begin("solve", total=100, found=50)
+    for _ in range(5):
+        clock.now += 10.0
+        run.parts["only"].step()
+    # 1000 s less 90 % of 55 hundredths; 50 s were taken for 45 of them, with 10 s as expected
+    assert run.seconds_left == pytest.approx((1000 - 495) * (50 + 10) / (45 + 10))
+
+
 def test_a_part_with_solves_to_come_is_not_over():
     """Its first kind of solves is done, the second not begun: the share grows, and ends with the part."""
     part = Progress({"hertz": 1.0}, shown=False).parts["hertz"]

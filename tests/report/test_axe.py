@@ -41,8 +41,9 @@ def test_no_rule_is_violated(tmp_path, width):
     assert violations(whole(), tmp_path, width) == {}
 
 
-def test_no_rule_is_violated_by_the_reference_report(tmp_path):
-    assert violations(REFERENCE.read_text(encoding="utf-8"), tmp_path, WIDE) == {}
+@pytest.mark.parametrize("width", [WIDE, NARROW])
+def test_no_rule_is_violated_by_the_reference_report(tmp_path, width):
+    assert violations(REFERENCE.read_text(encoding="utf-8"), tmp_path, width) == {}
 
 
 def test_what_violates_rules_is_found(tmp_path):

@@ -1,5 +1,6 @@
 """The progress of a long run in one line: which part is at work, how far it is, the time left for the whole."""
 
+import math
 import shutil
 import sys
 import threading
@@ -27,7 +28,7 @@ class Part:
     def __init__(self, name: str = "", seconds: float = 0.0, refresh: Callable[[], None] = lambda: None):
         self.name, self.seconds = name, seconds
         self.worked = 0.0
-        self.over = False
+        self.over = self.solving = False
         self.doing = ""
         self.done = self.total = self.found = self.failed = 0
         self._of_others = (0, 0, 0)
@@ -38,6 +39,7 @@ class Part:
         before = self._of_others
         self._of_others = (before[0] + self.done, before[1] + self.total, before[2] + self.found)
         self.doing, self.done, self.total, self.found, self.failed = doing, found, total, found, failed
+        self.solving |= total > found
         self._refresh()
 
     def extend(self, doing: str, more: int) -> None:
@@ -63,10 +65,11 @@ class Part:
         return 1.0 if self.over else BEFORE_EVIDENCE * done / total if total else 0.0
 
     @property
-    def share_found(self) -> float:
-        """Of the part that was found in the store."""
+    def share_of_this_run(self) -> float:
+        """Of the part that is done and was not found in the store."""
         total = self.total + self._of_others[1]
-        return (self.found + self._of_others[2]) / total if total else 0.0
+        found = (self.found + self._of_others[2]) / total if total else 0.0
+        return self.share - (found if self.over else BEFORE_EVIDENCE * found)
 
     @property
     def line(self) -> str:
@@ -100,7 +103,7 @@ class Progress:
         self.parts = {name: Part(name, seconds, self.refresh) for name, seconds in parts.items()}
         self._whole, self._workers, self._now = whole, workers, clock
         self._shown, self._terminal = shown, sys.stderr.isatty()
-        self._began = self._printed = clock()
+        self._began, self._printed = math.inf, clock()
         self._lock = threading.RLock()
         self._over = threading.Event()
         self._ticks = threading.Thread(target=self._tick, daemon=True)
@@ -120,6 +123,8 @@ class Progress:
 
     def refresh(self) -> None:
         """Print the line, if the last one is old enough."""
+        if math.isinf(self._began) and any(part.solving for part in self.parts.values()):
+            self._began = self._now()
         apart = SECONDS_BETWEEN_REFRESHES if self._terminal else SECONDS_BETWEEN_LINES
         with self._lock:
             if not self._shown or self._over.is_set() or self._now() - self._printed < apart:
@@ -146,11 +151,14 @@ class Progress:
 
     @property
     def seconds_left(self) -> float:
-        """By the pace of what was done in this run, and the expected one as long as that is little."""
+        """By the pace of what was done in this run, and the expected one as long as that is little.
+
+        Time counts from the first solve that is not stored: to load what is stored tells nothing of the pace.
+        """
         parts = self.parts.values()
-        worked = sum(part.seconds * max(part.share - part.share_found, 0.0) for part in parts)
+        worked = sum(part.seconds * part.share_of_this_run for part in parts)
         expected = TRUSTED / self._workers
-        pace = (self._now() - self._began + expected) / (worked + TRUSTED)
+        pace = (max(self._now() - self._began, 0.0) + expected) / (worked + TRUSTED)
         return pace * sum(part.seconds * (1 - part.share) for part in parts)
 
     def _tick(self) -> None:

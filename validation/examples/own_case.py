@@ -1,44 +1,31 @@
-"""A case of one's own: settings, independent solves with their seeds, and a number with a reference and a verdict."""
-
-from dataclasses import dataclass
+"""A case of one's own: independent solves with their seeds, and a number with a reference and a verdict."""
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy import optimize, stats
+from scipy import stats
 
 import mdr
 from validation.analysis.evidence import Number
 from validation.engine.engine import Engine
 from validation.engine.random_numbers import random_generator
 
-LOAD = 1.0  # F / (E* h L)
+CUT = -0.9  # Gaussian heights z of rms 1 carry above it: the mean of (z - CUT)+ is the load F / (E* h L)
+LOAD = stats.norm.pdf(CUT) - CUT * stats.norm.sf(CUT)
+ROUGH = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 8, q_max=2 * np.pi * 64, rms=1.0)
 
 
-@dataclass(frozen=True)
-class PressedProfile:
-    """One profile, by its number, under the load."""
-
-    number: int
-    points: int = 1024
-
-
-def press(problem: PressedProfile) -> dict[str, np.ndarray]:
-    """Its stiffness over that of the flat punch, E* L: the share of the springs that carry."""
-    rough = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 8, q_max=2 * np.pi * 64, rms=1.0)
-    rng = random_generator(7, problem.number)  # the same for any number of workers
-    height = mdr.rough_profile(rough.c1d, length=1.0, points=problem.points, rng=rng, rms=1.0)
+def press(profile: int) -> dict[str, np.ndarray]:
+    """Stiffness over that of the flat punch, E* L: the share of the springs that carry. profile: its number."""
+    rng = random_generator(7, profile)  # the same for any number of workers
+    height = mdr.rough_profile(ROUGH.c1d, length=1.0, points=1024, rng=rng, rms=1.0)
     return {"share": mdr.stiffness_under(LOAD, height[np.newaxis], length=1.0, modulus=1.0)}
 
 
-outcomes = Engine(workers=1).map(press, [PressedProfile(i) for i in range(100)])
-share = np.concatenate([outcome["share"] for outcome in outcomes])
-
-# Gaussian heights on independent springs: mean of (z - c)+ is the load, and the share is P(z > c)
-c = optimize.brentq(lambda c: stats.norm.pdf(c) - c * stats.norm.sf(c) - LOAD, -5.0, 5.0)
+share = np.concatenate([outcome["share"] for outcome in Engine(workers=1).map(press, range(100))])
 number = Number(
     quantity="share of springs that carry",
     value=float(share.mean()),
-    reference=float(stats.norm.sf(c)),
+    reference=float(stats.norm.sf(CUT)),
     source="Gaussian heights",
     tolerance=0.02,
     reason="fixed amplitudes are not quite Gaussian",
@@ -46,10 +33,7 @@ number = Number(
 )
 print(number.sentence)
 assert number.verdict == "agree"
-
-figure = Figure(layout="constrained")
-axes = figure.subplots()
+figure = Figure()
+axes = figure.subplots(subplot_kw={"xlabel": number.quantity, "ylabel": "profiles"})
 axes.hist(share, bins=20)
-axes.axvline(number.reference, color="k")
-axes.set(xlabel=number.quantity, ylabel="profiles")
 figure.savefig("own_case.png")

@@ -12,10 +12,44 @@ from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
 from validation.report.style import SETTINGS, graded, pdf, svg, tick
+from validation.selection.compare import Comparison
+from validation.selection.exported import levels_of_models
 
 FORMATS = ("svg", "png", "pdf")
 TICKS = 12
 """Wavelengths on the axis, at the most."""
+
+
+def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
+    """Picture of a comparison: the models that were solved, the selected one with its error.
+
+    Parameters
+    ----------
+    comparison : Comparison
+        What `compare` returns.
+    form : str, optional
+        "svg", "png" or "pdf".
+
+    Returns
+    -------
+    bytes
+        The file that ``mdr-validation compare --figure FILE`` writes.
+
+    Raises
+    ------
+    ValueError
+        For another form.
+
+    Examples
+    --------
+    >>> picture = validation.to_figure(validation.compare(validation.load_scene("sphere")), form="png")
+    >>> picture[1:4]
+    b'PNG'
+    """
+    if form not in FORMATS:
+        raise ValueError(f"form must be one of {', '.join(FORMATS)}, got {form!r}")
+    table = levels_of_models(comparison)
+    return figure_of_models(f"{comparison.scene.name}: {table.name}", table, form)
 
 
 def figure_of_models(title: str, table: Table, form: str) -> bytes:

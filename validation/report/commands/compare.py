@@ -191,11 +191,11 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_whole(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
-        from validation.report.compared import figure_of_models  # which takes half a second to import
+        from validation.report.compared import figure_of_models, to_figure  # which takes half a second to import
 
-        table = selected_of_several(table_of_several(found)) if several else levels_of_models(found[0])
-        title = table.name if several else f"{found[0].scene.name}: {table.name}"
-        write_whole(arguments.figure, figure_of_models(title, table, arguments.figure.suffix[1:]))
+        table, form = selected_of_several(table_of_several(found)), arguments.figure.suffix[1:]
+        picture = figure_of_models(table.name, table, form) if several else to_figure(found[0], form=form)
+        write_whole(arguments.figure, picture)
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:
