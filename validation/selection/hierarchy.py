@@ -143,7 +143,8 @@ def select_model(
     model; only: of these, None for all; beyond: which of those out of range are solved, too, where all are: the errors
     of their answers stay unknown. A model without an estimate is out of range and not solved; one that expects to
     miss the tolerance is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as
-    long as that is below the errors of the others. A solve that raises one of `REFUSALS` has failed.
+    long as that is below the errors of the others; where the scene alone leaves more, the cheapest, and no other. A
+    solve that raises one of `REFUSALS` has failed.
     Raises ValueError for a tolerance that is not finite and positive.
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
@@ -191,6 +192,8 @@ def _with_least_estimate(selection: Selection, callback: Callable[[ContactModel]
     candidates = selection.candidates
     # of equal estimates the dearest, which has the finest grid
     skipped = [i for i in reversed(range(len(candidates))) if candidates[i].status == "skipped"]
+    if all(candidates[i].estimate.of_scene > selection.tolerance for i in skipped):
+        skipped = skipped[-1:] if selection.best is None else []
     least = min(skipped, key=lambda i: candidates[i].estimate.error, default=None)
     if least is None or not candidates[least].estimate.error < (_error(selection.best) if selection.best else math.inf):
         return selection

@@ -188,6 +188,13 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
             yield f"what would help: {other or _another_scene(comparison)}"
         return
     yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
+    if (left := best.estimate.of_scene) > tolerance.relative:
+        yield (
+            'what would help: to tell what lies across the rail, as across = "isotropic" or "ridges" in [rail]: both '
+            f"ends leave ± {tolerance.shown(left)}, whatever the model; or a tolerance of "
+            f"{tolerance.shown(1.05 * best.answer.error)}"
+        )
+        return
     causes = {
         "the model's: lower roughness has less": best.answer.model,
         "left by the grid: longer waves (`shortest`), or heights on more points, have less": best.answer.grid,

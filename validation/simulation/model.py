@@ -40,12 +40,13 @@ class Target:
 class ErrorEstimate:
     """The error that a model expects, before it has computed anything.
 
-    model, sample: relative half-widths of 95 %, infinite where none is known; reason: the conditions that they rest
-    on, with their numbers.
+    model, sample: relative half-widths of 95 %, infinite where none is known; of_scene: what the scene leaves open of
+    that of the model, so that no model has less; reason: the conditions that they rest on, with their numbers.
     """
 
     model: float = 0.0
     sample: float = 0.0
+    of_scene: float = 0.0
     reason: str
 
     @classmethod

@@ -107,7 +107,11 @@ class RailModel(Model):
             return ErrorEstimate.out_of_range(reason)
         a3 = self.closed(quantity).mean(axis=0)
         error = self.model_error(quantity, a3)
-        return ErrorEstimate(model=relative(worst(quantity, a3, error)), reason=reason_of(quantity, a3, error))
+        return ErrorEstimate(
+            model=relative(worst(quantity, a3, error)),
+            of_scene=relative(worst(quantity, a3, quantity.half_width)),
+            reason=reason_of(quantity, a3, error),
+        )
 
     def beyond(self, quantity: RailQuantity) -> str:
         """Why no error is known; empty where one is."""
