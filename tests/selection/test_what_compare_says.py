@@ -160,6 +160,13 @@ def test_all_models_are_solved_and_the_selected_one_stays():
     ]
 
 
+@pytest.mark.parametrize(("name", "measured"), [("sphere", False), ("rough_punch", True)])
+def test_the_age_of_measured_errors_is_said_where_they_are_used(name, measured):
+    text = summary(validation.compare(validation.load_scene(name), tolerance="60%"))
+    assert ("errors of models: calibrated" in text) == measured
+    assert ("no measured error is used" in text) != measured
+
+
 def test_the_error_of_a_difference_is_both_errors_together():
     """Of the models the sum; grid and sample are independent: 0.1 + 0.02 + sqrt(0.03² + 0.04² + 0.12²) = 0.25."""
     coarse, fine = Finding(parts=(0.1, 0.03, 0.04)), Finding(parts=(0.02, 0.12, 0.0), name="fine")

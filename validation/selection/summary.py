@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
@@ -165,6 +166,8 @@ def age_of_errors(comparison: Comparison) -> str:
     """Where the errors of the models are from."""
     if isinstance(comparison.scene, RailScene):
         return MEASURED_ON_STRIPS
+    if isinstance(comparison.scene, IndentationScene) and comparison.scene.ground is None:
+        return "errors of models: closed forms are exact for smooth bodies, no measured error is used"
     return calibration_age(target=Target(comparison.scene, comparison.quantity))
 
 
