@@ -8,7 +8,8 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any
 
-from scipy.stats import binom
+import numpy as np
+from scipy import special
 
 from validation.benchmarks.isolation import isolated_process, one_thread, timed
 from validation.simulation.method import Method, Prepared, Resolution, Result
@@ -53,7 +54,9 @@ def interval_of_median(times: Sequence[float]) -> tuple[float, float]:
     ordered = sorted(times)
     if len(ordered) == 1:
         return (1 - ALONE) * ordered[0], (1 + ALONE) * ordered[0]
-    beyond = max(int(binom.ppf(0.025, len(ordered), 0.5)), 1)
+    # the quantile of the binomial distribution; scipy.stats takes a second to import in each process that is timed
+    below = special.bdtr(np.arange(len(ordered)), len(ordered), 0.5)
+    beyond = max(int(np.searchsorted(below, 0.025)), 1)
     return ordered[beyond - 1], ordered[-beyond]
 
 

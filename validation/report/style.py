@@ -7,7 +7,6 @@ from typing import Any, Literal
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -104,6 +103,9 @@ def svg(figure: Figure) -> bytes:
 
 def pdf(figure: Figure) -> bytes:
     """The same bytes for the same figure."""
+    # with its fonts, which a report has no need of, half a second
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf
+
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
         FigureCanvasPdf(figure).print_pdf(  # type: ignore[no-untyped-call]

@@ -18,6 +18,7 @@ from validation.simulation.surface import draw_surface
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 Transfer = Callable[[FloatArray, FloatArray], FloatArray]
 """H(k_x, k_y), from the height of a wave to that of the result."""
 
@@ -122,9 +123,17 @@ class RailStrip:
         amplitude = np.sqrt(self.variance * self.length * self.width) / (2 * math.pi)
         return np.asarray(np.fft.ifft2(amplitude * np.fft.fft2(white)).real)
 
+    @cached_property
+    def _waves(self) -> ComplexArray:
+        return np.fft.fft2(self.surface)
+
     def along_middle(self, transfer: Transfer) -> FloatArray:
-        """The surface filtered by a transfer function, along the middle of axis 1, less its mean [m]."""
-        return along_middle(self.surface, self.spacing, transfer)
+        """The surface filtered by H(k_x, k_y), along the middle of axis 1, less its mean [m]."""
+        along, across = wavenumbers(self.shape, self.spacing)
+        ny = self.shape[1]
+        filtered = transfer(along, across) * self._waves
+        track = np.fft.ifft(filtered @ np.exp(0.5j * (ny - 1) * self.spacing * across[0]) / ny).real
+        return np.asarray(track - track.mean())
 
     def expected_power(self, transfer: Transfer, bands: Bands) -> FloatArray:
         """Band powers of `along_middle` in the mean of all realisations [m^2].
@@ -140,12 +149,3 @@ def wavenumbers(shape: tuple[int, int], spacing: float) -> tuple[FloatArray, Flo
     """k_x (nx, 1) and k_y (1, ny) of the waves of a grid."""
     along, across = (np.asarray(2 * np.pi * np.fft.fftfreq(n, spacing)) for n in shape)
     return along[:, np.newaxis], across[np.newaxis, :]
-
-
-def along_middle(surface: FloatArray, spacing: float, transfer: Transfer) -> FloatArray:
-    """A periodic surface filtered by H(k_x, k_y), along the middle of axis 1, less its mean."""
-    along, across = wavenumbers(surface.shape, spacing)
-    ny = surface.shape[1]
-    filtered = transfer(along, across) * np.fft.fft2(surface)
-    track = np.fft.ifft(filtered @ np.exp(0.5j * (ny - 1) * spacing * across[0]) / ny).real
-    return np.asarray(track - track.mean())

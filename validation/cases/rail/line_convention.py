@@ -91,10 +91,11 @@ class LineConventionResult:
 def measure_lines(problem: ParallelLines) -> Outcome:
     """Band powers of one line, and of both means at each spacing [m^2]."""
     case, strip = problem.case, problem.case.strip(problem.ground, problem.realisation)
-    found = {LINE: _powers(case, strip, _line_at(0.0))}
+    places = {0.0}.union(*(case.places(spacing).tolist() for spacing in case.spacings))
+    along = {place: _powers(case, strip, _line_at(place)) for place in places}
+    found = {LINE: along[0.0]}
     for spacing in case.spacings:
-        each = [_powers(case, strip, _line_at(place)) for place in case.places(spacing)]
-        found[f"{ENERGY} {spacing:g}"] = np.mean(each, axis=0)
+        found[f"{ENERGY} {spacing:g}"] = np.mean([along[place] for place in case.places(spacing).tolist()], axis=0)
         found[f"{HEIGHTS} {spacing:g}"] = _powers(case, strip, mean_of_lines(case.places(spacing)))
     return found
 
@@ -105,12 +106,12 @@ def _powers(case: LineConvention, strip: RailStrip, transfer: Transfer) -> Float
 
 def _line_at(place: float) -> Transfer:
     """H = exp(i k_y y): the line at y in place of the middle one."""
-    return lambda along, across: np.exp(1j * (across + 0 * along) * place)
+    return lambda along, across: np.exp(1j * across * place)
 
 
 def mean_of_lines(places: FloatArray) -> Transfer:
     """H = mean of cos(k_y y_j) over lines that lie symmetrically about the middle."""
-    return lambda along, across: np.mean([np.cos((across + 0 * along) * place) for place in places], axis=0)
+    return lambda along, across: np.mean([np.cos(across * place) for place in places], axis=0) + 0 * along
 
 
 def run(case: LineConvention, engine: Engine = SERIAL) -> LineConventionResult:
