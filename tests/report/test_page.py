@@ -148,13 +148,6 @@ def test_a_table_with_few_verdicts_stays_as_it_is(columns):
 # --- figures ---
 
 
-def test_the_time_of_a_case_says_of_which_run_it_is():
-    """What is stored takes none: it is not the cost of the case."""
-    text = html_of(section_of("geike"))
-    assert '<th scope="col">Time of this run</th>' in text
-    assert 'data-of="Time of this run" rowspan="1">1 s</td>' in text
-
-
 def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit():
     text = html_of(section_of("hertz"), section_of("geike"))
     assert text.index('id="figure-hertz"') < text.index('id="figure-geike"')

@@ -27,10 +27,6 @@ def format_small(value: float) -> str:
     return f"{value:.2g}"
 
 
-def format_duration(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds >= 1 else f"{seconds:.1g} s"
-
-
 def format_verdict(verdict: str, *, unsteady: bool = False) -> Markup:
     """A verdict with its symbol; a scene without a steady answer has none."""
     if unsteady:

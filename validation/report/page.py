@@ -86,7 +86,6 @@ def _environment(unsteady: bool) -> jinja2.Environment:
         "answer_of": answer_of,
         "map_of": map_of,
         "sound_place": sound_place,
-        "duration": formats.format_duration,
         "small": formats.format_small,
         "capitalized": formats.capitalized,
     }
