@@ -47,6 +47,17 @@ class Precision:
         return (self.sphere, self.punch, self.wave, *rough)
 
 
+QUICK = Precision(
+    fractal=RoughPunchProblem(realisations=8, profiles=60),
+    rolling=RollingProblem(
+        length=16,
+        tracks=10,
+        grids=Grids(cells=(3, 4, 8), polonsky_keer=(4,), fixed=4, tolerances=(1e-2,), per="to a radius"),
+    ),
+    wheel=WheelProblem(wheels=10, grids=Grids(cells=(6, 9), fixed=6, tolerances=(1e-2,), per="to a radius")),
+    cost=FigureCost(steps=20),
+)
+
 FULL = Precision(
     sphere=SphereProblem(
         grids=replace(SPHERE_GRIDS, cells=(4, 8, 16, 32, 64), polonsky_keer=(4, 8, 16, 32)),

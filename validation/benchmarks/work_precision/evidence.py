@@ -13,7 +13,7 @@ from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Ta
 from validation.analysis.wording import sentence
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import FAILED, FINISHED
-from validation.benchmarks.work_precision.case import FULL, Precision, PrecisionResult, run
+from validation.benchmarks.work_precision.case import FULL, QUICK, PrecisionResult, run
 from validation.benchmarks.work_precision.claims import CLAIM, claims_of, headlines, time_numbers
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.figure_cost import cost_answer, cost_number
@@ -30,8 +30,6 @@ from validation.benchmarks.work_precision.pareto import (
     work,
 )
 from validation.benchmarks.work_precision.problem import BEM, MDR, POLONSKY_KEER
-from validation.benchmarks.work_precision.rolling import RollingProblem
-from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 
 MAY_FAIL = (POLONSKY_KEER, *(solver.name for solver in SOLVERS))
 """Of the published iteration and of other solvers a failure is a row; all others must finish, or be out of range."""
@@ -312,7 +310,7 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Speed against accuracy: error against cost of every method, and the cheapest within each error",
-    quick=Precision(fractal=RoughPunchProblem(realisations=8, profiles=60), rolling=RollingProblem(length=16)),
+    quick=QUICK,
     full=FULL,
     run=run,
     evidence=evidence,

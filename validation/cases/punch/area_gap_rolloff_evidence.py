@@ -170,7 +170,7 @@ CASE = Case(
     place=3,
     claim=CLAIM,
     answers="Where MDR fails by its assumptions: true contact area, mean gap, stiffness with a roll-off",
-    quick=MdrLimits(),
+    quick=MdrLimits(surfaces=8, refined=4),
     full=MdrLimits(
         roll_offs=(1, 8, 16), cells=256, surfaces=30, refined=12, profiles=500, decades=(-3, 1), per_decade=3
     ),

@@ -265,7 +265,7 @@ CASE = Case(
     place=4,
     claim=CLAIM,
     answers="Fig. 14.1 at other bandwidths, with a roll-off, and on larger punches; a fit for the mean stiffness",
-    quick=Bandwidth(),
+    quick=Bandwidth(surfaces=60, pairs=(10, 6), refined=15, rolled_off=10),
     full=Bandwidth(
         cells=64,
         wider=(4, 16),

@@ -87,7 +87,8 @@ CASE = Case(
     answers="Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
     quick=FractalPunch(
         hursts=(0.4, 0.7, 1.0),
-        surfaces=((0, 0, 16, 8, 4), (0, 45, 16, 8, 0), (70, 18, 8, 4, 0), (30, 10, 6, 4, 0)),
+        cells=48,
+        surfaces=((0, 0, 12, 6, 4), (0, 40, 12, 6, 0), (60, 16, 8, 4, 0), (30, 10, 6, 4, 0)),
     ),
     full=FractalPunch(
         cells=256,

@@ -328,7 +328,7 @@ CASE = Case(
     place=2,
     claim=CLAIM,
     answers="Fixed or Gaussian amplitudes, height of each draw or of the ensemble: how the fluctuations depend on it",
-    quick=Normalisation(),
+    quick=Normalisation(surfaces=15, profiles=150),
     full=Normalisation(cells=128, surfaces=120, profiles=1000, points=2048, per_decade=3),
     run=run,
     evidence=evidence,

@@ -340,7 +340,7 @@ CASE = Case(
     place=4,
     claim=CLAIM,
     answers="Whether lines are averaged as energies or as heights, and what lies across a rail",
-    quick=LineConvention(),
+    quick=LineConvention(strips=40),
     full=LineConvention(strips=400),
     run=run,
     evidence=evidence,

@@ -276,7 +276,7 @@ CASE = Case(
     place=5,
     claim=CLAIM,
     answers="A contact filter is measured and computed at constant load; the wheel of rolling noise moves",
-    quick=RailDynamic(strips=5),
+    quick=RailDynamic(strips=3),
     full=RailDynamic(
         offsets=(-10.0, 0.0, 10.0),
         longest=0.25,

@@ -207,7 +207,7 @@ CASE = Case(
     place=6,
     claim=CLAIM,
     answers="What a rough rail sounds like by each model: the contact force as WAV files with one gain",
-    quick=RailSound(rail=shipped_rail(), seconds=0.25, repeats=5, cells=(4, 7)),
+    quick=RailSound(rail=shipped_rail(), seconds=0.25, repeats=5, cells=(4, 6)),
     full=RailSound(rail=shipped_rail(), seconds=2.0, repeats=1, cells=(6, 8), parts=8),
     run=run,
     evidence=evidence,

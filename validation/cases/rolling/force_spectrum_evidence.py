@@ -180,7 +180,17 @@ CASE = Case(
     place=2,
     claim=CLAIM,
     answers="Fig. 14.3: rolling force over isotropic roughness, where each model holds",
-    quick=ForceSpectrum(tracks=40),
+    quick=ForceSpectrum(
+        heights=(0.01, 0.3, 1.0),
+        last=5.7,
+        lowest=0.55,
+        length=48.0,
+        cells=6,
+        strips=8,
+        rough_strips=3,
+        refined=8,
+        tracks=40,
+    ),
     full=ForceSpectrum(
         heights=(0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
         last=20.0,

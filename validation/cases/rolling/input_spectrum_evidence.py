@@ -174,7 +174,7 @@ CASE = Case(
     place=3,
     claim=CLAIMS["rolling"],
     answers="The input spectrum of MDR for rolling, and one-third octaves within 3 dB (Ford and Thompson 2006)",
-    quick=RollingInput(strips=3, tracks=20),
+    quick=RollingInput(cells=6, last=8.0, lowest=0.6, length=44.0, strips=3, tracks=20, surfaces=8, profiles=100),
     full=RollingInput(
         last=20.0,
         lowest=0.22,

@@ -310,7 +310,7 @@ CASE = Case(
     place=7,
     claim=CLAIM,
     answers="Reduced models of the rolling wheel: which one follows boundary elements as contact is lost",
-    quick=ReducedModels(strips=4),
+    quick=ReducedModels(strips=3),
     full=ReducedModels(
         spectra=((0.7, 1.0, 10.0), (0.4, 1.0, 10.0), (0.7, 0.3, 5.0), (0.4, 0.3, 5.0)),
         heights=(0.03, 0.1, 0.3, 1.0),

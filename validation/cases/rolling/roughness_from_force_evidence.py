@@ -211,7 +211,7 @@ CASE = Case(
     place=5,
     claim=CLAIM,
     answers='"and vice versa" after (14.14): the roughness spectrum from a measured force spectrum',
-    quick=RoughnessFromForce(strips=4),
+    quick=RoughnessFromForce(strips=3),
     full=RoughnessFromForce(
         heights=(0.01, 0.03, 0.1, 0.3), last=20.0, lowest=0.22, length=128.0, width=24.0, cells=14, strips=6
     ),

@@ -287,7 +287,7 @@ CASE = Case(
     place=6,
     claim=CLAIM,
     answers="Fluctuation of stiffness along a track: the link from Fig. 14.1 to rolling",
-    quick=TrackStiffness(strips=4),
+    quick=TrackStiffness(cells=6, strips=4, tracks=20),
     full=TrackStiffness(
         forces=(0.3, 1.0, 3.0, 10.0),
         length=32,

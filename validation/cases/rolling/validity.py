@@ -317,7 +317,7 @@ CASE = Case(
     place=4,
     claim=CLAIM,
     answers="Where linear theory of rolling ends: h' a/d or h/d, over bands and Hurst exponents",
-    quick=Validity(),
+    quick=Validity(strips=3, cells=6),
     full=Validity(slopes=(0.1, 0.3, 1.0), heights=(0.03, 0.1, 0.3), strips=6, waves=6, width=16),
     run=run,
     evidence=evidence,

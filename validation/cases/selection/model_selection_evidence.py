@@ -319,7 +319,7 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Calibration test of model selection on random scenes: estimated and true error, and the time saved",
-    quick=CalibrationTest(punches=6, edges=1, edge_kinds=CHEAP_EDGES),
+    quick=CalibrationTest(punches=4, edges=1, edge_kinds=CHEAP_EDGES),
     full=CalibrationTest(punches=60, spheres=20, rolling=30, wheels=20, edges=3, tolerances=(0.03, 0.1, 0.3)),
     run=run,
     evidence=evidence,

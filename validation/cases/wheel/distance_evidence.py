@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
@@ -18,7 +19,7 @@ from validation.analysis.evidence import (
 from validation.analysis.wording import by_status, by_verdict, sentence, title
 from validation.cases.wheel import distance_numbers as numbers_of_distance
 from validation.cases.wheel import distance_tables as tables
-from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY, TABLE, DistanceResult, WheelDistance, run
+from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, SHORT, STEADY, TABLE, DistanceResult, WheelDistance, run
 from validation.cases.wheel.distance_numbers import BREAK_LAW, HANN, JUMP, LEVEL, ORDER, PEAK_QUANTITY, SQUARE, WHOLE
 from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, level, regions_of
 from validation.selection import model_needed
@@ -192,7 +193,7 @@ CASE = Case(
     place=2,
     claim=CLAIM,
     answers="Fig. 14.5: the break that moves with the distance, its cause, and the share of leakage in the plateau",
-    quick=WheelDistance(wheels=40, causes=10),
+    quick=WheelDistance(scene=replace(SHORT, springs=64), doublings=3, wheels=40, causes=10),
     full=WheelDistance(
         scene=TABLE,
         doublings=6,

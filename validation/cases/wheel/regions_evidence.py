@@ -141,7 +141,7 @@ CASE = Case(
     place=4,
     claim=CLAIM,
     answers="Regions 1 and 2: the substructure of the plateau, the force that makes it, and where it ends at low speed",
-    quick=WheelRegions(),
+    quick=WheelRegions(wheels=10, groups=10),
     full=WheelRegions(distance=0.4, springs=96, rms=0.15e-6, wheels=80, periods=60),
     run=run,
     evidence=evidence,

@@ -1,6 +1,7 @@
 """Fig. 14.4: the regions of the spectrum and what moves them, in words."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from validation.analysis.wording import by_status, sentence, share, title
 from validation.cases.wheel import spectrum_tables as tables
 from validation.cases.wheel.contrast import period_range, worst_contrast
 from validation.cases.wheel.features import BREAK, FLOOR, JUMP, PEAK, PEAK_LAST, PERIOD, PREDICTED, SLOPE, Spectrum
-from validation.cases.wheel.spectrum import WheelResult, WheelSpectrum, run
+from validation.cases.wheel.spectrum import TABLE, WheelResult, WheelSpectrum, run
 from validation.cases.wheel.spectrum_numbers import (
     FEATURES,
     IDENTITIES,
@@ -294,7 +295,7 @@ CASE = Case(
     answers=(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),
-    quick=WheelSpectrum(realisations=30, varied=10),
+    quick=WheelSpectrum(scene=replace(TABLE, distance=0.4), realisations=30, varied=10),
     full=WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
     run=run,
     evidence=evidence,
