@@ -293,7 +293,7 @@ CASE = Case(
     answers="Which contact filter is right for my wheel, and by how many dB is the one I use wrong",
     quick=RolledFilters(strips=3, cells=(5, 7)),
     full=RolledFilters(
-        wheels=((50.0, 920.0), (25.0, 920.0), (50.0, 680.0), (50.0, 360.0), (100.0, 920.0)), strips=6, cells=(7, 10)
+        wheels=((50.0, 920.0), (25.0, 920.0), (50.0, 680.0), (50.0, 360.0), (100.0, 920.0)), strips=6, cells=(8, 16)
     ),
     run=run_filters,
     evidence=evidence,

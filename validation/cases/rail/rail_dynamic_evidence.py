@@ -241,6 +241,8 @@ def _filters(levels: DynamicLevels) -> Table:
 
 
 def _method(case: RailDynamic) -> str:
+    first, last = case.speed * case.bands.edges[[0, -1]] / (2 * np.pi)
+    shortest = 1e3 * case.bands.nominal[-1]
     return (
         f"A rigid wheel, M = {case.mass:g} kg, {1e-3 * case.load:g} kN, {3.6 * case.speed:.0f} km/h, radii "
         f"{1e3 * case.radii[0]:g} and {1e3 * case.radii[1]:g} mm, over {case.strips} isotropic surfaces whose lines "
@@ -253,8 +255,10 @@ def _method(case: RailDynamic) -> str:
         f"force would tell; a large vibration has a second harmonic, {2 * case.resonance:.0f} Hz, which it takes for "
         f"roughness. Nothing damps the resonance, {case.resonance:.0f} Hz: its vibration grows with the length of the "
         f"strip, {case.periods + 0.5:g} natural periods. All through Hann's window. Judged are the root mean squares "
-        f"over bands before the first zero of the filter and above {LOUD:g} dB. Grid: from "
-        f"{case.coarse} cells on {case.compared} surfaces, to first order."
+        f"over bands before the first zero of the filter and above {LOUD:g} dB. Bands reach from {first:.0f} to "
+        f"{last:.0f} Hz: the roughness ends there, the shortest waves, {shortest:g} mm, have "
+        f"{case.bands.wavelengths[-1] * case.cells / case.contact.along:.1f} cells, and in the last two bands oblique "
+        f"waves are missing. Grid: from {case.coarse} cells on {case.compared} surfaces, to first order."
     )
 
 
@@ -279,13 +283,14 @@ CASE = Case(
     quick=RailDynamic(strips=3),
     full=RailDynamic(
         offsets=(-10.0, 0.0, 10.0),
-        longest=0.25,
-        shortest=0.005,
+        longest=0.4,
+        shortest=0.0025,
         periods=12,
         width=0.6,
-        cells=6,
-        coarse=5,
-        strips=8,
+        cells=12,
+        coarse=8,
+        strips=14,
+        compared=4,
     ),
     run=run,
     evidence=evidence,

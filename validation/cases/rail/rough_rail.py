@@ -210,7 +210,7 @@ CASE = Case(
     claim=CLAIM,
     answers="How rough a rail may be before its contact filter depends on the roughness",
     quick=RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=3, cells=(5, 7), seed=21),
-    full=RolledFilters(offsets=(0.0, 5.0, 10.0, 15.0, 20.0), across=(GROUND,), strips=10, cells=(7, 10), seed=21),
+    full=RolledFilters(offsets=(0.0, 5.0, 10.0, 15.0, 20.0), across=(GROUND,), strips=10, cells=(8, 16), seed=21),
     run=run_filters,
     evidence=evidence,
     needs="linear theory of the ellipse; boundary elements for short waves on rougher rails",
