@@ -694,13 +694,15 @@ def outcome(estimated, true, spent, fine, *, met=1.0, every=()):
 
 
 def test_answers_at_the_edges_are_a_claim_of_the_calibration_test():
-    case = ladder.CalibrationTest(punches=1, spheres=0, rolling=0, edges=2, edge_kinds=("punch",))
-    edge = {"estimated": np.array([0.1]), "met": np.ones(1), "reference": np.array(0.0), "failed": np.array(0.0)}
+    case = ladder.CalibrationTest(punches=1, spheres=0, rolling=0, edges=(("punch", 2),))
+    no_error = {name: np.array(0.0) for name in ("reference", "offered", "failed")}
+    edge = {"estimated": np.array([0.1]), "met": np.ones(1), **no_error}
     edges = [{**edge, "true": np.array([true])} for true in (0.05, 0.3)]
     found = calibration.evidence(
         ladder.CalibrationResult(case, [outcome(0.1, 0.05, 5.0, 10.0, every=(0.1, 0.2))], (), edges)
     )
-    claim = found.claims[-1]
+    claim, of_kinds = found.claims[-2:]
+    assert of_kinds.claim == calibration.EACH_KIND and [number.value for number in of_kinds.numbers] == [0.5]
     assert claim.claim == calibration.EDGES and "1 of 2 answers hold" in claim.answer
     held, far_off, refused = claim.numbers
     assert (held.value, refused.value) == (0.5, 0.0)

@@ -171,19 +171,16 @@ def test_the_table_says_when_how_and_with_which_code_it_was_measured():
     assert calibration_lines()[0].startswith(f"errors of models: calibrated {about['measured']}, ")
 
 
-def test_the_table_was_measured_with_the_code_of_today_or_gave_the_same_numbers():
-    """Where this fails, `mdr-validation calibrate --check 2` measures some scenes again."""
-    assert calibration_lines()[0].endswith("by today's code")
-
-
-def test_models_whose_code_is_another_are_named(tmp_path, monkeypatch):
-    rows = calibration.rows_of(calibration.TABLE)
-    of_springs = [{**row, "code": "0" * 12} if row["model"] == "springs" else row for row in rows]
-    write_table(calibration.provenance(), of_springs, tmp_path / "table.csv")
-    asked = Target(wheel(), "force-rms")
-    assert calibration_age(tmp_path / "table.csv", asked).endswith("by other code than today's: springs")
-    assert "sphere stiffness, springs" in calibration_age(tmp_path / "table.csv")
-    assert calibration_age(calibration.TABLE, asked).endswith("by today's code")
+def test_models_whose_code_is_another_are_named(tmp_path):
+    path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
+    write_table(calibration.provenance(), calibration.rows_of(calibration.TABLE), path)
+    assert not check_calibration(1, MeasuredAgain(1.0), path)
+    assert calibration_age(path, asked).endswith("by today's code")
+    assert calibration_age(path).endswith("by today's code")
+    of_springs = [{**row, "code": "0" * 12} if row["model"] == "springs" else row for row in calibration.rows_of(path)]
+    write_table(calibration.provenance(), of_springs, tmp_path / "other.csv")
+    assert calibration_age(tmp_path / "other.csv", asked).endswith("by other code than today's: springs")
+    assert "sphere stiffness, springs" in calibration_age(tmp_path / "other.csv")
 
 
 class MeasuredAgain:
@@ -206,12 +203,14 @@ class MeasuredAgain:
 @pytest.mark.parametrize(("factor", "same"), [(1.0, True), (1.0005, True), (1.01, False)])
 def test_rows_take_the_version_of_today_where_some_measured_again_are_the_same(tmp_path, factor, same):
     path, engine = tmp_path / "table.csv", MeasuredAgain(factor)
-    rows = calibration.rows_of(calibration.TABLE)
-    write_table(calibration.provenance(), [{**row, "code": "0" * 12} for row in rows], path)
+    rows = [{**row, "code": "0" * 12} for row in calibration.rows_of(calibration.TABLE)]
+    write_table(calibration.provenance(), rows, path)
     differing = check_calibration(2, engine, path)
     assert len(engine.points) == 2 * sum(len(quantities) for quantities in QUANTITIES.values())
     assert (not differing) is same
-    assert (calibration.rows_of(path) == rows) is same
+    assert calibration_age(path).endswith("by today's code") is same
+    assert (calibration.rows_of(path) == rows) is not same
+    assert [{**row, "code": "0" * 12} for row in calibration.rows_of(path)] == rows
     assert ("checked" in calibration.provenance(path)) or not same
     assert same or all("today" in line for line in differing)
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.cases.selection.edge_rails import edge_rail
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
@@ -19,15 +20,16 @@ from validation.theory.closed_forms import hertz_force
 FloatArray = NDArray[np.float64]
 Generator = np.random.Generator
 
-PUNCH, SPHERE, ROLLING, WHEEL = "punch", "sphere", "rolling", "wheel"
+PUNCH, SPHERE, ROLLING, WHEEL, RAIL = "punch", "sphere", "rolling", "wheel", "rail"
 MEASURED = "measured "
 """Before the name of a body: one surface of points, no two of the same texture after each other."""
-EDGE_KINDS = tuple(start + body for start in ("", MEASURED) for body in (PUNCH, SPHERE, ROLLING, WHEEL))
+EDGE_KINDS = (*(start + body for start in ("", MEASURED) for body in (PUNCH, SPHERE, ROLLING, WHEEL)), RAIL)
 QUANTITIES = {
     PUNCH: ("stiffness",),
     SPHERE: ("stiffness",),
     ROLLING: ("force-spectrum", "force-rms"),
     WHEEL: ("acceleration", "acceleration-rms"),
+    RAIL: ("contact-filter",),
 }
 LOADS = (-6.0, 2.0)
 """lg of F / (E* h L) of punches."""
@@ -46,7 +48,8 @@ POINTS, TRACK, TO_A_RADIUS = (40, 128), (256, 64), (4, 5, 6, 8, 12)
 RANGES = (
     "F / (E* h L) of punches 1e-6 to 100, one to 32 of the longest waves on a side, Hurst exponent 0.2 to 1.2, h/d to "
     "10 under spheres, to 2 under rolling and to 0.5 under dynamic wheels, the longest wave half to 20 contact radii, "
-    "and measured heights: Gaussian, ridges, honed, log-normal, outliers, pits"
+    "and measured heights: Gaussian, ridges, honed, log-normal, outliers, pits; rails under ellipses 0.3 to 2.5 times "
+    "as wide as long, up to 25 dB above the limit of ISO 3095, with corrugation"
 )
 """In words."""
 
@@ -57,6 +60,8 @@ def edge_scene(kind: str, number: int, seed: int) -> tuple[Scene, str]:
     body, name = kind.removeprefix(MEASURED), f"{kind} {number}"
     draw_face = _texture(number) if kind.startswith(MEASURED) else None
     quantity = QUANTITIES[body][number // 2 % len(QUANTITIES[body])]
+    if body == RAIL:
+        return edge_rail(rng, name), quantity
     make = _punch if body == PUNCH else _round
     return make(rng, body, name, draw_face), quantity
 

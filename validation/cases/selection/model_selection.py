@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from validation.cases.selection.edge_scenes import EDGE_KINDS, MEASURED, PUNCH, ROLLING, SPHERE
+from validation.cases.selection.edge_scenes import MEASURED, PUNCH, RAIL, ROLLING, SPHERE, WHEEL
 from validation.cases.selection.edge_test import OTHER_SEED, REFERENCE_TOLERANCE, EdgeTrial, edge_trials, solve_edge
 from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
 from validation.engine.convergence import NotConvergedError
@@ -22,8 +22,16 @@ EVERY_TOLERANCE = 0.1
 """Of the models that are solved whatever error they expect."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
 CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel | RailModel)))
-CHEAP_EDGES = (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE)
+CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE))
 """Kinds of scenes at the edges whose references take seconds."""
+DECIDED = 100
+"""Scenes of a kind, one more than decides whether 97 % of them hold."""
+EDGES = (
+    *((kind, DECIDED) for kind in (PUNCH, SPHERE, MEASURED + PUNCH, MEASURED + SPHERE)),
+    *((kind, 12) for kind in (ROLLING, WHEEL)),
+    *((kind, 4) for kind in (MEASURED + ROLLING, MEASURED + WHEEL, RAIL)),
+)
+"""Of kinds whose references take a minute a few: they find a false claim, and do not decide the share."""
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 
@@ -32,22 +40,21 @@ MODELS = (*CHEAP, COARSE, FINE)
 class CalibrationTest:
     """Random scenes of each kind, for each of which a model is selected at each tolerance.
 
-    punches, spheres, rolling, wheels: how many; edges: scenes at the edges of the ranges, of each of edge_kinds;
-    tolerances: relative; seed: zero or positive.
+    punches, spheres, rolling, wheels: how many; edges: kinds of scenes at the edges of the ranges, and how many of
+    each; tolerances: relative; seed: zero or positive.
     """
 
     punches: int = 8
     spheres: int = 2
     rolling: int = 1
     wheels: int = 0
-    edges: int = 0
-    edge_kinds: tuple[str, ...] = EDGE_KINDS
+    edges: tuple[tuple[str, int], ...] = ()
     tolerances: tuple[float, ...] = (0.1,)
     seed: int = 14
 
     @property
     def edge_trials(self) -> list[EdgeTrial]:
-        return edge_trials(self.edge_kinds, self.edges, self.tolerances, self.seed)
+        return edge_trials(self.edges, self.tolerances, self.seed)
 
     @property
     def trials(self) -> list["CalibrationTrial"]:

@@ -11,7 +11,14 @@ from scipy import stats
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
-from validation.cases.selection.edge_evidence import edge_answer, edge_numbers, edge_table, edges_by_kind
+from validation.cases.selection.edge_evidence import (
+    edge_answer,
+    edge_numbers,
+    edge_table,
+    edges_by_kind,
+    kind_answer,
+    kind_numbers,
+)
 from validation.cases.selection.edge_scenes import RANGES as EDGE_RANGES
 from validation.cases.selection.edge_test import DRAWN
 from validation.cases.selection.model_selection import (
@@ -21,6 +28,9 @@ from validation.cases.selection.model_selection import (
     CalibrationResult,
     CalibrationTest,
     run,
+)
+from validation.cases.selection.model_selection import (
+    EDGES as EDGE_SCENES,
 )
 from validation.cases.selection.random_scenes import KINDS, RANGES
 from validation.engine.engine import Outcome
@@ -39,6 +49,7 @@ RESAMPLED = 400
 """Bootstrap samples of scenes, for the interval of a saving."""
 NONE = "none"
 EDGES = "At the edges of the ranges, too, an answer holds or is refused."
+EACH_KIND = "There, on each kind of scene all answers hold on 97 % of the scenes and more."
 Row = dict[str, object]
 
 
@@ -50,6 +61,7 @@ def evidence(result: CalibrationResult) -> Evidence:
     edges = edge_table(case.edge_trials, result.edges) if result.edges else None
     numbers = tuple(number for tolerance, table in known for number in _numbers(tolerance, table))
     at_edges = edge_numbers(edges) if edges else ()
+    of_kinds = kind_numbers(edges) if edges else ()
     return Evidence(
         title="Calibration test of model selection",
         method=(
@@ -61,14 +73,16 @@ def evidence(result: CalibrationResult) -> Evidence:
             "counts of operations times "
             "the time of one, so that they are the same on every machine. The cost of a selection includes all "
             "models that were solved. "
-            f"{case.edges} scenes more of each of {len(case.edge_kinds)} kinds lie at the edges of all ranges and "
-            f"beyond: {EDGE_RANGES}; of {DRAWN} times as many those whose reference costs least. There a "
-            "measured face is its own reference, and an answer on the grid of the reference is not tested."
+            f"{len(case.edge_trials)} scenes more of {len(case.edges)} kinds lie at the edges of all ranges and "
+            f"beyond: {EDGE_RANGES}; of {DRAWN} times as many those whose reference costs least. There the "
+            "reference of a measured face has its points split; a measured track is its own reference, and an answer "
+            "on the grid of the reference is not tested."
         ),
-        numbers=(*numbers, *at_edges),
+        numbers=(*numbers, *at_edges, *of_kinds),
         claims=(
             *_claims(known, numbers),
             *((answered(EDGES, at_edges, edge_answer(edges)),) if edges and at_edges else ()),
+            *((answered(EACH_KIND, of_kinds, kind_answer(of_kinds)),) if of_kinds else ()),
         ),
         finding=f"{headline(known)}; {saving(known)}." if known else "",
         headlines={"ladder": headline(known)} if known else {},
@@ -319,8 +333,8 @@ CASE = Case(
     place=1,
     claim=CLAIM,
     answers="Calibration test of model selection on random scenes: estimated and true error, and the time saved",
-    quick=CalibrationTest(punches=4, edges=1, edge_kinds=CHEAP_EDGES),
-    full=CalibrationTest(punches=60, spheres=20, rolling=30, wheels=20, edges=3, tolerances=(0.03, 0.1, 0.3)),
+    quick=CalibrationTest(punches=4, edges=CHEAP_EDGES),
+    full=CalibrationTest(punches=40, spheres=20, rolling=30, wheels=20, edges=EDGE_SCENES, tolerances=(0.03, 0.1, 0.3)),
     run=run,
     evidence=evidence,
     needs="chosen scene by scene",
