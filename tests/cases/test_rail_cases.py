@@ -1,15 +1,19 @@
 """The wheel on a rail: published contact and table, filters of the field, and what a strip must give."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from validation.analysis.evidence import Verdict, numbers_with
+from validation.analysis.spectra import Bands
+from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.rail import ellipse, filters, line_convention, published, rolled_filters
 from validation.engine.engine import SERIAL
 from validation.simulation import equivalent_displacement as displacement
 from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, ONE_SIDED, SPRINGS_THAT_READ
+from validation.simulation.rail_ground import strip_bands
 from validation.simulation.rail_strip import PowerLawGround, RailStrip
 
 WHEEL = published.RailWheel(50, 920)
@@ -105,3 +109,18 @@ def test_left_by_grid_vanishes_where_grids_agree():
     result = rolled_filters.RolledFiltersResult(case, outcomes, ())
     assert np.abs(result.left_by_grid(key, BEM, LINEAR)).max() < 1e-9
     assert [one.value for one in result.over_twin(key, BEM)] == pytest.approx([2 * math.log(0.5)] * 13)
+
+
+def test_springs_on_few_cells_have_the_filter_near_its_zero_of_many():
+    """The shortest band that counts over ridges: to and fro by tenths of a decibel where a spring is a cell."""
+    key = published.RailWheel(50.0, 680.0), 0.0, "ridges"
+    case = rolled_filters.RolledFilters(wheels=((50.0, 680.0),), across=("ridges",), strips=3, cells=(8, 12))
+    scene = case.scene(key)
+    bands, at = Bands(tuple(strip_bands(scene).edges.tolist())), strip_bands(scene).nominal.tolist().index(0.0125)
+
+    def over_twin(cells):
+        problems = [replace(one, models=(SPRINGS_THAT_READ,)) for one in case.problems(key, cells)]
+        found = [displacement.roll_rail(one) for one in problems]
+        return displacement.log_over(SPRINGS_THAT_READ, LINEAR, found, problems[0].strip.spacing, bands)[at].value
+
+    assert POWER_DECIBEL * abs(over_twin(8) - over_twin(12)) < 0.1
