@@ -28,8 +28,8 @@ DECIDED = 100
 """Scenes of a kind, one more than decides whether 97 % of them hold."""
 EDGES = (
     *((kind, DECIDED) for kind in (PUNCH, SPHERE, MEASURED + PUNCH, MEASURED + SPHERE)),
-    *((kind, 12) for kind in (ROLLING, WHEEL)),
-    *((kind, 4) for kind in (MEASURED + ROLLING, MEASURED + WHEEL, RAIL)),
+    *((kind, 6) for kind in (ROLLING, WHEEL)),
+    *((kind, 3) for kind in (MEASURED + ROLLING, MEASURED + WHEEL, RAIL)),
 )
 """Of kinds whose references take a minute a few: they find a false claim, and do not decide the share."""
 MODELS = (*CHEAP, COARSE, FINE)
