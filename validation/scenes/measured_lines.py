@@ -82,7 +82,13 @@ class MeasuredLines:
         """Those between the longest and the shortest wavelength."""
         longest = self.length / WAVES_PER_LINE if self.longest is None else self.longest
         shortest = POINTS_PER_WAVE * self.spacing if self.shortest is None else self.shortest
-        return NominalBands().within(longest, shortest)
+        try:
+            return NominalBands().within(longest, shortest)
+        except ValueError as reason:
+            raise ValueError(
+                f"spacing must be that of the points of the lines, as 1 mm, with longest above shortest: {reason}; got "
+                f"{len(self.height)} points, {1e3 * self.spacing:g} mm apart"
+            ) from None
 
     @cached_property
     def levels(self) -> RoughnessLevels:
