@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -17,6 +17,10 @@ from validation.simulation.sampling import mean_error, realisations
 
 FloatArray = NDArray[np.float64]
 
+FEWEST = 8
+"""Realisations of a sample, at the least: it is looked at after each, and ends where it happens to scatter little.
+In a simulation, normal and skewed, means are off by more than twice their half-width in 1 % of samples that begin with
+four, and in 0.3 % of those that begin with eight."""
 SAMPLE_SHARE = 0.9
 """Of the tolerance, that a sample may leave where a grid of 0.44 of it is added at a right angle."""
 
@@ -69,7 +73,10 @@ class SceneModel:
     @cached_property
     def sampling(self) -> Sampling:
         """A single solve, but for boundary elements."""
-        return self.model.sampling(self.target) if isinstance(self.model, GridModel) else Sampling()
+        if not isinstance(self.model, GridModel):
+            return Sampling()
+        plan = self.model.sampling(self.target)
+        return replace(plan, fewest=max(plan.fewest, min(FEWEST, plan.most)))
 
     @property
     def solves(self) -> int:
