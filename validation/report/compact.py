@@ -37,8 +37,8 @@ def compact(svg: str) -> str:
 
 
 def _printed(number: re.Match[str]) -> str:
-    """Two decimals from one point on; a smaller number, as a scale is, stays."""
-    return number.group() if number.group(1) in ("", "0") else f"{float(number.group()):.2f}"
+    """A tenth of a point from one point on; a smaller number, as a scale is, stays."""
+    return number.group() if number.group(1) in ("", "0") else f"{float(number.group()):.1f}"
 
 
 def _place(glyph: re.Match[str]) -> str:
