@@ -9,13 +9,25 @@ from collections.abc import Sequence
 
 from validation.analysis.evidence import Table
 
+LEVELS = 4
+"""Of a JSON file, that are written a line a part: results, cases, what a case has, its numbers."""
 BOOLEAN = {"True": True, "False": False}
 INTEGER = re.compile(r"-?\d+")
 
 
 def as_json(value: object) -> bytes:
-    """Readable, in the order of the value, strict: no NaN, no infinity."""
-    return (json.dumps(value, indent=1, allow_nan=False, ensure_ascii=False) + "\n").encode()
+    """In the order of the value, a line a row, in which stands what is nested deeper; strict: no NaN, no infinity."""
+    return (_nested(value, LEVELS) + "\n").encode()
+
+
+def _nested(value: object, levels: int) -> str:
+    if not levels or not value or not isinstance(value, dict | list | tuple):
+        return json.dumps(value, allow_nan=False, ensure_ascii=False)
+    indent = "\n" + " " * (LEVELS - levels)
+    if isinstance(value, dict):
+        parts = [f"{json.dumps(name, ensure_ascii=False)}: {_nested(part, levels - 1)}" for name, part in value.items()]
+        return f"{{{','.join(f'{indent} {part}' for part in parts)}{indent}}}"
+    return f"[{','.join(f'{indent} {_nested(part, levels - 1)}' for part in value)}{indent}]"
 
 
 def as_csv(table: Table) -> bytes:
