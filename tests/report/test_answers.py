@@ -18,7 +18,7 @@ from validation.cases.wheel.half_space_levels import GEIKE
 from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space_numbers import OVER_BEM
 from validation.report.answers import questions, sources
-from validation.report.answers.cells import Enough, RangeCell
+from validation.report.answers.cells import Enough, RangeCell, span
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.answers.words import from_to, in_decibels, per_cent, times
 from validation.report.contents import CASES
@@ -171,7 +171,7 @@ def test_an_alternative_on_an_axis_of_its_own_says_which():
     assert words_of(row) == ["no"]
     assert row.measured == "h' a/d = 0.37"
     on_rail, in_time = row.instead
-    assert on_rail.text.endswith("in the time loop at dB over the curve = 0, within 1 dB rms over bands")
+    assert on_rail.text.endswith("in the time loop at 0 dB over the curve, within 1 dB rms over bands")
     assert on_rail.case == "rail_dynamic"
     assert in_time.text.startswith("boundary elements in the time loop (7 applications")
 
@@ -363,3 +363,15 @@ def test_no_name_of_a_row_is_taken_twice():
     names = [question.name for question in questions.QUESTIONS]
     assert len(set(names)) == len(names) == 8
     assert all(re.fullmatch("[a-z-]+", name) for name in names)
+
+
+@pytest.mark.parametrize(
+    ("places", "axis", "words"),
+    [
+        ((-10.0, 10.0), "dB over the curve", "from -10 to 10 dB over the curve"),
+        ((5.0,), "dB over the curve", "at 5 dB over the curve"),
+        ((0.01, 0.3), "h/d", "from h/d = 0.01 to 0.3"),
+    ],
+)
+def test_a_range_has_the_name_of_its_axis_and_the_unit_behind(places, axis, words):
+    assert span([RangeCell(place, ()) for place in places], axis) == words

@@ -7,6 +7,9 @@ from itertools import groupby
 
 from validation.analysis.evidence import Evidence, Number, Place, Verdict
 
+DECIBELS = "dB "
+"""An axis that begins with its unit follows its numbers."""
+
 
 class Enough(StrEnum):
     """What a cell says: yes where all numbers agree, no where one differs, else open."""
@@ -102,9 +105,11 @@ def runs(cells: Sequence[RangeCell], enough: Enough) -> list[list[RangeCell]]:
 
 
 def span(cells: Sequence[RangeCell], axis: str) -> str:
-    """ "from Fbar = 0.1 to 10", "at h' a/d = 0.3", or names."""
+    """ "from Fbar = 0.1 to 10", "at h' a/d = 0.3", "from -10 to 10 dB over the curve", or names."""
     places = [cell.place for cell in cells]
     if any(isinstance(place, str) for place in places):
         return f"in {', '.join(map(str, places))}"
     low, high = ends(places[0])[0], ends(places[-1])[1]
+    if axis.startswith(DECIBELS):
+        return f"at {low:.2g} {axis}" if low == high else f"from {low:.2g} to {high:.2g} {axis}"
     return f"at {axis} = {low:.2g}" if low == high else f"from {axis} = {low:.2g} to {high:.2g}"
