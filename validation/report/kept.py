@@ -7,15 +7,7 @@ from typing import Any
 
 from validation.analysis.case import Profile
 from validation.analysis.contents import from_csv
-from validation.analysis.evidence import (
-    Evidence,
-    JudgedClaim,
-    Number,
-    Role,
-    Table,
-    Verdict,
-    VerdictCell,
-)
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell
 from validation.analysis.sound import Sound, Sounds
 from validation.report.contents import CASES, TIMED
 from validation.report.folder import RESULTS, SOUNDS
@@ -83,7 +75,8 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     numbers = {number["label"]: _number(number) for number in case["numbers"]}
     tables = (
         from_csv(file.stem.removeprefix(f"{name}-"), file.read_text(encoding="utf-8"))
-        for file in sorted((folder / DATA).glob(f"{name}-*.csv"))
+        for file in _files(folder, name)
+        if file.suffix == ".csv"
     )
     figures = case["figures"]
     return Evidence(

@@ -26,7 +26,7 @@ CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PU
 """Kinds of scenes at the edges whose references take seconds."""
 DECIDED = 100
 """Scenes of a kind, one more than decides whether 97 % of them hold."""
-EDGES = (
+EDGE_SCENES = (
     *((kind, DECIDED) for kind in (PUNCH, SPHERE, MEASURED + PUNCH, MEASURED + SPHERE)),
     *((kind, 6) for kind in (ROLLING, WHEEL)),
     *((kind, 3) for kind in (MEASURED + ROLLING, MEASURED + WHEEL, RAIL)),

@@ -24,13 +24,11 @@ from validation.cases.selection.edge_test import DRAWN
 from validation.cases.selection.model_selection import (
     CHEAP,
     CHEAP_EDGES,
+    EDGE_SCENES,
     MODELS,
     CalibrationResult,
     CalibrationTest,
     run,
-)
-from validation.cases.selection.model_selection import (
-    EDGES as EDGE_SCENES,
 )
 from validation.cases.selection.random_scenes import KINDS, RANGES
 from validation.engine.engine import Outcome

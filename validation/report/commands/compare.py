@@ -193,9 +193,12 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     if arguments.figure is not None:
         from validation.report.compared import figure_of_models, to_figure  # which takes half a second to import
 
-        table, form = selected_of_several(table_of_several(found)), arguments.figure.suffix[1:]
-        picture = figure_of_models(table.name, table, form) if several else to_figure(found[0], form=form)
-        write_whole(arguments.figure, picture)
+        form = arguments.figure.suffix[1:]
+        if several:
+            table = selected_of_several(table_of_several(found))
+            write_whole(arguments.figure, figure_of_models(table.name, table, form))
+        else:
+            write_whole(arguments.figure, to_figure(found[0], form=form))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:
