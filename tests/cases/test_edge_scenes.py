@@ -257,3 +257,21 @@ def test_points_under_a_sphere_claim_what_splitting_them_changes(number):
     stiffness, _ = pressed(replace(scene, ground=parts))
     assert not found.failed
     assert distance(found.value, stiffness) <= found.error
+
+
+def test_rolled_scenes_are_asked_for_nothing_finer_than_their_reference():
+    (pressed_one,) = edge_trials(((PUNCH, 1),), (0.03, 0.1), 14)
+    (rolled,) = edge_trials(((ROLLING, 1),), (0.03, 0.1), 14)
+    assert (pressed_one.tolerances, rolled.tolerances) == ((0.03, 0.1), (0.1,))
+
+
+def test_what_grids_share_changes_no_answer():
+    """A second tolerance has the realisations of the first, and as many as it would have alone."""
+    trial = EdgeTrial(kind=PUNCH, number=1, tolerances=(0.1, 0.3), seed=14)
+    solved = {}
+    for tolerance in trial.tolerances:
+        grid = next(one for one in trial.sharing(tolerance, solved) if one.kind == GridModel.name)
+        alone = next(one for one in trial.models(tolerance) if one.kind == GridModel.name)
+        shared, by_itself = grid.solve(), alone.solve()
+        assert np.array_equal(shared.value, by_itself.value) and shared.error == by_itself.error
+    assert solved

@@ -433,7 +433,7 @@ def test_estimated_errors_hold_on_surfaces_that_no_model_has_seen(account):
     assert (scenes["true error"][met] <= scenes["estimated error"][met] + scenes["error of the reference"][met]).all()
     assert (scenes["true error"][met] > 0).all()
     assert {"fit", "closed form", "springs"} <= set(claims["model"])
-    assert len(found.numbers) == 2 * 3
+    assert len(found.numbers) == 2 * 3 + 1
 
 
 @pytest.mark.slow
@@ -721,14 +721,16 @@ def test_the_calibration_test_prints_the_numbers_it_is_given():
     ]
     case = ladder.CalibrationTest(punches=5, spheres=0, rolling=0, wheels=0, tolerances=(0.1,))
     found = calibration.evidence(ladder.CalibrationResult(case, outcomes, ()))
-    covered, tight, saved = found.numbers
+    covered, tight, saved, calibrated = found.numbers
     assert covered.value == pytest.approx(0.75)
     # Clopper and Pearson, three of four
     assert covered.sample == pytest.approx(0.75 - stats.beta.ppf(0.025, 3, 2))
     assert tight.value == pytest.approx(np.median([2, 10 / 9, 0.5, 1.5]))
     # 4.79 in all, which is more than two
     assert saved.value == 0.0
-    assert [claim.numbers for claim in found.claims] == [(covered,), (tight,), (saved,)]
+    assert [claim.numbers for claim in found.claims] == [(covered,), (tight,), (saved,), (calibrated,)]
+    # of the three errors of springs one is within its claim
+    assert (calibrated.value, calibrated.verdict) == (1 / 3, "differ")
     assert found.claims[0].claim == calibration.CASE.claim
     assert "75.0% of 4 scenes" in found.claims[0].answer and "4.79 times at 10%" in found.claims[2].answer
     (sentence,) = found.conclusions

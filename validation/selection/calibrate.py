@@ -141,8 +141,8 @@ class CalibrationRun:
 
     punches: int = 100
     spheres: int = 120
-    rolling: int = 20
-    wheels: int = 40
+    rolling: int = 60
+    wheels: int = 70
     seed: int = 19
 
     @property

@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
@@ -17,10 +17,6 @@ from validation.simulation.sampling import mean_error, realisations
 
 FloatArray = NDArray[np.float64]
 
-FEWEST = 8
-"""Realisations of a sample, at the least: it is looked at after each, and ends where it happens to scatter little.
-Of normal samples and of levels of a power, 0.7 to 0.9 % end with a mean off by more than twice its half-width where
-they begin with four, 0.3 % with eight (tests/selection/test_fewest_realisations.py)."""
 SAMPLE_SHARE = 0.9
 """Of the tolerance, that a sample may leave where a grid of 0.44 of it is added at a right angle."""
 
@@ -75,8 +71,7 @@ class SceneModel:
         """A single solve, but for boundary elements."""
         if not isinstance(self.model, GridModel):
             return Sampling()
-        plan = self.model.sampling(self.target)
-        return replace(plan, fewest=max(plan.fewest, min(FEWEST, plan.most)))
+        return self.model.sampling(self.target)
 
     @property
     def solves(self) -> int:

@@ -53,6 +53,8 @@ NO_NUMBERS = (
 """What is left out of the code behind an error: what prints, files of scenes, other models, and the claims."""
 DRAWN = ("validation.scenes.indentation", "validation.scenes.rolling", "validation.scenes.roughness")
 """What the scenes of the table are made of."""
+SAMPLED = "validation.selection.scene_model"
+"""What decides how many realisations a sample has."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,11 +179,11 @@ def provenance(path: Path = TABLE) -> dict[str, str]:
 
 
 def code_behind(model: Model, target: Target) -> str:
-    """Digest of the code that an error of a model rests on: its solve, that of boundary elements, and their scenes."""
+    """Digest of the code that an error rests on: the solves of the model and of boundary elements, scenes, samples."""
     judges = [one for one in models_serving(target.scene, target.quantity) if isinstance(one, GridModel)]
     return _version(tuple(sorted({type(one).__module__ for one in (model, *judges)})))
 
 
 @cache
 def _version(modules: tuple[str, ...]) -> str:
-    return version_of((*modules, *DRAWN), NO_NUMBERS)[:12]
+    return version_of((*modules, *DRAWN, SAMPLED), NO_NUMBERS)[:12]

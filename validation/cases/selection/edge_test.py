@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from operator import itemgetter
 
 import numpy as np
@@ -14,7 +15,7 @@ from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
 from validation.selection.compare import models_of
 from validation.selection.hierarchy import select_model, try_to_solve
-from validation.selection.scene_model import SceneModel
+from validation.selection.scene_model import SceneModel, Shared
 from validation.simulation.model import GridModel
 from validation.simulation.rail_models import relative
 from validation.simulation.rail_quantity import COUNTED
@@ -28,6 +29,8 @@ PARTS = 4
 """Of a measured point along each side."""
 DRAWN = 4
 """Times as many scenes as are solved: a sphere with h/d = 10 costs as much as a hundred others."""
+ROLLED = (ROLLING, WHEEL, *TRACKS, RAIL)
+"""Asked for nothing finer than the tolerance of their references: that would cost several times as much."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +53,12 @@ class EdgeTrial:
     def models(self, tolerance: float) -> Sequence[SceneModel]:
         """All models of the scene."""
         return models_of(self.scene, self.quantity, tolerance, self.seed)
+
+    def sharing(self, tolerance: float, solved: Shared) -> Sequence[SceneModel]:
+        """The same, whose grids have what was solved on them at other tolerances: the same realisations."""
+        return [
+            replace(model, shared=solved) if model.kind == GridModel.name else model for model in self.models(tolerance)
+        ]
 
     @property
     def reference(self) -> SceneModel:
@@ -79,12 +88,20 @@ def split(scene: Scene) -> IndentationScene:
 
 def edge_trials(scenes: Sequence[tuple[str, int]], tolerances: tuple[float, ...], seed: int) -> list[EdgeTrial]:
     """scenes: how many of each kind: of those drawn that have a reference, the ones where it costs least."""
-    found = []
-    for kind, count in scenes:
-        drawn = [EdgeTrial(kind=kind, number=i, tolerances=tolerances, seed=seed) for i in range(DRAWN * count)]
-        costs = [(trial.reference.cost().seconds, trial) for trial in drawn if trial.reference.estimate().in_range]
-        found += [trial for _, trial in sorted(costs, key=itemgetter(0))[:count]]
-    return found
+    return [trial for kind, count in scenes for trial in _cheapest(kind, count, _asked(kind, tolerances), seed)]
+
+
+def _asked(kind: str, tolerances: tuple[float, ...]) -> tuple[float, ...]:
+    coarse = tuple(tolerance for tolerance in tolerances if tolerance >= REFERENCE_TOLERANCE)
+    return coarse if kind in ROLLED else tolerances
+
+
+@cache
+def _cheapest(kind: str, count: int, tolerances: tuple[float, ...], seed: int) -> tuple[EdgeTrial, ...]:
+    """Which they are takes seconds: kept."""
+    drawn = [EdgeTrial(kind=kind, number=i, tolerances=tolerances, seed=seed) for i in range(DRAWN * count)]
+    costs = [(trial.reference.cost().seconds, trial) for trial in drawn if trial.reference.estimate().in_range]
+    return tuple(trial for _, trial in sorted(costs, key=itemgetter(0))[:count])
 
 
 def solve_edge(trial: EdgeTrial) -> Outcome:
@@ -95,10 +112,11 @@ def solve_edge(trial: EdgeTrial) -> Outcome:
     of measured tracks on the grid of the reference; met: one where the tolerance was met; reference: the error that
     the reference itself leaves; failed: one where it has no answer.
     """
-    judge = trial.reference
+    solved: Shared = {}
+    judge = replace(trial.reference, shared=solved) if trial.is_own_reference else trial.reference
     reference = try_to_solve(judge)
     truth = np.array([math.nan]) if reference.failed else reference.value
-    rows = np.array([_selected(trial, tolerance, judge, truth) for tolerance in trial.tolerances])
+    rows = np.array([_selected(trial, tolerance, solved, truth) for tolerance in trial.tolerances])
     return {
         **dict(zip(("estimated", "true", "met"), rows.T, strict=True)),
         "reference": np.array(math.nan if reference.failed else reference.error),
@@ -115,11 +133,11 @@ def true_error(trial: EdgeTrial, value: np.ndarray, truth: np.ndarray) -> float:
     return relative(float(np.abs(20 * np.log10(value / truth))[counted].max(initial=0.0)))
 
 
-def _selected(trial: EdgeTrial, tolerance: float, judge: SceneModel, truth: np.ndarray) -> tuple[float, float, float]:
-    selection = select_model(trial.models(tolerance), tolerance)
+def _selected(trial: EdgeTrial, tolerance: float, solved: Shared, truth: np.ndarray) -> tuple[float, float, float]:
+    selection = select_model(trial.sharing(tolerance, solved), tolerance)
     best = selection.best
     if best is None or best.answer is None:
         return math.nan, math.nan, 0.0
-    same = best.name == judge.name and trial.is_own_reference
+    same = trial.is_own_reference and best.name == trial.reference.name
     true = math.nan if same or not np.isfinite(truth).all() else true_error(trial, best.answer.value, truth)
     return best.answer.error, true, float(selection.met)

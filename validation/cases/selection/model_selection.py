@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from validation.cases.selection.edge_scenes import MEASURED, PUNCH, RAIL, ROLLING, SPHERE, WHEEL
 from validation.cases.selection.edge_test import OTHER_SEED, REFERENCE_TOLERANCE, EdgeTrial, edge_trials, solve_edge
 from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
 from validation.engine.convergence import NotConvergedError
@@ -22,16 +21,6 @@ EVERY_TOLERANCE = 0.1
 """Of the models that are solved whatever error they expect."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
 CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel | RailModel)))
-CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE))
-"""Kinds of scenes at the edges whose references take seconds."""
-DECIDED = 100
-"""Scenes of a kind, one more than decides whether 97 % of them hold."""
-EDGE_SCENES = (
-    *((kind, DECIDED) for kind in (PUNCH, SPHERE, MEASURED + PUNCH, MEASURED + SPHERE)),
-    *((kind, 6) for kind in (ROLLING, WHEEL)),
-    *((kind, 3) for kind in (MEASURED + ROLLING, MEASURED + WHEEL, RAIL)),
-)
-"""Of kinds whose references take a minute a few: they find a false claim, and do not decide the share."""
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 

@@ -19,12 +19,11 @@ from validation.cases.selection.edge_evidence import (
     kind_answer,
     kind_numbers,
 )
+from validation.cases.selection.edge_scenes import MEASURED, PUNCH, RAIL, ROLLING, SPHERE, WHEEL
 from validation.cases.selection.edge_scenes import RANGES as EDGE_RANGES
 from validation.cases.selection.edge_test import DRAWN
 from validation.cases.selection.model_selection import (
     CHEAP,
-    CHEAP_EDGES,
-    EDGE_SCENES,
     MODELS,
     CalibrationResult,
     CalibrationTest,
@@ -35,10 +34,12 @@ from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 
 CLAIM = "The cheapest model that a scene needs can be chosen beforehand, with an error estimate that holds."
+COVERS = "Errors of cheap models that were calibrated cover 94 to 98 % of scenes that were not."
 TIGHT = "Estimated errors are no more than three times the true ones, in the median."
 SAVES = "Selection takes less than half of the time of fine boundary elements on every scene, in all scenes together."
-COVERAGE, TIGHTNESS, SAVING = (
+COVERAGE, CALIBRATED, TIGHTNESS, SAVING = (
     "share of scenes whose true error is within the estimated one",
+    "share of errors of cheap models, selected or not, that are within what was calibrated",
     "estimated over true error, in the median",
     "shortfall of the total saving below a factor 2, in decades",
 )
@@ -58,6 +59,7 @@ def evidence(result: CalibrationResult) -> Evidence:
     known = [(tolerance, table) for tolerance, table in known if table["kind"].size]
     edges = edge_table(case.edge_trials, result.edges) if result.edges else None
     numbers = tuple(number for tolerance, table in known for number in _numbers(tolerance, table))
+    calibrated = _calibrated(estimates)
     at_edges = edge_numbers(edges) if edges else ()
     of_kinds = kind_numbers(edges) if edges else ()
     return Evidence(
@@ -76,9 +78,10 @@ def evidence(result: CalibrationResult) -> Evidence:
             "reference of a measured face has its points split; a measured track is its own reference, and an answer "
             "on the grid of the reference is not tested."
         ),
-        numbers=(*numbers, *at_edges, *of_kinds),
+        numbers=(*numbers, *calibrated, *at_edges, *of_kinds),
         claims=(
             *_claims(known, numbers),
+            *((answered(COVERS, calibrated, _calibrated_answer(estimates)),) if calibrated else ()),
             *((answered(EDGES, at_edges, edge_answer(edges)),) if edges and at_edges else ()),
             *((answered(EACH_KIND, of_kinds, kind_answer(of_kinds)),) if of_kinds else ()),
         ),
@@ -147,10 +150,10 @@ def _numbers(tolerance: float, table: Table) -> tuple[Number, Number, Number]:
         finding(
             quantity=COVERAGE,
             value=share,
-            reference=0.96,
-            source="coverage of a 95 % interval",
-            tolerance=0.02,
-            reason="0.94 to 0.98: less is too narrow, more is too wide",
+            reference=1.0,
+            source="an upper bound of the error",
+            tolerance=0.06,
+            reason="0.94: a 95 % interval; what is too wide is not tight",
             sample=max(share - least, most - share),
         ),
         finding(
@@ -172,6 +175,37 @@ def _numbers(tolerance: float, table: Table) -> tuple[Number, Number, Number]:
             sample=_shortfall(slow) - _shortfall(total),
         ),
     )
+
+
+def _calibrated(estimates: Table) -> tuple[Number, ...]:
+    """None where no cheap model has an error that is known."""
+    inside = _within(estimates)
+    if not inside.size:
+        return ()
+    least, most = clopper_pearson(inside)
+    share = float(inside.mean())
+    number = Number(
+        quantity=CALIBRATED,
+        value=share,
+        reference=0.96,
+        source="coverage of a 95 % interval",
+        tolerance=0.02,
+        reason="0.94 to 0.98: less is too narrow, more is too wide",
+        sample=max(share - least, most - share),
+        role=Role.FINDING,
+    )
+    return (number,)
+
+
+def _within(estimates: Table) -> np.ndarray:
+    """Of each model on each scene; the error of the reference is not allowed for."""
+    return np.asarray(estimates["true error"] <= estimates["estimated error"])
+
+
+def _calibrated_answer(estimates: Table) -> str:
+    inside = _within(estimates)
+    least, most = clopper_pearson(inside)
+    return f"{inside.mean():.1%} of {inside.size} errors are within their claims ({least:.1%} to {most:.1%})."
 
 
 def _claims(known: Sequence[tuple[float, Table]], numbers: Sequence[Number]) -> tuple[JudgedClaim, ...]:
@@ -197,7 +231,7 @@ def headline(known: Sequence[tuple[float, Table]]) -> str:
     shares = [float(np.mean(_covered(table))) for _, table in known]
     least, most = (f"{end:.0%}" for end in (min(shares), max(shares)))
     span = least if least == most else f"{least} to {most}"
-    return f"{span} of true errors lie within their estimates, of 94 to 98 % wanted"
+    return f"{span} of true errors lie within their estimates, of 94 % wanted or more"
 
 
 def saving(known: Sequence[tuple[float, Table]]) -> str:
@@ -307,7 +341,7 @@ def _by_model(estimates: Table) -> Table:
     rows: list[Row] = []
     for name in CHEAP:
         mine = estimates.where(model=name)
-        inside, ratio = mine["true error"] <= mine["estimated error"], mine["true error"] / mine["estimated error"]
+        inside, ratio = _within(mine), mine["true error"] / mine["estimated error"]
         if not inside.size:
             continue
         least, most = clopper_pearson(inside)
@@ -325,6 +359,18 @@ def _by_model(estimates: Table) -> Table:
     return table_of("Estimated error of each model, selected or not", rows)
 
 
+CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE))
+"""Kinds of scenes at the edges whose references take seconds."""
+PRESSED, ROLLED, FEW = 210, 110, 6
+"""Scenes of a kind at the edges. Those of 210 decide that 97 % hold if two do not, those of 100 if all do, and of some
+no answer is tested; rails have cases of their own, so that a few are to find a false claim."""
+EDGE_SCENES = (
+    *((kind, PRESSED) for kind in (PUNCH, SPHERE, MEASURED + PUNCH, MEASURED + SPHERE)),
+    *((kind, ROLLED) for kind in (ROLLING, WHEEL, MEASURED + ROLLING, MEASURED + WHEEL)),
+    (RAIL, FEW),
+)
+
+
 CASE = Case(
     name="ladder",
     chapter=Chapter.SELECTION,
@@ -332,7 +378,7 @@ CASE = Case(
     claim=CLAIM,
     answers="Calibration test of model selection on random scenes: estimated and true error, and the time saved",
     quick=CalibrationTest(punches=4, edges=CHEAP_EDGES),
-    full=CalibrationTest(punches=40, spheres=20, rolling=30, wheels=20, edges=EDGE_SCENES, tolerances=(0.03, 0.1, 0.3)),
+    full=CalibrationTest(punches=60, spheres=40, rolling=30, wheels=20, edges=EDGE_SCENES, tolerances=(0.03, 0.1, 0.3)),
     run=run,
     evidence=evidence,
     needs="chosen scene by scene",

@@ -23,7 +23,7 @@ from validation.simulation.indentation import (
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Sampling, Target
 from validation.simulation.pressed import PressedGrid
-from validation.simulation.sampling import STUDENT, grid_error
+from validation.simulation.sampling import FEWEST, STUDENT, grid_error
 
 FloatArray = NDArray[np.float64]
 
@@ -41,8 +41,8 @@ SPLIT, MOST_SPLIT = 3, 1024
 OTHERS = 3.0
 """Changes by coarser grids over what they tell of a face whose points are split: of 64 faces at the edges of all ranges
 the error then covers what splitting in eight changes in all, and linear interpolation between points in 62."""
-FEWEST, MOST = 8, 1000
-"""Surfaces: of which a deviation is estimated, and that are drawn at the most."""
+MOST = 1000
+"""Surfaces that are drawn at the most."""
 
 
 class BoundaryElementsPressed(GridModel):

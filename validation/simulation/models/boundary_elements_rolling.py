@@ -17,7 +17,7 @@ from validation.simulation.rolling_levels import (
     grids_of_points,
     on_boundary_elements,
 )
-from validation.simulation.sampling import distance
+from validation.simulation.sampling import FEWEST, distance
 
 FloatArray = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ STRIP_RMS, STRIP_BANDS = 0.35, 0.7
 """Scatter of one strip over linear theory on itself, over h/d: how many strips are expected."""
 OF_FINE = 0.8
 """Error of the finer grid over its change of the coarser one, in the ratio 1.5, of second order."""
-FEWEST_STRIPS, MOST_STRIPS = 4, 32
+MOST_STRIPS = 32
 MOST_ON_A_STRIP = 2**26
 """Cells that are drawn at once at the most; they take up to four gigabytes."""
 COARSE = 2.5
@@ -60,7 +60,7 @@ class BoundaryElementsRolling(GridModel):
         """Measured heights, or strips until they leave half of the tolerance."""
         if target.scene.ground.is_single:
             return Sampling(compared=1)
-        return Sampling(scatter=_scatter(target), fewest=FEWEST_STRIPS, most=MOST_STRIPS, compared=1)
+        return Sampling(scatter=_scatter(target), fewest=FEWEST, most=MOST_STRIPS, compared=1)
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
         """Cells of the window times applications times positions of a strip."""
