@@ -2,15 +2,13 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from itertools import product
 
 import numpy as np
-from scipy import stats
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, numbers_with, table_of
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, numbers_with, table_of
 from validation.cases.selection.edge_evidence import (
     edge_answer,
     edge_numbers,
@@ -29,23 +27,27 @@ from validation.cases.selection.model_selection import (
     CalibrationTest,
     run,
 )
+from validation.cases.selection.model_selection_numbers import (
+    COVERAGE,
+    SAVING,
+    TIGHTNESS,
+    calibrated_numbers,
+    clopper_pearson,
+    covered,
+    numbers_at,
+    resampled,
+    saving_of,
+    tightness,
+    with_answer,
+    within_claims,
+)
 from validation.cases.selection.random_scenes import KINDS, RANGES
 from validation.engine.engine import Outcome
-from validation.engine.random_numbers import random_generator
 
 CLAIM = "The cheapest model that a scene needs can be chosen beforehand, with an error estimate that holds."
 COVERS = "Errors of cheap models that were calibrated cover 94 to 98 % of scenes that were not."
 TIGHT = "Estimated errors are no more than three times the true ones, in the median."
 SAVES = "Selection takes less than half of the time of fine boundary elements on every scene, in all scenes together."
-COVERAGE, CALIBRATED, TIGHTNESS, SAVING = (
-    "share of scenes whose true error is within the estimated one",
-    "share of errors of cheap models, selected or not, that are within what was calibrated",
-    "estimated over true error, in the median",
-    "shortfall of the total saving below a factor 2, in decades",
-)
-SAVED = 2.0
-RESAMPLED = 400
-"""Bootstrap samples of scenes, for the interval of a saving."""
 NONE = "none"
 EDGES = "At the edges of the ranges, too, an answer holds or is refused."
 EACH_KIND = "There, on each kind of scene all answers hold on 97 % of the scenes and more."
@@ -55,11 +57,11 @@ Row = dict[str, object]
 def evidence(result: CalibrationResult) -> Evidence:
     """Coverage of the estimated errors, savings, and the estimates of each model by itself."""
     case, scenes, estimates = result.case, _scenes(result), _estimates(result)
-    known = [(tolerance, _known(scenes.where(tolerance=tolerance))) for tolerance in case.tolerances]
+    known = [(tolerance, with_answer(scenes.where(tolerance=tolerance))) for tolerance in case.tolerances]
     known = [(tolerance, table) for tolerance, table in known if table["kind"].size]
     edges = edge_table(case.edge_trials, result.edges) if result.edges else None
-    numbers = tuple(number for tolerance, table in known for number in _numbers(tolerance, table))
-    calibrated = _calibrated(estimates)
+    numbers = tuple(number for tolerance, table in known for number in numbers_at(tolerance, table))
+    calibrated = calibrated_numbers(estimates)
     at_edges = edge_numbers(edges) if edges else ()
     of_kinds = kind_numbers(edges) if edges else ()
     return Evidence(
@@ -102,108 +104,8 @@ def evidence(result: CalibrationResult) -> Evidence:
     )
 
 
-def _known(table: Table) -> Table:
-    """Rows with an answer and a reference."""
-    return Table(table.name, {name: table[name][np.isfinite(table["true error"])].tolist() for name in table.columns})
-
-
-def _covered(table: Table) -> np.ndarray:
-    """Beside a reference that has an error of its own, independent of the estimated one."""
-    return np.asarray(table["true error"] <= np.hypot(table["estimated error"], table["error of the reference"]))
-
-
-def _tightness(table: Table) -> float:
-    return float(np.median(table["estimated error"] / table["true error"]))
-
-
-def _total(table: Table, some: slice | np.ndarray = slice(None)) -> float:
-    return float(table["fine [s]"][some].sum() / table["selection [s]"][some].sum())
-
-
-def clopper_pearson(inside: np.ndarray) -> tuple[float, float]:
-    """95 % interval of a share."""
-    found = stats.binomtest(int(np.count_nonzero(inside)), inside.size).proportion_ci()
-    return float(found.low), float(found.high)
-
-
-def _resampled(table: Table, statistic: Callable[[np.ndarray], float]) -> tuple[float, float]:
-    """95 % interval, by scenes drawn again: of the numbers of the scenes drawn."""
-    size = len(table["kind"])
-    rng = random_generator(0, size)
-    found = [statistic(rng.integers(0, size, size)) for _ in range(RESAMPLED)]
-    low, high = np.quantile(found, (0.025, 0.975))
-    return float(low), float(high)
-
-
-def _shortfall(saving: float) -> float:
-    return max(math.log10(SAVED / saving), 0.0)
-
-
-def _numbers(tolerance: float, table: Table) -> tuple[Number, Number, Number]:
-    inside = _covered(table)
-    least, most = clopper_pearson(inside)
-    share, total, ratio = float(np.mean(inside)), _total(table), table["estimated error"] / table["true error"]
-    low, high = _resampled(table, lambda some: float(np.median(ratio[some])))
-    slow, _ = _resampled(table, lambda some: _total(table, some))
-    finding = partial(Number, where={"tolerance": tolerance}, role=Role.FINDING)
-    return (
-        finding(
-            quantity=COVERAGE,
-            value=share,
-            reference=1.0,
-            source="an upper bound of the error",
-            tolerance=0.06,
-            reason="0.94: a 95 % interval; what is too wide is not tight",
-            sample=max(share - least, most - share),
-        ),
-        finding(
-            quantity=TIGHTNESS,
-            value=float(np.median(ratio)),
-            reference=2.0,
-            source="1.96 / 0.67 of a Gaussian error, less where it is no surprise",
-            tolerance=1.0,
-            reason="1 to 3",
-            sample=(high - low) / 2,
-        ),
-        finding(
-            quantity=SAVING,
-            value=_shortfall(total),
-            reference=0.0,
-            source=f"a factor {SAVED:g}",
-            tolerance=0.05,
-            reason="0.05 decades: 12 % of the factor",
-            sample=_shortfall(slow) - _shortfall(total),
-        ),
-    )
-
-
-def _calibrated(estimates: Table) -> tuple[Number, ...]:
-    """None where no cheap model has an error that is known."""
-    inside = _within(estimates)
-    if not inside.size:
-        return ()
-    least, most = clopper_pearson(inside)
-    share = float(inside.mean())
-    number = Number(
-        quantity=CALIBRATED,
-        value=share,
-        reference=0.96,
-        source="coverage of a 95 % interval",
-        tolerance=0.02,
-        reason="0.94 to 0.98: less is too narrow, more is too wide",
-        sample=max(share - least, most - share),
-        role=Role.FINDING,
-    )
-    return (number,)
-
-
-def _within(estimates: Table) -> np.ndarray:
-    """Of each model on each scene; the error of the reference is not allowed for."""
-    return np.asarray(estimates["true error"] <= estimates["estimated error"])
-
-
 def _calibrated_answer(estimates: Table) -> str:
-    inside = _within(estimates)
+    inside = within_claims(estimates)
     least, most = clopper_pearson(inside)
     return f"{inside.mean():.1%} of {inside.size} errors are within their claims ({least:.1%} to {most:.1%})."
 
@@ -220,15 +122,15 @@ def _claims(known: Sequence[tuple[float, Table]], numbers: Sequence[Number]) -> 
     return (
         judged(CLAIM, COVERAGE, f"the true error is within the estimated one in {at_each(_share)}."),
         judged(
-            TIGHT, TIGHTNESS, f"the estimated error is {at_each(lambda t: f'{_tightness(t):.2g} times')} the true one."
+            TIGHT, TIGHTNESS, f"the estimated error is {at_each(lambda t: f'{tightness(t):.2g} times')} the true one."
         ),
-        judged(SAVES, SAVING, f"fine boundary elements take {at_each(lambda t: f'{_total(t):.3g} times')} as long."),
+        judged(SAVES, SAVING, f"fine boundary elements take {at_each(lambda t: f'{saving_of(t):.3g} times')} as long."),
     )
 
 
 def headline(known: Sequence[tuple[float, Table]]) -> str:
     """Coverage at all tolerances, from the least to the largest."""
-    shares = [float(np.mean(_covered(table))) for _, table in known]
+    shares = [float(np.mean(covered(table))) for _, table in known]
     least, most = (f"{end:.0%}" for end in (min(shares), max(shares)))
     span = least if least == most else f"{least} to {most}"
     return f"{span} of true errors lie within their estimates, of 94 % wanted or more"
@@ -236,14 +138,14 @@ def headline(known: Sequence[tuple[float, Table]]) -> str:
 
 def saving(known: Sequence[tuple[float, Table]]) -> str:
     """In all scenes together, at all tolerances; less than one is a loss."""
-    totals = [_total(table) for _, table in known]
+    totals = [saving_of(table) for _, table in known]
     least, most = (f"{end:.2g}" for end in (min(totals), max(totals)))
     span = least if least == most else f"{least} to {most}"
     return f"fine boundary elements on every scene take {span} times as long as the selection"
 
 
 def _share(table: Table) -> str:
-    inside = _covered(table)
+    inside = covered(table)
     least, most = clopper_pearson(inside)
     return f"{inside.mean():.1%} of {inside.size} scenes ({least:.0%} to {most:.0%})"
 
@@ -253,15 +155,15 @@ def _conclusion(tolerance: float, scenes: Table, known: Table) -> str:
     true, met = known["true error"], known["met"] == 1
     mine = scenes.where(tolerance=tolerance)
     without = f"; without them the median is {np.median(known['saved'][met]):.3g}" if met.any() else ""
-    median = _resampled(known, lambda some: float(np.median(known["saved"][some])))
-    total = _resampled(known, lambda some: _total(known, some))
+    median = resampled(known, lambda some: float(np.median(known["saved"][some])))
+    total = resampled(known, lambda some: saving_of(known, some))
     return (
         f"At {tolerance:.0%}: the true error is within the estimated one in {_share(known)}, and within the tolerance "
-        f"in {np.mean(true <= tolerance):.1%}; the estimated error is {_tightness(known):.2g} times the true one in "
+        f"in {np.mean(true <= tolerance):.1%}; the estimated error is {tightness(known):.2g} times the true one in "
         "the median. Beside fine boundary elements on every scene, selection saves a factor "
         f"{np.median(known['saved']):.3g} ({median[0]:.2g} to {median[1]:.2g}) in the median, which depends on the "
-        f"ranges that were drawn, and {_total(known):.3g} ({total[0]:.2g} to {total[1]:.2g}) in all scenes together, "
-        "where those that need fine boundary elements count most. Scenes whose tolerance no model meets: "
+        f"ranges that were drawn, and {saving_of(known):.3g} ({total[0]:.2g} to {total[1]:.2g}) in all scenes "
+        "together, where those that need fine boundary elements count most. Scenes whose tolerance no model meets: "
         f"{np.count_nonzero(mine['met'] == 0)}{without}. Scenes without any answer: "
         f"{len(mine['kind']) - true.size}. Selected models: {_selected(mine)}."
     )
@@ -320,7 +222,7 @@ def _by_kind(case: CalibrationTest, scenes: Table) -> Table:
     rows: list[Row] = []
     for kind, tolerance in product(KINDS, case.tolerances):
         mine = scenes.where(kind=kind, tolerance=tolerance)
-        known = _known(mine)
+        known = with_answer(mine)
         if known["kind"].size:
             rows.append(
                 {
@@ -328,7 +230,7 @@ def _by_kind(case: CalibrationTest, scenes: Table) -> Table:
                     "tolerance": f"{tolerance:.0%}",
                     "scenes": len(mine["kind"]),
                     "tolerance met": int(mine["met"].sum()),
-                    "true error within the estimate": f"{_covered(known).mean():.0%}",
+                    "true error within the estimate": f"{covered(known).mean():.0%}",
                     "median saving": f"{np.median(known['saved']):.3g}",
                     "selected models": _selected(mine),
                 }
@@ -341,7 +243,7 @@ def _by_model(estimates: Table) -> Table:
     rows: list[Row] = []
     for name in CHEAP:
         mine = estimates.where(model=name)
-        inside, ratio = _within(mine), mine["true error"] / mine["estimated error"]
+        inside, ratio = within_claims(mine), mine["true error"] / mine["estimated error"]
         if not inside.size:
             continue
         least, most = clopper_pearson(inside)

@@ -98,7 +98,7 @@ def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
         for x in points[cost][(points["method"] == method) & ~done]:
             color = _style(method)["color"]
             known = np.isfinite(x) and x > 0
-            place = (x, axis.get_xaxis_transform()) if known else (0.015, axis.transAxes)
+            place = (x, axis.get_xaxis_transform()) if known else (0.03, axis.transAxes)
             axis.plot([place[0]], [0.96], marker="x", color=color, transform=place[1], markersize=6, linestyle="none")
 
 

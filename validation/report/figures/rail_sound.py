@@ -35,7 +35,7 @@ def _waveforms(axes: list[Axes], waveforms: Table) -> None:
     for axis, name, style in zip(axes, names, STYLES, strict=False):
         axis.plot(waveforms[time], waveforms[name] / 1000, color=style["color"], linewidth=1.0)
         axis.set(ylim=(-1.1 * most, 1.1 * most), xlim=(0, waveforms[time][-1]), ylabel="F [kN]")
-        axis.set_title(name.removesuffix(" [N]"), loc="right", pad=2)
+        axis.set_title(name.removesuffix(" [N]"), loc="right", pad=4)
         axis.tick_params(labelbottom=axis is axes[-1])
     axes[-1].set_xlabel("t [ms]")
 
