@@ -275,3 +275,16 @@ def test_what_grids_share_changes_no_answer():
         shared, by_itself = grid.solve(), alone.solve()
         assert np.array_equal(shared.value, by_itself.value) and shared.error == by_itself.error
     assert solved
+
+
+def test_the_data_of_the_edges_has_a_row_a_scene_and_nothing_where_a_tolerance_was_not_asked():
+    asked = [
+        EdgeTrial(kind=PUNCH, number=7, tolerances=(0.03, 0.1), seed=3),
+        EdgeTrial(kind=ROLLING, number=8, tolerances=(0.1,), seed=3),
+    ]
+    both = {name: np.array([value, value]) for name, value in (("estimated", 0.05123), ("true", 0.02), ("met", 1.0))}
+    one = {"reference": np.array(0.01), "offered": np.array(0.01), "failed": np.array(0.0)}
+    table = edge_evidence.by_scene(asked, [{**both, **one}, {**{n: v[:1] for n, v in both.items()}, **one}])
+    assert table["number"].tolist() == [7, 8]
+    assert table["estimated error, 3%"][0] == 0.0512 and np.isnan(table["estimated error, 3%"][1])
+    assert table["true error, 10%"].tolist() == [0.02, 0.02]

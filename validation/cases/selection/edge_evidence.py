@@ -43,6 +43,30 @@ def edge_table(trials: Sequence[EdgeTrial], outcomes: Sequence[Outcome]) -> Tabl
     return table_of("edges", rows)
 
 
+def by_scene(trials: Sequence[EdgeTrial], outcomes: Sequence[Outcome]) -> Table:
+    """The same, a row a scene, for who reads the data: of a thousand scenes, in three digits."""
+    tolerances = sorted({tolerance for trial in trials for tolerance in trial.tolerances})
+    rows: list[dict[str, object]] = []
+    for trial, outcome in zip(trials, outcomes, strict=True):
+        row: dict[str, object] = {
+            "kind": trial.kind,
+            "number": trial.number,
+            "quantity": trial.quantity,
+            "error of the reference": _short(outcome["reference"]),
+            "error of fine boundary elements": _short(outcome["offered"]),
+        }
+        for tolerance in tolerances:
+            at = trial.tolerances.index(tolerance) if tolerance in trial.tolerances else None
+            for name, told in (("met", "met"), ("estimated", "estimated error"), ("true", "true error")):
+                row[f"{told}, {tolerance:.0%}"] = math.nan if at is None else _short(outcome[name][at])
+        rows.append(row)
+    return table_of("edges", rows)
+
+
+def _short(error: np.ndarray) -> float:
+    return float(f"{float(error):.3g}")
+
+
 def edge_numbers(table: Table) -> tuple[Number, ...]:
     """Three a tolerance, over all kinds, where an answer was tested."""
     tested = table["tolerance"][np.isfinite(table["true error"])]

@@ -10,6 +10,7 @@ from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, numbers_with, table_of
 from validation.cases.selection.edge_evidence import (
+    by_scene,
     edge_answer,
     edge_numbers,
     edge_table,
@@ -89,7 +90,7 @@ def evidence(result: CalibrationResult) -> Evidence:
         ),
         finding=f"{headline(known)}; {saving(known)}." if known else "",
         headlines={"ladder": headline(known)} if known else {},
-        tables=(scenes, estimates, *((edges,) if edges else ())),
+        tables=(scenes, estimates, *((by_scene(case.edge_trials, result.edges),) if edges else ())),
         conclusions=tuple(_conclusion(tolerance, scenes, table) for tolerance, table in known),
         captions={
             "ladder": (
@@ -263,7 +264,7 @@ def _by_model(estimates: Table) -> Table:
 
 CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE))
 """Kinds of scenes at the edges whose references take seconds."""
-MANY, ENOUGH, SOME, FEW = 210, 110, 60, 6
+MANY, ENOUGH, SOME, FEW = 210, 110, 20, 6
 """Scenes of a kind at the edges. 210 decide that 97 % hold where two do not, 100 where all do, and of some no answer is
 tested. Of measured tracks under moving wheels each takes 20 s, so that there are fewer; rails have cases of their own:
 a few are to find a false claim."""

@@ -86,6 +86,7 @@ def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
     known = points[cost][np.isfinite(points[cost]) & (points[cost] > 0)]
     axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(known.min() / ROOM, known.max() * ROOM))
     axis.xaxis.set_major_locator(LogLocator(numticks=6))
+    axis.minorticks_off()
     axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.12, linewidth=0)
     at = points[front]
     rank = np.maximum(error + half, floor)[at]
