@@ -139,7 +139,7 @@ def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
 class CalibrationRun:
     """How many scenes of each kind; each of a wheel is solved for both of its quantities."""
 
-    punches: int = 100
+    punches: int = 200
     spheres: int = 120
     rolling: int = 60
     wheels: int = 70

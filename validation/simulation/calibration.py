@@ -32,7 +32,7 @@ Key = tuple[str, str, str]
 TABLE = Path(__file__).with_name("calibration.csv")
 SHARE = 0.97
 """Of the calibrated scenes, whose error a claim covers when they are left out of the table."""
-NEIGHBOURS, NEARBY, NEARBY_IN_SHAPE = 6, 0.1, 0.3
+NEIGHBOURS, NEARBY, NEARBY_IN_SHAPE = 6, 0.05, 0.3
 """Scenes of the table that an error is interpolated between, at the least, and their share of all: a larger one where
 it goes with a shape that is known, as under spheres and wheels."""
 LEADS = 2.0
