@@ -15,6 +15,7 @@ from validation.cases.selection.edge_evidence import (
     edge_numbers,
     edge_table,
     edges_by_kind,
+    in_four_digits,
     kind_answer,
     kind_numbers,
 )
@@ -90,7 +91,11 @@ def evidence(result: CalibrationResult) -> Evidence:
         ),
         finding=f"{headline(known)}; {saving(known)}." if known else "",
         headlines={"ladder": headline(known)} if known else {},
-        tables=(scenes, estimates, *((by_scene(case.edge_trials, result.edges),) if edges else ())),
+        tables=(
+            in_four_digits(scenes),
+            in_four_digits(estimates),
+            *((by_scene(case.edge_trials, result.edges),) if edges else ()),
+        ),
         conclusions=tuple(_conclusion(tolerance, scenes, table) for tolerance, table in known),
         captions={
             "ladder": (
