@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from bem3d.contact import Contact, Status, residual
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, EdgeWarning, ResolutionWarning, UnitsWarning
+from bem3d.few_cells import FewCellsContact, TooManyCellsError, indent_few_cells
 from bem3d.halfspace import HalfSpace
 from bem3d.indentation import indent
 from bem3d.polonsky_keer import solve_polonsky_keer
@@ -29,6 +30,7 @@ __all__ = [
     "ContactWarning",
     "ConvergenceError",
     "EdgeWarning",
+    "FewCellsContact",
     "FixedContactArea",
     "FrozenContact",
     "HalfSpace",
@@ -37,10 +39,12 @@ __all__ = [
     "Rolling",
     "RollingContact",
     "Status",
+    "TooManyCellsError",
     "Track",
     "UnitsWarning",
     "WheelContact",
     "indent",
+    "indent_few_cells",
     "press_frozen",
     "residual",
     "roll",

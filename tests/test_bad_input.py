@@ -397,6 +397,8 @@ FAILING = {"tolerance": 1e-6, "max_iterations": 500, "raise_on_failure": True}
         (bem3d.indent, lambda: list(bem3d.indent(half_space(), np.zeros((4, 5)), forces=[1.0])),
          {**FAILING, "stiffness": False}),
         (bem3d.solve_fixed_area, frozen, FAILING),
+        (bem3d.indent_few_cells, lambda: list(bem3d.indent_few_cells(half_space(), np.eye(4, 5), forces=[1.0])),
+         {"max_cells": 4000, "tolerance": 1e-6, "max_iterations": 500}),
         (bem3d.roll, lambda: wide(positions=1), {**FAILING, "tolerance": 1e-5, "positions": None}),
         (bem3d.rolling_force,
          lambda: bem3d.rolling_force(np.zeros((4, 40)), spacing=0.6, radius=1.0, modulus=1.0, approach=1.0),

@@ -26,6 +26,7 @@ def results():
         bem3d.solve(BODY, GAP, force=0.0),
         bem3d.solve_polonsky_keer(BODY, GAP, approach=0.5),
         next(bem3d.indent(BODY, GAP, forces=[1.0], stiffness=True)),
+        next(bem3d.indent_few_cells(BODY, GAP, forces=[1.0])),
         bem3d.solve_fixed_area(BODY, contact.pressure > 0),
         bem3d.solve_fixed_area(BODY, np.zeros((6, 5), dtype=bool)),
         bem3d.Track(height=HEIGHT, spacing=0.25, radius=1.0, modulus=1.0),

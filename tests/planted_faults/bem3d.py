@@ -10,6 +10,7 @@ import bem3d
 from bem3d import (
     contact,
     convolution,
+    few_cells,
     halfspace,
     kernel,
     projected_cg,
@@ -27,6 +28,7 @@ from tests.bem3d import (
     test_contact_properties,
     test_convergence_rates,
     test_elliptic_wheels,
+    test_few_cells,
     test_load_paths,
     test_operator_against_dense_twin,
     test_rolling_contact,
@@ -94,6 +96,10 @@ def half_a_cell_aside(track, columns):
     return (np.asarray(columns) - track.height.shape[1] / 2) * track.steps[1]
 
 
+def among_square_cells(half_space):
+    return influence(half_space.like(shape=half_space.shape, spacing=half_space.steps[0]))
+
+
 def at_ten_times_the_tolerance(attempt, residual, tolerance, max_iterations):
     judged(attempt, residual, 10 * tolerance, max_iterations)
 
@@ -102,6 +108,7 @@ def whoever_has_ended(contact):
     return contact.status in ("converged", "iteration limit")
 
 
+influence = few_cells._influence
 judged = window_solve.IterationState.record_residual
 moments = Frame._moments
 
@@ -124,6 +131,26 @@ FAULTS = {
     "E for E* in boundary elements": (
         (kernel, "free_space_symbol", scaled(kernel.free_space_symbol, E_FOR_E_STAR)),
         test_convergence_rates.test_sphere_force_at_second_order,
+    ),
+    "E for E* among few cells": (
+        (few_cells, "_influence", scaled(few_cells._influence, E_FOR_E_STAR)),
+        test_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
+    ),
+    "few cells as wide as they are long": (
+        (few_cells, "_influence", among_square_cells),
+        test_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
+    ),
+    "the cells that are looked at first, and no others": (
+        (few_cells, "GROWTH", 1),
+        test_few_cells.test_the_residual_is_that_of_the_whole_grid,
+    ),
+    "few cells judged by a forgiving residual": (
+        (few_cells, "residual", forgiving_residual),
+        test_few_cells.test_the_residual_is_that_of_the_whole_grid,
+    ),
+    "a stiffness of few cells within a tenth": (
+        (few_cells, "STIFFNESS_TOLERANCE", 0.1),
+        test_few_cells.test_stiffness_is_the_slope_of_the_load,
     ),
     "1.1419 for 1.1523 under the square punch": (
         (closed_forms, "SQUARE_PUNCH", 1.012 * 2 / math.sqrt(math.pi)),

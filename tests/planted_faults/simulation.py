@@ -9,6 +9,7 @@ import numpy as np
 import mdr
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import (
+    test_light_punch,
     test_periodic_motion,
     test_profiled_strip,
     test_rail_filters,
@@ -23,13 +24,16 @@ from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
 from validation.simulation import (
+    band_limited,
     contact_laws,
     integrators,
+    light_punch,
     mean_contact,
     pressed_layer,
     profiled_strip,
     rail_models,
     rail_quantity,
+    rough_punch,
     spectral_springs,
     wheel_on_rail,
 )
@@ -44,6 +48,16 @@ def without_load(wheel, law, **settings):
     """M z'' = F."""
     weightless = types.SimpleNamespace(load=0.0, mass=wheel.mass, eigenfrequency=wheel.eigenfrequency)
     return wheel_in_motion.simulate(weightless, law, **settings)
+
+
+def half_a_fine_cell_aside(height, cells):
+    """The mean of neighbours: what it is between them, nearly."""
+    fine = band_limited.refined(height, cells)
+    return (fine + np.roll(fine, 1, axis=0)) / 2
+
+
+def heavier_loads_as_light_ones(surface):
+    return rough_punch.press_surface(dataclasses.replace(surface, forces=tuple(f / 2 for f in surface.forces)))
 
 
 def by_another(march):
@@ -131,6 +145,14 @@ def on_the_fitted_radius(strip, profile):
 
 
 FAULTS = {
+    "a finer grid half a cell aside": (
+        (light_punch, "refined", half_a_fine_cell_aside),
+        functools.partial(test_light_punch.test_the_same_numbers_as_by_transforms, 128),
+    ),
+    "light loads that are not carried on": (
+        (light_punch, "press_surface", heavier_loads_as_light_ones),
+        test_light_punch.test_heavier_loads_go_on_by_transforms,
+    ),
     "a fitted radius in place of the transverse profile": (
         (profiled_strip, "heights_across", on_the_fitted_radius),
         test_profiled_strip.test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact,

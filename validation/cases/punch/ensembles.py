@@ -71,10 +71,13 @@ class PunchEnsembles:
 
 
 def press(
-    engine: Engine, surfaces: Mapping[K, Sequence[Surface]], profiles: Mapping[J, Profiles]
+    engine: Engine,
+    surfaces: Mapping[K, Sequence[Surface]],
+    profiles: Mapping[J, Profiles],
+    solve: Callable[[Surface], Outcome] = press_surface,
 ) -> tuple[dict[K, Outcome], dict[J, Outcome], tuple[str, ...]]:
     """Outcomes of each group, one row a realisation; a line for each load that did not converge."""
-    pressed = engine.map_groups(press_surface, surfaces)
+    pressed = engine.map_groups(solve, surfaces)
     unconverged = [line for key, group in surfaces.items() for line in describe_failures(list(group), pressed[key])]
     springs = zip(profiles, engine.map(press_profiles, list(profiles.values())), strict=True)
     return {key: stacked(rows) for key, rows in pressed.items()}, dict(springs), tuple(unconverged)

@@ -2,11 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import BEM, MDR, Profiles, PunchRoughness, Surface
 from validation.theory import closed_forms
 
@@ -20,16 +22,17 @@ PAIRS = 4
 class FractalPunch(PunchEnsembles):
     """Self-affine punches from q_min = 2 pi / L, no roll-off; each has its rms height exactly.
 
-    A realisation has the same phases on every grid and for every Hurst exponent. Grids have 1/4, 1/2, 1, 2 and 4 times
-    `cells` a side, which are four to the shortest wave; the coarsest has no waves beyond two of its cells.
+    A realisation has the same phases on every grid and for every Hurst exponent. Grids have 1/4, 1/2, 1, 2, 4 and
+    more times `cells` a side, which are four to the shortest wave; the coarsest has no waves beyond two of its cells.
 
-    hursts; surfaces: how many on each of these grids, coarse to fine, one row a decade of force; zero if a grid is
-    not used, else descending, with three finer than the coarsest grid, that of `cells` among them; fine_profiles: of
-    the profiles, as many are pressed with twice the springs. cells: a multiple of 8.
+    hursts; surfaces: how many on each of these grids, coarse to fine, one row for each of as many equal parts of the
+    decades of force; zero if a grid is not used, else descending, with three finer than the coarsest grid, that of
+    `cells` among them; fine_profiles: of the profiles, as many are pressed with twice the springs. cells: a multiple
+    of 8.
     """
 
     hursts: tuple[float, ...] = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
-    surfaces: tuple[tuple[int, int, int, int, int], ...] = (
+    surfaces: tuple[tuple[int, ...], ...] = (
         (0, 0, 30, 12, 4),
         (0, 100, 30, 10, 0),
         (160, 40, 12, 6, 0),
@@ -47,9 +50,11 @@ class FractalPunch(PunchEnsembles):
             raise ValueError(f"decades must be two powers of ten, ascending, got {self.decades}")
         if not 2 <= self.fine_profiles <= self.profiles:
             raise ValueError(f"fine_profiles must be from 2 to the {self.profiles} profiles, got {self.fine_profiles}")
-        if len(self.surfaces) != self.decades[1] - self.decades[0]:
-            raise ValueError(f"surfaces must have a row a decade, got {self.surfaces}")
+        if not self.surfaces or len(self.surfaces) % (self.decades[1] - self.decades[0]):
+            raise ValueError(f"surfaces must have as many rows in each decade, got {self.surfaces}")
         for row in self.surfaces:
+            if len(row) != len(self.surfaces[0]):
+                raise ValueError(f"surfaces must have rows of equal length, got {self.surfaces}")
             used = [count for count in row if count]
             if not row[2] or sum(map(bool, row[1:])) < 3 or used != sorted(used, reverse=True) or used[-1] < PAIRS:
                 raise ValueError(
@@ -59,15 +64,22 @@ class FractalPunch(PunchEnsembles):
     @property
     def grids(self) -> tuple[int, ...]:
         """Cells on a side, coarse to fine."""
-        return self.cells // 4, self.cells // 2, self.cells, 2 * self.cells, 4 * self.cells
+        return tuple(self.cells * 2**i // 4 for i in range(len(self.surfaces[0])))
 
-    def decade_of(self, force: float) -> int:
-        """Which row of `surfaces` a force belongs to: each decade has its end, and the first has its beginning."""
-        return max(sum(force > first * (1 + 1e-9) for first in self.first_forces) - 1, 0)
+    @property
+    def parts(self) -> tuple[tuple[float, float], ...]:
+        """First and last force of each row of `surfaces`."""
+        (first, last), count = self.decades, len(self.surfaces)
+        ends = [10.0 ** (first + (last - first) * i / count) for i in range(count + 1)]
+        return tuple(pairwise(ends))
+
+    def part_of(self, force: float) -> int:
+        """Which row of `surfaces` a force belongs to: each part has its end, and the first has its beginning."""
+        return max(sum(force > first * (1 + 1e-9) for first, _ in self.parts) - 1, 0)
 
     def count(self, force: float, cells: int) -> int:
         """How many surfaces are pressed with a force on a grid."""
-        return self.surfaces[self.decade_of(force)][self.grids.index(cells)]
+        return self.surfaces[self.part_of(force)][self.grids.index(cells)]
 
     def grids_at(self, force: float) -> list[int]:
         """The grids on which surfaces are pressed with a force, coarse to fine."""
@@ -123,7 +135,7 @@ def run(case: FractalPunch, engine: Engine = SERIAL) -> FractalPunchResult:
         for method, length in ((MDR, 1.0), (LONG, closed_forms.SQUARE_PUNCH))
         for points, count in ((case.points, case.profiles), (2 * case.points, case.fine_profiles))
     }
-    bem, springs, unconverged = press(engine, surfaces, profiles)
+    bem, springs, unconverged = press(engine, surfaces, profiles, press_lightly)
     found = {key: at_all_forces(case, surfaces[key], outcome) for key, outcome in bem.items()} | springs
     ensembles = [Ensemble(hurst, {method: {} for method in (BEM, MDR, LONG)}) for hurst in case.hursts]
     for (hurst, method, size), outcome in found.items():

@@ -15,29 +15,29 @@ from validation.simulation.rough_punch import BEM
 
 
 def estimator(found: PunchStatistics) -> list[Row]:
-    """One row a decade and grid: surfaces, and what their best number follows from; NaN on a grid without any.
+    """One row a part of the forces and grid: surfaces, and what their best number follows from; NaN without any.
 
     variance: what one surface adds to that of ln deviation, by the step from the next coarser grid or on the coarsest,
     four times that of the last step, which the extrapolation doubles; work: cells times operator applications of a
-    surface at the forces of the decade, over that of the finest; best: surfaces ~ sqrt(variance / work), for the same
+    surface at these forces, over that of the finest; best: surfaces ~ sqrt(variance / work), for the same
     work in all (Giles 2015).
     """
     case = found.case
     rows = []
-    for decade, first in enumerate(case.first_forces):
-        levels = [i for i, force in enumerate(case.forces) if case.decade_of(force) == decade]
+    for part, (first, last) in enumerate(case.parts):
+        levels = [i for i, force in enumerate(case.forces) if case.part_of(force) == part]
         used = case.grids_at(case.forces[levels[0]])
         pairs = [(ensemble, level) for ensemble in found.result.ensembles for level in levels]
         work = {cells: mean(_work(ensemble, cells, level) for ensemble, level in pairs) for cells in used}
         steps = [_steps(stiffness_on_grids(ensemble, BEM, level)) for ensemble, level in pairs]
         variance = {cells: mean(step[cells] for step in steps) for cells in used}
         variance[used[-1]] *= 4
-        counts = dict(zip(case.grids, case.surfaces[decade], strict=True))
+        counts = dict(zip(case.grids, case.surfaces[part], strict=True))
         best = {cells: (variance[cells] / work[cells]) ** 0.5 for cells in used}
         total = sum(counts[cells] * work[cells] for cells in used) / sum(best[cells] * work[cells] for cells in used)
         gains = {name: mean(_gain(found, name, e, level, work) for e, level in pairs) for name in (MEAN, DEVIATION)}
         for cells in used:
-            row: Row = {"Fbar from": first, "cells": float(cells), "surfaces": float(counts[cells])}
+            row: Row = {"Fbar from": first, "Fbar to": last, "cells": float(cells), "surfaces": float(counts[cells])}
             row |= {"variance": variance[cells], "work": work[cells] / work[used[-1]], "best": total * best[cells]}
             rows.append(row | {f"plain over multilevel, {name}": gain for name, gain in gains.items()})
     return rows

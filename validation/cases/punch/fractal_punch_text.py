@@ -28,9 +28,9 @@ NONE_LEFT = "none left"
 def method(case: FractalPunch) -> str:
     """How the numbers were found, with the three errors apart."""
     plan = "; ".join(
-        f"Fbar = {_decade(first)}: "
+        f"Fbar = {_range(first, last)}: "
         + ", ".join(f"{count} on {cells}²" for cells, count in zip(case.grids, row, strict=True) if count)
-        for first, row in zip(case.first_forces, case.surfaces, strict=True)
+        for (first, last), row in zip(case.parts, case.surfaces, strict=True)
     )
     return (
         f"A rigid square punch of side L, rough from q_min = 2π/L to {case.cells // 4} q_min, no roll-off, amplitudes "
@@ -138,8 +138,8 @@ def plan(case: FractalPunch, rows: Sequence[Row]) -> Table:
     return Table(
         "surfaces on each grid, and in brackets those that would leave the least error of the deviation for the same "
         "work, by the variances of this run",
-        {"Fbar": [_decade(first) for first in case.first_forces]}
-        | {f"{cells}²": [found.get((first, cells), "") for first in case.first_forces] for cells in case.grids},
+        {"Fbar": [_range(first, last) for first, last in case.parts]}
+        | {f"{cells}²": [found.get((first, cells), "") for first, _ in case.parts] for cells in case.grids},
     )
 
 
@@ -190,14 +190,15 @@ def cost(result: FractalPunchResult, rows: Sequence[Row]) -> tuple[str, str]:
     )
     gains = "; ".join(
         f"{gain['plain over multilevel, relative deviation']:.2g} and "
-        f"{gain['plain over multilevel, mean stiffness']:.2g} for Fbar = {_decade(first)}"
+        f"{gain['plain over multilevel, mean stiffness']:.2g} for Fbar = {_range(first, gain['Fbar to'])}"
         for first, gain in {row["Fbar from"]: row for row in rows}.items()
     )
     return (
         f"{contacts.size} contacts with their stiffness took {np.mean(contacts + fixed):.1f} operator applications "
         f"each in the mean, {contacts.mean():.1f} for the contact (at most {contacts.max():.0f}) and "
         f"{fixed.mean():.1f} for the stiffness (at most {fixed.max():.0f}), on the smallest window that "
-        "holds the contact.",
+        "holds the contact. Where few cells touch, influence coefficients are multiplied instead; they count as the "
+        "applications that take as many operations.",
         "Plain sampling on the two finest grids would take so many times the work (cells times operator applications) "
         f"for the same error of the deviation and of the mean: {gains}.",
     )
@@ -225,4 +226,8 @@ def in_words(value: float, unit: str) -> str:
 
 
 def _decade(first: float) -> str:
-    return f"{first:g} to {10 * first:g}"
+    return _range(first, 10 * first)
+
+
+def _range(first: float, last: float) -> str:
+    return f"{first:.2g} to {last:.2g}"

@@ -1,0 +1,134 @@
+"""Contacts of few cells by their influence coefficients: beside the same by transforms, and beside an oracle."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import bem3d
+from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
+from tests.strategies import pressed
+
+FORCES = (1e-6, 4e-6, 2e-5)
+
+
+def rough_punch(cells=96, seed=1):
+    def c2d(q):
+        return np.where(q < cells / 4 * 2 * np.pi, q**-3.4, 0.0)
+
+    rng = np.random.default_rng(seed)
+    height = bem3d.rough_surface(c2d, shape=(cells, cells), spacing=1 / cells, rng=rng, rms=1e-3)
+    return bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0), -height
+
+
+def spread(contact, shape):
+    """Its pressure on the whole grid."""
+    whole = np.zeros(shape)
+    whole[tuple(contact.cells.T)] = contact.pressure
+    return whole
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_same_as_by_transforms(seed):
+    """Two solutions within the same small residual: pressure, approach, area and stiffness at each load."""
+    body, gap = rough_punch(seed=seed)
+    path = bem3d.indent(body, gap, forces=FORCES, stiffness=True, tolerance=1e-9, indenter_ends_at_edge=True)
+    for few, contact in zip(bem3d.indent_few_cells(body, gap, forces=FORCES, tolerance=1e-9), path, strict=True):
+        np.testing.assert_allclose(spread(few, body.shape), contact.pressure, atol=1e-6 * contact.pressure.max())
+        assert few.area == pytest.approx(contact.area, rel=1e-12)
+        assert few.approach == pytest.approx(contact.approach, abs=1e-8 * (contact.approach - gap.min()))
+        assert few.stiffness == pytest.approx(contact.stiffness(), rel=1e-6)
+        assert few.pressure.sum() * body.cell_area == pytest.approx(few.force, rel=1e-12)
+
+
+@pytest.mark.slow
+@given(problem=pressed(most=8, periodic=False, by=("force",)))
+def test_any_gap_beside_least_squares(problem):
+    """Plateaus, spikes, single cells, full contact; cells of any proportion."""
+    body, gap, force = problem.half_space, problem.gap, problem.prescribed["force"]
+    (contact,) = bem3d.indent_few_cells(body, gap, forces=[force], tolerance=1e-9)
+    approach = approach_by_least_squares(body, gap, force)
+    overlap = approach - gap.min()
+    assert contact.approach == pytest.approx(approach, abs=1e-7 * overlap)
+    pressure = contact_by_least_squares(body, gap, contact.approach)
+    displaced = dense_operator(body) @ (spread(contact, body.shape) - pressure).ravel()
+    assert np.abs(displaced).max() < 1e-6 * overlap
+
+
+@given(seed=st.integers(0, 100), force=st.sampled_from([1e-6, 1e-5, 1e-4]))
+def test_the_residual_is_that_of_the_whole_grid(seed, force):
+    """Cells that do not overlap cannot touch: it is taken on all others."""
+    body, gap = rough_punch(48, seed)
+    (contact,) = bem3d.indent_few_cells(body, gap, forces=[force], tolerance=1e-7)
+    pressure = spread(contact, body.shape)
+    w = gap + body.displacement(pressure) - contact.approach
+    whole = bem3d.residual(pressure, w, contact.approach - gap.min())
+    assert whole == pytest.approx(contact.residual, abs=1e-12)
+    assert contact.residual <= 1e-7
+
+
+def test_stiffness_is_the_slope_of_the_load():
+    """Between two near forces whose contact is the same."""
+    body, gap = rough_punch()
+    before, after = bem3d.indent_few_cells(body, gap, forces=[1e-5, 1.0001e-5], tolerance=1e-10)
+    assert before.area == after.area
+    slope = (after.force - before.force) / (after.approach - before.approach)
+    assert before.stiffness == pytest.approx(slope, rel=1e-5)
+
+
+def test_one_cell_is_as_soft_as_it_is_alone():
+    body = bem3d.HalfSpace(shape=(16, 9), spacing=(2.0, 0.5), modulus=3.0)
+    gap = np.ones(body.shape)
+    gap[11, 4] = 0.0
+    (contact,) = bem3d.indent_few_cells(body, gap, forces=[1e-3])
+    assert contact.cells.tolist() == [[11, 4]]
+    assert contact.stiffness == pytest.approx(body.cell_area / body.self_compliance, rel=1e-12)
+    assert contact.approach == pytest.approx(contact.pressure[0] * body.self_compliance, rel=1e-12)
+
+
+def test_as_many_cells_as_are_allowed_and_no_more():
+    """The lighter contacts are good; on its way to the last, a search on few cells is not mistaken for a contact."""
+    body, gap = rough_punch()
+    path = list(bem3d.indent(body, gap, forces=FORCES, tolerance=1e-9, indenter_ends_at_edge=True))
+    overlapping = [int((gap < contact.approach).sum()) for contact in path]
+    assert overlapping[0] < overlapping[1] < overlapping[2]
+    few = bem3d.indent_few_cells(body, gap, forces=FORCES, max_cells=overlapping[1] + 1)
+    assert [len(next(few).cells), len(next(few).cells)] == [np.count_nonzero(c.pressure) for c in path[:2]]
+    with pytest.raises(bem3d.TooManyCellsError, match=r"forces\[2\] = 2e-05 N .* than max_cells"):
+        next(few)
+    assert len(list(bem3d.indent_few_cells(body, gap, forces=FORCES, max_cells=overlapping[2] + 1))) == len(FORCES)
+
+
+def test_not_converged_is_no_result():
+    body, gap = rough_punch()
+    with pytest.raises(bem3d.ConvergenceError, match=r"residual .* asked for 1e-12, at force 1e-05 N") as caught:
+        list(bem3d.indent_few_cells(body, gap, forces=[1e-5], tolerance=1e-12, max_iterations=1))
+    assert caught.value.history[-1] == caught.value.result.residual > 1e-12
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"forces": []}, "forces must be positive and ascending"),
+        ({"forces": [0.0, 1.0]}, "forces must be positive and ascending"),
+        ({"forces": [2.0, 1.0]}, "forces must be positive and ascending"),
+        ({"forces": [1.0, 1.0]}, "forces must be positive and ascending"),
+        ({"forces": [1.0, np.nan]}, "forces must be finite"),
+        ({"forces": 1.0}, r"forces must have shape"),
+        ({"gap": np.zeros((4, 4))}, r"gap must have shape \(4, 5\)"),
+        ({"gap": np.full((4, 5), np.nan)}, "gap must be finite"),
+        ({"max_cells": 0}, "max_cells must be at least 1"),
+        ({"tolerance": 1.0}, "tolerance must lie between 0 and 1"),
+        ({"max_iterations": 0}, "max_iterations must be at least 1"),
+    ],
+)
+def test_what_is_refused(changes, message):
+    body = bem3d.HalfSpace(shape=(4, 5), spacing=1.0, modulus=1.0)
+    with pytest.raises(ValueError, match=message):
+        bem3d.indent_few_cells(**{"half_space": body, "gap": np.zeros((4, 5)), "forces": [1.0], **changes})
+
+
+def test_no_periodic_half_space():
+    body = bem3d.HalfSpace(shape=(4, 5), spacing=1.0, modulus=1.0, periodic=True)
+    with pytest.raises(ValueError, match="half_space must be in free space"):
+        bem3d.indent_few_cells(body, np.zeros((4, 5)), forces=[1.0])

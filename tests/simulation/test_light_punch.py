@@ -1,0 +1,61 @@
+"""Light loads on few cells: the same stiffness as by transforms, on the same surface."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import bem3d
+from validation.simulation import light_punch
+from validation.simulation.band_limited import refined
+from validation.simulation.light_punch import press_lightly
+from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
+
+ROUGHNESS = PunchRoughness(hurst=0.7, waves=(1, 16), seed=5)
+SURFACE = Surface(roughness=ROUGHNESS, realisation=3, cells=64, forces=(0.001, 0.01, 0.1), tolerance=1e-6)
+COMMON = ("stiffness", "area", "approach")
+
+
+@pytest.mark.parametrize("cells", [32, 64, 128])
+def test_the_same_numbers_as_by_transforms(cells):
+    surface = replace(SURFACE, cells=cells)
+    light, plain = press_lightly(surface), press_surface(surface)
+    for name in COMMON:
+        np.testing.assert_allclose(light[name], plain[name], rtol=1e-4)
+    assert light["failed"] == 0
+    assert (light["residual"] < 1e-6).all()
+
+
+def test_heavier_loads_go_on_by_transforms():
+    """Where more cells overlap than are worth a matrix."""
+    expected = press_surface(SURFACE)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(light_punch, "OVERLAPPING", 1)
+        light = press_lightly(SURFACE)
+    assert light["applications"][0] < 1 < light["applications"][-1] == int(light["applications"][-1])
+    for name in COMMON:
+        np.testing.assert_allclose(light[name], expected[name], rtol=1e-4)
+
+
+def test_a_light_load_takes_few_operations():
+    """Counted: less than one application, where transforms take eight or more."""
+    light = press_lightly(replace(SURFACE, cells=256, forces=(0.001, 0.002)))
+    assert (light["applications"] + light["frozen applications"] < 0.1).all()
+
+
+@pytest.mark.parametrize(("coarse", "fine"), [(32, 64), (64, 256), (48, 80), (33, 66), (32, 33)])
+def test_a_refined_surface_is_the_one_that_is_drawn_on_the_fine_grid(coarse, fine):
+    def c2d(q):
+        return np.where(q < 8.5 * 2 * np.pi, q**-3.0, 0.0)
+
+    draws = [
+        bem3d.rough_surface(c2d, shape=(n, n), spacing=1 / n, rng=np.random.default_rng(1), rms=1.0)
+        for n in (coarse, fine)
+    ]
+    np.testing.assert_allclose(refined(draws[0], fine), draws[1], atol=1e-12)
+
+
+def test_refined_refuses_what_is_finer_or_not_square():
+    for height in (np.zeros((4, 5)), np.zeros((9, 9))):
+        with pytest.raises(ValueError, match=r"height must have shape \(n, n\) with n up to cells = 8"):
+            refined(height, 8)
