@@ -118,30 +118,26 @@ def indent_few_cells(
     forces : sequence of float
         Normal forces, positive and ascending [N].
     max_cells : int, optional
-        Most cells that may overlap geometrically, three to four times those that touch on a rough surface. Memory and
-        time of a load go with the square.
+        Most cells that may overlap geometrically, three times those that touch or more. Memory and time go with the
+        square.
     tolerance, max_iterations
         `residual` to reach, in (0, 1), and limit of iterations between two fresh residuals, at least 1.
 
     Yields
     ------
     FewCellsContact
-        The contact at each force, with its stiffness.
+        The contact at each force, with its stiffness. No warning is given: its number of cells tells of few.
 
     Raises
     ------
-    ValueError, TypeError
-        If an argument is out of range, before the first contact.
-    TooManyCellsError
-        If more than ``max_cells`` overlap; contacts that came before are good.
-    ConvergenceError
-        If a contact does not reach the tolerance.
+    ValueError, TypeError, TooManyCellsError, ConvergenceError
+        If an argument is out of range; more than ``max_cells`` overlap, where earlier contacts are good; or a contact
+        does not reach the tolerance.
 
     Notes
     -----
     u_i = sum_j K_ij p_j over the cells that may touch, K_ij by Love as in `HalfSpace`. A cell that does not overlap
-    geometrically cannot touch, so that the residual on those that do is that of the whole grid. There are no warnings:
-    the number of cells is in the result.
+    geometrically cannot touch, so that the residual on those that do is that of the whole grid.
 
     Examples
     --------

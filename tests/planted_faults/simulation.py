@@ -7,6 +7,7 @@ import types
 import numpy as np
 
 import mdr
+from bem3d import few_cells
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import (
     test_light_punch,
@@ -54,6 +55,14 @@ def half_a_fine_cell_aside(height, cells):
     """The mean of neighbours: what it is between them, nearly."""
     fine = band_limited.refined(height, cells)
     return (fine + np.roll(fine, 1, axis=0)) / 2
+
+
+def half_of_a_light_force(half_space, gap, *, forces, **settings):
+    return few_cells.indent_few_cells(half_space, gap, forces=forces / 2, **settings)
+
+
+def upside_down(surface):
+    return -surface.roughness.surface(surface.cells, surface.realisation)
 
 
 def heavier_loads_as_light_ones(surface):
@@ -148,6 +157,14 @@ FAULTS = {
     "a finer grid half a cell aside": (
         (light_punch, "refined", half_a_fine_cell_aside),
         functools.partial(test_light_punch.test_the_same_numbers_as_by_transforms, 128),
+    ),
+    "half of a light force": (
+        (light_punch.bem3d, "indent_few_cells", half_of_a_light_force),
+        test_light_punch.test_beside_the_dense_solution,
+    ),
+    "light loads on a surface upside down": (
+        (light_punch, "_height", upside_down),
+        test_light_punch.test_beside_the_dense_solution,
     ),
     "light loads that are not carried on": (
         (light_punch, "press_surface", heavier_loads_as_light_ones),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
 from validation.simulation import light_punch
 from validation.simulation.band_limited import refined
 from validation.simulation.light_punch import press_lightly
@@ -24,6 +25,21 @@ def test_the_same_numbers_as_by_transforms(cells):
         np.testing.assert_allclose(light[name], plain[name], rtol=1e-4)
     assert light["failed"] == 0
     assert (light["residual"] < 1e-6).all()
+
+
+def test_beside_the_dense_solution():
+    """A bump raises the force, F = Fbar h; stiffness is that of the cells in contact."""
+    surface = replace(SURFACE, cells=12, roughness=replace(ROUGHNESS, waves=(1, 3)), tolerance=1e-8)
+    found = press_lightly(surface)
+    half_space = bem3d.HalfSpace(shape=(12, 12), spacing=1 / 12, modulus=1.0)
+    height, dense = surface.roughness.surface(12, surface.realisation), dense_operator(half_space)
+    for i, force in enumerate(surface.forces):
+        approach = approach_by_least_squares(half_space, -height, force * 1e-3)
+        assert found["approach"][i] == pytest.approx(approach, abs=1e-6 * (approach + height.max()))
+        cells = np.flatnonzero(contact_by_least_squares(half_space, -height, approach) > 0)
+        stiffness = np.linalg.solve(dense[np.ix_(cells, cells)], np.ones(cells.size)).sum() / 144
+        assert found["stiffness"][i] == pytest.approx(stiffness, rel=1e-5)
+        assert found["area"][i] == pytest.approx(cells.size / 144)
 
 
 def test_heavier_loads_go_on_by_transforms():

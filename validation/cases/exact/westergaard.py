@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 import bem3d
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
+from validation.analysis.digits import in_four_digits
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, columns
 from validation.analysis.wording import by_status
 from validation.cases.exact.refinement import order
@@ -134,7 +135,7 @@ def evidence(result: WestergaardResult) -> Evidence:
             "of a periodic line contact."
         ),
         numbers=numbers,
-        tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
+        tables=tuple(in_four_digits(Table(name, columns(**data))) for name, data in _data(result).items()),
         claims=(claim,),
         finding=f"{headline(claim)}.",
         headlines={"westergaard": headline(claim)},

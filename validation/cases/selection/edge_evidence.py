@@ -67,15 +67,6 @@ def _short(error: np.ndarray) -> float:
     return float(f"{float(error):.3g}")
 
 
-def in_four_digits(table: Table) -> Table:
-    """For who reads the data: a table of many scenes, each number in four digits."""
-    columns = {name: table[name].tolist() for name in table.columns}
-    return Table(
-        table.name,
-        {n: [float(f"{x:.4g}") if isinstance(x, float) else x for x in mine] for n, mine in columns.items()},
-    )
-
-
 def edge_numbers(table: Table) -> tuple[Number, ...]:
     """Three a tolerance, over all kinds, where an answer was tested."""
     tested = table["tolerance"][np.isfinite(table["true error"])]

@@ -8,6 +8,7 @@ import numpy as np
 
 from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
+from validation.analysis.digits import in_four_digits
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, numbers_with, table_of
 from validation.cases.selection.edge_evidence import (
     by_scene,
@@ -15,7 +16,6 @@ from validation.cases.selection.edge_evidence import (
     edge_numbers,
     edge_table,
     edges_by_kind,
-    in_four_digits,
     kind_answer,
     kind_numbers,
 )
