@@ -45,7 +45,7 @@ from validation.report.figures import drawing
 from validation.report.figures import hertz as hertz_figure
 from validation.report.kept import kept_sections
 from validation.report.section import results_of
-from validation.simulation.rough_punch import press_surface
+from validation.simulation.light_punch import press_lightly
 
 ROOT = Path(__file__).parents[2]
 SMALL = {
@@ -345,8 +345,8 @@ def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch)
     seen = []
 
     def is_lost(half_space, gap, force):
-        seen.append(gap.shape == (8, 8))
-        return sum(seen) == len(SMALL["fractal_punch"].forces)
+        seen.append(gap.shape == (8, 8) and force > 0.9e-2)
+        return seen[-1] and sum(seen) == 1
 
     limited(monkeypatch, is_lost)
     assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
@@ -449,5 +449,5 @@ def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
     assert [file.name for file in tmp_path.glob("*.json")] == ["manifest.json"]
     assert not list(store.glob(".*.part"))
     case = CASES["fractal_punch"].quick
-    Engine(store=store).map(press_surface, [case.surface(case.hursts[0], 0, case.cells // 4)])
+    Engine(store=store).map(press_lightly, [case.surface(case.hursts[0], 0, case.cells // 4)])
     assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept
