@@ -16,6 +16,8 @@ FIRST_STEP = 0.4
 """The approximate inverse is too stiff by up to a factor of a few: eigenvalues of M K on a contact are 1 and more."""
 WHOLE_STEP = 0.65
 """A step that cut cells off is taken whole if its best length is at least this part of it: it then gains energy."""
+ROUNDING = 8 * float(np.finfo(np.float64).eps)
+"""Part of its pressure that a cell may keep by rounding alone when a step ends where the cell leaves the contact."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,7 +174,7 @@ def projected_cg(
             return
         best = step.gain / curvature
         taken, length = _taken(step, best, pressure, length)
-        pressure = np.maximum(pressure + taken * step.change, 0.0)
+        pressure = _left_over(pressure, taken * step.change)
         separation = separation + taken * image
         memory.add(step.change, image)
 
@@ -211,3 +213,9 @@ def _taken(step: IterationStep, best: float, pressure: FloatArray, length: float
     if best >= WHOLE_STEP:
         return 1.0, max(length, min(FIRST_STEP, 2 * length))
     return best, length * max(best, 0.5)
+
+
+def _left_over(pressure: FloatArray, change: FloatArray) -> FloatArray:
+    """Pressure after a step; a cell that keeps no more than rounding is out of the contact."""
+    after = pressure + change
+    return np.where(after > ROUNDING * pressure, after, 0.0)

@@ -70,6 +70,15 @@ def test_steps_that_lead_uphill_are_forgotten(second):
     assert np.array_equal(memory.improve(-w, -w), -w)
 
 
+def test_what_rounding_leaves_is_no_contact():
+    """A step that ends where a cell leaves the contact; a cell that begins may begin with as little as it likes."""
+    pressure = np.array([3.0, 3.0, 3.0, 0.0])
+    change = np.array([-np.nextafter(3.0, 0.0), -3.5, -3.0 * (1 - 1e-9), 1e-30])
+    after = projected_cg._left_over(pressure, change)
+    assert after[:2].tolist() == [0.0, 0.0]
+    assert after[2:] == pytest.approx([3e-9, 1e-30], rel=1e-6)
+
+
 def test_an_operator_that_answers_nothing_ends_the_iteration():
     cells = Cells(lambda u: u, compliance=0.0)
     states = projected_cg.projected_cg(cells, np.ones(2), np.zeros(2), Load(overlap=1.0))

@@ -136,6 +136,10 @@ FAULTS = {
         (few_cells, "_influence", scaled(few_cells._influence, E_FOR_E_STAR)),
         test_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
     ),
+    "a cell that has left, kept for the rounding of its pressure": (
+        (projected_cg, "_left_over", lambda pressure, change: np.maximum(pressure + change, 0.0)),
+        test_few_cells.test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure,
+    ),
     "few cells as wide as they are long": (
         (few_cells, "_influence", among_square_cells),
         test_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
