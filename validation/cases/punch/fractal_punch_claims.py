@@ -4,13 +4,22 @@ from collections.abc import Sequence
 
 from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.evidence import JudgedClaim, Number
-from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGIN, MEAN, DecadeComparison, numbers_of
+from validation.cases.punch.fractal_punch_decades import (
+    DEVIATION,
+    MARGIN,
+    MARGINS,
+    MEAN,
+    DecadeComparison,
+    numbers_of,
+)
 from validation.cases.punch.fractal_punch_numbers import PUBLISHED
 from validation.cases.punch.fractal_punch_text import NONE_LEFT, counts, in_words, nothing_left
 from validation.simulation.rough_punch import BEM
 
 CLAIM = "MDR has the fluctuation of the stiffness of rough punches (Fig. 14.1)."
 OF_MEAN = "MDR has the mean stiffness of rough punches."
+CLOSER = "5 %"
+"""A second margin in the answer: a difference that lies on one of them is decided by the other."""
 OF_LAW = "The stiffness of a rough punch grows with the force as F^(1 / (1 + H))."
 
 
@@ -25,7 +34,11 @@ def claims(comparisons: Sequence[DecadeComparison], laws: Sequence[Number]) -> t
 
 def _judged(claim: str, what: str, mine: Sequence[DecadeComparison]) -> JudgedClaim:
     """Up to the force at which one of the Hurst exponents does not agree."""
-    answer = f"at its worst force of a decade, MDR is off the {what} by {_by_decade(mine)}, judged within {MARGIN}."
+    closer = [number for c in mine if (number := c.within(MARGINS[CLOSER])) is not None]
+    answer = (
+        f"at its worst force of a decade, MDR is off the {what} by {_by_decade(mine)}, judged within {MARGIN}; "
+        f"within {CLOSER}: {counts(closer)}."
+    )
     # the faces of a punch touch all over under large forces, where springs are softer than a square
     decades = {first: numbers_of(c for c in mine if c.first == first) for first in sorted(_firsts(mine))}
     inside = agreeing_from_the_first(decades.values())

@@ -70,7 +70,7 @@ def _difference(axis: Axes, evidence: Evidence, hurst: float) -> None:
         label = "worst of a decade" if ends[0] == evidence.table("decades")["Fbar from"].min() else None
         axis.plot(ends, [middle] * 2, color="#000000", linewidth=2, label=label)
         centre = np.sqrt(ends[0] * ends[1])
-        axis.annotate(SIGN[row["verdict"]], (centre, 0.31), ha="center", va="bottom", fontsize=11, annotation_clip=True)
+        axis.annotate(SIGN[row["verdict"]], (centre, 2.9), ha="center", va="top", fontsize=11, annotation_clip=True)
     axis.set(yscale="log", ylim=(0.3, 3))
     axis.set_yticks([0.3, 0.5, 0.7, 1, 1.5, 2, 3], ["0.3", "0.5", "0.7", "1", "1.5", "2", "3"])
     axis.minorticks_off()
