@@ -42,15 +42,39 @@ def test_beside_the_dense_solution():
         assert found["area"][i] == pytest.approx(cells.size / 144)
 
 
-def test_heavier_loads_go_on_by_transforms():
-    """Where more cells overlap than are worth a matrix."""
+@pytest.mark.parametrize(("limit", "times"), [("OVERLAPPING", 1), ("TOUCHING", 0.1)])
+def test_heavier_loads_go_on_by_transforms(limit, times):
+    """Where more cells overlap than are worth a matrix, or will touch."""
     expected = press_surface(SURFACE)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(light_punch, "OVERLAPPING", 1)
+        patch.setattr(light_punch, limit, times)
         light = press_lightly(SURFACE)
     assert light["applications"][0] < 1 < light["applications"][-1] == int(light["applications"][-1])
     for name in COMMON:
         np.testing.assert_allclose(light[name], expected[name], rtol=1e-4)
+
+
+def test_a_load_that_will_have_many_cells_is_not_tried():
+    """The contact before it tells: their number goes with the force."""
+    tried = []
+
+    def contacts():
+        for load in (1.0, 2.0, 8.0):
+            tried.append(load)
+            yield bem3d.FewCellsContact(
+                cells=np.zeros((int(10 * load), 2), dtype=np.int32),
+                pressure=np.ones(int(10 * load)),
+                force=load,
+                area=load,
+                approach=1.0,
+                stiffness=1.0,
+                history=(0.0,),
+                products=0,
+                stiffness_products=0,
+            )
+
+    few = light_punch._while_few(contacts(), np.array([1.0, 2.0, 8.0]), 79.0)
+    assert [contact.force for contact in few] == tried == [1.0, 2.0]
 
 
 def test_a_light_load_takes_few_operations():
