@@ -196,12 +196,16 @@ def edge_answer(table: Table) -> str:
     )
 
 
-def kind_answer(numbers: Sequence[Number]) -> str:
-    """In a sentence: the kinds of which the share is known, and how many scenes the others would need."""
-    known = [f"{number.where['scene']} ({number.value:.0%})" for number in numbers if number.verdict != "undecided"]
-    others = [f"{number.where['scene']} ({number.value:.0%})" for number in numbers if number.verdict == "undecided"]
-    few = f"; too few scenes of {', '.join(others)} to decide: {NEEDED} of a kind would, if all hold" if others else ""
-    return f"decided of {', '.join(known) or 'none'}{few}."
+def kind_answer(numbers: Sequence[Number], table: Table) -> str:
+    """In a sentence: of which kinds the share is known, and on how many scenes all answers hold."""
+    kinds: dict[bool, list[str]] = {True: [], False: []}
+    for number in numbers:
+        kind = str(number.where["scene"])
+        held = _scenes_held(table.where(kind=kind))
+        kinds[number.verdict != "undecided"].append(f"{kind} {np.count_nonzero(held)} of {held.size}")
+    decided, undecided = (", ".join(kinds[known]) for known in (True, False))
+    enough = f"; undecided: {undecided} ({NEEDED} scenes of a kind decide if all hold)" if undecided else ""
+    return f"scenes all of whose answers hold: {decided or 'decided of no kind'}{enough}."
 
 
 def _held(table: Table) -> np.ndarray:

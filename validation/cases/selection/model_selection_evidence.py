@@ -87,7 +87,7 @@ def evidence(result: CalibrationResult) -> Evidence:
             *_claims(known, numbers),
             *((answered(COVERS, calibrated, _calibrated_answer(estimates)),) if calibrated else ()),
             *((answered(EDGES, at_edges, edge_answer(edges)),) if edges and at_edges else ()),
-            *((answered(EACH_KIND, of_kinds, kind_answer(of_kinds)),) if of_kinds else ()),
+            *((answered(EACH_KIND, of_kinds, kind_answer(of_kinds, edges)),) if edges and of_kinds else ()),
         ),
         finding=f"{headline(known)}; {saving(known)}." if known else "",
         headlines={"ladder": headline(known)} if known else {},
