@@ -13,7 +13,7 @@ WORK = "work"
 
 @dataclass(frozen=True)
 class Worked:
-    """cells: on a side of the usual grid; springs: of a profile; applications: a contact with its stiffness."""
+    """cells: on a side of the usual grid; springs: of a profile; applications: a contact with its stiffness, all loads alike."""
 
     cells: int
     springs: int
@@ -21,9 +21,13 @@ class Worked:
 
     @classmethod
     def of(cls, cells: int, springs: int, outcomes: Iterable[Outcome]) -> "Worked":
-        """The mean over all contacts of the outcomes that were found."""
+        """The mean over the loads, each the mean of what was found under it: light loads have more surfaces.
+
+        outcomes: a row a surface and a column a load, NaN where a surface was not pressed.
+        """
         found = [outcome["applications"] + outcome["frozen applications"] for outcome in outcomes]
-        return cls(cells, springs, float(np.nanmean(np.concatenate([values.ravel() for values in found]))))
+        by_load = [np.nanmean(np.atleast_2d(values), axis=0) for values in found]
+        return cls(cells, springs, float(np.nanmean(np.concatenate(by_load))))
 
     @classmethod
     def read(cls, table: Table) -> "Worked":
