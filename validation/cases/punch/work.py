@@ -13,7 +13,7 @@ WORK = "work"
 
 @dataclass(frozen=True)
 class Worked:
-    """cells: on a side of the usual grid; springs: of a profile; applications: a contact with its stiffness, all loads alike."""
+    """cells: on a side of the usual grid; springs: of a profile; applications: a contact with its stiffness."""
 
     cells: int
     springs: int
