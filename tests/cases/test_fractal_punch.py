@@ -13,7 +13,6 @@ from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.cases.punch import fractal_punch, fractal_punch_evidence
 from validation.cases.punch.fractal_punch import LONG, Ensemble, FractalPunch, FractalPunchResult
 from validation.cases.punch.fractal_punch_numbers import CONVEX
-from validation.cases.punch.work import Worked
 from validation.engine.random_numbers import random_generator
 from validation.simulation.rough_punch import BEM, MDR, press_profiles, press_surface
 
@@ -356,11 +355,3 @@ def test_the_title_of_the_exponents_has_the_status_of_their_law():
     for hurst, words in ((1.0, "holds within 0.02"), (0.4, "fails at 1 of 1 H")):
         title = synthetic(hursts=(hurst,), surfaces=60).headlines["fractal_punch-exponent"]
         assert title == f"The exponent 1 / (1 + H) {words} (Fbar 0.1 to 1)"
-
-
-def test_work_counts_loads_alike():
-    """Four surfaces under a light load and one under a heavy one: two loads, not five contacts."""
-    light, heavy = np.full(4, 0.5), np.array([20.0, np.nan, np.nan, np.nan])
-    applications = np.stack([light, heavy], axis=1)
-    outcome = {"applications": applications, "frozen applications": np.zeros_like(applications)}
-    assert Worked.of(64, 2048, [outcome]).applications == pytest.approx(10.25)

@@ -19,7 +19,7 @@ CELLS_A_WAVE = 4
 OVERLAPPING = 4
 """Times the cells on a side: when more overlap, an application by transforms costs less than one by a matrix."""
 TOUCHING = 1
-"""Times the cells on a side: a load under which more will touch is not tried on a matrix, measured on 128 to 2048."""
+"""Times the cells on a side: a load under which more will touch is not tried on a matrix. Half as many cost more."""
 
 
 def press_lightly(surface: Surface) -> Outcome:

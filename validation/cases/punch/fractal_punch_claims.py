@@ -36,8 +36,8 @@ def _judged(claim: str, what: str, mine: Sequence[DecadeComparison]) -> JudgedCl
     """Up to the force at which one of the Hurst exponents does not agree."""
     closer = [number for c in mine if (number := c.within(MARGINS[CLOSER])) is not None]
     answer = (
-        f"at its worst force of a decade, MDR is off the {what} by {_by_decade(mine)}, judged within {MARGIN}; "
-        f"within {CLOSER}: {counts(closer)}."
+        f"at its worst force of a decade, MDR is off the {what} by {_by_decade(mine)}; within {CLOSER}: "
+        f"{counts(closer)}; judged within {MARGIN}."
     )
     # the faces of a punch touch all over under large forces, where springs are softer than a square
     decades = {first: numbers_of(c for c in mine if c.first == first) for first in sorted(_firsts(mine))}

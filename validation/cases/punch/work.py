@@ -26,7 +26,7 @@ class Worked:
         outcomes: a row a surface and a column a load, NaN where a surface was not pressed.
         """
         found = [outcome["applications"] + outcome["frozen applications"] for outcome in outcomes]
-        by_load = [np.nanmean(np.atleast_2d(values), axis=0) for values in found]
+        by_load = [np.nanmean(values, axis=0) for values in found]
         return cls(cells, springs, float(np.nanmean(np.concatenate(by_load))))
 
     @classmethod

@@ -205,7 +205,7 @@ def kind_answer(numbers: Sequence[Number], table: Table) -> str:
         kinds[number.verdict != "undecided"].append(f"{kind} {np.count_nonzero(held)} of {held.size}")
     decided, undecided = (", ".join(kinds[known]) for known in (True, False))
     enough = f"; undecided: {undecided} ({NEEDED} scenes of a kind decide if all hold)" if undecided else ""
-    return f"scenes all of whose answers hold: {decided or 'decided of no kind'}{enough}."
+    return f"scenes all of whose answers hold: {decided or 'none decided'}{enough}."
 
 
 def _held(table: Table) -> np.ndarray:
