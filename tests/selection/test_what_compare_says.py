@@ -68,15 +68,19 @@ def test_bands_of_a_wheel_with_a_speed_have_nominal_frequencies():
 def test_mdr_is_named_where_it_is_enough_and_where_not():
     """Of 12 % wanted: found, claimed, too much by its claim, without a known error, and lost."""
     kinds = {
-        Finding(is_mdr=True, parts=(0.1, 0, 0)): "MDR: enough (10 % found, 12 % wanted).",
-        Fake(is_mdr=True, claimed=0.62): "MDR: not enough (62 % claimed, 12 % wanted), because claims 0.62.",
+        Finding(is_mdr=True, parts=(0.1, 0, 0)): "MDR: enough for this scene (10 % found, 12 % wanted).",
+        Fake(is_mdr=True, claimed=0.62): (
+            "MDR: not enough for this scene (62 % claimed before a solve, 12 % wanted), because claims 0.62."
+        ),
         Fake(is_mdr=True, claimed=math.inf): "MDR: not known to be enough, because claims inf.",
         Fake(is_mdr=True, failed="it was lost"): "MDR: not known to be enough, because it was lost.",
     }
     for springs, sentence in kinds.items():
         assert sentences_on_mdr(compared(springs, Fake(name="grid"), tolerance="12%")) == [sentence]
     cheaper = compared(Fake(name="formula"), Fake(is_mdr=True, claimed=0.1), tolerance="12%")
-    assert sentences_on_mdr(cheaper) == ["MDR: enough (10 % claimed, 12 % wanted); formula is cheaper."]
+    assert sentences_on_mdr(cheaper) == [
+        "MDR: enough for this scene (10 % claimed before a solve, 12 % wanted); formula is cheaper."
+    ]
     both = compared(Fake(name="line", is_mdr=True, claimed=0.5), Fake(name="surface", is_mdr=True), tolerance="12%")
     assert [line.split(":")[0] for line in sentences_on_mdr(both)] == ["MDR, line", "MDR, surface"]
     assert summary(both).splitlines()[-1].startswith("MDR, surface: enough")

@@ -113,6 +113,10 @@ class NominalBands:
         q, weight = self.quadrature()
         return np.asarray(2 * (weight * c_line(q)).sum(axis=-1))
 
+    def slope_of_spectrum(self, c_line: Callable[[FloatArray], FloatArray]) -> float:
+        """h', the rms slope along a line of the waves in all bands, h'^2 = 2 int q^2 C_line dq [-]; C_line as above."""
+        return math.sqrt(float(self.powers_of_spectrum(lambda q: q**2 * c_line(q)).sum()))
+
     def powers_of_records(self, records: ArrayLike, *, spacing: float) -> FloatArray:
         """Mean square in each band [m^2] of lines that do not repeat, along the last axis; bands come last.
 

@@ -15,6 +15,9 @@ WithSphere = IndentationScene | RollingScene | WheelScene
 AnyScene = WithSphere | RailScene
 Pairs = tuple[tuple[str, str], ...]
 
+COUNTED = "in one direction, of all waves"
+"""What the slope of a scene counts."""
+
 
 def describe(scene: AnyScene) -> Pairs:
     """What a scene is, in pairs of a name and a value with its unit: E* and its origin, body, contact, roughness."""
@@ -84,7 +87,7 @@ def _of_punch(scene: IndentationScene) -> Pairs:
     return (
         body,
         ("rms height h", f"{in_unit(ground.rms, 'length')}, F / (E* h L) = {scene.reduced_load:.3g}"),
-        ("rms slope h'", f"{ground.slope_along:.3g}, in one direction"),
+        ("rms slope h'", f"{ground.slope_along:.3g}, {COUNTED}"),
         ("waves", f"{_waves(ground, scene)}; {longest}"),
     )
 
@@ -93,9 +96,13 @@ def _height(rms: float, approach: float) -> tuple[str, str]:
     return "rms height h", f"{in_unit(rms, 'length')}, h/d = {rms / approach:.3g}"
 
 
-def _slope(slope: float, scene: WithSphere) -> tuple[str, str]:
-    lost = slope * scene.contact_radius / scene.approach
-    return "rms slope h'", f"{slope:.3g}, in one direction, h' a/d = {lost:.3g}"
+def slope_ratio(slope_along: float, scene: WithSphere) -> float:
+    """h' a / d: the rms slope in one direction over that of the smooth body at the edge of its contact [-]."""
+    return slope_along * scene.contact_radius / scene.approach
+
+
+def _slope(slope_along: float, scene: WithSphere) -> tuple[str, str]:
+    return "rms slope h'", f"{slope_along:.3g}, {COUNTED}, h' a/d = {slope_ratio(slope_along, scene):.3g}"
 
 
 def _waves(ground: RoughSurface, scene: WithSphere) -> str:

@@ -21,7 +21,7 @@ FEWEST = 16
 RINGS = 5
 """To an octave of wavenumbers."""
 STEEP = 0.3
-"""Root mean square slope from where on it is warned of."""
+"""Rms gradient from where on it is warned of."""
 OBLONG, SKEWED, PEAKED, TILTED = 1.5, 0.5, 1.0, 1.0
 """From where on texture, skewness, excess kurtosis and tilt are warned of."""
 FLAT = 2.0
@@ -161,10 +161,10 @@ class MeasuredHeights:
     def notes(self) -> tuple[str, ...]:
         """All that may be wrong about these heights though they are valid, in sentences."""
         found = [*self.edits.notes]
-        if self.slope > STEEP:
+        if self.gradient > STEEP:
             found.append(
-                f"heights are steep, rms slope {self.slope:.2g}: theory is that of small slopes; are the units of "
-                "heights and of their spacing right?"
+                f"heights are steep, rms gradient {self.gradient:.2g}: theory is that of small slopes; are the units "
+                "of heights and of their spacing right?"
             )
         if self.tilt > TILTED:
             found.append(
@@ -208,13 +208,13 @@ class MeasuredHeights:
         )
 
     @property
-    def slope(self) -> float:
-        """Root mean square slope, between neighbouring points [-]."""
+    def gradient(self) -> float:
+        """g, the root mean square of abs(grad h), by differences of neighbouring points [-]."""
         return math.hypot(*self._slopes)
 
     @property
     def slope_along(self) -> float:
-        """The same along the first axis alone [-]."""
+        """h', the rms slope along the first axis, in one direction, by the same differences [-]."""
         return self._slopes[0]
 
     @cached_property

@@ -12,7 +12,7 @@ from validation.scenes.units import in_unit
 def of_rail(scene: RailScene) -> tuple[tuple[str, str], ...]:
     """Pairs of a name and a value with its unit: bodies, contact, motion, roughness, and what lies across."""
     contact, levels = scene.contact, scene.levels
-    slope = levels.slope
+    slope_ratio = levels.slope_along * contact.along / contact.approach
     return (
         ("wheel", f"radius {in_unit(scene.radius, 'length')}, {_wheel_across(scene)}{_load(scene)}"),
         _rail(scene),
@@ -25,7 +25,7 @@ def of_rail(scene: RailScene) -> tuple[tuple[str, str], ...]:
         ("motion", _motion(scene)),
         ("roughness", f"rms {_short(levels.rms)} over all bands: {_source(scene)}"),
         ("bands", _bands(scene)),
-        ("rms slope h'", f"{slope:.3g} along the track, h' a_x/d = {slope * contact.along / contact.approach:.3g}"),
+        ("rms slope h'", f"{levels.slope_along:.3g} along the track, of all bands, h' a_x/d = {slope_ratio:.3g}"),
         ("what lies across", _structure(scene)),
     )
 

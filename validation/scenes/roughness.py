@@ -11,14 +11,15 @@ from mdr import SelfAffine
 from mdr.checks import positive
 from validation.scenes.reader import LENGTH, NUMBER, Reader, table
 from validation.scenes.units import in_unit
+from validation.theory.rolling import rms_gradient, slope_in_one_direction
 
 
 class RoughSurface(Protocol):
     """Roughness that is drawn from its spectrum, or one surface that was measured.
 
     c2d: isotropic spectrum [m^4], zero outside of q_min to q_max [rad/m], smooth between edges; q_resolved: largest
-    wavenumber that counts; rms: height [m]; longest: wave [m]; slope_along: rms slope along x; hurst: None where
-    there is none; waves: in words; is_single: whether there is one realisation.
+    wavenumber that counts; rms: height [m]; longest: wave [m]; slope_along: h', rms slope along x, in one direction;
+    hurst: None where there is none; waves: in words; is_single: whether there is one realisation.
     """
 
     is_single: ClassVar[bool]
@@ -92,11 +93,8 @@ class Roughness:
 
     @property
     def slope_along(self) -> float:
-        """Root mean square slope in one direction, h'^2 = pi int_0^inf q^3 C_2D dq, half of the gradient's [-]."""
-        width, power = math.log(self.q_max / self.q_min), 2 - 2 * self.hurst
-        height = -math.expm1(-2 * self.hurst * width) / (2 * self.hurst)
-        slope = math.expm1(power * width) / power if abs(power * width) > 1e-9 else width
-        return self.rms * self.q_min * math.sqrt(slope / height / 2)
+        """h', the root mean square slope in one direction, of all waves [-]."""
+        return slope_in_one_direction(rms_gradient(self.c2d, edges=self.edges))
 
     @property
     def spectrum(self) -> SelfAffine:

@@ -68,10 +68,9 @@ class RoughnessLevels:
         return math.sqrt(float(self.powers.sum()))
 
     @property
-    def slope(self) -> float:
-        """Root mean square slope along the line, over all bands [-]."""
-        q, weight = self.bands.quadrature()
-        return math.sqrt(float(2 * (weight * q**2 * self.c_line(q)).sum()))
+    def slope_along(self) -> float:
+        """h', the root mean square slope along the line, of the waves in all bands [-]."""
+        return self.bands.slope_of_spectrum(self.c_line)
 
     def raised(self, offset: float) -> "RoughnessLevels":
         """The same with so many dB more in each band."""

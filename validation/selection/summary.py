@@ -8,6 +8,7 @@ from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
+from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
@@ -97,13 +98,18 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     tolerance, selection = comparison.tolerance, comparison.selection
     if not math.isfinite(springs.error):
         return f"not known to be enough, because {springs.reason}"
-    how = "claimed" if springs.answer is None else "found"
-    errors = f"({tolerance.shown_beside(springs.error)} {how}, {tolerance} wanted)"
+    how = "claimed before a solve" if springs.answer is None else "found"
+    errors = f"for {_asked_of(comparison.scene)} ({tolerance.shown_beside(springs.error)} {how}, {tolerance} wanted)"
     if springs.error > selection.tolerance:
         return f"not enough {errors}, because {springs.reason}"
     cheaper = selection.best
     others = f"; {cheaper.name} is cheaper" if cheaper is not None and cheaper.model is not springs.model else ""
     return f"enough {errors}{others}"
+
+
+def _asked_of(scene: object) -> str:
+    """What an error is of: one surface that was measured, or any scene like it; a report has the mean over surfaces."""
+    return "this surface" if isinstance(getattr(scene, "ground", None), MeasuredHeights) else "this scene"
 
 
 def claim_of(comparison: Comparison, one: Candidate) -> str:

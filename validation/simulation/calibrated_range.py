@@ -44,8 +44,8 @@ MOVING_LONG = "q a of the longest wave above the resonance"
 CONDITIONS = (LOAD, HEIGHT, WAVES, LONG, MOVING_LONG, RATIO, HURST)
 """Those of the calibration."""
 SPHERE_SHAPE = (1.0, 0.05, 0.005)
-"""What the errors of a rough sphere go with: the contact that is lost, h q a / d of the longest wave, and what the
-reference leaves."""
+"""What the errors of a rough sphere go with, `shape` of the calibration: the contact that is lost, h q a / d with the q
+of the longest wave, no rms slope, and what the reference leaves."""
 SCATTER = 0.22
 """Relative deviation of the stiffness of one rough punch without roll-off, about: Fig. 14.1."""
 
@@ -84,8 +84,8 @@ def sphere_shape(scene: IndentationScene) -> float:
     """What errors of cheap models of a rough sphere go with; one for a punch."""
     if scene.shape == "punch":
         return 1.0
-    slope = scene.roughness_ratio * ground_of(scene).q_min * scene.contact_radius
-    return float(np.dot(SPHERE_SHAPE, (lost_contact(scene), slope, 1.0)))
+    longest = scene.roughness_ratio * ground_of(scene).q_min * scene.contact_radius
+    return float(np.dot(SPHERE_SHAPE, (lost_contact(scene), longest, 1.0)))
 
 
 def beyond_spectrum(ground: RoughSurface) -> str:

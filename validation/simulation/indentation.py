@@ -12,6 +12,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.surface import draw_surface
 from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.rolling import rms_gradient
 
 FloatArray = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ def _reach(scene: IndentationScene, heights: MeasuredHeights) -> float:
 def cells_wanted(scene: IndentationScene) -> int:
     """A power of two with eight cells to the shortest wave and 16 in contact; of measured heights, one to a point.
 
-    In contact is a part 2 F / (E* h' L^2) of a punch under a light load, h' the rms slope.
+    In contact is a part 2 F / (E* g L^2) of a punch under a light load, g the rms gradient.
     Source: Hyun, Pei, Molinari, Robbins, Phys. Rev. E 70, 026117 (2004).
     """
     ground = ground_of(scene)
@@ -83,8 +84,8 @@ def cells_wanted(scene: IndentationScene) -> int:
     if scene.shape == "sphere":
         wanted = max(wanted, RADIUS * side_of(scene) / scene.contact_radius)
     else:
-        slope = math.sqrt(_moment(ground, ground.q_min, 2))
-        wanted = max(wanted, scene.size * math.sqrt(CONTACT * scene.modulus * slope / (2 * scene.load)))
+        gradient = rms_gradient(ground.c2d, edges=ground.edges)
+        wanted = max(wanted, scene.size * math.sqrt(CONTACT * scene.modulus * gradient / (2 * scene.load)))
     return int(max(FEW, 2 ** math.ceil(math.log2(wanted * (1 - 1e-9)))))
 
 
@@ -157,17 +158,17 @@ def _whole(ground: RoughSurface, side: float) -> float:
         q = q[q <= 2 * np.pi / side * LATTICE]
     drawn = (2 * np.pi / side) ** 2 * float(ground.c2d(q[q > 0]).sum())
     if waves > LATTICE:
-        drawn += _moment(ground, 2 * np.pi / side * LATTICE, 0)
+        drawn += _mean_square_above(ground, 2 * np.pi / side * LATTICE)
     if not drawn > 0:
         raise ValueError("no wave of the roughness fits the side a whole number of times")
     return ground.rms / math.sqrt(drawn)
 
 
-def _moment(ground: RoughSurface, first: float, power: int) -> float:
-    """2 pi int q^power C_2D q dq from a wavenumber to the last [m^(2 - power)]."""
+def _mean_square_above(ground: RoughSurface, first: float) -> float:
+    """2 pi int C_2D q dq from a wavenumber to the last [m^2]."""
     low = max(first, ground.q_min)
     node, weight = gauss_legendre(24)
     ends = np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low)))
     half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
     q = middle + half * node
-    return float(2 * np.pi * np.sum(half * weight * q ** (power + 1) * ground.c2d(q)))
+    return float(2 * np.pi * np.sum(half * weight * q * ground.c2d(q)))

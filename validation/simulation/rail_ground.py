@@ -159,7 +159,6 @@ def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: in
 
 
 def lost_contact_number(scene: RailScene) -> float:
-    """h' a_x / d [-], h' the rms slope along of the waves that a strip has."""
-    q, weight = strip_bands(scene).quadrature()
-    slope = math.sqrt(float(2 * (weight * q**2 * line_of(scene)(q)).sum()))
-    return slope * scene.contact.along / scene.contact.approach
+    """h' a_x / d [-], h' the rms slope along the track of the waves that a strip has, `strip_bands`."""
+    slope_along = strip_bands(scene).slope_of_spectrum(line_of(scene))
+    return slope_along * scene.contact.along / scene.contact.approach

@@ -47,7 +47,7 @@ ridges, isotropic ground and alpha = 1; 475 of 480 bands are inside, the others 
 MOST_LOST, LARGEST_WAVE, ASPECTS = 1.0, 9.5, (0.45, 1.9)
 """h' a_x / d, q a_x and a_y / a_x up to which that was measured."""
 MEASURED_ON_STRIPS = (
-    f"errors of models: measured beside boundary elements on strips, h' a_x / d up to {MOST_LOST:g}, "
+    f"errors of models: measured beside boundary elements on strips, h' a_x / d of their waves up to {MOST_LOST:g}, "
     f"q a_x up to {LARGEST_WAVE:g}, a_y / a_x from {ASPECTS[0]:g} to {ASPECTS[1]:g}"
 )
 STRIPS = 6
@@ -118,9 +118,9 @@ class RailModel(Model):
         if isinstance(quantity.scene, ProfiledRail):
             return f"errors were measured on two radii: {quantity.scene.stand_in}"
         contact = quantity.scene.contact
-        aspect = contact.across / contact.along
+        aspect, counted = contact.across / contact.along, strip_bands(quantity.scene).span
         if quantity.lost > MOST_LOST:
-            return f"h' a_x / d is {quantity.lost:.2g}: errors were measured up to {MOST_LOST:g}"
+            return f"h' a_x / d of waves of {counted} is {quantity.lost:.2g}: errors were measured up to {MOST_LOST:g}"
         if not ASPECTS[0] <= aspect <= ASPECTS[1]:
             return f"a_y / a_x is {aspect:.2g}: errors were measured from {ASPECTS[0]:g} to {ASPECTS[1]:g}"
         return ""
@@ -234,8 +234,7 @@ def relative(decibels: float) -> float:
 def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     """The band in which the error is largest, and what it is due to there."""
     at = int(np.argmax(np.where(quantity.counted(a3), error, -1.0)))
-    shortest = 1e3 * strip_bands(quantity.scene).nominal[-1]
-    causes = [f"h' a_x / d = {quantity.lost:.2g} of waves down to {shortest:g} mm"]
+    causes = [f"h' a_x / d = {quantity.lost:.2g} of waves of {strip_bands(quantity.scene).span}"]
     if (apart := abs(a3[at] - quantity.linear.mean(axis=0)[at])) > LINEAR_ERROR:
         causes.insert(0, f"{apart:.2g} dB off {LINEAR}, on this ground")
     if (rms := smoothing(quantity.scene)) > 0:

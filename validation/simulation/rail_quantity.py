@@ -90,7 +90,7 @@ class RailQuantity:
 
     @cached_property
     def lost(self) -> float:
-        """h' a_x / d."""
+        """h' a_x / d, h' of the waves that strips have."""
         return lost_contact_number(self.scene)
 
     def counted(self, a3: FloatArray) -> NDArray[np.bool_]:

@@ -83,11 +83,13 @@ def one_sided_bed(strip: FloatArray, dx: float) -> Reduced:
 
 
 def two_scales_by_persson(strip: FloatArray, dx: float) -> Reduced:
-    """Short waves weigh what touches, erf(sqrt(2) p / (E* h')) at the pressure of Hertz, weights of each spring one."""
+    """Short waves weigh what touches, erf(sqrt(2) p / (E* g)) at the pressure of Hertz, weights of each spring one."""
     long, short = split(strip, dx)
-    slope = math.sqrt(float(np.sum((np.abs(np.fft.fft2(short, norm="forward")) * _wavenumbers(strip.shape, dx)) ** 2)))
+    gradient = math.sqrt(
+        float(np.sum((np.abs(np.fft.fft2(short, norm="forward")) * _wavenumbers(strip.shape, dx)) ** 2))
+    )
     weights = punch_weights(strip.shape[1], dx)
-    touching = weights * special.erf(math.sqrt(2) * _hertz(strip.shape[1], dx) / slope)
+    touching = weights * special.erf(math.sqrt(2) * _hertz(strip.shape[1], dx) / gradient)
     weighed = touching / np.maximum(touching.sum(axis=0), 1e-300)
     return Reduced(on_springs(long @ weights + short @ weighed, dx), 2 * springs_that_read(strip, dx).work)
 

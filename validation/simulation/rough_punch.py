@@ -127,8 +127,8 @@ def press_surface(surface: Surface) -> Outcome:
     """Boundary elements: k / (E* L), true contact area / L^2, approach / L and mean gap / L at each force.
 
     Each contact starts from the last. residual: of each; applications: of the operator, by the contacts and by their
-    frozen ones; height, gradient: rms of the surface as drawn, over L, and of its slope; failed: loads that did not
-    converge, whose values are NaN.
+    frozen ones; height, gradient: rms of the surface as drawn, over L, and g, that of abs(grad h); failed: loads that
+    did not converge, whose values are NaN.
     """
     cells = surface.cells
     half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import mdr
-from validation.theory.rolling import section
+from validation.theory.rolling import section, slope_in_one_direction
 
 FloatArray = NDArray[np.float64]
 InputSpectrum = Literal["geike", "line", "rolling"]
@@ -51,9 +51,14 @@ class PiecewisePowerLaw:
         return levels / self._moment(levels, 0)
 
     @property
-    def slope(self) -> float:
-        """h' a for h_rms = 1: h'^2 = 2 pi int q^3 C_2D dq, the mean square gradient, and that of Geike's profile."""
+    def gradient(self) -> float:
+        """g a for h_rms = 1: g^2 = 2 pi int q^3 C_2D dq, the mean square gradient, and that of Geike's profile."""
         return math.sqrt(self._moment(self._levels, 2))
+
+    @property
+    def slope_along(self) -> float:
+        """h' a for h_rms = 1, h' the rms slope along the track, in one direction, of all waves."""
+        return slope_in_one_direction(self.gradient)
 
     def _moment(self, levels: FloatArray, order: int) -> float:
         """2 pi int q^(1 + order) C_2D dq."""

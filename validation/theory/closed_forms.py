@@ -136,9 +136,9 @@ def line_trace_ratio(hurst: float) -> float:
 
 
 def persson_contact_fraction(pressure: float, *, gradient: float) -> float:
-    """True contact area of a rough surface over its nominal area, without adhesion: erf(sqrt(2) p / (E* h')).
+    """True contact area of a rough surface over its nominal area, without adhesion: erf(sqrt(2) p / (E* g)).
 
-    pressure: mean pressure p over E*, zero or positive; gradient: rms slope h', positive.
+    pressure: mean pressure p over E*, zero or positive; gradient: rms gradient g of the surface, positive.
     Source: Persson, J. Chem. Phys. 115, 3840 (2001), full form.
     """
     positive(gradient=gradient)

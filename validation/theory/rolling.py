@@ -113,20 +113,37 @@ def force_variance(c2d: Spectrum, *, edges: Sequence[float], contact_radius: flo
     return float(2 * math.pi * np.sum(weight * power))
 
 
+def rms_gradient(c2d: Spectrum, *, edges: Sequence[float]) -> float:
+    """g, the root mean square of abs(grad h) of an isotropic surface: g^2 = 2 pi int_0^inf q^3 C_2D dq [-].
+
+    The profile that Geike's rule makes of the surface has the slope g; a line on it has `slope_in_one_direction`.
+    c2d, edges: as of `force_spectrum_3d`.
+    """
+    s, weight = _gauss(np.array(_panels(edges[0], edges, math.inf)))
+    return math.sqrt(2 * math.pi * float(np.sum(weight * s**3 * c2d(s))))
+
+
+def slope_in_one_direction(gradient: float) -> float:
+    """h' = g / sqrt(2), the rms slope in one direction, as along a track, of isotropic roughness [-].
+
+    h'^2 = int q_x^2 C_2D dq_x dq_y = pi int_0^inf q^3 C_2D dq: half of the mean square gradient.
+    """
+    return gradient / math.sqrt(2)
+
+
 def contact_lost(c2d: Spectrum, *, edges: Sequence[float], contact_radius: float, radius: float) -> float:
     """Share of the circle of contact in which linear theory has the half-space pull [-].
 
     Hertz's p_0 sqrt(1 - r^2/a^2), p_0 = 2 E* a / (pi R), and the pressures that close the gaps of Gaussian roughness,
-    E* q / 2 for each wave, so that their rms is E* h' / 2 with the rms slope h', h'^2 = 2 pi int_0^inf q^3 C_2D dq:
-    int_0^1 Phi(-p_0 u / (E* h' / 2)) 2 u du, u^2 = 1 - r^2/a^2. The modulus cancels.
+    E* q / 2 for each wave, so that their rms is E* g / 2 with the `rms_gradient` g:
+    int_0^1 Phi(-p_0 u / (E* g / 2)) 2 u du, u^2 = 1 - r^2/a^2. The modulus cancels.
     Source: Hertz; Westergaard's wave, whose full pressure is E* q h / 2; Johnson, Contact Mechanics, chapters 4, 13.
     """
     positive(contact_radius=contact_radius, radius=radius)
-    s, weight = _gauss(np.array(_panels(edges[0], edges, math.inf)))
-    slope = math.sqrt(2 * math.pi * float(np.sum(weight * s**3 * c2d(s))))
+    gradient = rms_gradient(c2d, edges=edges)
     peak = 2 * contact_radius / (math.pi * radius)
     u, weight = _gauss(np.array([0.0, 1.0]))
-    return float(2 * np.sum(weight * u * special.ndtr(-peak * u / (slope / 2))))
+    return float(2 * np.sum(weight * u * special.ndtr(-peak * u / (gradient / 2))))
 
 
 def level_ratio(hurst: float) -> float:

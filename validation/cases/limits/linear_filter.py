@@ -14,7 +14,7 @@ from validation.engine.random_numbers import random_generator
 from validation.simulation.free_vibration import WHEEL
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strip
 from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack, coarsen
-from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
+from validation.simulation.track_spectrum import TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance
 
 UNIT_TRACK = 2
@@ -42,7 +42,8 @@ FILTER_3D = Limit(
     error="force, over its fluctuation",
     reference="boundary elements on the same strip",
     condition=(
-        "√(π/8) h' a / d = tolerance: the part out of contact by Persson, weighted with the pressure of a flat punch"
+        "√(π/8) g a / d = tolerance, g = √2 h' the rms gradient: the part out of contact by Persson, weighted with the "
+        "pressure of a flat punch"
     ),
     failing_side="above",
     tolerance=0.2,
@@ -121,7 +122,7 @@ class StripHeights:
             assert found is not None
             points.append((float(np.nanstd(found["force"] - found["linear"]) / np.std(found["linear"])), message))
             failed += float(found["failed"])
-        threshold = FILTER_3D.tolerance / (math.sqrt(math.pi / 8) * rms_slope(spectrum))
+        threshold = FILTER_3D.tolerance / (math.sqrt(math.pi / 8) * spectrum.gradient)
         return {**swept(FILTER_3D, self.heights, points, threshold), "failed": np.array(failed)}
 
 
@@ -139,9 +140,3 @@ class CoarserSprings:
         messages = [call_and_record_warnings(draw)[1] for draw in draws]
         errors = [abs(decibel(level)) if level > 0 else math.inf for level in levels]
         return swept(SPACING, FINE / np.array(STRIDES), list(zip(errors, messages, strict=True)), 4.0)
-
-
-def rms_slope(spectrum: PiecewisePowerLaw) -> float:
-    """h' of unit height: the root of 2 pi int q^3 C_2D dq."""
-    q = np.geomspace(spectrum.edges[0], spectrum.edges[-1], 4001)
-    return math.sqrt(float(np.trapezoid(2 * np.pi * q**4 * spectrum.c2d(q), np.log(q))))

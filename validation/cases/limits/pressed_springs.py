@@ -19,7 +19,7 @@ from validation.simulation.rough_punch import (
 )
 
 FULL, HALF = 1.1631 / math.sqrt(2), 0.4769 / math.sqrt(2)
-"""p over E* h' at which Persson's contact fraction erf(sqrt(2) p / (E* h')) is 0.9, and one half."""
+"""p over E* g at which Persson's contact fraction erf(sqrt(2) p / (E* g)) is 0.9, and one half; g: rms gradient."""
 
 AREA = Limit(
     name="area",
@@ -28,7 +28,10 @@ AREA = Limit(
     parameter="force F / (E* h L)",
     error="contact fraction, over that of 3D, less one",
     reference="boundary elements, rough punches",
-    condition="p = 0.82 E* h', where Persson's contact fraction is 0.9: springs are right near full contact only",
+    condition=(
+        "p = 0.82 E* g, g the rms gradient, where Persson's contact fraction is 0.9: springs are right near full "
+        "contact only"
+    ),
     failing_side="below",
     tolerance=0.1,
     factor=3.0,
@@ -40,7 +43,10 @@ GAP = Limit(
     parameter="force F / (E* h L)",
     error="difference of the mean gaps [h]",
     reference="boundary elements, rough punches",
-    condition="p = 0.34 E* h', where Persson's contact fraction is a half: springs are right where gaps are closed",
+    condition=(
+        "p = 0.34 E* g, g the rms gradient, where Persson's contact fraction is a half: springs are right where gaps "
+        "are closed"
+    ),
     failing_side="below",
     tolerance=0.1,
     factor=3.0,
@@ -87,10 +93,10 @@ class Punches:
         gap_error = np.abs(springs["gap"].mean(axis=0) - gap) / r.height
         curve = mdr.load_curve(r.profile(self.points, 0), length=1.0, modulus=1.0)
         messages = [call_and_record_warnings(partial(curve.at_force, r.height * f))[1] for f in forces]
-        slope = float(np.mean([s["gradient"] for s in surfaces])) / r.height
+        gradient = float(np.mean([s["gradient"] for s in surfaces])) / r.height
         return {
-            **swept(AREA, forces, list(zip(area_error, messages, strict=True)), FULL * slope),
-            **swept(GAP, forces, list(zip(gap_error, messages, strict=True)), HALF * slope),
+            **swept(AREA, forces, list(zip(area_error, messages, strict=True)), FULL * gradient),
+            **swept(GAP, forces, list(zip(gap_error, messages, strict=True)), HALF * gradient),
             "failed": np.array(sum(float(s["failed"]) for s in surfaces)),
         }
 

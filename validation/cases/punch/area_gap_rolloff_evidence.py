@@ -157,9 +157,9 @@ def _captions(case: MdrLimits) -> dict[str, str]:
         "mdr_limits": (
             "Symbols: boundary elements, 95 % of the sample, open where the mean contact has fewer than "
             f"{FEW_CELLS} cells; lines in bands: MDR, L_1D = L; dark to light: {ROLL_OFF} = "
-            f"{', '.join(map(str, case.roll_offs))}. (a) Contact fraction; dotted: Persson's erf(√2 p / (E* h')). (b) "
-            "Mean gap over h. (c) Stiffness of the interface alone over the force. (d) Relative deviation of the "
-            "stiffness."
+            f"{', '.join(map(str, case.roll_offs))}. (a) Contact fraction; dotted: Persson's erf(√2 p / (E* g)), g the "
+            "rms gradient. (b) Mean gap over h. (c) Stiffness of the interface alone over the force. (d) Relative "
+            "deviation of the stiffness."
         )
     }
 

@@ -181,7 +181,7 @@ def value_of(case: MdrLimits, measured: str) -> Callable[[float], float]:
 
 
 def persson(result: MdrLimitsResult, roll_off: int, level: int) -> float:
-    """Persson's contact fraction for the rms slope of the surfaces."""
+    """Persson's contact fraction for the rms gradient of the surfaces."""
     case = result.case
-    slope = float(result.bem[roll_off]["gradient"].mean())
-    return closed_forms.persson_contact_fraction(case.height * case.forces[level], gradient=slope)
+    gradient = float(result.bem[roll_off]["gradient"].mean())
+    return closed_forms.persson_contact_fraction(case.height * case.forces[level], gradient=gradient)

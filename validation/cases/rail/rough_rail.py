@@ -23,9 +23,10 @@ from validation.simulation.equivalent_displacement import (
     SPRINGS_ON_LINE,
     SPRINGS_THAT_READ,
 )
-from validation.simulation.rail_ground import lost_contact_number, strip_bands
+from validation.simulation.rail_ground import SHORTEST, lost_contact_number, strip_bands
 from validation.simulation.spectral_springs import SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
 
+WAVES = "waves of h'"
 SHORT, LONG = "waves beyond the first zero", "bands that count"
 OVER_BEM, LOST = "A3 over that of boundary elements", "area in contact over that of the smooth wheel"
 FIELD = "1 dB: a tolerance of the field"
@@ -125,8 +126,9 @@ def evidence(result: RolledFiltersResult) -> Evidence:
             f"{case.cells[0]} and {case.cells[1]} cells to the smaller semi-axis. All models roll over the same "
             "strips, so each is divided by boundary elements strip by strip. "
             f"Bands count down to the first with A3 below {COUNTED:g} dB; shorter waves are "
-            "judged apart. Roughness ends at 0.45 a_x: shorter waves, of which nothing is known from measurements at "
-            "1 mm, would make the slope h' larger."
+            "judged apart. h' is the rms slope along the track, in one direction, of the waves of the strips, "
+            f"{strip_bands(case.scene(case.keys[0])).span}. They end at {SHORTEST:g} a_x: shorter waves, of which "
+            "nothing is known from measurements at 1 mm, would make the slope h' larger."
         ),
         numbers=(*numbers, *areas),
         tables=(bands_table(result), _roughness_table(result, areas)),
@@ -194,6 +196,7 @@ def _roughness_table(result: RolledFiltersResult, areas: list[Number]) -> Table:
         [
             {
                 "offset [dB]": key[1],
+                WAVES: strip_bands(result.case.scene(key)).span,
                 "h' a_x / d": round(lost_contact_number(result.case.scene(key)), 4),
                 "area in contact over smooth": round(area.value, 4),
                 "±": round(area.uncertainty, 4),

@@ -5,9 +5,11 @@ from collections.abc import Sequence
 from validation.analysis.answers import answered
 from validation.analysis.evidence import JudgedClaim, Number, Verdict
 
+SLOPE_COUNTS = "h' is the rms slope along the track, in one direction, of all waves"
+
 
 def answered_up_to(claim: str, numbers: Sequence[Number], answer: str, *, slope: float) -> JudgedClaim:
-    """A claim that may hold up to a roughness. slope: h' a for h_rms = 1."""
+    """A claim that may hold up to a roughness. slope: h' a for h_rms = 1, along the track."""
     inside = agreeing_up_to(numbers)
     highest = max((height_of(number) for number in inside), default=0.0)
     limits = f"up to h/d = {highest:g}, h' a/d = {slope * highest:.2g}" if inside else ""

@@ -8,7 +8,7 @@ from validation.analysis.wording import farthest_off
 from validation.cases.rolling import force_spectrum_levels as levels
 from validation.cases.rolling import force_spectrum_numbers as measured
 from validation.cases.rolling import force_spectrum_tables as tables
-from validation.cases.rolling.claims import answered_up_to, from_to, height_of
+from validation.cases.rolling.claims import SLOPE_COUNTS, answered_up_to, from_to, height_of
 from validation.cases.rolling.force_spectrum import ROUGH, ForceSpectrum, RollingResult, run
 from validation.cases.rolling.force_spectrum_headlines import LINEAR_CLAIM, finding, headlines
 from validation.selection import model_needed
@@ -53,13 +53,14 @@ def _method(case: ForceSpectrum) -> str:
         "in dB. Boundary elements are taken over linear theory on the same surfaces, which removes most of the "
         "scatter. A range of bands is judged by its worst one-third octave, within 3 dB, and by the root mean square "
         "over its bands, within 1 dB. Errors of both signs cancel in the mean, which stands beside them and is not "
-        "judged. h' is the rms gradient of the surface, which is the rms slope of Geike's profile too."
+        f"judged. {SLOPE_COUNTS}; √2 times that is the rms gradient g of the surface, and the rms slope of Geike's "
+        "profile."
     )
 
 
 def _claims(case: ForceSpectrum, found: list[levels.LevelsAtHeight], numbers: list[Number]) -> tuple[JudgedClaim, ...]:
     """Of the book and of what follows from it, each with the numbers that test it."""
-    slope = case.spectrum.slope
+    slope = case.spectrum.slope_along
     means, variances = (numbers_with(numbers, quantity) for quantity in (measured.MEAN, measured.VARIANCE))
     return (
         *_claims_of_levels(case, found, numbers),
@@ -118,7 +119,8 @@ def _claims_of_levels(
         "Nonlinearity changes the level of springs as it changes that of boundary elements.": (nonlinear, changes),
     }
     return [
-        answered_up_to(claim, mine, f"{answer}.", slope=case.spectrum.slope) for claim, (mine, answer) in tested.items()
+        answered_up_to(claim, mine, f"{answer}.", slope=case.spectrum.slope_along)
+        for claim, (mine, answer) in tested.items()
     ]
 
 
@@ -168,8 +170,9 @@ def _captions(case: ForceSpectrum) -> dict[str, str]:
             "elements; dotted, linear theory."
         ),
         "rolling-map": (
-            "Level of each model over that of boundary elements, over q a and h/d; right axis: h' a/d. Solid lines: "
-            "± 1 dB; dashed: ± 3 dB; hatched: more than 3 dB too low. Left of the vertical line: below the band."
+            "Level of each model over that of boundary elements, over q a and h/d; right axis: h' a/d along the track. "
+            "Solid lines: ± 1 dB; dashed: ± 3 dB; hatched: more than 3 dB too low. Left of the vertical line: below "
+            "the band."
         ),
     }
 

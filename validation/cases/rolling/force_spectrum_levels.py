@@ -43,8 +43,8 @@ class LevelsAtHeight:
 
     @property
     def slope(self) -> float:
-        """h' a / d."""
-        return self.height * self.case.spectrum.slope
+        """h' a / d, along the track, of all waves."""
+        return self.height * self.case.spectrum.slope_along
 
     @property
     def bem(self) -> Outcome:

@@ -62,9 +62,10 @@ class ReducedModels:
     seed: int = 20
 
     def __post_init__(self) -> None:
-        low, high = (height * self_affine(*self.spectra[0]).slope for height in (self.heights[0], self.heights[-1]))
-        if low > 0.3 or not high > 0.5:
-            raise ValueError(f"heights must reach from h' a/d = 0.3 to 0.5 at the least, got {low:.3g} to {high:.3g}")
+        slope = self_affine(*self.spectra[0]).slope_along
+        low, high = (height * slope for height in (self.heights[0], self.heights[-1]))
+        if low > 0.21 or not high > 0.35:
+            raise ValueError(f"heights must reach from h' a/d = 0.21 to 0.35 at the least, got {low:.3g} to {high:.3g}")
         if self.cells % 6:
             raise ValueError(f"cells must be a multiple of 6, got {self.cells}")
 

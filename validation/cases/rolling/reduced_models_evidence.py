@@ -12,6 +12,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, numbers_with, table_of
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
 from validation.analysis.wording import by_status, joint_verdict, sentence
+from validation.cases.rolling.claims import SLOPE_COUNTS
 from validation.cases.rolling.reduced_models import (
     BED,
     COARSE,
@@ -31,18 +32,19 @@ from validation.cases.rolling.reduced_models import (
 )
 from validation.cases.rolling.reduced_models_map import map_headline
 from validation.simulation.track_spectrum import self_affine
+from validation.theory.rolling import slope_in_one_direction
 
 FloatArray = NDArray[np.float64]
 
 OFF = "rms over octaves of the level over boundary elements"
-LIMIT, LIMIT_OF_READ = 1.0, 0.3
-"""h' a/d up to which two models are claimed to follow."""
+LIMIT, LIMIT_OF_READ = slope_in_one_direction(1.0), slope_in_one_direction(0.3)
+"""h' a/d up to which two models are claimed to follow, where the rms gradient g a/d is 1 and 0.3."""
 SLACK = 1.15
 """By which h' a/d may lie above a limit."""
 USUAL = (LINEAR, LINE, READ, BED)
 CLAIM = (
     "In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to h' a/d of "
-    f"{LIMIT:g}."
+    f"{LIMIT:.2g}."
 )
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
@@ -59,9 +61,9 @@ def evidence(result: ReducedResult) -> Evidence:
             f"A wheel rolls at a fixed approach over {case.strips} strips of each spectrum and height, {case.waves} of "
             f"the longest waves long, {case.cells} cells to a contact radius. Each model rolls over the same strips. "
             "Levels of the force are taken in octaves from the longest wave on, over those of boundary elements. "
-            "Errors of the sample are by the jackknife, and those of the grid a third of what half of the cells "
-            "change. Work counts springs, cells read, and cells of every application of an operator, over that of "
-            "springs on a line; it is not a time."
+            f"{SLOPE_COUNTS}. Errors of the sample are by the jackknife, and those of the grid a third of what half of "
+            "the cells change. Work counts springs, cells read, and cells of every application of an operator, over "
+            "that of springs on a line; it is not a time."
         ),
         numbers=tuple(numbers),
         tables=(table, bands),
@@ -76,8 +78,8 @@ def evidence(result: ReducedResult) -> Evidence:
             ),
             "reduced_models": (
                 "(a) Root mean square over octaves of the level over boundary elements, over h' a/d; dotted: 1 dB. At "
-                "the h' a/d nearest to 1: (b) that level in one-third octaves, (c) coherence, (d) the root mean "
-                "square over counted work; crosses: trials. Bars: 95 %."
+                f"the h' a/d nearest to {LIMIT:.2g}: (b) that level in one-third octaves, (c) coherence, (d) the root "
+                "mean square over counted work; crosses: trials. Bars: 95 %."
             ),
         },
         unconverged=result.unconverged,
@@ -86,9 +88,9 @@ def evidence(result: ReducedResult) -> Evidence:
 
 
 def slope_of(key: Key) -> float:
-    """h' a/d."""
+    """h' a/d, along the track, of all waves."""
     spectrum, height = key
-    return height * self_affine(*spectrum).slope
+    return height * self_affine(*spectrum).slope_along
 
 
 def octaves(level: FloatArray) -> FloatArray:
@@ -175,7 +177,7 @@ def _table(result: ReducedResult) -> Table:
 
 
 def _table_of_bands(result: ReducedResult) -> Table:
-    """In one-third octaves, where h' a/d is nearest to one."""
+    """In one-third octaves, where h' a/d is nearest to the limit."""
     key = min(result.strips, key=lambda one: abs(math.log(slope_of(one) / LIMIT)))
     centres = bands_of(self_affine(*key[0])).centres
     rows: list[dict[str, object]] = []
@@ -224,21 +226,21 @@ def _claims(result: ReducedResult, numbers: list[Number], table: Table) -> tuple
         answered(CLAIM, layer, f"its rms over octaves is {worst(layer)}."),
         answered(
             "In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
-            f"{LIMIT_OF_READ:g}.",
+            f"{LIMIT_OF_READ:.2g}.",
             read,
             f"their rms over octaves is {worst(read)}, for {_digits(work(READ))} times the counted work (springs and "
             "heights that are read) of springs on a line.",
         ),
         answered(
-            f"At h' a/d of {LIMIT:g}, linear theory, springs and the bed of the field are more than 1 dB off boundary "
-            "elements in octaves.",
+            f"At h' a/d of {LIMIT:.2g}, linear theory, springs and the bed of the field are more than 1 dB off "
+            "boundary elements in octaves.",
             usual,
             f"{listed}.",
             confirmed_by=Verdict.DIFFER,
         ),
         answered(
             "In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
-            f"{LIMIT:g}.",
+            f"{LIMIT:.2g}.",
             cheap,
             f"their rms over octaves is {worst(cheap)}, for {_digits(work(COARSEST))} times the counted work of "
             f"springs on a line, where the pressed layer takes {_digits(work(LAYER))} times that, on half of the cells "

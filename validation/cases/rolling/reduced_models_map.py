@@ -10,7 +10,7 @@ ON_MAP = (LAYER, READ, BED, LINEAR, LINE)
 
 
 def reached(numbers: Sequence[Number], model: str) -> float:
-    """The largest h' a/d up to which all strips agree, 0 if the smallest does not."""
+    """The largest h' a/d, along the track, up to which all strips agree, 0 if the smallest does not."""
     mine = sorted((number for number in numbers if number.model == model), key=_slope)
     failing = [_slope(number) for number in mine if number.verdict is not Verdict.AGREE]
     below = takewhile(lambda number: not failing or _slope(number) < failing[0], mine)

@@ -9,7 +9,7 @@ from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, R
 from validation.analysis.over_range import root_mean_square, signed_mean, worst
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.analysis.wording import in_a_word, sentence
-from validation.cases.rolling.claims import answered_up_to, from_to
+from validation.cases.rolling.claims import SLOPE_COUNTS, answered_up_to, from_to
 from validation.cases.rolling.force_spectrum_numbers import (
     FORD_THOMPSON,
     ONE_DECIBEL,
@@ -55,9 +55,9 @@ def evidence(result: RoughnessFromForceResult) -> Evidence:
             "the mean square height of the waves in each: (14.14), the mean of (14.12); (14.12) itself, averaged over "
             "a band; and the filter in 3D, by the heights of all bands together that have these levels, none negative. "
             f"C_2D is assumed to fall as q^-{ASSUMED:g} within a band, which the force does not tell. Intervals are of "
-            "the sample; the error of the grid is that of the case rolling. On the half-space a wave that crosses the "
-            "track at an angle appears at a longer wavelength along it; Geike's rule gives a track the force that "
-            "waves of all directions have at one place."
+            f"the sample; the error of the grid is that of the case rolling. {SLOPE_COUNTS}. On the half-space a "
+            "wave that crosses the track at an angle appears at a longer wavelength along it; Geike's rule gives a "
+            "track the force that waves of all directions have at one place."
         ),
         numbers=tuple(numbers),
         tables=(table,),
@@ -125,7 +125,7 @@ def _below(result: RoughnessFromForceResult, height: float, by: str) -> Number:
 def _claims(
     case: RoughnessFromForce, numbers: list[Number], points: dict[tuple[float, str], list[Number]]
 ) -> tuple[JudgedClaim, ...]:
-    slope = case.spectrum.slope
+    slope = case.spectrum.slope_along
 
     def of(by: str, **where: Place) -> list[Number]:
         return [number for number in numbers_with(numbers, None, by, **where) if number.quantity != BELOW]
@@ -192,7 +192,7 @@ def _table(result: RoughnessFromForceResult, points: dict[tuple[float, str], lis
             rows.append(
                 {
                     "h/d": height,
-                    "h' a/d": float(f"{height * case.spectrum.slope:.3g}"),
+                    "h' a/d": float(f"{height * case.spectrum.slope_along:.3g}"),
                     "filter": by,
                     "q a": number.where["q a"],
                     "zero of sin(q a)": number.where["bands"] == ZEROS,

@@ -11,6 +11,7 @@ from validation.analysis.difference import difference
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Place, Table, numbers_with, table_of
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
+from validation.cases.rolling.claims import SLOPE_COUNTS
 from validation.cases.rolling.force_spectrum_levels import correlation
 from validation.cases.rolling.validity_headlines import finding, headline
 from validation.cases.rolling.validity_reduced import (
@@ -23,9 +24,11 @@ from validation.cases.rolling.validity_reduced import (
 )
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
+from validation.theory.rolling import slope_in_one_direction
 
 SLOPE, HEIGHT = "h' a/d", "h/d"
 KEPT, OFF = "share of contact kept", "rms level over linear theory"
@@ -44,11 +47,12 @@ CLAIM = "Contact is lost at the same h' a/d, whatever the band of the roughness 
 class Validity:
     """A wheel at the approach d, contact radius a, over surfaces of all spectra, at equal h' a/d and at equal h/d.
 
-    slopes, heights: values of both, ascending; strips: realisations; waves: of the longest on the length of a surface;
-    width: over a; cells: to a contact radius and, by four, to the shortest wave at least; seed: zero or positive.
+    slopes, heights: values of both, ascending, h' along the track, of all waves; strips: realisations; waves: of the
+    longest on the length of a surface; width: over a; cells: to a contact radius and, by four, to the shortest wave at
+    least; seed: zero or positive.
     """
 
-    slopes: tuple[float, ...] = (1.0,)
+    slopes: tuple[float, ...] = (slope_in_one_direction(1.0),)
     heights: tuple[float, ...] = (0.3,)
     strips: int = 4
     waves: int = 4
@@ -75,12 +79,16 @@ class Validity:
         return Bands.around(math.pi, spectrum.edges[0], spectrum.edges[-1]).on(self.length_for(spectrum))
 
     def strips_of(self, name: str, parameter: str, value: float) -> list[Strip]:
-        spectrum = SPECTRA[name]
-        height = value / spectrum.slope if parameter == SLOPE else value
+        spectrum, height = SPECTRA[name], height_at(name, parameter, value)
         scene = RoughStrip(
             spectrum=spectrum, height=height, length=self.length_for(spectrum), width=self.width, seed=self.seed
         )
         return scene.strips(self.cells_for(spectrum), 1e-4 * height, self.strips)
+
+
+def height_at(name: str, parameter: str, value: float) -> float:
+    """h/d of a spectrum at an h' a/d or h/d: an isotropic surface has the rms gradient sqrt(2) h'."""
+    return math.sqrt(2) * value / SPECTRA[name].gradient if parameter == SLOPE else value
 
 
 Key = tuple[str, str, float]
@@ -148,7 +156,7 @@ def evidence(result: ValidityResult) -> Evidence:
         for number in _numbers(result, name, parameter, value)
     ]
     numbers += [
-        number_of(model, found, {key[1]: key[2], "spectrum": key[0]}, len(SPECTRA) * len(_of(case, key[1])))
+        number_of(model, found, {key[1]: _rounded(key[2]), "spectrum": key[0]}, len(SPECTRA) * len(_of(case, key[1])))
         for (model, key), found in result.reduced.items()
     ]
     table = _table(result)
@@ -157,7 +165,7 @@ def evidence(result: ValidityResult) -> Evidence:
         title="Where linear theory ends: h' a/d against h/d, over bands and Hurst exponents",
         method=(
             f"A wheel rolls at a fixed approach over surfaces of {len(SPECTRA)} spectra, once with equal h' a/d and "
-            f"once with equal h/d. h' is the rms gradient. Boundary elements: {case.strips} surfaces each, "
+            f"once with equal h/d. {SLOPE_COUNTS}. Boundary elements: {case.strips} surfaces each, "
             f"{case.waves} of their longest waves long, at least {case.cells} cells to a radius and four to the "
             "shortest wave. The share of contact kept is the mean area over that of a smooth wheel under the same "
             "force; cells at its edge may make it a little more than one. The level over linear theory on the "
@@ -188,7 +196,7 @@ def evidence(result: ValidityResult) -> Evidence:
 def _numbers(result: ValidityResult, name: str, parameter: str, value: float) -> list[Number]:
     """A spectrum beside the reference at an equal value of one parameter; intervals hold at once for all of them."""
     mine, other = (name, parameter, value), (REFERENCE, parameter, value)
-    where: dict[str, Place] = {parameter: value, "spectrum": name}
+    where: dict[str, Place] = {parameter: _rounded(value), "spectrum": name}
     among = len(_of(result.case, parameter)) * (len(SPECTRA) - 1)
     return [
         difference(
@@ -225,13 +233,13 @@ def _table(result: ValidityResult) -> Table:
     rows: list[dict[str, object]] = []
     for (name, parameter, value), levels in result.levels.items():
         spectrum, kept, off = SPECTRA[name], result.kept[name, parameter, value], off_linear(levels)
-        height = value / spectrum.slope if parameter == SLOPE else value
+        height = height_at(name, parameter, value)
         rows.append(
             {
                 "spectrum": name,
                 "at equal": parameter,
                 HEIGHT: _rounded(height),
-                SLOPE: _rounded(height * spectrum.slope),
+                SLOPE: _rounded(height * spectrum.slope_along),
                 "contact kept": round(kept.value, 4),
                 "± contact": round(kept.half_width, 4),
                 "rms over linear [dB]": round(off.value, 3),
@@ -280,14 +288,15 @@ def _follows(case: Validity, model: str, numbers: list[Number]) -> JudgedClaim:
     mine = [number for number in numbers_with(numbers, OFF_REDUCED, model) if SLOPE in number.where]
     parts = [
         f"at {SLOPE} = {value:g} the rms over one-third octaves is {min(of):.2f} to {max(of):.2f} dB"
-        for value in case.slopes
+        for value in _of(case, SLOPE)
         if (of := [number.value for number in mine if number.where[SLOPE] == value])
     ]
-    return answered(FOLLOWS[model].format(max(case.slopes)), mine, f"{'; '.join(parts)}, over all spectra.")
+    return answered(FOLLOWS[model].format(max(_of(case, SLOPE))), mine, f"{'; '.join(parts)}, over all spectra.")
 
 
 def _of(case: Validity, parameter: str) -> tuple[float, ...]:
-    return case.slopes if parameter == SLOPE else case.heights
+    """Values of a parameter, as they are printed."""
+    return tuple(_rounded(value) for of, value in case.levels if of == parameter)
 
 
 def spread(table: Table, column: str, parameter: str, value: float) -> str:
@@ -300,13 +309,11 @@ def spread(table: Table, column: str, parameter: str, value: float) -> str:
 def _of_table_14_1(case: Validity, table: Table) -> str:
     """Where the wheel of the book stands, beside the nearest slope of this case."""
     scene = load_wheel_scene("table_14_1")
-    height = scene.rms / scene.approach
-    # an isotropic surface has half of its mean square gradient along the track
-    slope = math.sqrt(2) * scene.slope_along * scene.contact_radius / scene.approach
-    nearest = min(case.slopes, key=lambda one: abs(math.log(one / slope)))
+    height, slope = scene.rms / scene.approach, slope_ratio(scene.slope_along, scene)
+    nearest = min(_of(case, SLOPE), key=lambda one: abs(math.log(one / slope)))
     return (
-        f"The wheel of Table 14.1 has h/d = {height:.2g}, but h' a/d = {slope:.3g}. At h' a/d = {nearest:g}, the "
-        f"nearest here, {spread(table, 'rms over linear [dB]', SLOPE, nearest)}, and "
+        f"The wheel of Table 14.1 has h/d = {height:.2g}, but h' a/d = {slope:.3g} along the track. At h' a/d = "
+        f"{nearest:g}, the nearest here, {spread(table, 'rms over linear [dB]', SLOPE, nearest)}, and "
         f"{spread(table, 'contact kept', SLOPE, nearest)}."
     )
 
@@ -318,7 +325,13 @@ CASE = Case(
     claim=CLAIM,
     answers="Where linear theory of rolling ends: h' a/d or h/d, over bands and Hurst exponents",
     quick=Validity(strips=3, cells=6),
-    full=Validity(slopes=(0.1, 0.3, 1.0), heights=(0.03, 0.1, 0.3), strips=6, waves=6, width=16),
+    full=Validity(
+        slopes=tuple(slope_in_one_direction(gradient) for gradient in (0.1, 0.3, 1.0)),
+        heights=(0.03, 0.1, 0.3),
+        strips=6,
+        waves=6,
+        width=16,
+    ),
     run=run,
     evidence=evidence,
     needs="boundary elements",

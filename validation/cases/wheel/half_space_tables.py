@@ -12,6 +12,7 @@ from validation.cases.wheel.contrast import contrast_table, linear_contrasts, lo
 from validation.cases.wheel.features import SLOPE, linear_force_3d
 from validation.cases.wheel.half_space_levels import GEIKE, LINEAR_1D, LINEAR_3D, MODELS, FloatArray, WheelLevels
 from validation.cases.wheel.half_space_numbers import CONTACTS, LEVEL, OVER_BEM
+from validation.scenes.description import slope_ratio
 
 WHEEL = "wheel"
 ONE_DECIBEL, THREE_DECIBELS = FEATURES["level"].tolerance, 3.0
@@ -33,13 +34,11 @@ def levels_of(levels: WheelLevels) -> Table:
 
 
 def wheel_of(levels: WheelLevels) -> Table:
-    """Its roughness over the approach, the slope of that over the smooth wheel's, and what a time step takes."""
+    """Its roughness over the approach, the slope of that along the track, of all waves, and what a time step takes."""
     case, scene = levels.result.case, levels.result.case.scene
-    # an isotropic surface has half of its mean square gradient along the track
-    slope = math.sqrt(2) * scene.slope_along * scene.contact_radius / scene.approach
     values = {
         "h/d": scene.rms / scene.approach,
-        "h' a/d": slope,
+        "h' a/d": slope_ratio(scene.slope_along, scene),
         "cells to a contact radius": case.cells,
         "applications a time step": float(np.mean([strip["applications"] for strip in levels.converged])),
     }

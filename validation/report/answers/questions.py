@@ -19,7 +19,16 @@ from validation.report.answers.alternatives import (
     rolling_springs,
 )
 from validation.report.answers.question import AlternativeModel, Question
-from validation.report.answers.sources import FORCE, SLOPE, not_modelled, of_punch, of_rail, of_rolling, of_wheel
+from validation.report.answers.sources import (
+    FORCE,
+    SLOPE,
+    not_modelled,
+    of_punch,
+    of_rail,
+    of_rolling,
+    of_wheel,
+    waves_of_slope,
+)
 from validation.report.answers.words import in_decibels, per_cent, times
 from validation.report.section import Section
 
@@ -31,6 +40,11 @@ def _slope_of_wheel(section: Section) -> str:
     return f"h' a/d = {section.evidence.table(WHEEL)[SLOPE][0]:.2g}"
 
 
+def _waves_of_rail(section: Section) -> str:
+    assert section.evidence
+    return waves_of_slope(section.evidence)
+
+
 def _hurst(section: Section) -> str:
     return f"H = {section.settings['hurst']:g}"
 
@@ -38,7 +52,7 @@ def _hurst(section: Section) -> str:
 QUESTIONS = (
     Question(
         name="mean-stiffness",
-        asks="Mean stiffness of a rough punch",
+        asks="Stiffness of a rough punch, its mean over surfaces",
         axis=FORCE,
         model=GEIKE,
         source=of_punch(punch.MEAN),
@@ -108,6 +122,7 @@ QUESTIONS = (
         source=of_rail("springs on the line"),
         told=("offset [dB]",),
         printed=in_decibels,
+        of_scene=_waves_of_rail,
         alternatives=(
             linear(of_rail("linear, ellipse"), "linear theory of the ellipse"),
             AlternativeModel(name=READ.name, cost=READ.cost, source=of_rail("springs that read the surface")),

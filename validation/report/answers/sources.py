@@ -65,6 +65,11 @@ def _slope_of_offset(evidence: Evidence, number: Number) -> Place:
     return float(roughness.where(**{"offset [dB]": number.where["offset [dB]"]})["h' a_x / d"][0])
 
 
+def waves_of_slope(evidence: Evidence) -> str:
+    """Which waves the slope of a rail counts."""
+    return f"h' of waves of {evidence.table('roughness and contact')[rough_rail.WAVES][0]}"
+
+
 def of_rail(model: str) -> NumberSource:
     return NumberSource(
         case="rough_rail",

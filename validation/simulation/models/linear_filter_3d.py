@@ -41,13 +41,13 @@ class LinearFilter3D(CheapRollingModel):
         return str(target.scene.ground.not_gaussian())
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
-        """Ridges lose contact where waves in all directions do not: as much again as the slope h' a/d is left open."""
+        """Ridges lose contact where waves in all directions do not: as much again as the gradient g a/d is left."""
         expected, ground = super().estimate(target, resolution), target.scene.ground
         if not ground.is_single or ground.texture <= OBLONG:
             return expected
-        slope = ground.slope * target.scene.contact_radius / target.scene.approach
-        reason = f"{expected.reason}; heights are anisotropic, h' a/d = {slope:.2g}"
-        return replace(expected, model=expected.model + slope, reason=reason)
+        gradient = ground.gradient * target.scene.contact_radius / target.scene.approach
+        reason = f"{expected.reason}; heights are anisotropic, rms gradient g a/d = {gradient:.2g}"
+        return replace(expected, model=expected.model + gradient, reason=reason)
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
         nodes = target.rolling.nodes
