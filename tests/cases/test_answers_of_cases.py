@@ -21,10 +21,10 @@ def strip(slope, value, half, model=reduced.READ):
 
 
 def test_strips_on_both_sides_of_a_limit_count():
-    """0.972 is as near to 1 as 1.03: the strip that is open there keeps the claim open."""
-    strips = [strip(0.807, 1.5, 0.6), strip(1.03, 2.7, 0.6), strip(0.972, 1.6, 1.0), strip(2.69, 6.9, 2.0)]
+    """0.687 is as near to 1 / sqrt(2) as 0.728: the strip that is open there keeps the claim open."""
+    strips = [strip(0.571, 1.5, 0.6), strip(0.728, 2.7, 0.6), strip(0.687, 1.6, 1.0), strip(1.9, 6.9, 2.0)]
     found = reduced.at_limit(strips)
-    assert {number.where["h' a/d"] for number in found} == {0.972, 1.03}
+    assert {number.where["h' a/d"] for number in found} == {0.687, 0.728}
     judged = answered("They are off.", found, "see.", confirmed_by=Verdict.DIFFER)
     assert judged.status is ClaimStatus.OPEN
 

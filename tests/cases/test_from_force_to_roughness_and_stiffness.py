@@ -104,8 +104,8 @@ def test_the_parameter_that_counts_is_found(parameter):
     kept, levels = {}, {}
     for name, spectrum in SPECTRA.items():
         for given, value in case.levels:
-            height = value / spectrum.slope if given == SLOPE else value
-            x = height * (spectrum.slope if parameter == SLOPE else 1.0)
+            height = value / spectrum.slope_along if given == SLOPE else value
+            x = height * (spectrum.slope_along if parameter == SLOPE else 1.0)
             linear = RNG.lognormal(0, 0.2, (4, 3))
             kept[name, given, value] = Estimate(1 - 0.3 * x, 0.001, 4)
             cross = np.stack([linear, 0 * linear])

@@ -11,7 +11,7 @@ import mdr
 from tests.oracles import dense_operator
 from validation.analysis.evidence import Verdict, numbers_with
 from validation.cases.limits import evidence as limits_evidence
-from validation.cases.limits import isotropy, linear_filter, spheres, time_stepping
+from validation.cases.limits import isotropy, spheres, time_stepping
 from validation.cases.limits import limits as case
 from validation.cases.limits.numbers import EXPECTED_EXPONENTS, threshold_number, warnings_number
 from validation.cases.limits.sweep import Limit, Sweep, call_and_record_warnings, swept
@@ -234,13 +234,6 @@ def test_a_stretched_surface_by_another_quadrature():
     assert four == pytest.approx(one, rel=0.02)
     nothing = isotropy.stretched_variance(self_affine(0.7, 1e-3, 2e-3), 4.0)
     assert nothing == pytest.approx(4.0, rel=1e-4)
-
-
-def test_slope_of_a_power_law():
-    """<q^2> = 2 pi int q^3 C_2D dq over 2 pi int q C_2D dq with C_2D ~ q^-3.4."""
-    spectrum = self_affine(0.7, 1.0, 8.0)
-    moments = (8.0**0.6 - 1) / 0.6 / ((1 - 8.0**-1.4) / 1.4)
-    assert linear_filter.rms_slope(spectrum) ** 2 == pytest.approx(moments, rel=1e-4)
 
 
 def test_theory_of_small_changes_of_energy():

@@ -54,7 +54,8 @@ def test_power_laws_have_unit_height_and_are_continuous(spectrum):
     gradient = sum(
         integrate.quad(lambda q: 2 * np.pi * q**3 * spectrum.c2d(q), *piece, epsrel=1e-12)[0] for piece in pieces
     )
-    assert spectrum.slope == pytest.approx(math.sqrt(gradient), rel=1e-9)
+    assert spectrum.gradient == pytest.approx(math.sqrt(gradient), rel=1e-9)
+    assert spectrum.slope_along == pytest.approx(math.sqrt(gradient / 2), rel=1e-9)
     inner = np.array(spectrum.edges[1:-1])
     assert spectrum.c2d(inner * (1 - 1e-10)) == pytest.approx(spectrum.c2d(inner * (1 + 1e-10)), rel=1e-8)
     assert (spectrum.c2d([0.99 * spectrum.edges[0], 1.01 * spectrum.edges[-1]]) == 0).all()
@@ -195,7 +196,8 @@ def test_the_first_screen_finds_the_numbers_of_rolling(rolled):
     """Both of its questions, over h' a/d."""
     section = Section("rolling", CASE, "", asdict(SMALL), evidence(rolled))
     rows = {row.question.name: row for row in answered_questions([section])}
-    slope = 0.01 * SMALL.spectrum.slope
+    slope = 0.01 * SMALL.spectrum.slope_along
+    assert {claim.limits for claim in section.evidence.claims} == {"", f"up to h/d = 0.01, h' a/d = {slope:.2g}"}
     for name in ("rolling-rms", "rolling-spectrum"):
         assert rows[name].strip[1].place == f"{slope:.2g}"
         assert rows[name].measured.endswith("H = 0.7")

@@ -19,10 +19,11 @@ from tests.planted_faults import (
     scenes,
     selection,
     simulation,
+    slopes,
     theory,
 )
 
-ROOMS = (analysis, bem3d, benchmarks, cases, engine, house, mdr, report, scenes, selection, simulation, theory)
+ROOMS = (analysis, bem3d, benchmarks, cases, engine, house, mdr, report, scenes, selection, simulation, slopes, theory)
 FAULTS = {fault: planted for room in ROOMS for fault, planted in room.FAULTS.items()}
 
 

@@ -261,9 +261,11 @@ def test_a_rail_is_judged_over_its_slope_in_the_bands_that_count():
         return at((0.1, 1.0), value, where=where, quantity=quantity, model=model, tolerance=1.0)
 
     numbers = [off(0.0, rough_rail.LONG, 0.5), off(20.0, rough_rail.LONG, -4.0), off(0.0, rough_rail.SHORT, 9.0)]
-    roughness = Table("roughness and contact", {"offset [dB]": [0.0, 20.0], "h' a_x / d": [0.092, 0.92]})
+    found = {"offset [dB]": [0.0, 20.0], rough_rail.WAVES: ["50 to 2.5 mm"] * 2, "h' a_x / d": [0.092, 0.92]}
+    roughness = Table("roughness and contact", found)
     row = row_of("contact-filter", section_of("rough_rail", numbers, roughness))
     assert [(cell.place, cell.word) for cell in row.strip][1:-1] == [("0.092", "yes"), ("0.92", "no")]
+    assert row.measured == "h' a_x/d = 0.092 to 0.92, offset [dB] = 0 to 20, h' of waves of 50 to 2.5 mm"
 
 
 def test_models_of_the_rail_are_named_as_in_its_numbers():

@@ -203,7 +203,7 @@ def test_slopes_are_those_of_heights():
     # differences of 16 points to the shortest wave are 2 % low, one surface has a few hundred waves
     assert found.slope_along == pytest.approx(rough.slope_along, rel=0.1)
     assert math.hypot(found.slope_along, MeasuredHeights(height=height.T, spacing=found.spacing).slope_along) == (
-        pytest.approx(found.slope, rel=1e-12)
+        pytest.approx(found.gradient, rel=1e-12)
     )
 
 
@@ -234,7 +234,7 @@ def test_table_14_1_is_understood_as_what_it_is():
         "approach d": "7.8565 µm, of the smooth body",
         "motion": "mass 500 kg, speed 20 m/s, resonance at 1369 rad/s, undamped",
         "rms height h": "500 nm, h/d = 0.0636",
-        "rms slope h'": "0.00105, in one direction, h' a/d = 0.264",
+        "rms slope h'": "0.00105, in one direction, of all waves, h' a/d = 0.264",
         "waves of the rail": "10 mm to 200 µm, Hurst exponent 0.7, 1.257e+04 to 6.283e+05 rad/s",
     }
     assert dict(describe(load_scene("table_14_1"))).items() >= {k: pairs[k] for k in list(pairs)[:-1]}.items()
@@ -287,7 +287,7 @@ def test_the_slope_of_a_punch_is_that_in_one_direction():
     scene = load_scene("rough_punch")
     q = np.geomspace(scene.ground.q_min, scene.ground.q_max, 20001)
     slope = math.sqrt(np.pi * np.trapezoid(q**3 * scene.ground.c2d(q), q))
-    assert dict(describe(scene))["rms slope h'"] == f"{slope:.3g}, in one direction"
+    assert dict(describe(scene))["rms slope h'"] == f"{slope:.3g}, in one direction, of all waves"
 
 
 def test_rail_and_wheel_are_understood_together():

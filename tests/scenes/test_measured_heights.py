@@ -247,12 +247,12 @@ def test_heights_in_the_wrong_unit_are_steep():
     ground = heights(drawn())
     assert not any("steep" in doubt for doubt in ground.notes())
     metres = MeasuredHeights(height=1e6 * ground.height, spacing=ground.spacing)
-    assert "rms slope" in metres.notes()[0]
+    assert "rms gradient" in metres.notes()[0]
     ramp = np.add.outer(np.abs(np.arange(32) - 15.5), np.zeros(32))
-    assert MeasuredHeights(height=ramp, spacing=(2.0, 1.0)).slope == pytest.approx(0.5 * math.sqrt(30 / 31))
+    assert MeasuredHeights(height=ramp, spacing=(2.0, 1.0)).gradient == pytest.approx(0.5 * math.sqrt(30 / 31))
 
 
 def test_slopes_along_the_track_are_those_of_the_first_axis():
     ridges = 1e-7 * np.sin(2 * np.pi * 8 * np.arange(N) / N)[:, np.newaxis] + 1e-3 * drawn()
-    assert heights(ridges).slope_along == pytest.approx(heights(ridges).slope, rel=1e-3)
-    assert heights(ridges.T).slope_along < 0.1 * heights(ridges.T).slope
+    assert heights(ridges).slope_along == pytest.approx(heights(ridges).gradient, rel=1e-3)
+    assert heights(ridges.T).slope_along < 0.1 * heights(ridges.T).gradient

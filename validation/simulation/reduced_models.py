@@ -85,11 +85,8 @@ def one_sided_bed(strip: FloatArray, dx: float) -> Reduced:
 def two_scales_by_persson(strip: FloatArray, dx: float) -> Reduced:
     """Short waves weigh what touches, erf(sqrt(2) p / (E* g)) at the pressure of Hertz, weights of each spring one."""
     long, short = split(strip, dx)
-    gradient = math.sqrt(
-        float(np.sum((np.abs(np.fft.fft2(short, norm="forward")) * _wavenumbers(strip.shape, dx)) ** 2))
-    )
     weights = punch_weights(strip.shape[1], dx)
-    touching = weights * special.erf(math.sqrt(2) * _hertz(strip.shape[1], dx) / gradient)
+    touching = weights * special.erf(math.sqrt(2) * _hertz(strip.shape[1], dx) / _gradient(short, dx))
     weighed = touching / np.maximum(touching.sum(axis=0), 1e-300)
     return Reduced(on_springs(long @ weights + short @ weighed, dx), 2 * springs_that_read(strip, dx).work)
 
@@ -165,6 +162,12 @@ def on_springs(read: FloatArray, dx: float) -> FloatArray:
     for j in range(1 - read.shape[1], read.shape[1]):
         force += np.roll(np.maximum(1 - (j * dx) ** 2 + read[:, abs(j)], 0.0), -j) * dx
     return force / HERTZ
+
+
+def _gradient(height: FloatArray, dx: float) -> float:
+    """g, the root mean square of |grad h| over a period, times a / d."""
+    power = (np.abs(np.fft.fft2(height, norm="forward")) * _wavenumbers(height.shape, dx)) ** 2
+    return math.sqrt(float(np.sum(power)))
 
 
 def _hertz(across: int, dx: float) -> FloatArray:

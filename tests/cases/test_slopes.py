@@ -1,0 +1,324 @@
+"""One h' everywhere: the rms slope along the track, in one direction; and g, the rms gradient, where formulas need it.
+
+Expected values are integrals over the spectrum written out here, or derivatives of heights as they were drawn.
+"""
+
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+from scipy import integrate, special
+
+import validation
+from validation.analysis.statistics import Estimate
+from validation.cases.limits import linear_filter, pressed_springs
+from validation.cases.punch import area_gap_rolloff_numbers
+from validation.cases.rail import rough_rail
+from validation.cases.rolling import reduced_models_evidence, roughness_from_force_evidence, validity
+from validation.cases.rolling.force_spectrum import ForceSpectrum
+from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
+from validation.cases.rolling.reduced_models import MODELS, ReducedModels, ReducedResult, bands_of
+from validation.cases.rolling.roughness_from_force import RoughnessFromForce, RoughnessFromForceResult
+from validation.cases.wheel import half_space_tables
+from validation.report.answers.questions import QUESTIONS
+from validation.scenes.description import describe
+from validation.scenes.roughness_levels import RoughnessLevels
+from validation.selection.compare import models_of
+from validation.selection.summary import heading
+from validation.selection.tolerance import tolerance_of
+from validation.simulation import indentation, rail_ground, reduced_models
+from validation.simulation.models import linear_filter_3d
+from validation.simulation.rail_models import linear_error
+from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.rolling_claims import CheapRollingModel
+from validation.simulation.rolling_strip import RoughStrip
+from validation.simulation.rough_punch import PunchRoughness
+from validation.simulation.track_spectrum import self_affine
+
+WHEEL = validation.load_wheel_scene("table_14_1")
+RNG = np.random.default_rng(0)
+
+
+def power_law_slope(hurst, first, last, rms=1.0):
+    """h' of C_2D ~ q^(-2H-2): half of <q^2>, the mean over the spectrum, is its mean square in one direction."""
+    square, whole = (integrate.quad(lambda q, p: q**p, first, last, args=n - 2 * hurst - 2)[0] for n in (3, 1))
+    return rms * math.sqrt(square / whole / 2)
+
+
+def slope_of_table_14_1():
+    """h' a/d of what Table 14.1 and the choices beside it say: R, E and nu, M g, h, H, 10 to 0.2 mm."""
+    radius, modulus, load = 0.5, 210e9 / (1 - 1 / 9), 500 * 9.81
+    approach = (9 * load**2 / (16 * radius * modulus**2)) ** (1 / 3)
+    slope = power_law_slope(0.7, 2 * math.pi / 10e-3, 2 * math.pi / 0.2e-3, 0.5e-6)
+    return slope * math.sqrt(radius * approach) / approach
+
+
+def wheel_table(scene=WHEEL):
+    levels = SimpleNamespace(
+        result=SimpleNamespace(case=SimpleNamespace(scene=scene, cells=8)), converged=[{"applications": 1.0}]
+    )
+    return half_space_tables.wheel_of(levels)
+
+
+def validity_evidence(case=validity.CASE.quick):
+    """Of boundary elements that are linear theory."""
+    keys = [(name, *level) for name in validity.SPECTRA for level in case.levels]
+    linear = RNG.lognormal(0, 0.2, (4, 3))
+    outcome = {"level": linear, "linear level": linear, "cross": np.stack([linear, 0 * linear])}
+    one = Estimate(1.0, 0.001, 4)
+    reduced = {(model, key): one for model in validity.MODELS for key in keys}
+    return validity.evidence(
+        validity.ValidityResult(case, dict.fromkeys(keys, outcome), dict.fromkeys(keys, one), reduced, ())
+    )
+
+
+# --- one number for one wheel ---
+
+
+def test_table_14_1_has_one_slope_everywhere():
+    """On the page, in `compare`, under the question of the first screen, and in the units of the cases."""
+    expected = slope_of_table_14_1()
+    assert wheel_table()["h' a/d"][0] == pytest.approx(expected, rel=1e-9)
+    said = f"h' a/d = {expected:.3g}"
+    assert said in dict(describe(WHEEL))["rms slope h'"]
+    text = heading(validation.load_scene("table_14_1"), "acceleration-rms", tolerance_of("10%"))
+    assert f"{said}\n" in text
+    (conclusion,) = validity_evidence().conclusions
+    assert f"{said} along the track" in conclusion
+    (question,) = (one for one in QUESTIONS if one.name == "dynamic-wheel")
+    evidence = SimpleNamespace(table={"wheel": wheel_table()}.get)
+    assert question.of_scene(SimpleNamespace(evidence=evidence)) == f"h' a/d = {expected:.2g}"
+    a, d = WHEEL.contact_radius, WHEEL.approach
+    spectrum = self_affine(0.7, a * WHEEL.rail.q_min, a * WHEEL.rail.q_max)
+    assert WHEEL.rms / d * spectrum.slope_along == pytest.approx(expected, rel=1e-9)
+
+
+def test_slopes_of_rail_and_wheel_add_by_squares():
+    both = replace(WHEEL, wheel=replace(WHEEL.rail, rms=3 * WHEEL.rail.rms))
+    assert wheel_table(both)["h' a/d"][0] == pytest.approx(math.sqrt(10) * slope_of_table_14_1(), rel=1e-9)
+
+
+@pytest.mark.parametrize("shape", ["wheel", "sphere"])
+def test_a_description_has_the_slope_of_the_waves_that_it_names(shape):
+    """A wheel and a ball of one radius, load and roughness."""
+    scene = validation.load_scene("rolling_wheel")
+    if shape == "sphere":
+        scene = validation.IndentationScene(
+            name="ball", shape="sphere", size=scene.radius, load=scene.load, modulus=scene.modulus, ground=scene.ground
+        )
+    ground, d = scene.ground, (9 * scene.load**2 / (16 * 0.5 * scene.modulus**2)) ** (1 / 3)
+    slope = power_law_slope(ground.hurst, 2 * math.pi / ground.longest, 2 * math.pi / ground.shortest, ground.rms)
+    expected = f"{slope:.3g}, in one direction, of all waves, h' a/d = {slope * math.sqrt(0.5 / d):.3g}"
+    assert dict(describe(scene))["rms slope h'"] == expected
+
+
+# --- one number for one rail ---
+
+
+RAIL, EXPONENT, LEVEL = validation.load_scene("rail"), 2.5, 2e-7
+
+
+def falling_rail():
+    """C_line = c q^-p in all bands."""
+    bands = RAIL.levels.bands
+    powers = 2 * LEVEL * -np.diff(bands.edges ** (1 - EXPONENT)) / (EXPONENT - 1)
+    return replace(RAIL, across="isotropic", roughness=RoughnessLevels.of_powers(bands, powers, source="a power law"))
+
+
+def line_slope(first, last):
+    """h'^2 = 2 int q^2 c q^-p dq."""
+    power = 3 - EXPONENT
+    return math.sqrt(2 * LEVEL * (last**power - first**power) / power)
+
+
+def band_edges(longest, shortest):
+    """Outer edges of nominal bands [m], factor 10^0.05 beyond their centres, as wavenumbers."""
+    return 2 * math.pi / longest / 10**0.05, 2 * math.pi / shortest * 10**0.05
+
+
+def test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands():
+    """In the description, the claims of models, and the case; of 50 to 3.15 mm, and of 2000 to 0.8 mm."""
+    scene = falling_rail()
+    over = scene.contact.along / scene.contact.approach
+    every, strips = line_slope(*band_edges(2.0, 10**-3.1)), line_slope(*band_edges(10**-1.3, 10**-2.5))
+    assert dict(describe(scene))["rms slope h'"] == (
+        f"{every:.3g} along the track, of all bands, h' a_x/d = {every * over:.3g}"
+    )
+    assert rail_ground.strip_bands(scene).span == "50 to 3.15 mm"
+    assert rail_ground.lost_contact_number(scene) == pytest.approx(strips * over, rel=1e-3)
+    assert RailQuantity(scene, "contact-filter").lost == pytest.approx(strips * over, rel=1e-3)
+    reasons = [model.estimate().reason for model in models_of(scene, "contact-filter", 0.1, 0)]
+    assert any(f"h' a_x / d = {strips * over:.2g} of waves of 50 to 3.15 mm" in reason for reason in reasons)
+    case = SimpleNamespace(scene=lambda key: scene)
+    area = SimpleNamespace(value=1.0, uncertainty=0.0)
+    table = rough_rail._roughness_table(
+        SimpleNamespace(case=SimpleNamespace(keys=[("", 0.0, "")], **vars(case))), [area]
+    )
+    assert table["h' a_x / d"][0] == pytest.approx(strips * over, rel=1e-3)
+    assert table[rough_rail.WAVES][0] == "50 to 3.15 mm"
+
+
+def test_a_strip_of_a_rail_has_the_slope_along_the_track():
+    """Of ground that is isotropic, heights as drawn: that across is as large, and no part of h'."""
+    scene = falling_rail()
+    strip = rail_ground.strip_of(scene, "isotropic", 8, 0, 1)
+    slope, _ = periodic_slopes(strip.surface, strip.spacing)
+    found = slope * scene.contact.along / scene.contact.approach
+    # oblique waves are missing in the two shortest bands of a strip
+    assert found == pytest.approx(rail_ground.lost_contact_number(scene), rel=0.1)
+
+
+def test_the_error_of_linear_theory_on_a_rail_goes_with_the_slope_along():
+    """0.2 min(1, q a_x) + 1.1 q a_x h' a_x / d [dB]."""
+    scene = falling_rail()
+    slope = line_slope(*band_edges(10**-1.3, 10**-2.5))
+    waves = RAIL.levels.bands.centres * scene.contact.along
+    expected = 0.2 * np.minimum(1, waves) + 1.1 * waves * slope * scene.contact.along / scene.contact.approach
+    found = linear_error(RailQuantity(scene, "contact-filter"))
+    assert found[waves < 9] == pytest.approx(expected[waves < 9], rel=1e-3)
+
+
+# --- cases in units of a, d and E* ---
+
+
+def periodic_slopes(height, spacing):
+    """Rms of the derivatives along both axes."""
+    waves = np.abs(np.fft.fft2(height, norm="forward")) ** 2
+    q = [2 * np.pi * np.fft.fftfreq(n, spacing) for n in height.shape]
+    return tuple(math.sqrt((waves * one**2).sum()) for one in (q[0][:, np.newaxis], q[1]))
+
+
+def test_a_strip_has_the_slope_of_its_spectrum_along_the_track():
+    strip = RoughStrip(spectrum=self_affine(0.7, 1.0, 8.0), height=0.1, length=64.0, width=64.0, seed=3)
+    along, across = periodic_slopes(strip.surface(4, 0), 0.25)
+    assert along == pytest.approx(0.1 * strip.spectrum.slope_along, rel=0.03)
+    assert math.hypot(along, across) == pytest.approx(0.1 * strip.spectrum.gradient, rel=0.01)
+
+
+def test_cases_of_rolling_print_the_slope_along_the_track():
+    """h' a/d of H = 0.7 in each table and in the words of claims; of their rms heights, over d."""
+    rolling = ForceSpectrum()
+    level = LevelsAtHeight(SimpleNamespace(case=rolling), 0.3)
+    assert level.slope == pytest.approx(0.3 * power_law_slope(rolling.hurst, rolling.first, rolling.last), rel=1e-6)
+
+    case = RoughnessFromForce()
+    linear = RNG.lognormal(0, 0.1, (6, len(case.bands.centres)))
+    outcome = {"level": linear, "linear level": linear}
+    found = roughness_from_force_evidence.evidence(
+        RoughnessFromForceResult(case, dict.fromkeys(case.heights, outcome), ())
+    )
+    slopes = [h * power_law_slope(case.hurst, case.first, case.last) for h in case.heights]
+    assert np.unique(found.table("roughness")["h' a/d"]) == pytest.approx(slopes, rel=5e-3)
+    assert all(f"dB at h' a/d = {slope:.2g}" in found.claims[0].answer for slope in slopes)
+
+    models = ReducedModels(strips=3)
+    (spectrum,) = models.spectra
+    bands = len(bands_of(self_affine(*spectrum)).centres)
+    rolled = {
+        "level": RNG.lognormal(0, 0.1, (len(MODELS), bands)),
+        "cross": np.ones((2, len(MODELS), bands)),
+        "mean": np.ones(len(MODELS)),
+        "work": np.ones(len(MODELS)),
+    }
+    strips = {(spectrum, height): [rolled] * 3 for height in models.heights}
+    slopes = [height * power_law_slope(*spectrum) for height in models.heights]
+    assert [reduced_models_evidence.slope_of(key) for key in strips] == pytest.approx(slopes, rel=1e-6)
+    found = reduced_models_evidence.evidence(ReducedResult(models, strips, ()))
+    assert np.unique(found.table("reduced_models")["h' a/d"]) == pytest.approx(slopes, rel=5e-3)
+    assert sorted({number.where["h' a/d"] for number in found.numbers}) == pytest.approx(slopes, rel=5e-3)
+
+
+@pytest.mark.parametrize("gradient", [0.1, 0.3, 1.0])
+def test_strips_at_equal_slopes_have_them(gradient):
+    """Where h' a/d is 0.0707, 0.212 and 0.707, each spectrum has the rms gradient of 0.1, 0.3 and 1."""
+    case = validity.Validity(slopes=(gradient / math.sqrt(2),), heights=(0.3,))
+    slopes = {
+        "H = 0.7, q a = 1 to 10": power_law_slope(0.7, 1, 10),
+        "H = 0.7, q a = 0.3 to 5": power_law_slope(0.7, 0.3, 5),
+        "H = 0.4, q a = 1 to 10": power_law_slope(0.4, 1, 10),
+    }
+    for name, slope in slopes.items():
+        strip = case.strips_of(name, validity.SLOPE, case.slopes[0])[0].scene
+        assert math.sqrt(2) * slope * strip.height == pytest.approx(gradient, rel=1e-6)
+    table = validity_evidence(case).table("validity")
+    for name, slope in slopes.items():
+        found = table.where(spectrum=name)["h' a/d"]
+        assert found == pytest.approx([gradient / math.sqrt(2), 0.3 * slope], rel=5e-3)
+    assert set(validity.CASE.full.slopes) == {one / math.sqrt(2) for one in (0.1, 0.3, 1.0)}
+
+
+def test_limits_of_claims_are_where_the_gradient_is_1_and_0_3():
+    limits = reduced_models_evidence.LIMIT, reduced_models_evidence.LIMIT_OF_READ
+    assert limits == pytest.approx((math.sqrt(0.5), 0.3 * math.sqrt(0.5)))
+
+
+# --- g, where formulas need it ---
+
+
+@patch.object(
+    linear_filter,
+    "roll_strip",
+    lambda strip: {"force": np.arange(4.0), "linear": np.arange(4.0), "failed": np.array(0.0)},
+)
+def test_the_linear_filter_in_3d_ends_where_persson_loses_a_fifth():
+    """sqrt(pi / 8) g a / d = 0.2, whatever the force."""
+    strip = linear_filter.StripHeights(seed=1, length=7, cells=4)
+    gradient = math.sqrt(2) * power_law_slope(strip.hurst, 1.0, strip.last)
+    threshold = strip.sweep()["linear in 3D threshold"]
+    assert threshold == pytest.approx(0.2 / (math.sqrt(math.pi / 8) * gradient), rel=1e-6)
+
+
+@pytest.mark.parametrize(("name", "share"), [("area", 0.9), ("gap", 0.5)])
+def test_springs_are_right_where_persson_has_a_share_in_contact(name, share):
+    """erf(sqrt(2) p / (E* g)) at the threshold, g of the surface as it was drawn; p = F / L^2."""
+    rough = PunchRoughness(hurst=0.7, waves=(1, 2), seed=1)
+    punches = pressed_springs.Punches(roughness=rough, cells=16, surfaces=1, profiles=1, points=64, forces=(1.0,))
+    pressure = rough.height * punches.sweep()[f"{name} threshold"]
+    gradient = math.hypot(*periodic_slopes(rough.surface(16, 0), 1 / 16))
+    assert special.erf(math.sqrt(2) * pressure / gradient) == pytest.approx(share, abs=1e-4)
+
+
+def test_the_contact_fraction_of_persson_is_that_of_the_gradient():
+    case = SimpleNamespace(height=1e-3, forces=(0.5, 2.0))
+    result = SimpleNamespace(case=case, bem={8: {"gradient": np.array([0.01, 0.03])}})
+    found = area_gap_rolloff_numbers.persson(result, 8, 1)
+    assert found == pytest.approx(special.erf(math.sqrt(2) * 2e-3 / 0.02), rel=1e-9)
+
+
+def test_the_gradient_of_an_oblique_wave_under_two_scales():
+    """g = h q / sqrt(2) of h cos(q.x), q the length of the vector."""
+    x, y = (np.arange(n) * 0.25 for n in (32, 24))
+    q_x, q_y = 2 * np.pi * 3 / 8, 2 * np.pi * 2 / 6
+    height = 0.1 * np.cos(q_x * x[:, np.newaxis] + q_y * y)
+    assert reduced_models._gradient(height, 0.25) == pytest.approx(0.1 * math.hypot(q_x, q_y) / math.sqrt(2), rel=1e-9)
+
+
+@pytest.mark.parametrize(("more", "cells"), [(1.04, 256), (0.96, 128)])
+def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):
+    """Sixteen in contact, 2 F / (E* g L^2) of all, just below and above 128 cells a side."""
+    gradient = math.sqrt(2) * power_law_slope(0.7, 2 * math.pi, 2 * math.pi * 4, 1e-3)
+    ground = validation.Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=0.25)
+    load = 16 * gradient / (2 * (more * 128) ** 2)
+    light = validation.IndentationScene(name="light", shape="punch", size=1.0, load=load, modulus=1.0, ground=ground)
+    assert indentation.cells_wanted(light) == cells
+
+
+@patch.object(
+    CheapRollingModel, "estimate", lambda self, target, resolution: linear_filter_3d.ErrorEstimate(model=0.1, reason="")
+)
+def test_anisotropic_heights_leave_their_gradient_open():
+    """Ridges along the track, which h' does not see, are as rough as any for a filter in all directions."""
+    wave = 2 * np.pi * 9 * (np.arange(64) + 0.5) / 64
+    height = 1e-8 * (np.sin(wave) + 1e-3 * np.sin(wave)[:, np.newaxis])
+    side = 16 * WHEEL.contact_radius
+    ground = validation.MeasuredHeights(height=height, spacing=(side / 64, side / 64))
+    scene = replace(validation.load_scene("table_14_1"), ground=ground)
+    target = SimpleNamespace(scene=scene)
+    gradient = math.sqrt(np.mean(np.diff(height, axis=1) ** 2)) / (side / 64)
+    found = linear_filter_3d.MODEL.estimate(target, None)
+    expected = gradient * WHEEL.contact_radius / WHEEL.approach
+    assert found.model - 0.1 == pytest.approx(expected, rel=1e-3)
+    assert f"rms gradient g a/d = {expected:.2g}" in found.reason
