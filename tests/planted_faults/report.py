@@ -37,7 +37,23 @@ def enough_by_most(cell):
     return cells.Enough.YES if 2 * agree > len(cell.numbers) else cells.Enough.NO
 
 
+def enough_unless_it_differs(cell):
+    """What is undecided taken for what agrees."""
+    right = enough_of_a_cell(cell)
+    return cells.Enough.YES if right is cells.Enough.OPEN and not cell.lacking else right
+
+
+enough_of_a_cell = cells.RangeCell.enough.fget
+
 FAULTS = {
+    "a place with one number that is undecided under a yes": (
+        (cells.RangeCell, "enough", property(enough_unless_it_differs)),
+        functools.partial(
+            test_answers.test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks,
+            [test_answers.AGREES, test_answers.UNDECIDED],
+            cells.Enough.OPEN,
+        ),
+    ),
     "a cell that says what most of its numbers say": (
         (cells.RangeCell, "enough", property(enough_by_most)),
         test_answers.test_one_counterexample_among_all_exponents_is_a_no,

@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 import pytest
 
 from tests.report.test_printed import html_of, number
-from validation.analysis.evidence import Evidence, Role, Table, Verdict
+from validation.analysis.evidence import Evidence, Role, Table
 from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEAN
 from validation.cases.punch.work import Worked
@@ -353,12 +353,31 @@ def test_decibels_are_printed_as_their_quantity():
     assert from_to(2.0, 2.0, in_decibels) == "+2 dB"
 
 
-@pytest.mark.parametrize("verdicts", [[Verdict.AGREE], [Verdict.DIFFER, Verdict.AGREE], [Verdict.UNDECIDED]])
-def test_a_cell_says_yes_only_where_nothing_lacks(verdicts):
-    off = {Verdict.AGREE: (0.0, 0.0), Verdict.DIFFER: (9.0, 0.0), Verdict.UNDECIDED: (0.0, 9.0)}
-    numbers = tuple(at((0.1, 1.0), *off[verdict], hurst=i / 10) for i, verdict in enumerate(verdicts))
-    assert (RangeCell(0.1, numbers).enough is Enough.YES) == (set(verdicts) == {Verdict.AGREE})
-    assert RangeCell(0.1, numbers, lacking=1).enough is not Enough.YES
+AGREES, DIFFERS, UNDECIDED = (0.0, 0.0), (9.0, 0.0), (0.0, 9.0)
+"""Value and half-width."""
+
+
+@pytest.mark.parametrize(
+    ("found", "enough"),
+    [
+        ([AGREES], Enough.YES),
+        ([AGREES, AGREES], Enough.YES),
+        ([DIFFERS], Enough.NO),
+        ([AGREES, DIFFERS], Enough.NO),
+        ([UNDECIDED, DIFFERS], Enough.NO),
+        ([AGREES, UNDECIDED, DIFFERS], Enough.NO),
+        ([UNDECIDED], Enough.OPEN),
+        ([AGREES, UNDECIDED], Enough.OPEN),
+        ([UNDECIDED, AGREES, AGREES], Enough.OPEN),
+    ],
+)
+def test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks(found, enough):
+    numbers = [at((0.1, 1.0), *one, hurst=i / 10) for i, one in enumerate(found)]
+    assert RangeCell(0.1, tuple(numbers)).enough is enough
+    assert RangeCell(0.1, tuple(numbers), lacking=1).enough is (Enough.NO if enough is Enough.NO else Enough.OPEN)
+    row = mean_stiffness(*numbers)
+    assert words_of(row)[1:-1] == [enough.value]
+    assert row.word == {Enough.YES: "Yes", Enough.NO: "No", Enough.OPEN: "Open"}[enough]
 
 
 def test_no_name_of_a_row_is_taken_twice():

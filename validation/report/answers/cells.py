@@ -6,6 +6,7 @@ from enum import StrEnum
 from itertools import groupby
 
 from validation.analysis.evidence import Evidence, Number, Place, Verdict
+from validation.analysis.wording import joint_verdict
 
 DECIBELS = "dB "
 """An axis that begins with its unit follows its numbers."""
@@ -29,11 +30,11 @@ class RangeCell:
 
     @property
     def enough(self) -> Enough:
-        """One counterexample is enough for no; what lacks a number is no yes."""
-        verdicts = {number.verdict for number in self.numbers}
-        if Verdict.DIFFER in verdicts:
+        """One counterexample is enough for no; one that is undecided, and one that lacks, leaves it open."""
+        verdict = joint_verdict(self.numbers)
+        if verdict is Verdict.DIFFER:
             return Enough.NO
-        return Enough.YES if verdicts == {Verdict.AGREE} and not self.lacking else Enough.OPEN
+        return Enough.YES if verdict is Verdict.AGREE and not self.lacking else Enough.OPEN
 
 
 @dataclass(frozen=True, kw_only=True)
