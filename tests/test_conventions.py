@@ -8,6 +8,7 @@ import pytest
 
 import bem3d
 import mdr
+import validation
 
 PAGE = (Path(__file__).parents[1] / "CONVENTIONS.md").read_text()
 L, E, N = 2e-3, 3e9, 256
@@ -32,6 +33,19 @@ def test_spectra_are_two_sided():
     assert 2 * trapezoid(ROUGH.c1d(q), q) == pytest.approx(ROUGH.rms**2, rel=1e-6)
     assert 2 * np.pi * trapezoid(q * ROUGH.c2d(q), q) == pytest.approx(ROUGH.rms**2, rel=1e-6)
     assert ROUGH.c1d(q) == pytest.approx(np.pi * q * ROUGH.c2d(q))
+
+
+def test_a_slope_in_one_direction_and_the_gradient():
+    """2 int q^2 C_line dq = pi int q^3 C_2D dq = g^2 / 2, by sums; Geike's profile has the slope g."""
+    assert row("rms slope h'")[1].startswith("h'^2 = 2 int_0^inf q^2 C_line dq = g^2 / 2")
+    ground = validation.Roughness(rms=1e-7, hurst=0.7, longest=L / 16, shortest=L / 60)
+    # the line trace has a corner at q_min
+    q = np.concatenate([np.linspace(0, ROUGH.q_min, 2001), np.linspace(ROUGH.q_min, ROUGH.q_max, 8001)[1:]])
+    line = mdr.line_trace(q[1:], ROUGH.c2d, q_max=ROUGH.q_max)
+    assert ground.slope_along**2 == pytest.approx(2 * trapezoid(q[1:] ** 2 * line, q[1:]), rel=1e-3)
+    gradient = 2 * np.pi * trapezoid(q**3 * ROUGH.c2d(q), q)
+    assert ground.slope_along**2 == pytest.approx(gradient / 2, rel=1e-3)
+    assert 2 * trapezoid(q[1:] ** 2 * mdr.geike(q[1:], ROUGH.c2d), q[1:]) == pytest.approx(gradient, rel=1e-3)
 
 
 def test_amplitudes_of_waves():
@@ -92,15 +106,25 @@ def test_factors_of_surface_topography():
     area = topography.Topography(surface, (L, L), periodic=True)
     *_, c2d = area.power_spectrum_from_area(return_map=True)
     assert c2d[20:50, 0] / (4 * np.pi**2) == pytest.approx(ROUGH.c2d(2 * np.pi / L * np.arange(20, 50)))
+    assert row("SurfaceTopography, `rms_gradient`; ")[2] == "1"
+    ground = validation.MeasuredHeights(height=surface, spacing=(SPACING, SPACING))
+    assert area.rms_gradient() == pytest.approx(ground.gradient, rel=0.02)
 
 
 def test_factors_of_tamaas():
-    """Lx Ly / (4 pi^2), where the package is installed."""
+    """Lx Ly / (4 pi^2), and g on a side of 1, where the package is installed."""
     tamaas = pytest.importorskip("tamaas")
     assert row("tamaas, `Statistics2D.computePowerSpectrum`")[2] == "Lx Ly / (4 pi^2)"
     surface = bem3d.rough_surface(ROUGH.c2d, shape=(N, N), spacing=SPACING, rng=np.random.default_rng(1))
     c2d = tamaas.Statistics2D.computePowerSpectrum(surface).real[20:50, 0] * L**2 / (4 * np.pi**2)
     assert c2d == pytest.approx(ROUGH.c2d(2 * np.pi / L * np.arange(20, 50)))
+    assert (
+        row("SurfaceTopography, `rms_gradient`; tamaas, `Statistics2D.computeSpectralRMSSlope` on a side of 1")[2]
+        == "1"
+    )
+    q = np.linspace(ROUGH.q_min, ROUGH.q_max, 8001)
+    gradient = math.sqrt(2 * np.pi * trapezoid(q**3 * ROUGH.c2d(q), q))
+    assert tamaas.Statistics2D.computeSpectralRMSSlope(surface) / L == pytest.approx(gradient, rel=0.03)
 
 
 def test_approaches_of_the_other_packages():

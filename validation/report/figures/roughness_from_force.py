@@ -24,7 +24,7 @@ def draw(evidence: Evidence) -> Figure:
         for zero in np.arange(1, mine["q a"].max() / math.pi + 0.5):
             axis.axvline(zero * math.pi, **GUIDE)
         slope = mine["h' a/d"][0]
-        axis.set(xscale="log", xlabel="q a", ylim=(-16, 10), title=f"h/d = {height:g}, h' a/d = {slope:g}")
+        axis.set(xscale="log", xlabel="q a", ylim=(-16, 10), title=f"h/d = {height:g}, h' a/d = {slope:.2g}")
         tick(axis, [q for q in (1, 2, 5, 10, 20) if 0.8 * mine["q a"].min() <= q <= 1.2 * mine["q a"].max()])
     axes[0].set_ylabel("roughness found over true [dB]")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
