@@ -326,6 +326,18 @@ def test_cells_of_the_page_are_lettered_and_link_to_their_evidence():
     assert "href" not in missing
 
 
+def test_the_questions_of_both_columns_are_named():
+    """Found in the mean over surfaces, and claimed for one scene before a solve."""
+    page = html_of(punch(at((0.1, 1.0), 0.0)))
+    answers, claims = (page[page.index(f'id="{place}"') :] for place in ("answers", "asked"))
+    assert "Stiffness of a rough punch, its mean over surfaces: is MDR enough?" in answers
+    told = " ".join(answers[: answers.index("<table")].split())
+    assert "what this report found, in the mean over its surfaces" in told
+    assert "what is sure for one scene before a solve" in told
+    assert "Model selected a priori for one scene, 10 %" in claims
+    assert "by the error that it claims before a solve" in claims
+
+
 def test_a_page_without_rows_has_no_box():
     assert "When MDR is enough" not in html_of(section_of("geike", [number()]))
 

@@ -68,7 +68,7 @@ def test_bands_of_a_wheel_with_a_speed_have_nominal_frequencies():
 def test_mdr_is_named_where_it_is_enough_and_where_not():
     """Of 12 % wanted: found, claimed, too much by its claim, without a known error, and lost."""
     kinds = {
-        Finding(is_mdr=True, parts=(0.1, 0, 0)): "MDR: enough for this scene (10 % found, 12 % wanted).",
+        Finding(is_mdr=True, parts=(0.1, 0, 0)): "MDR: enough (10 % found, 12 % wanted).",
         Fake(is_mdr=True, claimed=0.62): (
             "MDR: not enough for this scene (62 % claimed before a solve, 12 % wanted), because claims 0.62."
         ),
@@ -91,6 +91,7 @@ def test_a_claim_of_measured_heights_says_that_one_surface_scatters():
     scene = punch(ground=validation.MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
     told = " ".join(summary(validation.compare(scene, tolerance=0.2)).split())
     assert "one surface scatters 44% about the mean of its spectrum" in told
+    assert "MDR: not enough for this surface (" in told
 
 
 @pytest.mark.parametrize(

@@ -98,8 +98,11 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     tolerance, selection = comparison.tolerance, comparison.selection
     if not math.isfinite(springs.error):
         return f"not known to be enough, because {springs.reason}"
-    how = "claimed before a solve" if springs.answer is None else "found"
-    errors = f"for {_asked_of(comparison.scene)} ({tolerance.shown_beside(springs.error)} {how}, {tolerance} wanted)"
+    shown = tolerance.shown_beside(springs.error)
+    if springs.answer is None:
+        errors = f"for {_asked_of(comparison.scene)} ({shown} claimed before a solve, {tolerance} wanted)"
+    else:
+        errors = f"({shown} found, {tolerance} wanted)"
     if springs.error > selection.tolerance:
         return f"not enough {errors}, because {springs.reason}"
     cheaper = selection.best
@@ -107,9 +110,10 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     return f"enough {errors}{others}"
 
 
-def _asked_of(scene: object) -> str:
-    """What an error is of: one surface that was measured, or any scene like it; a report has the mean over surfaces."""
-    return "this surface" if isinstance(getattr(scene, "ground", None), MeasuredHeights) else "this scene"
+def _asked_of(scene: Scene) -> str:
+    """What a claim is about: one surface that was measured, or one scene; a report finds the mean over surfaces."""
+    heights = scene.roughness if isinstance(scene, RailScene) else scene.ground
+    return "this surface" if isinstance(heights, MeasuredHeights) else "this scene"
 
 
 def claim_of(comparison: Comparison, one: Candidate) -> str:
