@@ -66,8 +66,9 @@ def _slope_of_offset(evidence: Evidence, number: Number) -> Place:
 
 
 def waves_of_slope(evidence: Evidence) -> str:
-    """Which waves the slope of a rail counts."""
-    return f"h' of waves of {evidence.table('roughness and contact')[rough_rail.WAVES][0]}"
+    """Which waves the slope of a rail counts; empty of a case that is kept from before it said so."""
+    counted = evidence.table("roughness and contact").columns.get(rough_rail.WAVES)
+    return f"h' of waves of {counted[0]}" if counted else ""
 
 
 def of_rail(model: str) -> NumberSource:
