@@ -6,8 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
+import numpy as np
+
 from mdr.checks import positive
 from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.isotropic_line import IsotropicLine, isotropic_line
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.measured_lines import MeasuredLines
@@ -120,6 +123,16 @@ class RailScene:
         if isinstance(self.roughness, MeasuredLines):
             return self.roughness.levels
         return MeasuredLines.of_heights(self.roughness).levels
+
+    @cached_property
+    def isotropic(self) -> IsotropicLine | None:
+        """The line of isotropic ground nearest to the levels; None where other ground is stated."""
+        if self.across not in ("isotropic", None):
+            return None
+        waves = 1 / self.levels.bands.wavelengths
+        few = not isinstance(self.roughness, RoughnessLevels)
+        weights = waves / np.median(waves) if few else np.ones_like(waves)
+        return isotropic_line(self.levels, tuple(weights.tolist()))
 
     def frequency(self, wavelength: float) -> float:
         """f = v / lambda [Hz], NaN without a speed."""

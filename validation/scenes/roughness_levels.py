@@ -97,14 +97,7 @@ class RoughnessLevels:
 
         They are the centres of the bands and both outer edges; beyond the last centres the power goes on.
         """
-        wanted, density = self.powers, self.powers / (2 * np.diff(self.bands.edges))
-        for _ in range(STEPS):
-            nodes = _with_outer_edges(self.bands, density)
-            excess = self.bands.powers_of_spectrum(partial(power_laws, q=nodes[0], density=nodes[1])) / wanted
-            if np.abs(excess - 1).max() < CLOSE:
-                break
-            density = density / excess
-        return nodes
+        return nodes_of(self.bands, self.powers)
 
     @property
     def waves(self) -> str:
@@ -119,6 +112,18 @@ def power_laws(at: ArrayLike, q: FloatArray, density: FloatArray) -> FloatArray:
     inside = (wavenumber >= q[0]) & (wavenumber <= q[-1])
     logarithm = np.interp(np.log(np.where(inside, wavenumber, q[0])), np.log(q), np.log(density))
     return np.asarray(np.where(inside, np.exp(logarithm), 0.0))
+
+
+def nodes_of(bands: NominalBands, powers: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """`RoughnessLevels.nodes` of mean squares of the heights in each band [m^2]."""
+    density = powers / (2 * np.diff(bands.edges))
+    for _ in range(STEPS):
+        nodes = _with_outer_edges(bands, density)
+        excess = bands.powers_of_spectrum(partial(power_laws, q=nodes[0], density=nodes[1])) / powers
+        if np.abs(excess - 1).max() < CLOSE:
+            break
+        density = density / excess
+    return nodes
 
 
 def _with_outer_edges(bands: NominalBands, density: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -5,6 +5,7 @@ model is its difference from linear theory and that of linear theory. What is no
 """
 
 from abc import abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -30,8 +31,6 @@ from validation.simulation.model import Cost, ErrorEstimate, Model, Target
 from validation.simulation.rail_ground import (
     StatedAcross,
     positions_along,
-    smoothed_error,
-    smoothing,
     strip_bands,
     strip_of,
 )
@@ -184,7 +183,7 @@ class RolledRailModel(RailModel):
             coarse, fine = (self.over_twin(quantity.scene, across, cells, seed) for cells in self.cells)
             over[i, inside], sample[i, inside] = fine
             grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
-        a3 = (twin + over).mean(axis=0)
+        a3 = quantity.between(twin + over).mean(axis=0)
         return FoundFilter(a3, self.model_error(quantity, a3), grid.max(axis=0), sample.max(axis=0))
 
     def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> tuple[FloatArray, FloatArray]:
@@ -238,14 +237,16 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     causes = [f"h' a_x / d = {quantity.lost:.2g} of waves down to {shortest:g} mm"]
     if (apart := abs(a3[at] - quantity.linear.mean(axis=0)[at])) > LINEAR_ERROR:
         causes.insert(0, f"{apart:.2g} dB off {LINEAR}, on this ground")
-    if (rms := smoothing(quantity.scene)) > 0:
-        causes.insert(
-            0,
-            f"the lines were smoothed by {rms:.2g} dB rms, so that isotropic ground has them, which leaves ± "
-            f"{smoothed_error(quantity.scene):.2g} dB",
-        )
-    if quantity.scene.across is None:
-        causes.insert(
-            0, f"across is not given, ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
-        )
+    causes = [*ground_causes(quantity, at), *causes]
     return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {'; '.join(causes)}"
+
+
+def ground_causes(quantity: RailQuantity, at: int) -> Iterator[str]:
+    """What the ground leaves of the error in a band."""
+    apart = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
+    if quantity.scene.across is None:
+        yield f"across is not given, {apart}"
+    elif quantity.stands_out[at]:
+        yield f"no isotropic ground has this level, {apart}"
+    if quantity.smoothing_error[at] > 0:
+        yield f"levels that scatter leave ± {quantity.smoothing_error[at]:.2g} dB of isotropic ground"
