@@ -15,7 +15,7 @@ FEWEST = 5
 """Values that tell scatter from a shape."""
 OF_MEDIAN, EFFICIENCY = 1.4826, 0.37
 """Standard deviation of a Gaussian over its median deviation, and share of the values that this is worth."""
-ROBUST, REDESCENDING, LONE = 10, 20, 4.685
+ROBUST, REDESCENDING, LONE = 10, 20, 3.0
 """Steps with Huber's weights and with Tukey's, and deviations beyond which a value has no weight at all."""
 
 
@@ -51,7 +51,8 @@ def graduated(series: ArrayLike, weights: ArrayLike, *, least: float) -> Graduat
 
     series: evenly spaced, shape (n,); weights: of its values, positive, as 1 / variance but for a factor; least: of the
     scatter of a value of weight one, positive: the less, the more a bend stands out. A value that stands out loses its
-    weight, by Tukey's rule, from a start by Huber's. Fewer than `FEWEST` are left as they are, without scatter. Source: Whittaker, Proc. Edinburgh Math. Soc. 41 (1923) 63; Huber, Robust Statistics.
+    weight, by Tukey's rule, from a start by Huber's. Fewer than `FEWEST` are left as they are, without scatter.
+    Source: Whittaker, Proc. Edinburgh Math. Soc. 41 (1923) 63; Huber, Robust Statistics.
     """
     y, prior = np.asarray(series, dtype=np.float64), np.asarray(weights, dtype=np.float64)
     if len(y) < FEWEST:

@@ -169,8 +169,24 @@ class RailScene:
                 f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing, and "
                 "have no answer."
             )
+        yield from self._scatter()
         if isinstance(self.roughness, MeasuredHeights):
             yield from self.roughness.notes()
+
+    def _scatter(self) -> Iterator[str]:
+        """What no isotropic ground has, where it may be isotropic."""
+        if (ground := self.isotropic) is None or ground.as_it_is:
+            return
+        yield (
+            f"the levels scatter by {ground.scatter:.2g} dB rms about the smooth line that isotropic ground is given: "
+            "what that leaves is in the error of each band."
+        )
+        if ground.stands_out.any():
+            taken = "the smooth line" if self.across is None else "the range from the smooth line's to that of ridges"
+            yield (
+                f"no isotropic ground has the levels at {self.levels.bands.names(ground.stands_out)}, which rise too "
+                f"steeply or stand out of their neighbours: there it has {taken}."
+            )
 
     def _check_heights(self, heights: MeasuredHeights) -> None:
         """Long and wide enough for the contact; what lies across was measured."""

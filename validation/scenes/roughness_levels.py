@@ -73,6 +73,14 @@ class RoughnessLevels:
         q, weight = self.bands.quadrature()
         return math.sqrt(float(2 * (weight * q**2 * self.c_line(q)).sum()))
 
+    def within(self, longest: float | None, shortest: float | None) -> "RoughnessLevels":
+        """Bands between two nominal wavelengths [m] alone, None for the end that there is. ValueError for none."""
+        first, last = self.wavelengths[0], self.wavelengths[-1]
+        kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
+        start = self.bands.longest - kept.longest
+        inside = slice(start, start + len(kept))
+        return RoughnessLevels(wavelengths=self.wavelengths[inside], levels=self.levels[inside], source=self.source)
+
     def raised(self, offset: float) -> "RoughnessLevels":
         """The same with so many dB more in each band."""
         levels = tuple(level + offset for level in self.levels)

@@ -48,14 +48,15 @@ def _as_given(scene: RailScene) -> LineSpectrum:
 class RailGround:
     """Waves of a line spectrum between two wavenumbers along and in all directions; a `Ground` of a `RailStrip`.
 
-    line: of isotropic ground or of a band of waves; whole: with what stands out of isotropic ground, as ridges.
+    line: of isotropic ground or of a band of waves; whole: with what stands out of isotropic ground, as ridges, None
+    for the line itself.
     """
 
     line: LineSpectrum
-    whole: LineSpectrum
     across: StatedAcross
     first: float
     last: float
+    whole: LineSpectrum | None = None
 
     @property
     def highest(self) -> float:
@@ -68,13 +69,14 @@ class RailGround:
         k, (dx, dy) = np.hypot(k_x, k_y), steps
         inside = (k_x >= self.first) & (k_x <= self.last)
         wave = np.where(inside, k_x, self.last)
+        on_ridges = np.where(k_y == 0, (self.whole or self.line)(wave) * dx, 0.0)
         if self.across == "isotropic":
             round_about = (k >= self.first) & (k <= self.last)
             density = IsotropicGround(self.line).c2d(np.where(round_about, k, self.last)) * dx * dy
-            ridges = np.where(inside & (k_y == 0), np.maximum(self.whole(wave) - self.line(wave), 0.0) * dx, 0.0)
-            return np.asarray(np.where(round_about, density, 0.0) + ridges)
+            more = np.where(inside & (k_y == 0), np.maximum(on_ridges - self.line(wave) * dx, 0.0), 0.0)
+            return np.asarray(np.where(round_about, density, 0.0) + more)
         if self.across == "ridges":
-            density = np.where(k_y == 0, self.whole(wave) * dx, 0.0)
+            density = on_ridges
         else:
             density = WaveBand(float(self.across)).density(wave, k_y, self.line) * dx * dy
         return np.asarray(np.where(inside, density, 0.0))

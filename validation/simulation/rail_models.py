@@ -4,6 +4,7 @@ Linear theory of the ellipse was measured beside boundary elements on strips of 
 model is its difference from linear theory and that of linear theory. What is not known of the ground comes on top.
 """
 
+import math
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -102,13 +103,13 @@ class RailModel(Model):
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
         quantity = rail_quantity(target)
-        if reason := quantity.unreal or self.beyond(quantity):
+        if reason := quantity.no_answer or self.beyond(quantity):
             return ErrorEstimate.out_of_range(reason)
         a3 = self.closed(quantity).mean(axis=0)
         error = self.model_error(quantity, a3)
         return ErrorEstimate(
             model=relative(worst(quantity, a3, error)),
-            of_scene=relative(worst(quantity, a3, quantity.half_width)),
+            of_scene=relative(worst(quantity, a3, quantity.left_by_ground)),
             reason=reason_of(quantity, a3, error),
         )
 
@@ -221,8 +222,9 @@ def in_strips(quantity: RailQuantity) -> NDArray[np.bool_]:
 
 
 def worst(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> float:
-    """The largest error in bands that count [dB]."""
-    return float(error[quantity.counted(a3)].max(initial=0.0))
+    """The largest error in bands that count [dB]; infinite where none does."""
+    counted = error[quantity.counted(a3)]
+    return float(counted.max()) if counted.size else math.inf
 
 
 def relative(decibels: float) -> float:
@@ -232,6 +234,8 @@ def relative(decibels: float) -> float:
 
 def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     """The band in which the error is largest, and what it is due to there."""
+    if not quantity.counted(a3).any():
+        return quantity.none_counts
     at = int(np.argmax(np.where(quantity.counted(a3), error, -1.0)))
     shortest = 1e3 * strip_bands(quantity.scene).nominal[-1]
     causes = [f"h' a_x / d = {quantity.lost:.2g} of waves down to {shortest:g} mm"]

@@ -31,15 +31,20 @@ TILT = 0.3
 
 @dataclass(frozen=True)
 class RailQuantity:
-    """A quantity of a scene, its bands, and linear theory of the ellipse on the stated ground."""
+    """A quantity of a scene, its bands, and linear theory of the ellipse on the stated ground.
+
+    longest: number of the first band, None for that of the roughness; longer waves continue its first power law.
+    """
 
     scene: RailScene
     name: RailQuantityName
+    longest: int | None = None
 
     @property
     def bands(self) -> NominalBands:
-        """Those of the roughness."""
-        return self.scene.levels.bands
+        """Those of the roughness, and longer ones."""
+        own = self.scene.levels.bands
+        return own if self.longest is None else NominalBands(self.longest, own.shortest)
 
     @property
     def ends(self) -> tuple[StatedAcross, ...]:
@@ -54,12 +59,16 @@ class RailQuantity:
 
         Its oblique waves would be seen in longer bands, which have too little for them: they are less oblique.
         """
-        isotropic = self.scene.isotropic
-        return np.zeros(len(self.bands), dtype=bool) if isotropic is None else isotropic.stands_out
+        isotropic, found = self.scene.isotropic, np.zeros(len(self.bands), dtype=bool)
+        if isotropic is not None:
+            found[-len(isotropic.stands_out) :] = isotropic.stands_out
+        return found
 
     @cached_property
     def line(self) -> LineSpectrum:
-        return line_of(self.scene)
+        """C_line of the nearest ground that can be as stated."""
+        line = line_of(self.scene)
+        return line if self.longest is None else line.from_wavenumber(float(self.bands.edges[0]))
 
     @cached_property
     def structures(self) -> tuple[TransverseStructure, ...]:
@@ -67,13 +76,22 @@ class RailQuantity:
         return tuple(structure_of(across, self.line) for across in self.ends)
 
     @cached_property
-    def unreal(self) -> str:
-        """Why the stated ground cannot be, or has no wave of the contact's length; empty where all is well."""
+    def no_answer(self) -> str:
+        """Why no model has one: no wave of the contact's length, or no band that counts; empty where one may have."""
         try:
-            _ = self.structures, self.lost
+            _ = self.lost
         except ValueError as reason:
-            return str(reason)
-        return ""
+            return f"{reason}, which decide whether contact is lost: the roughness has {self.bands.span}"
+        return "" if self.counted(self.linear.mean(axis=0)).any() else self.none_counts
+
+    @property
+    def none_counts(self) -> str:
+        """Why a filter without a band in which the tolerance counts is no answer."""
+        return (
+            f"no band has A3 above {COUNTED:g} dB, where the tolerance counts: the roughness has waves of "
+            f"{self.bands.span}, the contact is {2e3 * self.scene.contact.along:.3g} mm long; levels of longer waves "
+            "would count"
+        )
 
     @cached_property
     def linear(self) -> FloatArray:

@@ -52,6 +52,12 @@ class LineSpectrum:
         q = np.array(self.wavenumbers)
         return LineSpectrum.through(q, np.array(self.densities) * (q / q[0]) ** -by)
 
+    def from_wavenumber(self, q: float) -> "LineSpectrum":
+        """The same with a first point at q, where that is less than the first; to it the line does not fall."""
+        if q >= self.wavenumbers[0]:
+            return self
+        return LineSpectrum((q, *self.wavenumbers), (max(float(self(q)), self.densities[0]), *self.densities))
+
     @cached_property
     def exponents(self) -> FloatArray:
         """p_i, between the points and beyond the last."""
