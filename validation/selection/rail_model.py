@@ -42,21 +42,18 @@ class RailSceneModel(SceneModel):
         result = self.model.prepare(self.target, self.resolution)(0)()
         if result.failed:
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=result.failed)
-        a3, model, grid, sample = (result.values[name] for name in ("a3", "model", "grid", "sample"))
-        error = model + np.hypot(grid, sample)
-        at = int(np.argmax(np.where(self.quantity.counted(a3), error, -1.0)))
-        counted, counts = relative(worst(self.quantity, a3, error)), bool(self.quantity.counted(a3).any())
-        left = [relative(float(part[at])) if counts else 0.0 for part in (grid, sample)]
-        return Answer(
-            value=result.values[self.quantity.name],
+        asked, a3 = self.quantity, result.values["a3"]
+        answer = Answer(
+            value=result.values[asked.name],
             cost=self.cost(),
-            model=max(counted - math.hypot(*left), 0.0),
-            grid=left[0],
-            sample=left[1],
-            reason=reason_of(self.quantity, a3, error),
-            counted=counted_wavelengths(self.quantity, a3),
-            band_errors={"model": model, "grid": grid, "sample": sample},
+            counted=counted_wavelengths(asked, a3),
+            band_errors={name: result.values[name] for name in ("model", "grid", "sample")},
         )
+        error, counts = answer.error_in_bands, asked.counted(a3)
+        at = int(np.argmax(np.where(counts, error, -1.0)))
+        grid, sample = (relative(float(answer.band_errors[name][at]) * counts[at]) for name in ("grid", "sample"))
+        left = relative(worst(asked, a3, error)) - math.hypot(grid, sample)
+        return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason_of(asked, a3, error))
 
 
 def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:

@@ -71,11 +71,6 @@ class FoundFilter:
     grid: FloatArray
     sample: FloatArray
 
-    @property
-    def error(self) -> FloatArray:
-        """Of the model, and of a grid and a sample, which are independent."""
-        return np.asarray(self.model + np.hypot(self.grid, self.sample))
-
 
 class RailModel(Model):
     """A contact filter in bands. closed: A3 without a sample, (ends, bands); find: what a solve makes of it."""
