@@ -12,7 +12,7 @@ from validation.scenes.roughness_levels import RoughnessLevels
 from validation.theory.transverse_structure import has_isotropic_surface
 
 ISO = curve("iso3095-2013")
-NOMINAL, EVEN = 1000 * ISO.bands.nominal, (1.0,) * 35
+NOMINAL, EVEN = 1000 * ISO.bands.nominal, np.ones(35)
 
 
 def levels(values):
@@ -69,7 +69,7 @@ def test_levels_that_scatter_leave_their_scatter_and_waves_that_are_many_weigh_m
     found = isotropic_line(levels(np.array(ISO.levels) + noise), EVEN)
     assert not found.as_it_is and found.scatter == pytest.approx(1.0, abs=0.3)
     # the same, but the first ten bands are of few waves
-    few = tuple(np.where(np.arange(35) < 10, 0.01, 1.0).tolist())
+    few = np.where(np.arange(35) < 10, 0.01, 1.0)
     wild = levels(np.array(ISO.levels) + noise * np.where(np.arange(35) < 10, 4.0, 1.0))
     off = [np.abs(level_of(isotropic_line(wild, w).line) - ISO.levels)[10:13].max() for w in (few, EVEN)]
     assert off[0] < off[1]
@@ -78,7 +78,7 @@ def test_levels_that_scatter_leave_their_scatter_and_waves_that_are_many_weigh_m
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_few_bands_have_a_line(count):
     some = RoughnessLevels(wavelengths=ISO.wavelengths[15 : 15 + count], levels=(3.0, 9.0, 2.0, 1.0)[:count])
-    assert has_isotropic_surface(isotropic_line(some, (1.0,) * count).line)
+    assert has_isotropic_surface(isotropic_line(some, np.ones(count)).line)
 
 
 def test_notes_name_the_bands():

@@ -5,10 +5,9 @@ surface has them as they are. Levels that rise too steeply, or stand out of thei
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.graduation import graduated, scatter_of
 from validation.scenes.roughness_levels import MICROMETRE, RoughnessLevels, nodes_of
@@ -19,9 +18,10 @@ FloatArray = NDArray[np.float64]
 
 WHOLE_DECIBELS = 0.3
 """Scatter of levels that are rounded to them [dB]: with no more, a line of isotropic ground is left as it is."""
-LEAST_SCATTER, STANDS_OUT = 1.0, 3.0
-"""Of levels that are smoothed [dB]; deviation of a level that stands out, in standard deviations: 3 dB at the least,
-where half of the power of a band is another's."""
+LEAST_SCATTER = 1.0
+"""Of levels that are smoothed [dB]."""
+STANDS_OUT, HALF_POWER = 3.0, 3.0
+"""Deviation of a level that stands out, in standard deviations, and the least [dB]: half of the power is another's."""
 REACH = 5
 """Bands to shorter waves, by half a decade, over which isotropic ground takes the slope of the levels."""
 
@@ -49,8 +49,7 @@ class IsotropicLine:
         return self.line is self.whole
 
 
-@lru_cache(maxsize=64)
-def isotropic_line(levels: RoughnessLevels, weights: tuple[float, ...]) -> IsotropicLine:
+def isotropic_line(levels: RoughnessLevels, weights: ArrayLike) -> IsotropicLine:
     """Levels as they are where isotropic ground has them and they scatter by no more than whole decibels; else smooth.
 
     weights: of the levels, as the number of their waves but for a factor. A band whose level rises too steeply for
@@ -67,9 +66,9 @@ def isotropic_line(levels: RoughnessLevels, weights: tuple[float, ...]) -> Isotr
     smooth = graduated(given, weights, least=LEAST_SCATTER)
     line, smoother = (_falling(of(some)) for some in (smooth.values, smooth.hat @ smooth.values))
     ground = 10 * np.log10(bands.powers_of_spectrum(line) / MICROMETRE**2)
-    apart, scatter = given - ground, smooth.scatter / np.sqrt(np.array(weights))
+    apart, scatter = given - ground, smooth.scatter / np.sqrt(smooth.of_values)
     too_steep = np.abs(smooth.values - ground) > LEAST_SCATTER
-    out = too_steep | (np.abs(apart) > STANDS_OUT * scatter)
+    out = too_steep | (np.abs(apart) > np.maximum(STANDS_OUT * scatter, HALF_POWER))
     whole = of(np.where(out & (apart > 0), given, ground))
     rms = float(np.sqrt(np.mean(apart[~out] ** 2))) if not out.all() else 0.0
     return IsotropicLine(line, whole, smoother, smooth.slope_error(REACH), rms, apart, out)

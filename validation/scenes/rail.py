@@ -132,7 +132,7 @@ class RailScene:
         waves = 1 / self.levels.bands.wavelengths
         few = not isinstance(self.roughness, RoughnessLevels)
         weights = waves / np.median(waves) if few else np.ones_like(waves)
-        return isotropic_line(self.levels, tuple(weights.tolist()))
+        return isotropic_line(self.levels, weights)
 
     def frequency(self, wavelength: float) -> float:
         """f = v / lambda [Hz], NaN without a speed."""
