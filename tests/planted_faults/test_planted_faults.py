@@ -15,6 +15,7 @@ from tests.planted_faults import (
     engine,
     house,
     mdr,
+    rail,
     report,
     scenes,
     selection,
@@ -23,7 +24,22 @@ from tests.planted_faults import (
     theory,
 )
 
-ROOMS = (analysis, bem3d, benchmarks, cases, engine, house, mdr, report, scenes, selection, simulation, slopes, theory)
+ROOMS = (
+    analysis,
+    bem3d,
+    benchmarks,
+    cases,
+    engine,
+    house,
+    mdr,
+    rail,
+    report,
+    scenes,
+    selection,
+    simulation,
+    slopes,
+    theory,
+)
 FAULTS = {fault: planted for room in ROOMS for fault, planted in room.FAULTS.items()}
 
 

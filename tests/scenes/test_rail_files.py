@@ -124,6 +124,16 @@ def test_an_offset_raises_all_levels(tmp_path, offset):
     np.testing.assert_allclose(np.array(raised.levels) - loaded(tmp_path).levels.levels, 10)
 
 
+def test_bands_beyond_two_wavelengths_are_left_out(tmp_path):
+    whole = loaded(tmp_path).levels
+    cut = loaded(tmp_path, (CURVE, CURVE + '\nlongest = "400 mm"\nshortest = "3.15 mm"\noffset = 4')).levels
+    assert cut.wavelengths == whole.wavelengths[7:29]
+    assert cut.levels == tuple(level + 4 for level in whole.levels[7:29])
+    assert loaded(tmp_path, (CURVE, CURVE + '\nlongest = "0.4 m"')).levels.levels == whole.levels[7:]
+    with pytest.raises(ValueError, match=r"rail.levels.*no band lies between the wavelengths 3 mm and 10 mm"):
+        loaded(tmp_path, (CURVE, CURVE + '\nlongest = "3 mm"\nshortest = "10 mm"'))
+
+
 def test_wheel_and_rail_add_their_energies(tmp_path):
     (tmp_path / "wheel.csv").write_text(f"{HEADER}\n100,4.9\n80,2.9\n")
     both = loaded(tmp_path, ("[rail]", '[wheel.levels]\nfile = "wheel.csv"\n[rail]'))
@@ -161,9 +171,11 @@ def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     assert scene.levels.levels[at] == pytest.approx(20 * np.log10(3 / 2), abs=0.05)
     assert scene.levels.bands.nominal[[0, -1]].tolist() == [1.0, 0.02]
     assert dict(describe(scene))["roughness"].endswith("2 measured lines, at -5, 5 mm across")
-    assert scene.diagnose() == (
-        "roughness is known in bands of 1000 to 20 mm: the others of 2000 to 0.8 mm are missing, and have no answer.",
+    missing, scatter, out = scene.diagnose()
+    assert missing == (
+        "roughness is known in bands of 1000 to 20 mm: the others of 2000 to 0.8 mm are missing, and have no answer."
     )
+    assert "scatter by" in scatter and "40 mm" in out
     assert dict(describe(scene))["bands"] == "18 one-third octaves, 1000 to 20 mm"
 
 

@@ -10,9 +10,10 @@ import pytest
 import validation
 from tests.selection.test_model_hierarchy import Finding
 from validation.__main__ import main
-from validation.selection.compare import Comparison
+from validation.selection.compare import Comparison, compare
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import select_model
+from validation.simulation.spectral_springs import SPRINGS_GEIKE
 
 PUBLISHED = Path(validation.__file__).parent / "cases" / "rail" / "cnossos_a3_2021.csv"
 RAIL = validation.load_scene("rail")
@@ -38,15 +39,38 @@ def test_a_filter_has_the_columns_and_the_wavelengths_of_the_table():
     assert found["a3_dB"] == pytest.approx(a3, abs=0.0501)
 
 
-def test_waves_longer_than_those_of_the_scene_pass_and_shorter_ones_are_left_out():
+def without_long_waves(first, across="ridges", p=None):
+    """The rail from one of its bands on; levels of C_line ~ q^-p where that is given."""
     levels = RAIL.levels
-    inner = slice(5, 20)
-    short = replace(levels, wavelengths=levels.wavelengths[inner], levels=levels.levels[inner])
-    scene, a3 = replace(RAIL, roughness=short), np.array([-0.04] + [-1.04] * 14)
-    found = filter_table(filtered(scene, a3))["a3_dB"]
-    assert found[:6].tolist() == [0.0] * 6 and found[6:20].tolist() == [-1.0] * 14 and np.isnan(found[20:]).all()
-    # where the longest of them does not pass, longer ones are not known to
-    assert np.isnan(filter_table(filtered(scene, a3 - 0.1))["a3_dB"][:5]).all()
+    values = levels.levels if p is None else tuple((10 * (p - 1) * np.log10(levels.bands.wavelengths)).tolist())
+    cut = replace(levels, wavelengths=levels.wavelengths[first:], levels=values[first:])
+    return replace(RAIL, roughness=cut, across=across)
+
+
+@pytest.mark.parametrize("first", [5, 13, 18])
+def test_longer_waves_have_the_limit_of_the_filter(first):
+    """Over ridges (sin q a / q a)^2, to the tenth of a decibel that is written and what a band is off its centre."""
+    scene = without_long_waves(first)
+    found = filter_table(compare(scene, "contact-filter", "3 dB"))["a3_dB"]
+    centre = 2 * scene.contact.along / RAIL.levels.bands.wavelengths[:first]
+    assert found[:first] == pytest.approx(20 * np.log10(np.sinc(centre)), abs=0.055)
+    assert np.isfinite(found).all()
+    short = replace(scene, roughness=scene.roughness.within(None, 0.01))
+    assert np.isnan(filter_table(compare(short, "contact-filter", "3 dB"))["a3_dB"][24:]).all()
+
+
+@pytest.mark.parametrize("across", ["isotropic", 1.0, None])
+def test_longer_waves_are_those_of_a_scene_that_has_them(across):
+    whole, cut = (without_long_waves(first, across, 2.4) for first in (0, 14))
+    tables = [filter_table(compare(scene, "contact-filter", "3 dB"))["a3_dB"] for scene in (whole, cut)]
+    np.testing.assert_allclose(tables[1], tables[0], atol=0.101)
+    assert (tables[1][:14] < 0).any()
+
+
+def test_springs_on_geikes_spectrum_are_off_for_long_waves_too():
+    """By sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2) of C_line ~ q^-p: 2.0 dB for p = 2."""
+    one = compare(without_long_waves(12, "isotropic", 2.0), "contact-filter", "3 dB", models=[SPRINGS_GEIKE])
+    assert filter_table(one)["a3_dB"][:7] == pytest.approx(10 * np.log10(np.pi / 2), abs=0.06)
 
 
 def test_what_is_no_filter_is_refused(tmp_path, capsys):
@@ -57,6 +81,7 @@ def test_what_is_no_filter_is_refused(tmp_path, capsys):
     assert "--cnossos" in capsys.readouterr().err and not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_tool_gets_a_filter_for_a_load_that_the_table_lacks(tmp_path):
     out = tmp_path / "a3.csv"
     words = ["--tolerance", "1 dB", "--sweep", "wheel.load=50 kN,65 kN", "--cnossos", str(out)]

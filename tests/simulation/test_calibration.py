@@ -23,10 +23,11 @@ from validation.selection.calibrate import (
     write_table,
 )
 from validation.selection.calibration_check import check_calibration
+from validation.selection.hierarchy import Answer
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
 from validation.simulation.calibration import MeasuredErrors, calibrated, conditions_by_kind
-from validation.simulation.model import Target, all_models, models_serving
+from validation.simulation.model import Cost, GridModel, Target, all_models, models_serving
 from validation.simulation.rolling_quantity import RollingQuantity
 
 PUNCH = {LOAD: 1.0, WAVES: 1.0, RATIO: 8.0, HURST: 0.7}
@@ -277,3 +278,18 @@ def test_the_fit_claims_less_under_more_waves():
         for ground in (Roughness(rms=1e-3, hurst=0.7, longest=1 / n, shortest=1 / (8 * n)) for n in (1, 4))
     )
     assert calibrated(cheap("fit", many), many).error < 0.7 * calibrated(cheap("fit", few), few).error
+
+
+def test_the_reference_has_surfaces_of_its_own():
+    """Errors beside surfaces that the models were solved on, too, would have no scatter of those in them."""
+    seeds = {True: set(), False: set()}
+
+    def noted(one):
+        seeds[isinstance(one.model, GridModel)].add(one.target.seed)
+        return Answer(value=np.array([1.0]), cost=Cost(work=1, unit="", seconds=1.0))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(calibrate, "try_to_solve", noted)
+        for point in CalibrationRun(punches=9, spheres=9, rolling=3, wheels=3).points:
+            calibrate.measure_errors(point)
+    assert seeds[True] and seeds[False] and not seeds[True] & seeds[False]

@@ -6,8 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
+import numpy as np
+
 from mdr.checks import positive
 from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.isotropic_line import IsotropicLine, isotropic_line
 from validation.scenes.material import Material, check_modulus
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.measured_lines import MeasuredLines
@@ -121,6 +124,16 @@ class RailScene:
             return self.roughness.levels
         return MeasuredLines.of_heights(self.roughness).levels
 
+    @cached_property
+    def isotropic(self) -> IsotropicLine | None:
+        """The line of isotropic ground nearest to the levels; None where other ground is stated."""
+        if self.across not in ("isotropic", None):
+            return None
+        waves = 1 / self.levels.bands.wavelengths
+        few = not isinstance(self.roughness, RoughnessLevels)
+        weights = waves / np.median(waves) if few else np.ones_like(waves)
+        return isotropic_line(self.levels, weights)
+
     def frequency(self, wavelength: float) -> float:
         """f = v / lambda [Hz], NaN without a speed."""
         return math.nan if self.speed is None else self.speed / wavelength
@@ -156,8 +169,24 @@ class RailScene:
                 f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing, and "
                 "have no answer."
             )
+        yield from self._scatter()
         if isinstance(self.roughness, MeasuredHeights):
             yield from self.roughness.notes()
+
+    def _scatter(self) -> Iterator[str]:
+        """What no isotropic ground has, where it may be isotropic."""
+        if (ground := self.isotropic) is None or ground.as_it_is:
+            return
+        yield (
+            f"the levels scatter by {ground.scatter:.2g} dB rms about the smooth line that isotropic ground is given: "
+            "what that leaves is in the error of each band."
+        )
+        if ground.stands_out.any():
+            taken = "the smooth line" if self.across is None else "the range from the smooth line's to that of ridges"
+            yield (
+                f"no isotropic ground has the levels at {self.levels.bands.names(ground.stands_out)}, which rise too "
+                f"steeply or stand out of their neighbours: there it has {taken}."
+            )
 
     def _check_heights(self, heights: MeasuredHeights) -> None:
         """Long and wide enough for the contact; what lies across was measured."""

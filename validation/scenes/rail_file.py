@@ -131,14 +131,21 @@ def _both(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
 
 
 def _levels(name: str, given: object, *, folder: Path) -> RoughnessLevels:
-    """Of a bundled curve or of a file, and so many decibels more."""
-    readers: dict[str, Reader] = {"curve": nonblank_text, "file": nonblank_text, "offset": _decibels}
+    """Of a bundled curve or of a file, so many decibels more, between two wavelengths."""
+    readers: dict[str, Reader] = {
+        "curve": nonblank_text,
+        "file": nonblank_text,
+        "offset": _decibels,
+        "longest": LENGTH,
+        "shortest": LENGTH,
+    }
     found = table(readers, tuple(readers), name, given)
     _one(found, name, ("curve", "file"))
     if "file" in found:
         levels = read_levels(f"{name}.file", folder / found["file"])
     with _key_in_errors(name):
         levels = curve(found["curve"]) if "curve" in found else levels
+        levels = levels.within(found.get("longest"), found.get("shortest"))
         return levels.raised(found["offset"]) if "offset" in found else levels
 
 

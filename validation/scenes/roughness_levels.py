@@ -72,6 +72,14 @@ class RoughnessLevels:
         """h', the root mean square slope along the line, of the waves in all bands [-]."""
         return self.bands.slope_of_spectrum(self.c_line)
 
+    def within(self, longest: float | None, shortest: float | None) -> "RoughnessLevels":
+        """Bands between two nominal wavelengths [m] alone, None for the end that there is. ValueError for none."""
+        first, last = self.wavelengths[0], self.wavelengths[-1]
+        kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
+        start = self.bands.longest - kept.longest
+        inside = slice(start, start + len(kept))
+        return RoughnessLevels(wavelengths=self.wavelengths[inside], levels=self.levels[inside], source=self.source)
+
     def raised(self, offset: float) -> "RoughnessLevels":
         """The same with so many dB more in each band."""
         levels = tuple(level + offset for level in self.levels)
@@ -96,14 +104,7 @@ class RoughnessLevels:
 
         They are the centres of the bands and both outer edges; beyond the last centres the power goes on.
         """
-        wanted, density = self.powers, self.powers / (2 * np.diff(self.bands.edges))
-        for _ in range(STEPS):
-            nodes = _with_outer_edges(self.bands, density)
-            excess = self.bands.powers_of_spectrum(partial(power_laws, q=nodes[0], density=nodes[1])) / wanted
-            if np.abs(excess - 1).max() < CLOSE:
-                break
-            density = density / excess
-        return nodes
+        return nodes_of(self.bands, self.powers)
 
     @property
     def waves(self) -> str:
@@ -118,6 +119,18 @@ def power_laws(at: ArrayLike, q: FloatArray, density: FloatArray) -> FloatArray:
     inside = (wavenumber >= q[0]) & (wavenumber <= q[-1])
     logarithm = np.interp(np.log(np.where(inside, wavenumber, q[0])), np.log(q), np.log(density))
     return np.asarray(np.where(inside, np.exp(logarithm), 0.0))
+
+
+def nodes_of(bands: NominalBands, powers: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """`RoughnessLevels.nodes` of mean squares of the heights in each band [m^2]."""
+    density = powers / (2 * np.diff(bands.edges))
+    for _ in range(STEPS):
+        nodes = _with_outer_edges(bands, density)
+        excess = bands.powers_of_spectrum(partial(power_laws, q=nodes[0], density=nodes[1])) / powers
+        if np.abs(excess - 1).max() < CLOSE:
+            break
+        density = density / excess
+    return nodes
 
 
 def _with_outer_edges(bands: NominalBands, density: FloatArray) -> tuple[FloatArray, FloatArray]:

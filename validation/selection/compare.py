@@ -113,8 +113,8 @@ class Comparison:
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
         """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
-        if candidate.answer is not None and (bands := candidate.answer.band_errors):
-            return np.asarray(bands["model"] + np.hypot(bands["grid"], bands["sample"]))
+        if candidate.answer is not None and candidate.answer.band_errors:
+            return candidate.answer.error_in_bands
         return self._half_widths(candidate, candidate.error)
 
     def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:

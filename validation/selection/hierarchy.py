@@ -38,6 +38,11 @@ class Answer:
         """Of the model, and of a grid and a sample, which are independent; infinite for what has failed."""
         return math.inf if self.failed else self.model + math.hypot(self.grid, self.sample)
 
+    @property
+    def error_in_bands(self) -> FloatArray:
+        """The same in each band [dB]."""
+        return np.asarray(self.band_errors["model"] + np.hypot(self.band_errors["grid"], self.band_errors["sample"]))
+
 
 class ContactModel(Protocol):
     """A model of a scene, with what it costs, when it claims to hold, and how to ask it."""

@@ -1,16 +1,20 @@
 """A contact filter of a wheel on a rail as a candidate: its error in each band, and that of the bands that count."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.analysis.nominal_bands import LONGEST
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.rail import RailScene
 from validation.selection.hierarchy import Answer
 from validation.selection.scene_model import SceneModel
 from validation.simulation.model import Target, models_serving
-from validation.simulation.rail_models import rail_quantity, reason_of, relative, worst
+from validation.simulation.rail_models import RailModel, rail_quantity, reason_of, relative, worst
 from validation.simulation.rail_quantity import COUNTED, RailQuantity
 
 FloatArray = NDArray[np.float64]
@@ -28,26 +32,28 @@ class RailSceneModel(SceneModel):
     def quantity(self) -> RailQuantity:
         return rail_quantity(self.target)
 
+    def of_longer_waves(self) -> FloatArray:
+        """A3 of the linear filter in all bands from 2000 mm to the last of the roughness [dB]."""
+        assert isinstance(self.model, RailModel)  # as all of `rail_models`
+        return np.asarray(self.model.closed(replace(self.quantity, longest=LONGEST)).mean(axis=0))
+
     def solve(self) -> Answer:
         """The largest errors of the bands in which the tolerance counts, and those of each band."""
         result = self.model.prepare(self.target, self.resolution)(0)()
         if result.failed:
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=result.failed)
-        a3, model, grid, sample = (result.values[name] for name in ("a3", "model", "grid", "sample"))
-        error = model + np.hypot(grid, sample)
-        at = int(np.argmax(np.where(self.quantity.counted(a3), error, -1.0)))
-        counted = relative(worst(self.quantity, a3, error))
-        left = np.hypot(relative(float(grid[at])), relative(float(sample[at])))
-        return Answer(
-            value=result.values[self.quantity.name],
+        asked, a3 = self.quantity, result.values["a3"]
+        answer = Answer(
+            value=result.values[asked.name],
             cost=self.cost(),
-            model=max(counted - float(left), 0.0),
-            grid=relative(float(grid[at])),
-            sample=relative(float(sample[at])),
-            reason=reason_of(self.quantity, a3, error),
-            counted=counted_wavelengths(self.quantity, a3),
-            band_errors={"model": model, "grid": grid, "sample": sample},
+            counted=counted_wavelengths(asked, a3),
+            band_errors={name: result.values[name] for name in ("model", "grid", "sample")},
         )
+        error, counts = answer.error_in_bands, asked.counted(a3)
+        at = int(np.argmax(np.where(counts, error, -1.0)))
+        grid, sample = (relative(float(answer.band_errors[name][at]) * counts[at]) for name in ("grid", "sample"))
+        left = relative(worst(asked, a3, error)) - math.hypot(grid, sample)
+        return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason_of(asked, a3, error))
 
 
 def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
@@ -61,14 +67,25 @@ def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int) ->
     return sorted(found, key=lambda one: one.cost().seconds)
 
 
+def what_would_state_the_ground(asked: RailQuantity) -> str:
+    """Keys of a scene file by which the ground leaves less open, and why."""
+    scene, stated = asked.scene, 'across = "ridges" in [rail], or a number alpha: waves with |k_y| < alpha k_x'
+    if isinstance(scene.roughness, MeasuredHeights):
+        return "a filter of this surface, by its own heights: of its lines both ends of what lies across are open"
+    if scene.across is None:
+        return f'to tell what lies across the rail, as across = "isotropic" or {stated[9:]}'
+    table = "rail.lines" if isinstance(scene.roughness, MeasuredLines) else "rail.levels"
+    if not asked.stands_out.any():
+        return f"levels of more lines or of longer ones, which scatter less; or {stated}"
+    rest = asked.bands.nominal[~asked.stands_out]
+    long = asked.stands_out[0] and rest.size
+    cut = f'; or longest = "{1e3 * rest.max():g} mm" in [{table}]' if long else ""
+    return f"{stated}{cut}, since no isotropic ground has the levels at {asked.bands.names(asked.stands_out)}"
+
+
 def counted_wavelengths(asked: RailQuantity, a3: FloatArray) -> str:
     """The bands in which the tolerance counts, in words."""
-    nominal = 1e3 * asked.bands.nominal[asked.counted(a3)]
-    left = 1e3 * asked.bands.nominal[~asked.counted(a3)]
-    between = [f"{wave:g}" for wave in left if wave > nominal.min(initial=np.inf)]
-    without = f" without {', '.join(between)} mm" if between else ""
-    return (
-        f"the tolerance counts where A3 is above {COUNTED:g} dB: {nominal.max():g} to {nominal.min():g} mm{without}"
-        if nominal.size
-        else f"no band has A3 above {COUNTED:g} dB: the tolerance counts in none"
-    )
+    counted = asked.counted(a3)
+    if not counted.any():
+        return asked.none_counts
+    return f"the tolerance counts where A3 is above {COUNTED:g} dB: {asked.bands.names(counted)}"

@@ -14,10 +14,11 @@ from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
 from validation.selection.compare import MOVING, UNITS, Comparison
 from validation.selection.hierarchy import Answer, Candidate, Status
+from validation.selection.rail_model import what_would_state_the_ground
 from validation.selection.side_by_side import axis_of, columns_as_lines, side_by_side
 from validation.selection.tolerance import Tolerance, short
 from validation.simulation.model import Target
-from validation.simulation.rail_models import MEASURED_ON_STRIPS
+from validation.simulation.rail_models import MEASURED_ON_STRIPS, rail_quantity
 
 WIDTH = 100
 """Columns of a terminal."""
@@ -201,11 +202,11 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
             yield f"what would help: {other or _another_scene(comparison)}"
         return
     yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
-    if (left := best.estimate.of_scene) > tolerance.relative:
+    if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
+        asked = rail_quantity(Target(comparison.scene, comparison.quantity))
         yield (
-            'what would help: to tell what lies across the rail, as across = "isotropic" or "ridges" in [rail]: both '
-            f"ends leave ± {tolerance.shown(left)}, whatever the model; or a tolerance of "
-            f"{tolerance.shown(1.05 * best.answer.error)}"
+            f"what would help: {what_would_state_the_ground(asked)}: the ground leaves ± {tolerance.shown(left)}, "
+            f"whatever the model; or a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
         )
         return
     causes = {

@@ -4,7 +4,9 @@ Linear theory of the ellipse was measured beside boundary elements on strips of 
 model is its difference from linear theory and that of linear theory. What is not known of the ground comes on top.
 """
 
+import math
 from abc import abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -30,8 +32,6 @@ from validation.simulation.model import Cost, ErrorEstimate, Model, Target
 from validation.simulation.rail_ground import (
     StatedAcross,
     positions_along,
-    smoothed_error,
-    smoothing,
     strip_bands,
     strip_of,
 )
@@ -71,11 +71,6 @@ class FoundFilter:
     grid: FloatArray
     sample: FloatArray
 
-    @property
-    def error(self) -> FloatArray:
-        """Of the model, and of a grid and a sample, which are independent."""
-        return np.asarray(self.model + np.hypot(self.grid, self.sample))
-
 
 class RailModel(Model):
     """A contact filter in bands. closed: A3 without a sample, (ends, bands); find: what a solve makes of it."""
@@ -103,13 +98,13 @@ class RailModel(Model):
 
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
         quantity = rail_quantity(target)
-        if reason := quantity.unreal or self.beyond(quantity):
+        if reason := quantity.no_answer or self.beyond(quantity):
             return ErrorEstimate.out_of_range(reason)
         a3 = self.closed(quantity).mean(axis=0)
         error = self.model_error(quantity, a3)
         return ErrorEstimate(
             model=relative(worst(quantity, a3, error)),
-            of_scene=relative(worst(quantity, a3, quantity.half_width)),
+            of_scene=relative(worst(quantity, a3, quantity.left_by_ground)),
             reason=reason_of(quantity, a3, error),
         )
 
@@ -184,7 +179,7 @@ class RolledRailModel(RailModel):
             coarse, fine = (self.over_twin(quantity.scene, across, cells, seed) for cells in self.cells)
             over[i, inside], sample[i, inside] = fine
             grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
-        a3 = (twin + over).mean(axis=0)
+        a3 = quantity.between(twin + over).mean(axis=0)
         return FoundFilter(a3, self.model_error(quantity, a3), grid.max(axis=0), sample.max(axis=0))
 
     def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> tuple[FloatArray, FloatArray]:
@@ -222,8 +217,9 @@ def in_strips(quantity: RailQuantity) -> NDArray[np.bool_]:
 
 
 def worst(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> float:
-    """The largest error in bands that count [dB]."""
-    return float(error[quantity.counted(a3)].max(initial=0.0))
+    """The largest error in bands that count [dB]; infinite where none does."""
+    counted = error[quantity.counted(a3)]
+    return float(counted.max()) if counted.size else math.inf
 
 
 def relative(decibels: float) -> float:
@@ -233,18 +229,22 @@ def relative(decibels: float) -> float:
 
 def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     """The band in which the error is largest, and what it is due to there."""
+    if not quantity.counted(a3).any():
+        return quantity.none_counts
     at = int(np.argmax(np.where(quantity.counted(a3), error, -1.0)))
     causes = [f"h' a_x / d = {quantity.lost:.2g} of waves of {strip_bands(quantity.scene).span}"]
     if (apart := abs(a3[at] - quantity.linear.mean(axis=0)[at])) > LINEAR_ERROR:
         causes.insert(0, f"{apart:.2g} dB off {LINEAR}, on this ground")
-    if (rms := smoothing(quantity.scene)) > 0:
-        causes.insert(
-            0,
-            f"the lines were smoothed by {rms:.2g} dB rms, so that isotropic ground has them, which leaves ± "
-            f"{smoothed_error(quantity.scene):.2g} dB",
-        )
-    if quantity.scene.across is None:
-        causes.insert(
-            0, f"across is not given, ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
-        )
+    causes = [*ground_causes(quantity, at), *causes]
     return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {'; '.join(causes)}"
+
+
+def ground_causes(quantity: RailQuantity, at: int) -> Iterator[str]:
+    """What the ground leaves of the error in a band."""
+    apart = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
+    if quantity.scene.across is None:
+        yield f"across is not given, {apart}"
+    elif quantity.stands_out[at]:
+        yield f"no isotropic ground has this level, {apart}"
+    if quantity.smoothing_error[at] > 0:
+        yield f"levels that scatter leave ± {quantity.smoothing_error[at]:.2g} dB of isotropic ground"

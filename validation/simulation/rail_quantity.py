@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import LINEAR, LINEAR_MODELS
-from validation.simulation.rail_ground import StatedAcross, line_of, lost_contact_number, smoothed_error, structure_of
+from validation.simulation.rail_ground import StatedAcross, line_of, lost_contact_number, structure_of
 from validation.theory.line_spectrum import LineSpectrum
-from validation.theory.transverse_structure import Filter, TransverseStructure
+from validation.theory.transverse_structure import Filter, IsotropicGround, TransverseStructure
 
 FloatArray = NDArray[np.float64]
 RailQuantityName = Literal["contact-filter", "equivalent-roughness"]
@@ -25,28 +25,50 @@ RAIL_QUANTITIES: tuple[RailQuantityName, ...] = ("contact-filter", "equivalent-r
 COUNTED = -15.0
 """A3 [dB] above which the tolerance counts: below it nothing is left to hear, and models differ by decibels."""
 MICROMETRE = 1e-6
+TILT = 0.3
+"""Of the exponent of a line, over which A3 changes in proportion."""
 
 
 @dataclass(frozen=True)
 class RailQuantity:
-    """A quantity of a scene, its bands, and linear theory of the ellipse on the stated ground."""
+    """A quantity of a scene, its bands, and linear theory of the ellipse on the stated ground.
+
+    longest: number of the first band, None for that of the roughness; longer waves continue its first power law.
+    """
 
     scene: RailScene
     name: RailQuantityName
+    longest: int | None = None
 
     @property
     def bands(self) -> NominalBands:
-        """Those of the roughness."""
-        return self.scene.levels.bands
+        """Those of the roughness, and longer ones."""
+        own = self.scene.levels.bands
+        return own if self.longest is None else NominalBands(self.longest, own.shortest)
 
     @property
     def ends(self) -> tuple[StatedAcross, ...]:
-        """What lies across, or both ends of what may."""
-        return ("ridges", "isotropic") if self.scene.across is None else (self.scene.across,)
+        """What lies across, or both ends of what may: also where levels stand out of the isotropic ground stated."""
+        if self.scene.across is None or self.stands_out.any():
+            return "ridges", "isotropic"
+        return (self.scene.across,)
+
+    @property
+    def stands_out(self) -> NDArray[np.bool_]:
+        """Bands whose level no isotropic ground has, where it may be isotropic.
+
+        Its oblique waves would be seen in longer bands, which have too little for them: they are less oblique.
+        """
+        isotropic, found = self.scene.isotropic, np.zeros(len(self.bands), dtype=bool)
+        if isotropic is not None:
+            found[-len(isotropic.stands_out) :] = isotropic.stands_out
+        return found
 
     @cached_property
     def line(self) -> LineSpectrum:
-        return line_of(self.scene)
+        """C_line of the nearest ground that can be as stated."""
+        line = line_of(self.scene)
+        return line if self.longest is None else line.from_wavenumber(float(self.bands.edges[0]))
 
     @cached_property
     def structures(self) -> tuple[TransverseStructure, ...]:
@@ -54,13 +76,22 @@ class RailQuantity:
         return tuple(structure_of(across, self.line) for across in self.ends)
 
     @cached_property
-    def unreal(self) -> str:
-        """Why the stated ground cannot be, or has no wave of the contact's length; empty where all is well."""
+    def no_answer(self) -> str:
+        """Why no model has one: no wave of the contact's length, or no band that counts; empty where one may have."""
         try:
-            _ = self.structures, self.lost
+            _ = self.lost
         except ValueError as reason:
-            return str(reason)
-        return ""
+            return f"{reason}, which decide whether contact is lost: the roughness has {self.bands.span}"
+        return "" if self.counted(self.linear.mean(axis=0)).any() else self.none_counts
+
+    @property
+    def none_counts(self) -> str:
+        """Why a filter without a band in which the tolerance counts is no answer."""
+        return (
+            f"no band has A3 above {COUNTED:g} dB, where the tolerance counts: the roughness has waves of "
+            f"{self.bands.span}, the contact is {2e3 * self.scene.contact.along:.3g} mm long; levels of longer waves "
+            "would count"
+        )
 
     @cached_property
     def linear(self) -> FloatArray:
@@ -69,19 +100,42 @@ class RailQuantity:
 
     def filtered(self, transfer: Filter) -> FloatArray:
         """A3 of a linear filter on the stated ground, (ends, bands) [dB]."""
-        axes, edges = (self.scene.contact.along, self.scene.contact.across), self.bands.edges
-        powers = [ground.band_power(self.line, transfer, edges=edges, semi_axes=axes) for ground in self.structures]
-        return np.asarray(10 * np.log10(powers))
+        return self.between(np.array([self._of_ground(ground, self.line, transfer) for ground in self.structures]))
+
+    def between(self, ends: FloatArray) -> FloatArray:
+        """Of values at both ends, (ends, bands), those of isotropic ground where it is stated and has the level."""
+        both = self.scene.across is None or len(ends) == 1
+        return ends if both else np.where(self.stands_out, ends, ends[-1])
+
+    def _of_ground(self, ground: TransverseStructure, line: LineSpectrum, transfer: Filter) -> FloatArray:
+        axes = self.scene.contact.along, self.scene.contact.across
+        return np.asarray(10 * np.log10(ground.band_power(line, transfer, edges=self.bands.edges, semi_axes=axes)))
 
     @cached_property
     def half_width(self) -> FloatArray:
-        """Half of the difference of both ends in each band; zero where the ground is stated [dB]."""
+        """Half of the difference of both ends in each band; zero where the ground is stated and can be [dB]."""
         return np.asarray(np.ptp(self.linear, axis=0) / 2)
 
     @cached_property
     def left_by_ground(self) -> FloatArray:
         """Half-width that what lies across, and a line that was smoothed for it, leave in each band [dB]."""
-        return self.half_width + smoothed_error(self.scene)
+        return self.half_width + self.smoothing_error
+
+    @cached_property
+    def smoothing_error(self) -> FloatArray:
+        """95 % half-width of A3 over isotropic ground that levels leave which scatter [dB].
+
+        By the error of the slopes of the smooth line, and by twice what smoothing it again changes: bends of the levels
+        were smoothed before. Zero of levels that are smooth.
+        """
+        isotropic = self.scene.isotropic
+        if isotropic is None or isotropic.as_it_is:
+            return np.zeros(len(self.bands))
+        lines = self.line, self.line.steeper(TILT), isotropic.smoother
+        transfer = LINEAR_MODELS[LINEAR](self.scene.contact)
+        own, tilted, smoother = (self._of_ground(IsotropicGround(line), line, transfer) for line in lines)
+        found = np.abs(tilted - own) / TILT * isotropic.slope_error + 2 * np.abs(smoother - own)
+        return np.asarray(found)
 
     @cached_property
     def wave(self) -> FloatArray:

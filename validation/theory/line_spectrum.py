@@ -41,6 +41,23 @@ class LineSpectrum:
         if c.shape != q.shape or not (np.isfinite(c).all() and (c > 0).all()):
             raise ValueError(f"densities must be positive, one a wavenumber, got {self.densities}")
 
+    @classmethod
+    def through(cls, wavenumbers: ArrayLike, densities: ArrayLike) -> "LineSpectrum":
+        """Of arrays."""
+        q, c = (np.asarray(each, dtype=np.float64).tolist() for each in (wavenumbers, densities))
+        return cls(tuple(q), tuple(c))
+
+    def steeper(self, by: float) -> "LineSpectrum":
+        """The same with exponents p_i + by, and with its density at the first wavenumber."""
+        q = np.array(self.wavenumbers)
+        return LineSpectrum.through(q, np.array(self.densities) * (q / q[0]) ** -by)
+
+    def from_wavenumber(self, q: float) -> "LineSpectrum":
+        """The same with a first point at q, where that is less than the first; to it the line does not fall."""
+        if q >= self.wavenumbers[0]:
+            return self
+        return LineSpectrum((q, *self.wavenumbers), (max(float(self(q)), self.densities[0]), *self.densities))
+
     @cached_property
     def exponents(self) -> FloatArray:
         """p_i, between the points and beyond the last."""

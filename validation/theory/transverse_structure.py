@@ -139,6 +139,11 @@ class IsotropicGround(TransverseStructure):
         return 2 * float(dk @ self.c2d(np.hypot(q, k)))
 
 
+def has_isotropic_surface(line: LineSpectrum) -> bool:
+    """Whether an isotropic surface has this line: where its spectrum nowhere rises too steeply with q."""
+    return bool((_tabulated(line)[1] > 0).all())
+
+
 def _panels_across(q: float, end: float, period: float) -> list[float]:
     """Ends of panels over k_y: as wide as C_2D(sqrt(q^2 + k_y^2)) and a filter that oscillates allow."""
     ends = [0.0]

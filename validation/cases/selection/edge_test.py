@@ -126,11 +126,14 @@ def solve_edge(trial: EdgeTrial) -> Outcome:
 
 
 def true_error(trial: EdgeTrial, value: np.ndarray, truth: np.ndarray) -> float:
-    """How far an answer is off, as its model claims it: on a rail in the worst of the bands that count, else in all."""
+    """How far an answer is off, as its model claims it: on a rail in the worst of the bands that count, else in all.
+
+    NaN where none counts.
+    """
     if trial.kind != RAIL:
         return distance(value, truth)
     counted = 20 * np.log10(truth) > COUNTED
-    return relative(float(np.abs(20 * np.log10(value / truth))[counted].max(initial=0.0)))
+    return relative(float(np.abs(20 * np.log10(value / truth))[counted].max())) if counted.any() else math.nan
 
 
 def _selected(trial: EdgeTrial, tolerance: float, solved: Shared, truth: np.ndarray) -> tuple[float, float, float]:

@@ -1,0 +1,77 @@
+"""Smooth series through values that scatter: straight lines stay, lone values lose their weight, slopes have errors."""
+
+import math
+
+import numpy as np
+import pytest
+
+from validation.analysis.graduation import FEWEST, graduated, scatter_of
+
+LINE = 12.0 - 1.7 * np.arange(35)
+EVEN = np.ones(35)
+
+
+def slopes(values, reach):
+    """From each value to the one later by `reach`, or to the last, by a loop."""
+    last = len(values) - 1
+    pairs = [(min(i, last - 1), min(min(i, last - 1) + reach, last)) for i in range(last + 1)]
+    return np.array([(values[j] - values[i]) / (j - i) for i, j in pairs])
+
+
+def test_a_straight_line_is_its_own_graduation():
+    found = graduated(LINE, np.linspace(0.1, 5, 35), least=1e-3)
+    np.testing.assert_allclose(found.values, LINE, atol=1e-8)
+    np.testing.assert_allclose(found.hat @ LINE, LINE, atol=1e-8)
+    assert found.scatter == 1e-3
+
+
+@pytest.mark.parametrize(("first", "count"), [(0, 1), (17, 1), (10, 3), (15, 4), (34, 1)])
+def test_lone_values_lose_their_weight(first, count):
+    series = LINE.copy()
+    series[first : first + count] += 6.0
+    np.testing.assert_allclose(graduated(series, EVEN, least=1.0).values, LINE, atol=1e-3)
+
+
+def test_it_is_the_least_sum_of_deviations_and_bends():
+    """No other series near it has less, where no value stands out."""
+    rng = np.random.default_rng(2)
+    series, weights = LINE + 0.1 * rng.standard_normal(35), rng.uniform(0.5, 2, 35)
+    # scatter far below the least: all weights are those given, but for (1 - (y / 3 s)^2)^2
+    found = graduated(series, weights, least=1e3)
+
+    def cost(z):
+        return np.sum(weights * (series - z) ** 2) + 10 * np.sum(np.diff(z, 2) ** 2)
+
+    least = cost(found.values)
+    for _ in range(20):
+        assert cost(found.values + 1e-3 * rng.standard_normal(35)) > least
+
+
+def test_errors_of_slopes_cover_those_of_a_line_with_known_scatter():
+    """95 % of all slopes, within three standard errors of as many independent stretches of seven values."""
+    rng, inside, widths = np.random.default_rng(4), [], []
+    weights = np.linspace(0.5, 2.0, 35)
+    for _ in range(60):
+        found = graduated(LINE + 2.0 * rng.standard_normal(35) / np.sqrt(weights), weights, least=0.1)
+        off = np.abs(slopes(found.values, 5) + 1.7)
+        inside.append(np.mean(off <= found.slope_error(5)))
+        widths.append(np.median(found.slope_error(5) / off))
+    assert abs(np.mean(inside) - 0.95) <= 3 * math.sqrt(0.95 * 0.05 / (60 * 5))
+    assert np.median(widths) < 6
+
+
+def test_few_values_are_left_as_they_are():
+    for count in range(1, FEWEST):
+        series = np.array([3.0, -1.0, 4.0, 1.0, 5.0])[:count]
+        found = graduated(series, np.ones(count), least=1.0)
+        assert found.values.tolist() == series.tolist() and found.scatter == 0.0
+        assert not found.slope_error(5).any()
+
+
+def test_scatter_is_that_of_second_differences():
+    rng = np.random.default_rng(0)
+    many = 0.7 * rng.standard_normal(20001) + np.linspace(0, 900, 20001)
+    assert scatter_of(many) == pytest.approx(0.7, rel=0.02)
+    assert scatter_of(LINE) < 1e-12 and scatter_of([1.0, 5.0]) == 0.0
+    # to and fro by one: all second differences are four
+    assert scatter_of([1.0, -1.0] * 8) == pytest.approx(4 / 0.6745 / math.sqrt(6), rel=1e-3)

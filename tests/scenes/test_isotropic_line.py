@@ -1,0 +1,92 @@
+"""The line of isotropic ground nearest to levels: smooth levels stay, what stands out or rises too steeply is named."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from validation.scenes.isotropic_line import isotropic_line
+from validation.scenes.level_files import curve
+from validation.scenes.load import load_scene
+from validation.scenes.roughness_levels import RoughnessLevels
+from validation.theory.transverse_structure import has_isotropic_surface
+
+ISO = curve("iso3095-2013")
+NOMINAL, EVEN = 1000 * ISO.bands.nominal, np.ones(35)
+
+
+def levels(values):
+    return RoughnessLevels(wavelengths=ISO.wavelengths, levels=tuple(np.asarray(values, dtype=float).tolist()))
+
+
+def raised(by, *waves):
+    """The limit of ISO 3095 with so many decibels more at these wavelengths."""
+    return levels(np.array(ISO.levels) + by * np.isin(NOMINAL, waves))
+
+
+def level_of(line):
+    return 10 * np.log10(ISO.bands.powers_of_spectrum(line) / 1e-12)
+
+
+@pytest.mark.parametrize("name", ["iso3095-2013", "cnossos-average"])
+def test_smooth_levels_stay_as_they_are_to_the_bit(name):
+    one = curve(name)
+    found = isotropic_line(one, EVEN)
+    assert found.as_it_is and found.line.densities == tuple(one.nodes[1].tolist())
+    assert not found.stands_out.any() and not found.slope_error.any()
+
+
+@pytest.mark.parametrize("waves", [(31.5,), (63,), (25, 20, 16), (50, 40, 31.5, 25)])
+def test_a_corrugation_stands_out_alone(waves):
+    straight = levels(7 * np.log10(1000 * ISO.bands.wavelengths) - 10)
+    one = levels(np.array(straight.levels) + 6.0 * np.isin(NOMINAL, waves))
+    assert not has_isotropic_surface(isotropic_line(one, EVEN).whole)
+    found = isotropic_line(one, EVEN)
+    assert NOMINAL[found.stands_out].tolist() == list(waves)
+    np.testing.assert_allclose(level_of(found.line), straight.levels, atol=0.02)
+    np.testing.assert_allclose(level_of(found.whole), one.levels, atol=0.02)
+    np.testing.assert_allclose(found.apart, 6.0 * found.stands_out, atol=0.02)
+
+
+def test_lines_that_roll_off_cost_their_long_waves_alone():
+    off = levels(np.array(ISO.levels) - 2.5 * np.clip(8 - np.arange(35), 0, None))
+    found = isotropic_line(off, EVEN)
+    assert NOMINAL[found.stands_out].min() >= 315 and found.stands_out[:4].all()
+    assert has_isotropic_surface(found.line)
+
+
+def test_levels_that_rise_too_steeply_are_named_and_the_ground_falls():
+    steep = levels([-40.0 + 4 * i for i in range(20)] + [36.0] * 15)
+    found = isotropic_line(steep, EVEN)
+    assert has_isotropic_surface(found.line) and has_isotropic_surface(found.smoother)
+    assert (np.diff(found.line.densities) <= 0).all()
+    assert found.stands_out[NOMINAL > 40].all() and not found.stands_out[NOMINAL < 16].any()
+
+
+def test_levels_that_scatter_leave_their_scatter_and_waves_that_are_many_weigh_more():
+    rng = np.random.default_rng(8)
+    noise = rng.standard_normal(35)
+    found = isotropic_line(levels(np.array(ISO.levels) + noise), EVEN)
+    assert not found.as_it_is and found.scatter == pytest.approx(1.0, abs=0.3)
+    # the same, but the first ten bands are of few waves
+    few = np.where(np.arange(35) < 10, 0.01, 1.0)
+    wild = levels(np.array(ISO.levels) + noise * np.where(np.arange(35) < 10, 4.0, 1.0))
+    off = [np.abs(level_of(isotropic_line(wild, w).line) - ISO.levels)[10:13].max() for w in (few, EVEN)]
+    assert off[0] < off[1]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_few_bands_have_a_line(count):
+    some = RoughnessLevels(wavelengths=ISO.wavelengths[15 : 15 + count], levels=(3.0, 9.0, 2.0, 1.0)[:count])
+    assert has_isotropic_surface(isotropic_line(some, np.ones(count)).line)
+
+
+def test_notes_name_the_bands():
+    rail = load_scene("rail")
+    assert not rail.diagnose()
+    for across, there in (("isotropic", "ridges"), (None, "smooth line")):
+        notes = replace(rail, across=across, roughness=raised(9.0, 31.5, 25, 100)).diagnose()
+        assert any("no isotropic ground has the levels at 100, 31.5 to 25 mm" in note for note in notes)
+        assert there in notes[-1] and "scatter" in notes[-2]
+    for across in ("ridges", 0.7):
+        assert not replace(rail, across=across, roughness=raised(9.0, 31.5)).diagnose()

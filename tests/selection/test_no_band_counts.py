@@ -1,0 +1,79 @@
+"""No band that counts is no answer: rails of short waves alone, by every model, and what is said of them."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from validation import compare, load_scene, summary, to_json
+from validation.__main__ import main
+from validation.cases.selection.edge_test import EdgeTrial, true_error
+from validation.scenes.rail import RailScene
+from validation.selection.rail_model import RailSceneModel
+from validation.simulation.method import Resolution
+from validation.simulation.model import Target, models_serving
+from validation.simulation.rail_quantity import COUNTED
+
+RAIL = load_scene("rail")
+assert isinstance(RAIL, RailScene)
+
+
+def of_bands(inside):
+    levels = RAIL.levels
+    return replace(
+        RAIL, roughness=replace(levels, wavelengths=levels.wavelengths[inside], levels=levels.levels[inside])
+    )
+
+
+SHORT, QUIET = of_bands(slice(25, 29)), of_bands(slice(22, 24))
+"""6.3 to 3.15 mm and 12.5 to 10 mm, in a contact 11 mm long."""
+
+
+def test_an_equivalent_roughness_without_a_band_that_counts_is_none():
+    assert not compare(SHORT, "equivalent-roughness", "1 dB").met
+
+
+@pytest.mark.parametrize(("scene", "span"), [(SHORT, "6.3 to 3.15 mm"), (QUIET, "12.5 to 10 mm")])
+@pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
+def test_no_model_is_enough_where_no_band_counts(scene, span, across):
+    """Also where a wrong filter has one: the linear bed of springs at 12.5 mm."""
+    found = compare(replace(scene, across=across), "contact-filter", "1 dB")
+    assert not found.met and found.model == "" and math.isinf(found.error)
+    assert all(one.status == "out of range" and math.isinf(one.claimed) for one in found.models)
+    text = " ".join(summary(found).split())
+    assert "no band has A3 above -15 dB" in text and "levels of longer waves would count" in text
+    assert span in text and ": enough" not in text
+    assert json.loads(to_json(found))["met"] is False
+
+
+def test_a_solve_leaves_its_bands_and_no_error():
+    """As with --all: what was found is told, and no error of it is known."""
+    for model in models_serving(SHORT, "contact-filter"):
+        if model.name.startswith("linear"):
+            answer = RailSceneModel(model, Target(SHORT, "contact-filter", 0.1), Resolution()).solve()
+            assert math.isinf(answer.error) and not answer.failed
+            assert (20 * np.log10(answer.value) < COUNTED).all() and "no band" in answer.counted
+
+
+def test_the_command_ends_with_another_status(tmp_path, capsys):
+    rows = [f"{1000 * w:g},{v}" for w, v in zip(SHORT.levels.wavelengths, SHORT.levels.levels, strict=True)]
+    (tmp_path / "short.csv").write_text("\n".join(["wavelength [mm],level [dB re 1 um]", *rows]))
+    assert main(["scene", "rail"]) == 0
+    text = capsys.readouterr().out.replace('curve = "iso3095-2013"', 'file = "short.csv"')
+    (tmp_path / "short.toml").write_text(text)
+    assert main(["compare", str(tmp_path / "short.toml"), "--tolerance", "1 dB"]) == 3
+    assert "what would help" in capsys.readouterr().out
+
+
+def test_the_longest_band_that_counts_is_enough_for_an_answer():
+    found = compare(of_bands(slice(21, 29)), "contact-filter", "3 dB")
+    assert found.met and (found.value > COUNTED).sum() == 1
+
+
+def test_a_trial_without_a_band_that_counts_has_no_true_error():
+    trial = EdgeTrial(kind="rail", number=0, tolerances=(0.1,), seed=3)
+    quiet = np.full(4, 10 ** (-20 / 20))
+    assert math.isnan(true_error(trial, quiet, quiet))
+    assert true_error(trial, quiet * 2, np.ones(4)) > 0.5

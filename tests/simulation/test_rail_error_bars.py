@@ -1,0 +1,127 @@
+"""Error bars of boundary elements on a rail, on tracks that are made up: sample, grid, and what the ground leaves."""
+
+import math
+from contextlib import contextmanager
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from validation import compare, load_scene
+from validation.selection.hierarchy import Answer
+from validation.selection.rail_model import RailSceneModel
+from validation.simulation import rail_models
+from validation.simulation.equivalent_displacement import BEM, LINEAR
+from validation.simulation.method import Resolution
+from validation.simulation.model import Cost, Target
+from validation.simulation.models.rail_boundary_elements import MODEL
+from validation.simulation.rail_ground import strip_bands
+from validation.simulation.rail_quantity import RailQuantity
+
+RAIL = load_scene("rail")
+OPEN = replace(RAIL, across=None)
+POWERS = np.array([0.8, 1.3, 1.0, 0.9, 1.2, 1.1])
+"""Of boundary elements on each strip, over linear theory."""
+GRID = 0.35
+"""What the coarse grid has more than the fine one [dB]."""
+
+
+@contextmanager
+def planted(powers, grid=0.0):
+    """Boundary elements that have so many times the power of linear theory on each strip, on the coarse grid more."""
+    white = np.random.default_rng(0).standard_normal(2048)
+    length = 60 * max(RAIL.contact.along, RAIL.contact.across)
+
+    def strip(scene, across, cells, realisation, seed):
+        return SimpleNamespace(spacing=length / white.size, cells=cells, realisation=realisation)
+
+    def roll(model, scene, strip):
+        off = grid if strip.cells == rail_models.COARSE else 0.0
+        gain = math.sqrt(powers[strip.realisation]) * 10 ** (off / 20)
+        return {LINEAR: white, BEM: gain * white, "failed": np.array(0.0)}
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rail_models, "strip_of", strip)
+        patch.setattr(type(MODEL), "roll", roll)
+        yield
+
+
+def found(scene=RAIL):
+    quantity = RailQuantity(scene, "contact-filter")
+    return quantity, MODEL.find(quantity, 0), np.isin(quantity.bands.numbers, strip_bands(scene).numbers)
+
+
+def test_the_sample_leaves_students_interval_of_the_strips():
+    """t s / sqrt(6) of the mean of six powers, in decibels."""
+    with planted(POWERS):
+        _, filters, inside = found()
+    expected = stats.t.ppf(0.975, 5) * POWERS.std(ddof=1) / math.sqrt(6) / POWERS.mean() * 10 / math.log(10)
+    assert expected > 0.5 and not filters.grid.any()
+    np.testing.assert_allclose(filters.sample[inside], expected, rtol=0.02)
+    assert not filters.sample[~inside].any()
+
+
+@pytest.mark.slow
+def test_samples_cover_the_mean_of_all_strips():
+    """Strips whose powers scatter about that of linear theory: 95 % of the intervals have it."""
+    rng, inside = np.random.default_rng(1), []
+    for _ in range(100):
+        powers = rng.gamma(20, 1 / 20, rail_models.STRIPS)
+        with planted(powers):
+            quantity, filters, strips = found()
+        off = np.abs(filters.a3 - quantity.linear[0])[strips][0]
+        inside.append(off <= filters.sample[strips][0])
+    assert abs(np.mean(inside) - 0.95) <= 3 * math.sqrt(0.95 * 0.05 / 100)
+
+
+def test_the_grid_leaves_what_second_order_makes_of_two_grids():
+    """An error of order h^2 on 12 cells is 1 / ((12/8)^2 - 1) = 0.8 of the difference from 8."""
+    with planted(np.ones(6), GRID):
+        _, filters, inside = found()
+    order = 1 / ((rail_models.FINE / rail_models.COARSE) ** 2 - 1)
+    np.testing.assert_allclose(filters.grid[inside], order * GRID, rtol=1e-6)
+    assert not filters.grid[~inside].any() and filters.sample[inside].max() < 1e-6
+
+
+def test_an_error_of_second_order_is_covered():
+    """A fine grid that is off by what remains of it is inside of its bar, and not far."""
+    rest = GRID / ((rail_models.FINE / rail_models.COARSE) ** 2 - 1)
+    with planted(np.full(6, 10 ** (rest / 10)), GRID):
+        quantity, filters, inside = found()
+    off = np.abs(filters.a3 - quantity.linear[0])[inside]
+    assert (off <= filters.grid[inside] * 1.001).all() and (filters.grid[inside] < 1.5 * off).all()
+
+
+def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
+    """A bias: half of the difference of ridges and isotropic ground, and the other two at a right angle beside it."""
+    with planted(POWERS, GRID):
+        quantity, filters, inside = found(OPEN)
+        answer = RailSceneModel(MODEL, Target(OPEN, "contact-filter", 0.5), Resolution()).solve()
+    ends = [
+        RailQuantity(replace(RAIL, across=across), "contact-filter").linear[0] for across in ("ridges", "isotropic")
+    ]
+    half = np.abs(ends[0] - ends[1]) / 2
+    np.testing.assert_allclose(filters.model[inside], half[inside], rtol=1e-9)
+    random = np.sqrt(filters.grid**2 + filters.sample**2)
+    np.testing.assert_allclose(answer.error_in_bands, filters.model + random, rtol=1e-9)
+    counted = quantity.counted(filters.a3)
+    worst = float((filters.model + random)[counted].max())
+    assert 20 * math.log10(1 + answer.error) == pytest.approx(worst, rel=1e-6)
+
+
+def test_errors_that_are_printed_are_those_of_the_bands():
+    with planted(POWERS, GRID):
+        result = compare(OPEN, "contact-filter", "3 dB", models=[BEM])
+    (solved,) = result.selection.solved
+    parts = result.error_parts_of(solved)
+    expected = parts["model"] + np.hypot(parts["grid"], parts["sample"])
+    np.testing.assert_allclose(result.errors_of(solved), expected, rtol=1e-12)
+    assert (parts["sample"].max(), parts["grid"].max()) > (0.5, 0.2)
+
+
+def test_errors_of_bands_add_a_bias_to_what_is_random():
+    bands = {"model": np.array([3.0, 1.0]), "grid": np.array([0.0, 3.0]), "sample": np.array([4.0, 4.0])}
+    answer = Answer(value=np.ones(2), cost=Cost(work=1, unit="", seconds=1.0), band_errors=bands)
+    assert answer.error_in_bands.tolist() == [7.0, 6.0]

@@ -1,0 +1,203 @@
+"""Levels that scatter have the filter of the smooth ground within their error: random files beside own quadrature."""
+
+import math
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from validation import compare, load_scene, summary
+from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.level_files import curve
+from validation.scenes.roughness_levels import RoughnessLevels
+from validation.simulation.equivalent_displacement import LINEAR, LINEAR_ON_LINE
+from validation.simulation.model import models_serving
+from validation.simulation.rail_ground import lost_contact_number, strip_bands, strip_of, whole_line_of
+from validation.simulation.rail_quantity import RailQuantity
+
+RAIL = load_scene("rail")
+ISO = curve("iso3095-2013")
+
+
+def filters_of_power_law(scene, slope, edges):
+    """A3 over ridges and over isotropic ground of levels that grow by `slope` dB a decade: C_line ~ q^-p, p = 1 +
+    slope / 10, whose waves at k_y = q t have the weight (1 + t^2)^(-(p + 1) / 2)."""
+    p, (a, b) = 1 + slope / 10, (scene.contact.along, scene.contact.across)
+    t = np.sinh(np.linspace(0, 8, 1201))
+    weight = np.gradient(t) * (1 + t**2) ** (-(p + 1) / 2)
+    weight[0] /= 2
+    found = []
+    for low, high in pairwise(edges):
+        q = np.linspace(low, high, 15)[:, np.newaxis]
+        passed = [np.sinc(q[:, 0] * a / np.pi) ** 2, np.sinc(np.hypot(q * a, q * t * b) / np.pi) ** 2 @ weight]
+        power = q[:, 0] ** -p
+        found.append([10 * math.log10(power @ one / power.sum()) for one in (passed[0], passed[1] / weight.sum())])
+    return np.array(found).T
+
+
+@dataclass(frozen=True)
+class Drawn:
+    scene: object
+    slope: float
+    scatter: float
+    corrugated: np.ndarray
+
+
+def drawn(rng, across, scatter):
+    """A wheel and levels about a straight line, every second with a corrugation of 6 dB in one to three bands."""
+    bands = NominalBands(int(rng.choice([3, 0, -4])), int(rng.choice([-31, -25, -22])))
+    lg, slope = np.log10(bands.wavelengths), rng.uniform(0, 20)
+    first, count = np.argmin(np.abs(lg - math.log10(rng.uniform(0.02, 0.15)))), rng.integers(0, 4) * rng.integers(0, 2)
+    corrugated = np.isin(np.arange(len(bands)), np.arange(first, first + count))
+    levels = rng.uniform(-15, 0) + slope * (lg + 1.5) + scatter * rng.standard_normal(len(bands)) + 6 * corrugated
+    scene = replace(
+        RAIL,
+        radius=rng.uniform(0.18, 0.6),
+        crown_radius=rng.uniform(0.15, 0.5),
+        load=rng.uniform(15e3, 110e3),
+        across=across,
+        roughness=RoughnessLevels(wavelengths=tuple(bands.nominal.tolist()), levels=tuple(levels.tolist())),
+    )
+    return Drawn(scene, float(slope), scatter, corrugated)
+
+
+def held(one, value, half):
+    """Whether intervals hold both ends that may be, or the isotropic one, of 16 to 160 mm that count."""
+    bands = one.scene.levels.bands
+    ends = filters_of_power_law(one.scene, one.slope, bands.edges)
+    truth = ends if one.scene.across is None else ends[1:]
+    asked = (bands.nominal >= 0.016) & (bands.nominal <= 0.16) & (value > -15)
+    return (np.abs(value - truth) <= half + 1e-9).all(axis=0)[asked], half[asked]
+
+
+def judged(seed, count, answer):
+    rng, inside, halves = np.random.default_rng(seed), [], []
+    for i in range(count):
+        one = drawn(rng, ("isotropic", None)[i % 2], 1.0 + i % 3)
+        ok, half = held(one, *answer(one.scene))
+        inside += ok.tolist()
+        halves += half.tolist() if one.scatter == 1.0 else []
+    return np.mean(inside), np.median(halves)
+
+
+def by_linear_theory(scene):
+    asked = RailQuantity(scene, "contact-filter")
+    (model,) = (one for one in models_serving(scene, "contact-filter") if one.name == LINEAR)
+    a3 = asked.linear.mean(axis=0)
+    return a3, model.model_error(asked, a3)
+
+
+def by_what_the_ground_leaves(scene):
+    """Without the error of linear theory itself."""
+    asked = RailQuantity(scene, "contact-filter")
+    return asked.linear.mean(axis=0), asked.left_by_ground
+
+
+def test_linear_theory_holds_the_smooth_ground():
+    inside, half = judged(5, 6, by_linear_theory)
+    assert inside >= 0.95 and half <= 1.5
+
+
+@pytest.mark.slow
+def test_what_the_ground_leaves_covers_the_smooth_ground_alone():
+    """Bands of one file go together: of 24 files as many as two may be off."""
+    inside, half = judged(6, 24, by_what_the_ground_leaves)
+    assert inside >= 0.92 and half <= 1.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("quantity", ["contact-filter", "equivalent-roughness"])
+def test_random_files_are_answered(quantity):
+    """As `compare` answers them, by linear theory alone: boundary elements take minutes."""
+    answered = []
+
+    def answer(scene):
+        found = compare(scene, quantity, "3 dB", models=[LINEAR])
+        best = found.selection.best
+        answered.append(best is not None)
+        if best is None:
+            return np.full(len(scene.levels.bands), np.nan), np.zeros(len(scene.levels.bands))
+        line = np.array(scene.levels.levels) if quantity == "equivalent-roughness" else 0.0
+        return found.value - line, found.errors_of(best)
+
+    inside, half = judged(7, 60, answer)
+    assert sum(answered) >= 57 and inside >= 0.95 and half <= 1.5
+
+
+def corrugated(across="isotropic", by=6.0, waves=(31.5, 25)):
+    raised = np.array(ISO.levels) + by * np.isin(1000 * ISO.bands.nominal, waves)
+    scattered = raised + 0.4 * (-1.0) ** np.arange(35)
+    return replace(RAIL, across=across, roughness=replace(ISO, levels=tuple(scattered.tolist())))
+
+
+def test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground():
+    asked, smooth = (RailQuantity(one, "contact-filter") for one in (corrugated(), RAIL))
+    ridges = RailQuantity(replace(RAIL, across="ridges"), "contact-filter").linear[0]
+    own = np.isin(1000 * asked.bands.nominal, (31.5, 25))
+    assert asked.ends == ("ridges", "isotropic") and asked.stands_out.tolist() == own.tolist()
+    assert (asked.half_width[own] > 0.3).all() and not asked.half_width[~own].any()
+    value, half = asked.linear.mean(axis=0), asked.left_by_ground + 0.2
+    for truth in (smooth.linear[0], ridges):
+        assert (np.abs(value - truth) <= half)[own].all()
+    counted = ~own & (smooth.linear[0] > -15)
+    assert (np.abs(value - smooth.linear[0]) <= half)[counted].all()
+
+
+def test_strips_have_the_power_of_what_stands_out():
+    """As ridges over isotropic ground, all along both ends."""
+    scene = corrugated()
+    line, q = whole_line_of(scene), 2 * np.pi / 0.0284
+    for across in ("ridges", "isotropic"):
+        strip = strip_of(scene, across, 6, 0, 1)
+        k = 2 * np.pi * np.fft.fftfreq(strip.shape[0], strip.spacing)
+        near = np.abs(k - q) < 20
+        found = strip.variance[near].sum() / (near.sum() * 2 * np.pi / strip.length)
+        assert found / float(line(q)) == pytest.approx(1.0, rel=0.1)
+
+
+def test_loss_of_contact_is_that_of_the_levels_as_they_are():
+    """h'^2 is the sum of (2 pi / lambda)^2 times the power of each band of a strip."""
+    for by in (0.0, 15.0):
+        scene = corrugated(by=by)
+        inside = np.isin(scene.levels.bands.numbers, strip_bands(scene).numbers)
+        slope = math.sqrt(np.sum((scene.levels.bands.centres**2 * scene.levels.powers)[inside]))
+        expected = slope * scene.contact.along / scene.contact.approach
+        assert lost_contact_number(scene) == pytest.approx(expected, rel=0.02)
+    assert lost_contact_number(corrugated("ridges")) == lost_contact_number(corrugated())
+
+
+def test_models_that_read_a_line_are_that_of_ridges_whatever_lies_across():
+    steep = replace(ISO, levels=tuple(-60.0 + 4 * i for i in range(20)) + (16.0,) * 15)
+    for roughness in (steep, corrugated().roughness):
+        scene = replace(RAIL, roughness=roughness)
+        asked, line = (
+            RailQuantity(scene, "contact-filter"),
+            RailQuantity(replace(scene, across="ridges"), "contact-filter"),
+        )
+        (model,) = (one for one in models_serving(scene, "contact-filter") if one.name == LINEAR_ON_LINE)
+        found, own = model.closed(asked).mean(axis=0), model.closed(line)[0]
+        long = asked.wave < 1
+        np.testing.assert_allclose(found[long], own[long], atol=0.3)
+
+
+@pytest.mark.parametrize(
+    ("across", "keys"), [("isotropic", ('across = "ridges"', "alpha")), (None, ('"isotropic"', "alpha"))]
+)
+def test_what_would_help_names_the_keys(across, keys):
+    text = " ".join(
+        summary(compare(corrugated(across, by=12.0, waves=(20, 25)), tolerance="0.4 dB", models=[LINEAR])).split()
+    )
+    helps = text[text.index("what would help") :]
+    assert all(key in helps for key in keys)
+    assert ("20 mm" in helps) == (across == "isotropic")
+
+
+def test_waves_that_no_isotropic_ground_has_at_the_long_end_can_be_cut_off():
+    rolls_off = np.array(ISO.levels) - 6.0 * np.clip(18 - np.arange(35), 0, None)
+    scene = replace(RAIL, roughness=replace(ISO, levels=tuple(np.maximum(rolls_off, -99).tolist())))
+    found = compare(scene, tolerance="0.4 dB", models=[LINEAR])
+    text = " ".join(summary(found).split())
+    asked = RailQuantity(scene, "contact-filter")
+    first = 1000 * asked.bands.nominal[~asked.stands_out].max()
+    assert f'longest = "{first:g} mm" in [rail.levels]' in text
