@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from validation.__main__ import main
-from validation.scenes import height_files
+from validation.scenes import height_files, table_files
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
@@ -143,7 +143,7 @@ def test_broken_archives_are_refused(tmp_path, monkeypatch):
         archive.writestr("heights.npy", b"no array")
     refused(tmp_path, "face.npz", key, said=r"got: the magic string is not correct")
     np.savez_compressed(path, heights=np.zeros((64, 64)))
-    monkeypatch.setattr(height_files, "MOST_BYTES", 8 * 64 * 64)
+    monkeypatch.setattr(table_files, "MOST_BYTES", 8 * 64 * 64)
     refused(tmp_path, "face.npz", key, said=r"got: an array of 32896 bytes, more than 32768$")
 
 
