@@ -74,17 +74,22 @@ def test_a_header_in_another_encoding_is_left_out(tmp_path, lines):
     assert heights_in(tmp_path, "face.txt", *lines).height == level(HEIGHT)
 
 
-def test_the_sentence_about_a_header_says_how_many_lines_to_skip(tmp_path):
+def test_a_header_that_is_no_comment_is_left_out_and_told(tmp_path):
     (tmp_path / "face.csv").write_text(HEADER.replace(";", ",") + rows_of(HEIGHT))
     for lines in ((), ("skip = 1",)):
-        said = r"got: could not convert string .* \(a header begins with #, or is left out, as: skip = 3\)$"
-        refused(tmp_path, "face.csv", *lines, said=said)
-    refused(tmp_path, "face.csv", "skip = 67", said=r"got: no line below the 67 to skip$")
+        ground = heights_in(tmp_path, "face.csv", *lines)
+        assert ground.height == level(HEIGHT)
+        assert [note for note in ground.notes() if "above its numbers" in note] == [
+            "face.csv: it has 3 lines above its numbers."
+        ]
+    refused(tmp_path, "face.csv", "skip = 67", said=r"got no line below the 67 to skip$")
 
 
-def test_an_empty_field_is_no_height(tmp_path):
-    (tmp_path / "face.csv").write_text("1,2,3\n4,,6\n")
-    refused(tmp_path, "face.csv", said=r"could not convert string '' to float64 .* \(a point without data is nan\)$")
+def test_an_empty_field_is_a_point_without_data(tmp_path):
+    rows = rows_of(HEIGHT).splitlines()
+    rows[4] = ",".join(["", *rows[4].split(",")[1:]])
+    (tmp_path / "face.csv").write_text("\n".join(rows))
+    refused(tmp_path, "face.csv", said=r"heights must be known everywhere, got 1 of 4096 .* \[4, 0\].*: fill = true$")
 
 
 @pytest.mark.parametrize("given", ["-1", "1.5", '"3"', "true", "[3]"])
@@ -141,7 +146,7 @@ def test_broken_archives_are_refused(tmp_path, monkeypatch):
     refused(tmp_path, "face.npz", key, said=r"got: objects in place of numbers$")
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("heights.npy", b"no array")
-    refused(tmp_path, "face.npz", key, said=r"got: the magic string is not correct")
+    refused(tmp_path, "face.npz", key, said=r"got: a file that does not begin as arrays of numpy do$")
     np.savez_compressed(path, heights=np.zeros((64, 64)))
     monkeypatch.setattr(table_files, "MOST_BYTES", 8 * 64 * 64)
     refused(tmp_path, "face.npz", key, said=r"got: an array of 32896 bytes, more than 32768$")
@@ -221,9 +226,9 @@ def test_spacings_that_are_none_are_refused(tmp_path, spacing, said):
         (("fill = 1",), r"heights\.fill must be true or false, got 1, as: fill = true$"),
         (('crop = "yes"',), r"heights\.crop must be true or false, got 'yes', as: crop = true$"),
         (("fil = true",), r"heights\.fil is unknown, heights must be made of file, spacing, .*, as: fill = true$"),
-        (('unit = "inch"',), r"heights\.unit must be one of m, mm, .*, got 'inch', as: unit = \"um\"$"),
-        (('unit = ""',), r"heights\.unit must be one of m, mm, .*, got '', as: unit = \"um\"$"),
-        (("unit = 3",), r"heights\.unit must be one of m, mm, .*, got 3, as: unit = \"um\"$"),
+        (('unit = "inch"',), r"heights\.unit must be one of m, cm, mm, .*, got 'inch', as: unit = \"um\"$"),
+        (('unit = ""',), r"heights\.unit must be one of m, cm, mm, .*, got '', as: unit = \"um\"$"),
+        (("unit = 3",), r"heights\.unit must be one of m, cm, mm, .*, got 3, as: unit = \"um\"$"),
     ],
 )
 def test_wishes_that_are_none_are_refused(tmp_path, lines, said):
@@ -233,6 +238,7 @@ def test_wishes_that_are_none_are_refused(tmp_path, lines, said):
 
 def test_keys_that_are_missing_are_shown_as_a_line(tmp_path):
     path = scene_of(tmp_path, "face.npy")
+    np.save(tmp_path / "face.npy", HEIGHT)
     text = path.read_text()
     for line, right in (('file = "face.npy"', 'file = "face.npy"'), ('spacing = "1 um"', 'spacing = "1 um"')):
         path.write_text(text.replace(line, ""))

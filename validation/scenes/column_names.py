@@ -78,6 +78,8 @@ def columns_of(above: Sequence[str], cells_of_rows: int, delimiter: str) -> tupl
 
 def _cells(line: str, count: int, delimiter: str) -> list[str] | None:
     """So many cells of a header, between the delimiter of the rows or another."""
+    if count == 1:
+        return None if re.search(r"[;,\t]", line) else [line]
     for pattern in (re.escape(delimiter), r"\t", ";", ",", r"\s{2,}", r"\s+(?![\[(/])"):
         cells = re.split(pattern, line) if pattern else []
         if len(cells) == count or (len(cells) == count + 1 and not cells[-1].strip()):

@@ -54,7 +54,7 @@ def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
 def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
     """Heights over an area of any of the forms of a file. Raises ValueError."""
     values = numbers.values
-    if values.ndim != 2:
+    if values.ndim != 2 or not values.size:
         return values, spacing or (1.0, 1.0), ()
     every = range(values.shape[1])
     if numbers.spacing is not None:
@@ -65,14 +65,28 @@ def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) ->
         return heights_of_columns(numbers, every, metre), known, ()
     if values.shape[1] == 3 and len(values) > FEWEST:
         return _of_three(numbers, metre, spacing)
-    first = places_of(values[:, 0])
-    if first is None or first.gaps or values.shape[1] <= FEWEST:
-        return heights_of_columns(numbers, every, metre), spacing, ()
-    unit = numbers.columns[0].unit
-    given = None if spacing is None else spacing[0]
-    step = metres_of_step(first.step, unit, given, numbers.names([0]))
-    note = f"{numbers.names([0])} runs evenly, {in_unit(step, 'length')} apart: it is x and no line of heights"
-    return heights_of_columns(numbers, every[1:], metre)[:: -1 if first.step < 0 else 1], spacing, (note,)
+    return _of_rows(numbers, metre, spacing)
+
+
+def _of_rows(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """A row for each x, without its places: those of x in the first column, and of y in a first row."""
+    values, given = numbers.values, spacing or (None, None)
+    if min(values.shape) <= FEWEST:
+        return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
+    across = places_of(values[0, 1:])
+    top = 0 if across is None or across.gaps or places_of(values[1:, 0]) is None else 1
+    along = places_of(values[top:, 0])
+    if along is None or along.gaps:
+        return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
+    height, notes = heights_of_columns(numbers, range(1, values.shape[1]), metre)[top:], []
+    for places, unit, own, what in (
+        (along, numbers.columns[0].unit, given[0], "first column"),
+        *([(across, "", given[1], "first row")] if top and across else []),
+    ):
+        step = metres_of_step(places.step, unit, own, f"the {what}")
+        notes.append(f"its {what} runs evenly, {in_unit(step, 'length')} apart, and is left out of the heights")
+    turned = height[:: -1 if along.step < 0 else 1]
+    return turned[:, :: -1 if top and across and across.step < 0 else 1], spacing, tuple(notes)
 
 
 def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:

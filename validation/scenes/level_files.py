@@ -58,7 +58,7 @@ def read_levels(
     except ValueError as problem:
         raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
     others = [i for i in range(len(table.columns)) if i not in (of_wave, of_level)]
-    notes += (f"{table.names(others)} left out",) if others else ()
+    notes += (f"without {table.names(others)}",) if others else ()
     return found, (*table.notes, *notes)
 
 
@@ -68,20 +68,19 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
     lengths = [i for i, one in enumerate(units) if one in UNITS["length"]]
     waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS or one == "rad/m"]
     levels = [i for i, one in enumerate(units) if one == "dB"]
-    if len(table.columns) == 2 and (waves or unit or levels):
-        # the other of two is the other
-        waves = waves or [1 - levels[0] if len(levels) == 1 else 0]
-        levels = levels or [i for i in (1 - waves[0],) if not units[i]]
-    if len(levels) > 1 or len(waves) > 1:
+    if len(units) == 2 and (waves or unit or levels):
+        # the other of two is the other, unless it is another quantity
+        waves = waves or [i for i in ([1 - levels[0]] if levels else [0]) if not units[i]]
+        levels = levels or [i for i in range(2) if i not in waves and not units[i]]
+    if len(levels) > 1 or (levels and len(waves) > 1):
         raise ValueError(
             f"one column of wavelengths and one of levels must be read, got {table.names([*waves, *levels])}: say which"
-            f", as: columns = [{waves[0] + 1 if waves else 1}, {levels[-1] + 1 if levels else 2}]"
+            f", as: columns = [{(waves or [0])[0] + 1}, {levels[-1] + 1}]"
         )
     if not waves or not levels:
-        shown = table.names(range(len(units))) if any(map(str, table.columns)) else "none"
         raise ValueError(
-            f'the columns must be named as {COLUMNS!r}, with their units, or told by unit = "mm" and columns = [1, 2],'
-            f" got {len(units)} columns, of the names {shown}"
+            f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}: or, of "
+            'two columns, as: unit = "mm"'
         )
     of_wave, of_level = waves[0], levels[0]
     if unit is None and not units[of_wave]:

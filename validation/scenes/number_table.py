@@ -24,6 +24,7 @@ from validation.scenes.text_dialect import (
     lines_of,
     recognised,
     sample_of,
+    token,
 )
 
 FloatArray = NDArray[np.float64]
@@ -78,7 +79,8 @@ class NumberTable:
 
     def names(self, places: Sequence[int]) -> str:
         """Of columns, for a sentence: as they are called, or as they are counted."""
-        return " and ".join(str(self.columns[i]) or f"column {i + 1}" for i in places)
+        words = [token(str(self.columns[i]), bare=True) or f"column {i + 1}" for i in places[:FEW]]
+        return " and ".join(words) + (f" and {len(places) - FEW} more" if len(places) > FEW else "")
 
     def chosen(self, columns: Sequence[str | int] | None) -> "NumberTable":
         """The columns that are asked for, in this order. Raises ValueError for one that is not there."""
@@ -116,13 +118,11 @@ def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
     finally:
         text.detach()
     above = sample[skip:first]
-    units = unit_of_all(above)
-    table = NumberTable(
-        values=values,
-        columns=columns_of(above, width, dialect.delimiter),
-        unit=units.pop() if len(units) == 1 else "",
-        notes=_how(dialect, width, _left_out(sample[:first]), encoding),
-    )
+    units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
+    unit = units.pop() if len(units) == 1 and not any(column.unit for column in columns) else ""
+    notes = _how(dialect, width, _left_out(sample[:first]), encoding)
+    notes += (f"its header has the unit {unit}",) if unit else ()
+    table = NumberTable(values=values, columns=columns, unit=unit, notes=notes)
     return known_alone(_without_last(table), form.nodata).chosen(form.columns)
 
 

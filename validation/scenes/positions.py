@@ -88,7 +88,7 @@ def metres_of_step(step: float, unit: str, given: float | None, what: str) -> fl
         return found if given is None else given
     if given is None:
         raise ValueError(
-            f"spacing is missing: {what} runs evenly, {found:.6g} apart, in no unit that the file names, as: "
+            f"spacing is missing: the step of {what} is {found:.6g}, in no unit that the file names, as: "
             'spacing = "1 mm"'
         )
     if not any(abs(found * float(metre) / given - 1) < AGREE for metre in UNITS["length"].values()):

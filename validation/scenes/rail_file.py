@@ -29,6 +29,9 @@ GROUNDS = ("levels", "lines", "heights")
 SHAPES_OF_RAIL, SHAPES_OF_WHEEL = ("crown_radius", "profile"), ("transverse_radius", "profile")
 """Across the track."""
 Shape = TransverseProfile | float | None
+CROWN, FLANGE = 0.026, 0.015
+"""Half of the width of a head without its corners [m], 52 mm of 60E1; height that a flange has and a tread has not [m].
+"""
 
 
 def is_rail(tables: dict[str, Any]) -> bool:
@@ -81,6 +84,8 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     with key_in_errors(key):
         profile = _together(of_rail, of_wheel, wheel.get("offset", 0.0))
         fitted_radius(profile, along=given["radius"], modulus=given["modulus"], load=load)
+    if isinstance(of_wheel, TransverseProfile):
+        _check_flange(of_wheel, profile.at - wheel.get("offset", 0.0))
     return ProfiledRail(**given, profile=profile, offset=wheel.get("offset", 0.0))
 
 
@@ -100,15 +105,23 @@ def _radius(wheel: dict[str, Any]) -> float:
 def _together(of_rail: Shape, of_wheel: Shape, offset: float) -> TransverseProfile:
     """Of rail and wheel, of which one has a profile; the other may have a radius, or be straight."""
     if isinstance(of_wheel, TransverseProfile):
-        of_wheel = of_wheel.moved(offset)
-    curvature, centre = (
-        (1 / of_wheel, offset)
-        if isinstance(of_wheel, float)
-        else (1 / of_rail if isinstance(of_rail, float) else 0.0, 0.0)
-    )
-    return both_together(
-        [body for body in (of_rail, of_wheel) if isinstance(body, TransverseProfile)], curvature, centre
-    )
+        wheel = of_wheel.moved(offset)
+        if isinstance(of_rail, TransverseProfile):
+            return both_together([of_rail, wheel], 0.0)
+        # the rail has no corners, which a flange would meet
+        return both_together([wheel.within(CROWN)], 0.0 if of_rail is None else 1 / of_rail)
+    assert isinstance(of_rail, TransverseProfile)
+    return both_together([of_rail], 0.0 if of_wheel is None else 1 / of_wheel, offset)
+
+
+def _check_flange(wheel: TransverseProfile, at: float) -> None:
+    """Raises ValueError for a wheel that is upside down: a flange goes down beside the rail. at: of the contact [m]."""
+    up, down = (sign * (float(end(wheel.height)) - float(wheel(at))) for sign, end in ((1, max), (-1, min)))
+    if down > FLANGE > up:
+        raise ValueError(
+            f"wheel.profile must have heights positive towards the rail, got one that goes {in_unit(down, 'length')} "
+            "away from it, as a flange does that is upside down: flip = true turns it"
+        )
 
 
 def _load(wheel: dict[str, Any]) -> tuple[float, tuple[str, ...]]:

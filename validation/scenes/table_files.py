@@ -40,13 +40,22 @@ def read_table(name: str, path: Path, form: TableForm = PLAIN) -> NumberTable:
         raise ValueError(f"{room}.key must be left out but for an .npz, got {printable(path.name)}")
     try:
         with path.open("rb") as file:
-            return _of_array(_array(file, size, form.key, room), form) if is_array else _of_text(file, path, form)
+            if not is_array:
+                return _of_text(file, path, form)
+            values = _array(file, size, form.key, room)
     except OSError as problem:
         raise OSError(f"{name} {printable(path)} cannot be read: {problem.strerror or problem}") from None
     except KeyOfArchiveError as problem:
         raise ValueError(f"{room}.key {problem}, of {printable(path)}") from None
     except ValueError as problem:
-        raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
+        must = " must hold a table of numbers, got" if is_array else ""
+        raise ValueError(f"{name} {printable(path)}{must}: {printable(problem)}") from None
+    if values.size > MOST_VALUES:
+        raise ValueError(f"{name} {printable(path)} must hold at most {MOST_VALUES} heights, got {values.size}")
+    if values.dtype.kind not in "fiu":
+        raise ValueError(f"{name} {printable(path)} must hold real numbers, got {values.dtype}")
+    found = NumberTable(values=np.asarray(values, dtype=np.float64))
+    return known_alone(found, form.nodata).chosen(form.columns) if values.ndim == 2 and values.size else found
 
 
 def _of_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
@@ -85,26 +94,10 @@ def sentence_about(path: Path, notes: Sequence[str]) -> tuple[str, ...]:
     return (f"{printable(path.name)}: {'; '.join(notes)}.",) if notes else ()
 
 
-def _of_array(values: NDArray[np.generic], form: TableForm) -> NumberTable:
-    if values.size > MOST_VALUES:
-        raise ValueError(f"the file must hold at most {MOST_VALUES} heights, got {values.size}")
-    if values.dtype.kind not in "fiu":
-        raise ValueError(f"the file must hold real numbers, got {values.dtype}")
-    numbers = np.asarray(values, dtype=np.float64)
-    if numbers.ndim != 2 or not numbers.size:
-        return NumberTable(values=numbers)
-    return known_alone(NumberTable(values=numbers), form.nodata).chosen(form.columns)
-
-
 def _array(file: IO[bytes], size: int, key: str | None, room: str) -> NDArray[np.generic]:
     """One of numpy's, whatever the name of the file."""
-    try:
-        if is_archive(file):
-            return array_of_archive(file, key, most=MOST_BYTES)
-        if key is not None:
-            raise ValueError(f"one array without a name, for which {room}.key has no use")
-        return array_of(file, size)
-    except KeyOfArchiveError:
-        raise
-    except ValueError as problem:
-        raise ValueError(f"the file must hold an array of numbers, got: {problem}") from None
+    if is_archive(file):
+        return array_of_archive(file, key, most=MOST_BYTES)
+    if key is not None:
+        raise ValueError(f"one array without a name, for which {room}.key has no use")
+    return array_of(file, size)

@@ -30,6 +30,8 @@ THOUSANDS = re.compile(
     r"^[+-]?\d{1,3}(?:([.,' \u00a0\u2009\u202f’])\d{3}(?:\1\d{3})*[.,]\d+|([.,'])\d{3}(?:\2\d{3})+)$"
 )
 FORTRAN = re.compile(r"[+-]?[\d.]+[dD][+-]?\d+")
+STARTS = re.compile(r"\s*[-+]?\d").match
+"""Whether a cell begins as a number does."""
 SHOWN = 20
 """Characters of a cell that a message shows."""
 
@@ -67,6 +69,14 @@ class Dialect:
                 return list(map(self.number, cells))
             return found if not any("_" in cell for cell in cells) else list(map(self.number, cells))
         return list(map(self.number, cells))
+
+    def is_number(self, cell: str) -> bool:
+        """Whether a cell is one, and no point without data."""
+        try:
+            found = self.number(cell)
+        except ValueError:
+            return False
+        return found == found
 
     def row(self, line: str) -> int:
         """How many columns a line of numbers has, 0 if it is none."""
@@ -194,7 +204,12 @@ def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, 
         if dialect.row(lines[i]) == columns and columns > 1:
             bad = next(j for j in said if j > i and not dialect.row(lines[j]))
             raise ValueError(about_row(lines[bad], bad, dialect, columns))
-    if said and (width := dialect.row(lines[said[-1]])):
+    if not said:
+        return
+    cells = dialect.cells(lines[said[-1]])
+    if len(cells) == columns > 1 and any(map(dialect.is_number, cells)) and all(map(STARTS, cells)):
+        raise ValueError(about_row(lines[said[-1]], said[-1], dialect, columns))
+    if width := dialect.row(lines[said[-1]]):
         raise ValueError(
             f"rows must be of one length, got {width} numbers in line {said[-1] + 1} and {columns} in line {first + 1}:"
             f" lines above the numbers are left out, as: skip = {first}"
@@ -206,15 +221,15 @@ def _no_table(lines: Sequence[str], skip: int, decimal: str | None) -> str:
         return "the file must hold rows of numbers, got an empty file"
     if skip >= len(lines):
         return f"the file must hold rows of numbers, got no line below the {skip} to skip"
-    for line in lines[skip:]:
-        for cell in re.split(r"[;\t]|,(?=\s)|\"", line):
-            if THOUSANDS.match(cell.strip()):
-                return f"numbers must have no sign between thousands, got {token(cell)}"
-    keys = "decimal, or columns" if decimal else "skip, decimal or columns"
-    return (
-        f"the file must hold rows of numbers, got none in its first {len(lines)} lines: what recognition cannot decide "
-        f"is said by {keys}"
-    )
+    last = max(i for i, line in enumerate(lines) if line.strip())
+    written = [Dialect(delimiter, sign) for delimiter, sign in WRITTEN if decimal in (None, sign)]
+    best = max(written, key=lambda dialect: sum(map(dialect.is_number, dialect.cells(lines[last]))))
+    if 2 * sum(map(best.is_number, best.cells(lines[last]))) >= len(best.cells(lines[last])):
+        return about_row(lines[last], last, best, len(best.cells(lines[last])))
+    cells = re.split(r"[;\t\"]", "\t".join(lines[skip:]))
+    if thousands := next((cell for cell in cells if THOUSANDS.match(cell.strip())), None):
+        return f"numbers must have no sign between thousands, got {token(thousands)}"
+    return f"the file must hold rows of numbers, got none in its first {len(lines)} lines: skip leaves out more of them"
 
 
 def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:

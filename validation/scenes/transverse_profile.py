@@ -26,6 +26,8 @@ CLOSE = 1e-9
 """Relative error of the width over which a radius is fitted."""
 DENSE = 20_001
 """Places at which the highest point of two bodies is looked for, and a second contact."""
+SAME_PLACE = 1e-6
+"""How close points of two profiles are one [m]."""
 STEEPEST = math.radians(15)
 """Inclination of the bodies in contact, at the most: there the normal load is 4 % more than the wheel's."""
 
@@ -66,6 +68,11 @@ class TransverseProfile:
     def moved(self, offset: float) -> "TransverseProfile":
         """The same, its y = 0 at another place across the track [m]."""
         return replace(self, y=tuple(one + offset for one in self.y))
+
+    def within(self, half_width: float) -> "TransverseProfile":
+        """The part with abs(y) up to a half width [m]."""
+        kept = [i for i, one in enumerate(self.y) if abs(one) <= half_width]
+        return replace(self, y=tuple(self.y[i] for i in kept), height=tuple(self.height[i] for i in kept))
 
     def slope(self, y: float) -> float:
         """dz/dy at a place [-]."""
@@ -125,6 +132,8 @@ def both_together(bodies: Sequence[TransverseProfile], curvature: float, centre:
         )
     own = np.unique(np.concatenate([body.y for body in bodies]))
     y = own[(own >= first) & (own <= last)]
+    # the same place in both files, but for rounding, is one
+    y = y[np.append(True, np.diff(y) > SAME_PLACE)]
     found = height(y) - height(np.array([top]))
     return TransverseProfile(
         y=tuple((y - top).tolist()),
