@@ -38,14 +38,14 @@ def column_of(text: str) -> Column:
     """Name, unit and reference in a cell of a header. A unit in brackets need not be one of ours."""
     words = MICRO.sub("u", text.strip().strip('"').strip())
     inside = [(found, (found[1] or found[2] or "").strip()) for found in IN_BRACKETS.finditer(words)]
-    known = next(((found, unit) for found, unit in inside if _unit(unit) in KNOWN), None)
-    if known or inside:
-        found, unit = known or inside[-1]
-        name = " ".join(f"{words[: found.start()]} {words[found.end() :]}".partition(" re ")[0].split())
-        return Column(name.strip(" /_"), KNOWN.get(_unit(unit), _unit(unit)), _reference(words))
-    if last := AT_THE_END.search(words):
+    known = [(found, unit) for found, unit in inside if _unit(unit) in KNOWN]
+    if not known and (last := AT_THE_END.search(words)):
         return Column(words[: last.start()].strip(" _/,"), KNOWN[last[1]], _reference(words))
-    return Column(words)
+    if not inside:
+        return Column(words)
+    found, unit = (known or inside[-1:])[0]
+    name = " ".join(f"{words[: found.start()]} {words[found.end() :]}".partition(" re ")[0].split())
+    return Column(name.strip(" /_"), KNOWN.get(_unit(unit), _unit(unit)), _reference(words))
 
 
 def _unit(words: str) -> str:
@@ -58,22 +58,19 @@ def _reference(words: str) -> str:
     return found[1].strip() if found else ""
 
 
-def columns_of(above: Sequence[str], cells_of_rows: int, delimiter: str) -> tuple[Column, ...]:
-    """Of the lines above the numbers, the nearest of which has a cell a column; without names where none has."""
+def columns_of(above: Sequence[str], count: int, delimiter: str) -> tuple[Column, ...]:
+    """Of the nearest lines above so many columns: one with units, or one of names; without names where none has."""
     lines = [text for line in above if (text := line.strip().lstrip("#%/; ").strip())][-3:]
-    units: tuple[Column, ...] = ()
-    for line in reversed(lines):
-        cells = _cells(line, cells_of_rows, delimiter)
-        if cells is None:
-            continue
-        found = tuple(map(column_of, cells))
-        if units:
-            return tuple(Column(one.name, two.unit, two.reference) for one, two in zip(found, units, strict=True))
-        if any(one.unit for one in found) and not any(one.name for one in found):
-            units = found
-            continue
-        return found
-    return units or (Column(),) * cells_of_rows
+    found = [tuple(map(column_of, cells)) for line in reversed(lines) if (cells := _cells(line, count, delimiter))]
+    with_units = [i for i, columns in enumerate(found) if any(column.unit for column in columns)]
+    if not with_units:
+        return found[0] if found else (Column(),) * count
+    columns = found[with_units[0]]
+    if any(column.name for column in columns) or len(found) == with_units[0] + 1:
+        return columns
+    # a line of units below one of names
+    names = found[with_units[0] + 1]
+    return tuple(Column(one.name, two.unit, two.reference) for one, two in zip(names, columns, strict=True))
 
 
 def _cells(line: str, count: int, delimiter: str) -> list[str] | None:

@@ -47,7 +47,10 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
         measured = MeasuredLines(height=height, spacing=lines.spacing, **found)
         if not measured.height.any():
             raise ValueError("file must have heights, got zeros alone")
-        _ = measured.levels  # heights in a wrong unit are refused here, by their levels
+        try:
+            _ = measured.levels  # heights in a wrong unit are refused here, by their levels
+        except ValueError as problem:
+            raise ValueError(f'{problem} As: unit = "um"') from None
     told += [*sentence_about(path, (*numbers.notes, *lines.notes)), *edits.notes]
     return measured
 

@@ -9,6 +9,7 @@ from functools import partial
 from itertools import islice
 from typing import IO
 
+from validation.scenes.column_names import column_of
 from validation.scenes.printable import printable
 
 MOST_LINES, LONGEST_LINE = 2**23, 2**25
@@ -80,6 +81,8 @@ class Dialect:
 
     def row(self, line: str) -> int:
         """How many columns a line of numbers has, 0 if it is none."""
+        if self.delimiter == self.decimal and '"' not in line:
+            return 0
         cells = self.cells(line)
         try:
             return len(cells) if any(number == number for number in self.numbers(cells)) else 0
@@ -159,7 +162,7 @@ def recognised(
         raise ValueError(_no_table(lines, skip, decimal))
     first = min(start for start, _, _ in found)
     tied = [(other, width) for start, other, width in found if start == first]
-    points = next((one for one in tied if one[0].delimiter == "," and one[1] == 2), None)
+    points = next((one for one in tied if one[0] == Dialect(",", ".", one[0].nodata) and one[1] == 2), None)
     commas = next((one for one in tied if one[0].decimal == "," and one[1] == 1), None)
     dialect, columns = tied[0]
     if points and commas:
@@ -206,8 +209,9 @@ def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, 
             raise ValueError(about_row(lines[bad], bad, dialect, columns))
     if not said:
         return
-    cells = dialect.cells(lines[said[-1]])
-    if len(cells) == columns > 1 and any(map(dialect.is_number, cells)) and all(map(STARTS, cells)):
+    cells, before = dialect.cells(lines[said[-1]]), lines[said[-2]] if len(said) > 1 else ""
+    is_row = all(map(STARTS, cells)) or any(column_of(cell).unit for cell in dialect.cells(before))
+    if len(cells) == columns > 1 and any(map(dialect.is_number, cells)) and is_row:
         raise ValueError(about_row(lines[said[-1]], said[-1], dialect, columns))
     if width := dialect.row(lines[said[-1]]):
         raise ValueError(
@@ -243,7 +247,7 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
                 return f"numbers must have no sign between thousands, got {token(cell)} in line {index + 1}"
             return (
                 f"rows must be numbers, got {token(cell)} in column {i + 1} of line {index + 1}: a comment begins with "
-                f'a #, a cell without data is empty, nan or told, as: nodata = "{token(cell, bare=True)}"'
+                f'a #, a header is left out by skip, a cell without data told, as: nodata = "{token(cell, bare=True)}"'
             )
     return (
         f"rows must be of one length, got {len(cells)} {'cell' if len(cells) == 1 else 'cells'} in line {index + 1} of "

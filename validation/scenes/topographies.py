@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+from collections.abc import Iterator
 from pathlib import Path
 
 from validation.scenes.known_heights import real_numbers
@@ -15,6 +16,12 @@ MISSING = (
 )
 
 
+@contextlib.contextmanager
+def _silent() -> Iterator[None]:
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        yield
+
+
 def topography_of(path: Path) -> NumberTable:
     """Heights of the file of an instrument, with its spacing and unit as far as it has them.
 
@@ -25,8 +32,8 @@ def topography_of(path: Path) -> NumberTable:
     except ImportError:
         raise ValueError(MISSING) from None
     try:
-        # some of its readers print what they find
-        with contextlib.redirect_stdout(io.StringIO()), open_topography(str(path)) as reader:
+        # some of its readers print what stands in a file that they cannot read
+        with _silent(), open_topography(str(path)) as reader:
             channel = reader.default_channel
             sizes = {} if channel.physical_sizes is not None else {"physical_sizes": channel.nb_grid_pts}
             found = reader.topography(**sizes)
@@ -37,7 +44,7 @@ def topography_of(path: Path) -> NumberTable:
         ) from None
     if not found.is_uniform:
         raise ValueError("points must be equally far apart, got a line of points that are not: resample it")
-    known = None if sizes else tuple(s / n for s, n in zip(found.physical_sizes, heights.shape, strict=True))
+    known = None if sizes else tuple(float(s) / n for s, n in zip(found.physical_sizes, heights.shape, strict=True))
     return NumberTable(
         values=heights if heights.ndim == 2 else heights[:, None],
         unit=str(found.unit or ""),
