@@ -1,5 +1,6 @@
 """Tables as others export them: delimiter, decimal sign, header, units, encoding and places are recognised and told."""
 
+import io
 import re
 from pathlib import Path
 
@@ -7,10 +8,12 @@ import numpy as np
 import pytest
 
 from tests.scenes.test_rail_files import CURVE, LEVELS, loaded
+from validation.scenes import level_files, line_files
 from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
+from validation.scenes.height_edits import edited_lines
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.number_table import KEYS, TableForm
+from validation.scenes.number_table import KEYS, TableForm, table_of_text
 from validation.scenes.positions import places_of
 from validation.scenes.table_files import read_table
 
@@ -326,6 +329,56 @@ def test_lines_keep_the_slope_beyond_their_last_known_point(tmp_path):
     contents = "x [mm];z [um]\n" + rows((i / 2, "" if i > 797 else z) for i, z in enumerate(ramp))
     line = line_of(rail_with(tmp_path, "lines", contents, "fill = true"))
     assert 1e6 * np.diff(line[-3:]) == pytest.approx(0.5, abs=0.05)
+
+
+# Without a file
+
+
+def in_memory(text, **form):
+    return table_of_text(io.BytesIO(text.encode()), TableForm(**form))
+
+
+def test_the_place_along_the_track_is_no_line():
+    table = in_memory("x [mm];z [um]\n" + rows(enumerate(Z)))
+    lines = line_files._along_the_track(table, metre=None, spacing=1e-3)
+    assert lines.height.shape == (800, 1) and lines.height[:, 0] == pytest.approx(1e-6 * Z)
+
+
+def test_wavenumbers_are_cycles_over_a_metre():
+    assert level_files._wavelengths(np.array([10.0, 16.0, 31.5]), "1/m")[0] == [0.1, 0.063, 0.0315]
+    assert level_files._wavelengths(np.array([0.1, 0.16]), "1/cm")[0] == [0.1, 0.063]
+    assert level_files._wavelengths(np.array([62.8, 100.5]), "rad/m")[0] == [0.1, 0.063]
+
+
+def test_holes_of_a_line_lie_between_their_neighbours():
+    line = np.array([0.0, 1.0, np.nan, 3.0, 9.0] + 300 * [0.0])[:, np.newaxis]
+    found, edits = edited_lines(line, fill=True, asked_by="")
+    assert found[2, 0] == pytest.approx(2.0) and edits.filled == 1
+
+
+@pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
+def test_cells_without_data_are_no_numbers(cell):
+    values = in_memory(f"1;2\n3;{cell}\n4;5\n6;7\n", nodata=(7.5,)).values
+    assert values[:, 0].tolist() == [1, 3, 4, 6] and np.isnan(values[:, 1]).tolist() == [False, True, False, False]
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("1,5;2,5\n3,5;4,5\n", [[1.5, 2.5], [3.5, 4.5]]),
+        ("1,5 2,5\n3,5 4,5\n", [[1.5, 2.5], [3.5, 4.5]]),
+        ("1, 2.5\n3, 4.5\n", [[1.0, 2.5], [3.0, 4.5]]),
+        ("1.5D-1 2e3\n-.5 +4.\n", [[0.15, 2000.0], [-0.5, 4.0]]),
+        ("\N{MINUS SIGN}1,5\t2\n3\t4\n", [[-1.5, 2.0], [3.0, 4.0]]),
+        ("0,05\n0,25\n", [[0.05], [0.25]]),
+        ("a;b\n1;2;\n3;4;\n", [[1.0, 2.0], [3.0, 4.0]]),
+        ("1 2  # a remark\n\n# more\n3 4\n\x1a", [[1.0, 2.0], [3.0, 4.0]]),
+        (";1;2\n0;3;4\n1;5;6\n", [[np.nan, 1.0, 2.0], [0.0, 3.0, 4.0], [1.0, 5.0, 6.0]]),
+        ("Points\n3\nx;y\n1;2\n3;4\n", [[1.0, 2.0], [3.0, 4.0]]),
+    ],
+)
+def test_numbers_are_what_is_written(text, values):
+    np.testing.assert_array_equal(in_memory(text).values, values)
 
 
 # Names, places and forms

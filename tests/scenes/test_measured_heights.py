@@ -187,10 +187,8 @@ def test_a_unit_that_is_none_is_refused():
 @pytest.mark.parametrize("more", [{}, {"info": {}}, {"info": {"unit": ""}}])
 def test_an_object_that_names_no_unit_is_asked_for_it(more):
     one = surface(1e6 * drawn(), (1e6 * N * DX, 1e6 * N * DX), unit=None, **more)
-    with pytest.raises(
-        ValueError, match=r'^unit of the surface must be known, .* measured\(surface, unit="m"\) says it$'
-    ):
-        measured(one)
+    said = refusal(lambda: measured(one))
+    assert said.startswith("unit of the surface must be known") and said.endswith('measured(surface, unit="m") says it')
     assert measured(one, unit="um").rms == pytest.approx(heights(drawn()).rms, rel=1e-12)
     with pytest.raises(ValueError, match=r"^unit of the surface must be one, got unit 'um' and unit= 'mm'$"):
         measured(surface(drawn(), unit="um"), unit="mm")

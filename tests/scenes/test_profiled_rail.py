@@ -256,13 +256,28 @@ def two_tops(gap):
     return profile_of(np.maximum(-(y**2) / 600, -((y - 30) ** 2) / 600 - gap), y)
 
 
+def second_contact(gap, load):
+    """What is said of two crowns under a load; nothing where only one touches."""
+    try:
+        assert fitted_radius(two_tops(gap), along=0.46, modulus=STEEL, load=load) == pytest.approx(0.3, rel=1e-3)
+    except ValueError as problem:
+        return str(problem)
+    return ""
+
+
 def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none():
     """The approach is 66 um; 30 mm beside the contact the surfaces give way by F / (pi E* r) = 4.6 um."""
-    wheel = {"along": 0.46, "modulus": STEEL, "load": 5e4}
-    assert fitted_radius(two_tops(0.064), **wheel) == pytest.approx(0.3, rel=1e-3)
-    with pytest.raises(ValueError, match=r"one contact under the load, got a second one \+(29|30)\S* mm beside"):
-        fitted_radius(two_tops(0.058), **wheel)
-    assert fitted_radius(two_tops(0.058), **{**wheel, "load": 3e4}) == pytest.approx(0.3, rel=1e-3)
+    assert second_contact(0.064, 5e4) == second_contact(0.058, 3e4) == ""
+    assert re.search(r"one contact under the load, got a second one \+(29|30)\S* mm beside", second_contact(0.058, 5e4))
+
+
+def test_two_bodies_touch_where_both_together_are_highest():
+    """-(y^2 / 600 + (y - 6)^2 / 1200) at y = 2 mm; a crown of 300 mm is as steep as a cone of 1 in 100 at 3 mm."""
+    rail, cone = profile_of(parabola(300.0)), profile_of(-Y / 100)
+    assert both_together([rail, profile_of(parabola(600.0)).moved(6e-3)], 0.0).at == pytest.approx(2e-3, abs=3e-6)
+    assert both_together([rail], 1 / 0.6, 6e-3).at == pytest.approx(2e-3, abs=3e-6)
+    for offset in (0.0, 5e-3, -5e-3):
+        assert both_together([rail, cone.moved(offset)], 0.0).at == pytest.approx(-3e-3, abs=3e-6)
 
 
 def test_a_contact_on_a_flank_is_refused():

@@ -2,6 +2,7 @@
 
 import contextlib
 import sys
+import warnings
 from types import ModuleType, SimpleNamespace
 
 import numpy as np
@@ -40,7 +41,8 @@ class StandIn:
 def topographies():
     """The package; the test is skipped where it, or what it imports, is not there."""
     try:
-        import SurfaceTopography
+        with warnings.catch_warnings(action="ignore"):
+            import SurfaceTopography
     except ImportError as reason:
         pytest.skip(f"could not import SurfaceTopography: {reason}")
     return SurfaceTopography

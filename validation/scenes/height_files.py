@@ -95,7 +95,7 @@ def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None
     x, y = (named.index("x"), named.index("y")) if {"x", "y"} <= set(named) else (0, 1)
     z = 3 - x - y
     grid = grid_of(numbers.values[:, x], numbers.values[:, y], heights_of_columns(numbers, [z], metre)[:, 0])
-    units = [numbers.columns[i].unit or numbers.unit for i in (x, y)]
+    units = [numbers.columns[i].unit for i in (x, y)]
     known = _agreed(grid.steps, units, spacing, numbers.names([x, y]))
     size = " x ".join(map(str, grid.height.shape))
     shown = " and ".join(in_unit(step, "length") for step in known)

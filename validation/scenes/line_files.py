@@ -92,8 +92,9 @@ def _along_the_track(numbers: NumberTable, *, metre: float | None, spacing: floa
         return _Lines(height, _known(spacing), tuple(notes))
     (at,) = places
     name = numbers.names([at])
-    step = metres_of_step(places[at].step, numbers.columns[at].unit or numbers.unit, spacing, name)
-    notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {_shown(numbers, rest)}")
+    step = metres_of_step(places[at].step, numbers.columns[at].unit, spacing, name)
+    lines = f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
+    notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {lines}")
     known = np.isfinite(numbers.values[:, at])
     whole = np.full((int(places[at].number[-1]) + 1, len(rest)), np.nan)
     whole[places[at].number] = height[known]
@@ -146,20 +147,15 @@ def _kinds(numbers: NumberTable) -> tuple[dict[int, Places], dict[int, str]]:
 
 def _one_place(numbers: NumberTable, places: dict[int, Places]) -> dict[int, Places]:
     """The one column of places among those that run evenly. Raises ValueError."""
-    lengths = {i: one for i, one in places.items() if (numbers.columns[i].unit or numbers.unit) in LENGTHS}
-    unnamed = {i: one for i, one in places.items() if not (numbers.columns[i].unit or numbers.unit)}
-    no_counts = {i: one for i, one in unnamed.items() if not one.counts}
-    found = lengths or no_counts or unnamed
+    lengths = {i: one for i, one in places.items() if numbers.columns[i].unit in LENGTHS}
+    unnamed = {i: one for i, one in places.items() if not numbers.columns[i].unit}
+    found = lengths or {i: one for i, one in unnamed.items() if not one.counts} or unnamed
     if len(found) > 1:
         raise ValueError(
             f"columns must have one that runs evenly, the place along the track, got {numbers.names(sorted(found))}: "
             "say which to read by columns"
         )
     return found
-
-
-def _shown(numbers: NumberTable, rest: list[int]) -> str:
-    return f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
 
 
 def _positions(name: str, given: object) -> list[float]:

@@ -155,14 +155,14 @@ def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> Numbe
     """NaN in place of the values of nodata, and of those that instruments write for it, far from all others."""
     values, notes = table.values, list(table.notes)
     wanted = [float(one) for one in nodata if not isinstance(one, str)]
-    gone = np.isin(values, wanted) | (np.abs(values) > HUGE) & np.isfinite(values)
-    parts = [values[:, [i]] for i in range(values.shape[1])] if values.shape[1] <= FEW else [values]
-    found = [[one for one in SENTINELS if one not in wanted and _is_lonely(part, one)] for part in parts]
-    for part, lonely, place in zip(parts, found, range(len(parts)), strict=True):
-        for one in lonely:
-            where = part == one
-            gone[:, [place] if len(parts) > 1 else slice(None)] |= where
-            notes.append(f"{one:g} stands for no data at {int(where.sum())} of {part.size} points, far from all others")
+    gone = np.isin(values, wanted)
+    for i in range(values.shape[1]) if values.shape[1] <= FEW else [slice(None)]:
+        part = values[:, i]
+        huge = np.isfinite(part) & (np.abs(part) > HUGE)
+        found = {f"{one:g}": part == one for one in SENTINELS if one not in wanted and _is_lonely(part, one)}
+        for shown, where in [*found.items(), *([(f"more than {HUGE:g}", huge)] if huge.any() else [])]:
+            gone[:, i] |= where
+            notes.append(f"{shown} stands for no data at {int(where.sum())} of {part.size} points, far from all others")
     return replace(table, values=np.where(gone, np.nan, values), notes=tuple(notes)) if gone.any() else table
 
 

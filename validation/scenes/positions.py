@@ -99,14 +99,14 @@ def metres_of_step(step: float, unit: str, given: float | None, what: str) -> fl
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class GriddedHeights:
     """Heights of shape (nx, ny), NaN where no row has the point, and the steps along both axes."""
 
     height: FloatArray
     steps: tuple[float, float]
 
 
-def grid_of(x: FloatArray, y: FloatArray, z: FloatArray) -> Grid:
+def grid_of(x: FloatArray, y: FloatArray, z: FloatArray) -> GriddedHeights:
     """Heights over a regular grid from rows of x, y and z in any order. Raises ValueError where there is no grid."""
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
         raise ValueError("x and y must be known in each row, got some without data")
@@ -130,4 +130,4 @@ def grid_of(x: FloatArray, y: FloatArray, z: FloatArray) -> Grid:
             f"{height.shape[0]} x {height.shape[1]} places, with some twice or most missing"
         )
     height.flat[flat] = z
-    return Grid(height, (of_x.step, of_y.step))
+    return GriddedHeights(height, (of_x.step, of_y.step))

@@ -4,7 +4,8 @@ import codecs
 import csv
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from typing import IO
@@ -43,7 +44,7 @@ class Dialect:
 
     delimiter: str
     decimal: str
-    nodata: frozenset[str] = field(default=MISSING)
+    nodata: frozenset[str] = MISSING
 
     def cells(self, line: str) -> list[str]:
         """Those of one line."""
@@ -63,12 +64,10 @@ class Dialect:
 
     def numbers(self, cells: Sequence[str]) -> list[float]:
         """Of a line. Raises ValueError for cells that are none."""
-        if self.decimal == ".":
-            try:
-                found = list(map(float, cells))
-            except ValueError:
-                return list(map(self.number, cells))
-            return found if not any("_" in cell for cell in cells) else list(map(self.number, cells))
+        with suppress(ValueError):
+            # most lines have neither holes nor commas; Python alone reads 1_000
+            if self.decimal == "." and not any("_" in cell for cell in cells):
+                return list(map(float, cells))
         return list(map(self.number, cells))
 
     def is_number(self, cell: str) -> bool:
@@ -205,7 +204,7 @@ def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, 
     said = [i for i in range(skip, first) if not dialect.says_nothing(lines[i])]
     for i in said:
         if dialect.row(lines[i]) == columns and columns > 1:
-            bad = next(j for j in said if j > i and not dialect.row(lines[j]))
+            bad = next(j for j in said if j > i and dialect.row(lines[j]) != columns)
             raise ValueError(about_row(lines[bad], bad, dialect, columns))
     if not said:
         return

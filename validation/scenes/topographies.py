@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,7 +19,12 @@ MISSING = (
 
 @contextlib.contextmanager
 def _silent() -> Iterator[None]:
-    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+    """Some of its readers print what stands in a file that they cannot read."""
+    with (
+        contextlib.redirect_stdout(io.StringIO()),
+        contextlib.redirect_stderr(io.StringIO()),
+        warnings.catch_warnings(action="ignore"),
+    ):
         yield
 
 
@@ -28,11 +34,11 @@ def topography_of(path: Path) -> NumberTable:
     Raises ValueError where SurfaceTopography is missing or cannot read the file; the sentence shows nothing of it.
     """
     try:
-        from SurfaceTopography.IO import open_topography
+        with _silent():
+            from SurfaceTopography.IO import open_topography
     except ImportError:
         raise ValueError(MISSING) from None
     try:
-        # some of its readers print what stands in a file that they cannot read
         with _silent(), open_topography(str(path)) as reader:
             channel = reader.default_channel
             sizes = {} if channel.physical_sizes is not None else {"physical_sizes": channel.nb_grid_pts}
