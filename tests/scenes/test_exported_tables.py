@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.scenes.test_rail_files import CURVE, LEVELS, loaded
 from validation.scenes import level_files, line_files
@@ -16,6 +18,7 @@ from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.number_table import KEYS, TableForm, table_of_text
 from validation.scenes.positions import places_of
 from validation.scenes.table_files import read_table
+from validation.scenes.text_dialect import WRITTEN
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
 """Nominal wavelengths [mm] and levels [dB]."""
@@ -64,6 +67,10 @@ EXPORTS = {
         "semicolons between its columns, decimal commas.",
     ),
     "UTF-16": (("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16"), "the encoding utf-16."),
+    "UTF-16 without its mark": (
+        ("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16-le"),
+        "the encoding utf-16-le.",
+    ),
     "an old Mac": (
         ("wavelength_mm\tlevel_dB\n" + rows(BANDS, "\t")).replace("\n", "\r").encode(),
         "it has tabs between",
@@ -125,7 +132,17 @@ TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1
         ("1\n2\n3\nwavelength [mm];L [dB]\n" + rows(BANDS), "skip = 3", "skip"),
         ("wavelength [mm];L [dB]\n125;x\n" + rows(BANDS), 'nodata = "x"', 'as: nodata = "x"'),
         ("wavelength [mm];L [dB]\n" + rows(BANDS) + "25;77.7\n", "nodata = 77.7", "level"),
-        (GERMAN.encode("utf-16-le"), 'encoding = "utf-16-le"', "format of an instrument|read"),
+        (
+            GERMAN.replace("µ", "u").encode("cp500"),
+            'encoding = "cp500"',
+            "got none in its first 8 lines: .*, encoding says",
+        ),
+        (
+            "time;lambda [mm];L [dB]\n" + rows((f"12:30:{i}", w, level) for i, (w, level) in enumerate(BANDS)),
+            'columns = ["lambda", "L"]',
+            "got '12:30:5' in column 1 of line 7: .* a column by columns",
+        ),
+        ("text\n" * 3000 + "lambda [mm];L [dB]\n" + rows(BANDS), "skip = 3000", "skip leaves out more"),
     ],
 )
 def test_keys_decide_where_recognition_cannot(tmp_path, contents, key, said):
@@ -356,6 +373,32 @@ def test_holes_of_a_line_lie_between_their_neighbours():
     assert found[2, 0] == pytest.approx(2.0) and edits.filled == 1
 
 
+WAYS = st.sampled_from([way for way in WRITTEN if way != (",", ",")])
+NUMBERS = st.one_of(st.integers(-(10**6), 10**6).map(float), st.floats(-1e3, 1e3).map(lambda value: round(value, 3)))
+LINES = st.lists(
+    st.sampled_from(["Date: 2024-05-01", "Instrument 7", "# a comment", "", "Key;value", "a\tb"]), max_size=4
+)
+
+
+@given(way=WAYS, width=st.integers(1, 5), count=st.integers(3, 9), above=LINES, named=st.booleans(), data=st.data())
+def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, width, count, above, named, data):
+    delimiter, decimal = way
+    values = [[data.draw(NUMBERS) for _ in range(width)] for _ in range(count)]
+    sign = delimiter or "  "
+    names = [sign.join(f"c{i} [mm]" for i in range(width))] if named else []
+    written = [sign.join(f"{value:g}".replace(".", decimal) for value in row) for row in values]
+    text = "\n".join([*above, *names, *written])
+    shown = [[float(f"{value:g}") for value in row] for row in values]
+    try:
+        table = in_memory(text)
+    except ValueError as problem:
+        assert "decimal" in str(problem) and not named and width < 3
+        table = in_memory(text, decimal=decimal)
+    if named or width > 2:
+        np.testing.assert_array_equal(table.values, shown)
+    assert not named or [column.unit for column in table.columns] == ["mm"] * width
+
+
 @pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
 def test_cells_without_data_are_no_numbers(cell):
     values = in_memory(f"1;2\n3;{cell}\n4;5\n6;7\n", nodata=(7.5,)).values
@@ -374,6 +417,7 @@ def test_cells_without_data_are_no_numbers(cell):
         ("a;b\n1;2;\n3;4;\n", [[1.0, 2.0], [3.0, 4.0]]),
         ("1 2  # a remark\n\n# more\n3 4\n\x1a", [[1.0, 2.0], [3.0, 4.0]]),
         (";1;2\n0;3;4\n1;5;6\n", [[np.nan, 1.0, 2.0], [0.0, 3.0, 4.0], [1.0, 5.0, 6.0]]),
+        ("0 1 No Data\n1 1 7\n2 1 8\n", [[0.0, 1.0, np.nan], [1.0, 1.0, 7.0], [2.0, 1.0, 8.0]]),
         ("Points\n3\nx;y\n1;2\n3;4\n", [[1.0, 2.0], [3.0, 4.0]]),
     ],
 )
@@ -393,6 +437,8 @@ def test_numbers_are_what_is_written(text, values):
         ("z / μm", Column("z", "um")),
         ("y_mm", Column("y", "mm")),
         ('"Lr [dB]"', Column("Lr", "dB")),
+        ("Level, dB (re 1 µm)", Column("Level", "dB", "1 um")),
+        ("height (microns)", Column("height", "um")),
         ("level [dB re 1 um]", Column("level", "dB", "1 um")),
         ("L [dB] re 1 µm", Column("L", "dB", "1 um")),
         ("k [1/m]", Column("k", "1/m")),

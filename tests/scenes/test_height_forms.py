@@ -121,6 +121,12 @@ def test_three_columns_are_x_y_and_height_in_any_order_of_rows(tmp_path, file):
     assert f"{file}: its columns are x, y and height of 64 x 48 points, 500 nm and 1 µm apart." in ground.notes()
 
 
+def test_columns_that_are_named_x_y_and_z_are_found_among_others(tmp_path):
+    rows = [f"{i},{j},{99 - i},{1e9 * HEIGHT[i, j]:.9f},1\n" for i in range(64) for j in range(64)]
+    (tmp_path / "face.csv").write_text("X [um],Y [um],intensity,Z [nm],mask\n" + "".join(rows))
+    assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
+
+
 def test_places_of_a_grid_without_units_have_those_of_the_spacing(tmp_path):
     square = [f"{i} {j} {1e9 * HEIGHT[i, j]:.9f}\n" for j in range(64) for i in range(64)]
     (tmp_path / "face.txt").write_text("".join(square))

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from validation.scenes.units import UNITS
 
 MICRO = re.compile("[\N{GREEK SMALL LETTER MU}\N{MICRO SIGN}]")
-OTHER_WORDS = {"micron": "um", "microns": "um", "Å": "Å", "pm": "pm", "db": "dB", "DB": "dB", "dB": "dB"}
+OTHER_WORDS = {"Å": "Å", "pm": "pm", "db": "dB", "DB": "dB", "dB": "dB", "micron": "um", "microns": "um"}
+OTHER_WORDS |= {f"{word}met{end}": unit for word, unit in (("micro", "um"), ("milli", "mm")) for end in ("er", "re")}
 WAVENUMBERS = {"1/m": 1.0, "m^-1": 1.0, "m-1": 1.0, "m⁻¹": 1.0, "1/cm": 1e2, "1/mm": 1e3}
 """Cycles over a length, in cycles over a metre."""
 KNOWN = {unit: unit for unit in (*UNITS["length"], *WAVENUMBERS, "rad/m") if unit != "µm"} | OTHER_WORDS
 AT_THE_END = re.compile(
-    rf"(?:^|[\s_/,])({'|'.join(map(re.escape, sorted(KNOWN, key=len, reverse=True)))})(?:\s+(?:re|ref|rel)\b.*)?$"
+    rf"(?:^|[\s_/,])({'|'.join(map(re.escape, sorted(KNOWN, key=len, reverse=True)))})(?:,?\s+\(?(?:re|ref|rel)\b.*)?$"
 )
 IN_BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
 REFERENCE = re.compile(r"\b(?:re|ref|rel)\b\.?:?\s*([^\])]*)")

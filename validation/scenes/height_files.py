@@ -63,7 +63,9 @@ def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) ->
         own = [one * (1 if numbers.unit else metre or 1) for one in (*numbers.spacing, 1.0)[:2]]
         known = _agreed(own, [numbers.unit or "m"] * 2, spacing, "the file")
         return heights_of_columns(numbers, every, metre), known, ()
-    if values.shape[1] == 3 and len(values) > FEWEST:
+    if {"x", "y", "z"} <= {column.name.lower() for column in numbers.columns}:
+        numbers = numbers.chosen(["x", "y", "z"])
+    if numbers.values.shape[1] == 3 and len(values) > FEWEST:
         return _of_three(numbers, metre, spacing)
     return _of_rows(numbers, metre, spacing)
 

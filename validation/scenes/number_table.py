@@ -111,9 +111,10 @@ def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
     text = io.TextIOWrapper(file, encoding=encoding)
     try:
         lines = lines_of(text)
-        sample = sample_of(lines)
+        sample = sample_of(lines, skip)
         nodata = frozenset(str(one).strip().lower() for one in form.nodata)
-        dialect, first, width = recognised(sample, skip, form.decimal, nodata)
+        numeric = None if form.columns is None else len(form.columns)
+        dialect, first, width = recognised(sample, skip, form.decimal, nodata, numeric)
         values = _values(chain(islice(sample, first, None), lines), first, dialect, width)
     finally:
         text.detach()

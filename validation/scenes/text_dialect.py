@@ -2,12 +2,13 @@
 
 import codecs
 import csv
+import math
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from itertools import islice
+from itertools import islice, takewhile
 from typing import IO
 
 from validation.scenes.column_names import column_of
@@ -15,7 +16,7 @@ from validation.scenes.printable import printable
 
 MOST_LINES, LONGEST_LINE = 2**23, 2**25
 """Of a file; characters of a line."""
-MOST_HEADER, SAMPLE, RUN = 1000, 2**20, 3
+MOST_HEADER, SAMPLE, RUN = 2000, 2**20, 3
 """Lines in which the first row of numbers is looked for, and characters; rows on end that make a table."""
 CHUNK = 2**20
 """Bytes that are decoded at once, to see whether they can be."""
@@ -26,12 +27,16 @@ COMMENTS = ("#", "%", "//", ";")
 """How a line begins that holds no numbers; one of a table between semicolons may have an empty first cell."""
 WRITTEN = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","), (",", ","))
 """Delimiter, "" for white space, and decimal sign; commas for both stand between quotation marks."""
-MISSING = frozenset(("", "nan", "na", "n/a", "#n/a", "#nv", "null", "none", "bad", "-", "--", "---"))
+MISSING = frozenset(
+    ("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "na", "n/a", "#n/a", "#nv", "null")
+) | {"nodata", "bad", "-", "--", "---"}
 """Cells of points without data, in small letters; asterisks are, too."""
+NO_DATA = re.compile(r"(?i)\bno data\b")
 THOUSANDS = re.compile(
     r"^[+-]?\d{1,3}(?:([.,' \u00a0\u2009\u202f’])\d{3}(?:\1\d{3})*[.,]\d+|([.,'])\d{3}(?:\2\d{3})+)$"
 )
 FORTRAN = re.compile(r"[+-]?[\d.]+[dD][+-]?\d+")
+COMMA = re.compile(r"[+-]?\d*,\d+")
 STARTS = re.compile(r"\s*[-+]?\d").match
 """Whether a cell begins as a number does."""
 SHOWN = 20
@@ -40,11 +45,15 @@ SHOWN = 20
 
 @dataclass(frozen=True)
 class Dialect:
-    """delimiter: "" for white space; decimal: "." or ","; nodata: cells, in small letters, of points without data."""
+    """delimiter: "" for white space; decimal: "." or ","; nodata: cells, in small letters, of points without data.
+
+    numeric: cells of a row that are numbers, at the least, where others may be texts; None: all that have data.
+    """
 
     delimiter: str
     decimal: str
     nodata: frozenset[str] = MISSING
+    numeric: int | None = None
 
     def cells(self, line: str) -> list[str]:
         """Those of one line."""
@@ -56,7 +65,7 @@ class Dialect:
         """Of one cell, NaN for one without data. Raises ValueError."""
         text = cell.strip().strip('"')
         if text.lower() in self.nodata or (text and not text.strip("*")):
-            return float("nan")
+            return math.nan
         if "_" in text or (self.decimal == "," and "." in text):
             raise ValueError(text)
         text = text.replace("\N{MINUS SIGN}", "-").replace(self.decimal, ".")
@@ -68,7 +77,12 @@ class Dialect:
             # most lines have neither holes nor commas; Python alone reads 1_000
             if self.decimal == "." and not any("_" in cell for cell in cells):
                 return list(map(float, cells))
-        return list(map(self.number, cells))
+        if self.numeric is None:
+            return list(map(self.number, cells))
+        found = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
+        if sum(number == number for number in found) < self.numeric:
+            raise ValueError
+        return found
 
     def is_number(self, cell: str) -> bool:
         """Whether a cell is one, and no point without data."""
@@ -78,13 +92,13 @@ class Dialect:
             return False
         return found == found
 
-    def row(self, line: str) -> int:
-        """How many columns a line of numbers has, 0 if it is none."""
+    def row(self, line: str, *, known: bool = True) -> int:
+        """How many columns a line of numbers has, 0 if it is none. known: whether one at least must have data."""
         if self.delimiter == self.decimal and '"' not in line:
             return 0
         cells = self.cells(line)
         try:
-            return len(cells) if any(number == number for number in self.numbers(cells)) else 0
+            return len(cells) if any(number == number for number in self.numbers(cells)) or not known else 0
         except ValueError:
             return 0
 
@@ -104,6 +118,8 @@ def encoding_of(file: IO[bytes], given: str | None) -> str:
     file.seek(0)
     start = file.read(4)
     known = given or next((name for mark, name in MARKS if start.startswith(mark)), None)
+    if known is None and start[1::2] == b"\x00\x00" and 0 not in start[::2]:
+        known = "utf-16-le"
     for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
         decoder = codecs.getincrementaldecoder(encoding)()
         file.seek(0)
@@ -130,42 +146,46 @@ def lines_of(file: IO[str]) -> Iterator[str]:
             raise ValueError(
                 f"the file must have at most {MOST_LINES} lines of at most {LONGEST_LINE} characters, got more"
             )
-        # an inline comment, and the end of a file of DOS
-        yield line.partition(" #")[0].rstrip("\r\n\x1a") if "#" in line or "\x1a" in line else line.rstrip("\r\n")
+        # an inline comment, the end of a file of DOS, and the two words of an interferometer
+        line = NO_DATA.sub("nan", line) if "ata" in line else line
+        yield line.partition(" #")[0].rstrip("\r\n\x1a")
 
 
-def sample_of(lines: Iterator[str]) -> list[str]:
-    """The first lines."""
-    found, characters = [], 0
+def sample_of(lines: Iterator[str], skip: int) -> list[str]:
+    """The first lines, and some below those to skip."""
+    found, characters = list(islice(lines, skip)), 0
     for line in islice(lines, MOST_HEADER):
         found.append(line)
         characters += len(line)
-        if characters > SAMPLE and len(found) > RUN:
+        if characters > SAMPLE and len(found) > skip + RUN:
             break
     return found
 
 
 def recognised(
-    lines: Sequence[str], skip: int, decimal: str | None, nodata: frozenset[str]
+    lines: Sequence[str], skip: int, decimal: str | None, nodata: frozenset[str], numeric: int | None
 ) -> tuple[Dialect, int, int]:
     """How the first lines of a file are written, the index of its first row of numbers, and its number of columns.
 
-    skip: lines at the top that are none of the table. Raises ValueError.
+    skip: lines at the top that are none of the table; numeric: as of a `Dialect`. Raises ValueError.
     """
     found = []
     for delimiter, sign in WRITTEN:
-        dialect = Dialect(delimiter, sign, MISSING | nodata)
+        dialect = Dialect(delimiter, sign, MISSING | nodata, numeric)
         if decimal in (None, sign) and (start := _start(lines, skip, dialect)):
             found.append((start[0], dialect, start[1]))
     if not found:
         raise ValueError(_no_table(lines, skip, decimal))
     first = min(start for start, _, _ in found)
-    tied = [(other, width) for start, other, width in found if start == first]
-    points = next((one for one in tied if one[0] == Dialect(",", ".", one[0].nodata) and one[1] == 2), None)
+    # whole numbers are the same in any way of writing: later lines decide
+    tied = [(other, width, _read_by(lines[first:], other, width)) for start, other, width in found if start == first]
+    most = max(count for _, _, count in tied)
+    tied = [one for one in tied if one[2] == most]
+    points = next((one for one in tied if (one[0].delimiter, one[0].decimal, one[1]) == (",", ".", 2)), None)
     commas = next((one for one in tied if one[0].decimal == "," and one[1] == 1), None)
-    dialect, columns = tied[0]
+    dialect, columns, _ = tied[0]
     if points and commas:
-        dialect, columns = commas if _has_decimal_commas(lines[skip:first], lines[first:], points[0]) else points
+        dialect, columns, _ = commas if _has_decimal_commas(lines[skip:first], lines[first:], points[0]) else points
     _check_above(lines, skip, first, dialect, columns)
     return dialect, first, columns
 
@@ -183,6 +203,12 @@ def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int]
         if len(run) == RUN:
             break
     return (run[0], columns) if run else None
+
+
+def _read_by(lines: Sequence[str], dialect: Dialect, columns: int) -> int:
+    """How many lines a dialect reads as rows of so many columns before one that is none."""
+    rows = (line for line in lines if not dialect.says_nothing(line))
+    return sum(1 for _ in takewhile(lambda line: dialect.row(line, known=False) == columns, rows))
 
 
 def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Dialect) -> bool:
@@ -232,7 +258,10 @@ def _no_table(lines: Sequence[str], skip: int, decimal: str | None) -> str:
     cells = re.split(r"[;\t\"]", "\t".join(lines[skip:]))
     if thousands := next((cell for cell in cells if THOUSANDS.match(cell.strip())), None):
         return f"numbers must have no sign between thousands, got {token(thousands)}"
-    return f"the file must hold rows of numbers, got none in its first {len(lines)} lines: skip leaves out more of them"
+    return (
+        f"the file must hold rows of numbers, got none in its first {len(lines)} lines: skip leaves out more of them, "
+        "encoding says how they are written"
+    )
 
 
 def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
@@ -244,9 +273,12 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
         except ValueError:
             if THOUSANDS.match(cell.strip()):
                 return f"numbers must have no sign between thousands, got {token(cell)} in line {index + 1}"
+            if dialect.decimal == "." and COMMA.fullmatch(cell.strip()):
+                return f'decimal commas must be told, as: decimal = ",", got {token(cell)} in line {index + 1}'
             return (
                 f"rows must be numbers, got {token(cell)} in column {i + 1} of line {index + 1}: a comment begins with "
-                f'a #, a header is left out by skip, a cell without data told, as: nodata = "{token(cell, bare=True)}"'
+                f"a #, a header is left out by skip, a column by columns, a cell without data told, as: nodata = "
+                f'"{token(cell, bare=True)}"'
             )
     return (
         f"rows must be of one length, got {len(cells)} {'cell' if len(cells) == 1 else 'cells'} in line {index + 1} of "
