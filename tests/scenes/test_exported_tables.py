@@ -295,11 +295,16 @@ def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
             (),
             "one that runs evenly, .*columns",
         ),
-        (rows((i,) for i in range(99)), ('spacing = "1 mm"',), "got one column that runs one way"),
+        (rows((i,) for i in range(99)), ('spacing = "1 mm"',), "got one column that runs evenly"),
+        (
+            "x [mm],z [um]\n" + rows(enumerate(Z), ","),
+            ('positions = ["-5 mm", "5 mm"]',),
+            r"positions must be one a line, got 2 for 1: x \[mm\] is the place along the track, 1 mm apart, and z",
+        ),
         (
             "x [mm],z [um]\n" + rows(enumerate(Z), ","),
             ('unit = "mm"',),
-            "unit must be that of the file, um, or be left",
+            "unit must be that of the file, um, or be left out, got 1 mm",
         ),
         (
             "x [mm],v [m/s]\n" + rows(enumerate(Z), ","),
@@ -312,6 +317,15 @@ def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
 )
 def test_lines_that_cannot_be_told_are_refused_by_the_key_that_helps(tmp_path, contents, keys, said):
     refused(tmp_path, "lines", contents, *keys, said=rf"rail\.lines\..*{said}")
+
+
+def test_a_line_may_be_tilted_as_much_as_to_run_one_way(tmp_path):
+    tilted = np.round(Z + 50 * np.arange(800), 3)
+    scene = rail_with(tmp_path, "lines", "x [mm],z [um]\n" + rows(enumerate(tilted), ","))
+    assert line_of(scene) == pytest.approx(1e-6 * tilted)
+    both = rows(((z, h) for z, h in zip(tilted, Z, strict=True)), ",")
+    keys = 'spacing = "1 mm"', 'unit = "um"', 'positions = ["0 mm", "5 mm"]'
+    assert rail_with(tmp_path, "lines", both, *keys).roughness.height.shape == (800, 2)
 
 
 GONE = {3: "BAD", 10: "***", 11: "", 12: "-9999", 13: "NaN"}
@@ -374,7 +388,7 @@ def test_holes_of_a_line_lie_between_their_neighbours():
 
 
 WAYS = st.sampled_from([way for way in WRITTEN if way != (",", ",")])
-NUMBERS = st.one_of(st.integers(-(10**6), 10**6).map(float), st.floats(-1e3, 1e3).map(lambda value: round(value, 3)))
+NUMBERS = st.one_of(st.integers(-900, 900).map(float), st.floats(-1e3, 1e3).map(lambda value: round(value, 3)))
 LINES = st.lists(
     st.sampled_from(["Date: 2024-05-01", "Instrument 7", "# a comment", "", "Key;value", "a\tb"]), max_size=4
 )

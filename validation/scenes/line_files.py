@@ -42,7 +42,10 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
     path, form = folder / found.pop("file"), form_of(found)
     numbers = read_table(f"{name}.file", path, form)
     with key_in_errors(name):
-        lines = _along_the_track(numbers, metre=found.pop("unit", None), spacing=found.pop("spacing", None))
+        count = len(found["positions"]) if "positions" in found else None
+        lines = _along_the_track(
+            numbers, metre=found.pop("unit", None), spacing=found.pop("spacing", None), count=count
+        )
         height, edits = edited_lines(lines.height, fill=found.pop("fill", False), asked_by="fill = true")
         measured = MeasuredLines(height=height, spacing=lines.spacing, **found)
         if not measured.height.any():
@@ -73,8 +76,13 @@ class _Lines:
     notes: tuple[str, ...] = ()
 
 
-def _along_the_track(numbers: NumberTable, *, metre: float | None, spacing: float | None) -> _Lines:
-    """The columns that are lines, in the order of their places. Raises ValueError that begins with a key."""
+def _along_the_track(
+    numbers: NumberTable, *, metre: float | None, spacing: float | None, count: int | None = None
+) -> _Lines:
+    """The columns that are lines, in the order of their places. Raises ValueError that begins with a key.
+
+    count: how many lines there are, if it is known.
+    """
     values = numbers.values
     if values.ndim == 1 or (values.ndim == 2 and len(values) == 1):
         numbers = NumberTable(values=values.reshape(-1, 1), unit=numbers.unit, notes=numbers.notes)
@@ -82,7 +90,7 @@ def _along_the_track(numbers: NumberTable, *, metre: float | None, spacing: floa
         raise ValueError(f"file must have a column a line, got an array of shape {shortened(values.shape)}")
     if numbers.spacing is not None or numbers.values.shape[1] == 1:
         return _of_one(numbers, metre, spacing)
-    places, left_out = _kinds(numbers)
+    places, left_out = _kinds(numbers, count)
     rest = [i for i in range(len(numbers.columns)) if i not in left_out]
     if not rest:
         raise ValueError(f"file must have heights beside places, got {numbers.names(sorted(left_out))} alone")
@@ -95,6 +103,8 @@ def _along_the_track(numbers: NumberTable, *, metre: float | None, spacing: floa
     step = metres_of_step(places[at].step, numbers.columns[at].unit, spacing, name)
     lines = f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
     notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {lines}")
+    if count not in (None, len(rest)):
+        raise ValueError(f"positions must be one a line, got {count} for {len(rest)}: {notes[-1]}")
     known = np.isfinite(numbers.values[:, at])
     whole = np.full((int(places[at].number[-1]) + 1, len(rest)), np.nan)
     whole[places[at].number] = height[known]
@@ -107,8 +117,8 @@ def _of_one(numbers: NumberTable, metre: float | None, spacing: float | None) ->
     """A line without places, or of an instrument, which has them in its file."""
     if numbers.values.shape[1] > 1:
         raise ValueError("file must have lines, got heights over an area: they belong to [rail.heights]")
-    if runs_one_way(numbers.values[:, 0]):
-        raise ValueError("file must have heights, got one column that runs one way, as places do")
+    if places_of(numbers.values[:, 0]):
+        raise ValueError("file must have heights, got one column that runs evenly, as places do")
     if numbers.spacing is not None:
         if not numbers.unit and metre is None:
             raise ValueError('unit is missing: the file names none, as: unit = "um"')
@@ -123,10 +133,11 @@ def _known(spacing: float | None) -> float:
     return spacing
 
 
-def _kinds(numbers: NumberTable) -> tuple[dict[int, Places], dict[int, str]]:
+def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], dict[int, str]]:
     """The column of places, if any, and why columns are no lines. Raises ValueError."""
     places: dict[int, Places] = {}
     constant: dict[int, str] = {}
+    one_way = []
     for i in range(len(numbers.columns)):
         values = numbers.values[np.isfinite(numbers.values[:, i]), i]
         if values.size < MOSTLY * len(numbers.values):
@@ -134,12 +145,15 @@ def _kinds(numbers: NumberTable) -> tuple[dict[int, Places], dict[int, str]]:
         if found := places_of(values):
             places[i] = found
         elif runs_one_way(values):
-            raise ValueError(
-                f"columns must be lines of heights, got {numbers.names([i])}, which runs one way but not evenly, as "
-                "places do that are not equally far apart: resample the lines, or leave it out by columns"
-            )
+            one_way.append(i)
         elif values.size and np.ptp(values) == 0:
             constant[i] = f"is {values[0]:g} everywhere"
+    # beside places, or where all columns are told to be lines, a line may be as tilted as that
+    if one_way and not places and count != len(numbers.columns):
+        raise ValueError(
+            f"columns must be lines of heights, got {numbers.names(one_way)}, which runs one way but not evenly, as "
+            "places do that are not equally far apart: resample the lines, or leave it out by columns"
+        )
     evenly = dict.fromkeys(places, "runs evenly")
     lines = len(numbers.columns) - len(evenly) - len(constant)
     return _one_place(numbers, places), {**evenly, **constant} if lines else evenly

@@ -14,6 +14,7 @@ from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, 
 from validation.scenes.printable import printable
 from validation.scenes.text_dialect import NoTextError
 from validation.scenes.topographies import TEXTS, topography_of
+from validation.scenes.units import in_unit
 
 FloatArray = NDArray[np.float64]
 
@@ -64,7 +65,7 @@ def _of_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
         try:
             return table_of_text(file, form)
         except NoTextError:
-            if form.of_text:
+            if form.of_text or form.columns:
                 raise
     return known_alone(topography_of(path), form.nodata)
 
@@ -82,8 +83,8 @@ def heights_of_columns(table: NumberTable, places: Sequence[int], metre: float |
         named = metres_of("unit", unit) if unit else None
         if named and metre and named != metre:
             raise ValueError(
-                f"unit must be that of the file, {unit}, or be left out, got another: a header that is wrong is left "
-                "out by skip"
+                f"unit must be that of the file, {unit}, or be left out, got {in_unit(metre, 'length')}: skip leaves out a "
+                "header that is wrong"
             )
         factors.append(named or metre or 1.0)
     return np.asarray(table.values[:, list(places)] * np.array(factors))
