@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from validation.scenes.number_table import NumberTable, TableForm
@@ -15,8 +16,10 @@ FloatArray = NDArray[np.float64]
 
 COLUMNS = "y [mm],height [mm]"
 """The header of a file, in other units of length too."""
-SAME_PLACE = 1e-4
-"""How far behind an end points of a vertical flank may lie [m]."""
+SAME_PLACE, HIDDEN, FLANK = 1e-4, 1e-3, 2e-3
+"""How far points of a flank may turn back, lie below the profile, where the other body never comes, and beyond [m]."""
+KNOTS, DENSE = 1e-3, 6
+"""Distance of the knots of the spline that smooths a profile [m], with so many points to each or more."""
 
 
 def read_profile(
@@ -32,12 +35,13 @@ def read_profile(
         y, height = _in_metres(table, metre)
         known = np.isfinite(y) & np.isfinite(height)
         y, height, of_ends = _ascending(y[known], height[known] * (-1 if flip else 1))
-        profile = TransverseProfile(y=tuple(y.tolist()), height=tuple(height.tolist()), source=path.name)
+        smooth, of_noise = _smoothed(y, height)
+        profile = TransverseProfile(y=tuple(y.tolist()), height=tuple(smooth.tolist()), source=path.name)
     except ValueError as problem:
         raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
     missing = int((~known).sum())
     notes = (f"{missing} of its points have no data and are left out",) if missing else ()
-    return profile, (*table.notes, *notes, *of_ends)
+    return profile, (*table.notes, *notes, *of_ends, *of_noise)
 
 
 def _in_metres(table: NumberTable, metre: float | None) -> tuple[FloatArray, FloatArray]:
@@ -54,20 +58,49 @@ def _in_metres(table: NumberTable, metre: float | None) -> tuple[FloatArray, Flo
 
 
 def _ascending(y: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
-    """The longest run of places that ascend. Beyond it flanks may turn back, of a flange or of the sides of a head.
+    """From the highest point to both sides, as far as places ascend. Beyond, flanks turn back under the profile.
 
-    Raises ValueError where a point that is no part of it lies between its ends.
+    Raises ValueError where points that are left out would be seen by the other body.
     """
-    if y.size > 1 and y[0] > y[-1]:
-        y, height = y[::-1], height[::-1]
-    breaks = np.flatnonzero(np.diff(y) <= 0) + 1
-    if not breaks.size:
+    if y.size < 2:
         return y, height, ()
-    first, last = max(zip([0, *breaks], [*breaks, y.size], strict=True), key=lambda run: run[1] - run[0])
-    run, rest = y[first:last], np.concatenate([y[:first], y[last:]])
-    if ((rest > run[0] + SAME_PLACE) & (rest < run[-1] - SAME_PLACE)).any():
-        at = int(breaks[0])
-        raise ValueError(f"y must ascend, got {y[at]:g} m behind {y[at - 1]:g} m")
+    top = int(np.argmax(height))
+    if y[max(top - 1, 0)] > y[min(top + 1, y.size - 1)]:
+        y, height, top = y[::-1], height[::-1], y.size - 1 - top
+    kept = np.concatenate([top - _onward(-y[top::-1])[:0:-1], top + _onward(y[top:])])
+    run, of_run = y[kept], height[kept]
+    if run.size < 2:
+        raise ValueError(f"y must ascend, got {y[0]:g} m first and {y[-1]:g} m last, and nowhere two in a row")
+    rest = np.setdiff1d(np.arange(y.size), kept)
+    below = height[rest] < np.interp(y[rest], run, of_run) - HIDDEN
+    next_to = np.searchsorted(run, y[rest]).clip(1, run.size - 1)
+    near = np.minimum(np.abs(run[next_to] - y[rest]), np.abs(run[next_to - 1] - y[rest])) <= SAME_PLACE
+    beyond = (y[rest] < run[0] - FLANK) | (y[rest] > run[-1] + FLANK)
+    if ((~below & ~near) | beyond).any():
+        at = int(np.argmax(np.diff(y) <= 0))
+        raise ValueError(f"y must ascend, got {y[at + 1]:g} m behind {y[at]:g} m")
     span = [in_unit(end, "length") for end in (run[0], run[-1])]
-    note = f"it goes from {span[0]} to {span[1]} across: {rest.size} points of flanks that turn back are left out"
-    return run, height[first:last], (note,)
+    note = f"it goes from {span[0]} to {span[1]} across: {rest.size} points that turn back are left out"
+    return run, of_run, (note,) if rest.size else ()
+
+
+def _onward(y: FloatArray) -> NDArray[np.intp]:
+    """Those that go on upwards, up to where places turn back by more than a flank scatters."""
+    most = np.maximum.accumulate(y)
+    turned = np.flatnonzero(most - y > SAME_PLACE)
+    return np.flatnonzero(np.append(True, y[1:] > most[:-1])[: turned[0] if turned.size else y.size])
+
+
+def _smoothed(y: FloatArray, height: FloatArray) -> tuple[FloatArray, tuple[str, ...]]:
+    """A cubic spline of least squares through many points: what is shorter than its knots is noise, or roughness."""
+    if y.size < 2 * DENSE:
+        return height, ()
+    each = round(KNOTS / float(np.median(np.diff(y))))
+    if not DENSE <= each < y.size / DENSE:
+        return height, ()
+    knots = np.concatenate([y[[0] * 4], y[each:-each:each], y[[-1] * 4]])
+    smooth = np.asarray(scipy.interpolate.make_lsq_spline(y, height, knots)(y))
+    off = in_unit(float(np.sqrt(np.mean((smooth - height) ** 2))), "length", digits=2)
+    return smooth, (
+        f"a spline with a knot every {in_unit(KNOTS, 'length')} smooths its points, which are {off} rms off it",
+    )

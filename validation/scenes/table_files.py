@@ -83,8 +83,8 @@ def heights_of_columns(table: NumberTable, places: Sequence[int], metre: float |
         named = metres_of("unit", unit) if unit else None
         if named and metre and named != metre:
             raise ValueError(
-                f"unit must be that of the file, {unit}, or be left out, got {in_unit(metre, 'length')}: skip leaves out a "
-                "header that is wrong"
+                f"unit must be that of the file, {unit}, or be left out, got {in_unit(metre, 'length')}: skip leaves "
+                "out a header that is wrong"
             )
         factors.append(named or metre or 1.0)
     return np.asarray(table.values[:, list(places)] * np.array(factors))

@@ -22,8 +22,8 @@ REACH = 2.0
 """Semi-axes across that a profile has on both sides of its highest point, at the least."""
 STRAIGHT = 100.0
 """Radius across over that along, at the most: straighter is no contact of an ellipse."""
-CLOSE = 1e-9
-"""Relative error of the width over which a radius is fitted."""
+STEPS, CLOSE = 60, 1e-9
+"""Widths over which a radius is fitted at first, from wide to narrow; relative error of the one at last."""
 DENSE = 20_001
 """Places at which the highest point of two bodies is looked for, and a second contact."""
 SAME_PLACE = 1e-6
@@ -164,11 +164,15 @@ def fitted_radius(profile: TransverseProfile, *, along: float, modulus: float, l
             f"profile must reach to twice the contact and have {IN_CONTACT} points in it at the least, got "
             f"{1e3 * profile.reach:.4g} mm to the nearer end, and a contact of more than {1e3 * most:.4g} mm to a side"
         )
-    if wider(least) < 0:
+    # from wide to narrow: over a few points a radius is that of noise
+    half_widths = np.geomspace(most, least, STEPS)
+    narrower = next((half for half in half_widths[1:] if wider(half) >= 0), None)
+    if narrower is None:
         raise ValueError(
             f"profile must have {IN_CONTACT} points in the contact at the least, got so many within "
             f"{1e3 * least:.3g} mm of its highest point, and a contact that is narrower"
         )
+    least, most = narrower, float(half_widths[np.searchsorted(-half_widths, -narrower) - 1])
     half_width = float(scipy.optimize.brentq(wider, least, most, rtol=CLOSE))
     radius = profile.radius_within(half_width)
     _check_alone(
