@@ -18,6 +18,8 @@ COLUMNS = "y [mm],height [mm]"
 """The header of a file, in other units of length too."""
 SAME_PLACE, HIDDEN, FLANK = 1e-4, 1e-3, 2e-3
 """How far points of a flank may turn back, lie below the profile, where the other body never comes, and beyond [m]."""
+APART = 1e-6
+"""How far apart points are, at the least [m]: between closer ones a spline would follow their noise."""
 KNOTS, DENSE = 1e-3, 6
 """Distance of the knots of the spline that smooths a profile [m], with so many points to each or more."""
 
@@ -88,7 +90,7 @@ def _onward(y: FloatArray) -> NDArray[np.intp]:
     """Those that go on upwards, up to where places turn back by more than a flank scatters."""
     most = np.maximum.accumulate(y)
     turned = np.flatnonzero(most - y > SAME_PLACE)
-    return np.flatnonzero(np.append(True, y[1:] > most[:-1])[: turned[0] if turned.size else y.size])
+    return np.flatnonzero(np.append(True, y[1:] > most[:-1] + APART)[: turned[0] if turned.size else y.size])
 
 
 def _smoothed(y: FloatArray, height: FloatArray) -> tuple[FloatArray, tuple[str, ...]]:
