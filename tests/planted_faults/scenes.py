@@ -7,6 +7,7 @@ import numpy as np
 
 from tests.planted_faults.wrong import scaled, with_math
 from tests.scenes import (
+    test_exported_tables,
     test_height_edits,
     test_materials,
     test_measured_heights,
@@ -16,6 +17,8 @@ from tests.scenes import (
 )
 from validation.scenes import (
     height_edits,
+    level_files,
+    line_files,
     material,
     measured,
     measured_surface,
@@ -23,6 +26,7 @@ from validation.scenes import (
     roughness,
     roughness_levels,
     steadiness,
+    text_dialect,
     transverse_profile,
 )
 from validation.theory import rolling as rolling_theory
@@ -38,6 +42,17 @@ def over_twice_the_contact(profile, half_width):
     return radius_of_parabola(profile, 2 * half_width)
 
 
+def of_the_rail_alone(bodies, curvature, centre=0.0):
+    return transverse_profile.both_together(bodies[:1], curvature, centre)
+
+
+def rigid_beside_the_contact(profile, half_width, approach, force):
+    return check_alone(profile, half_width, approach, 0.0)
+
+
+check_alone = transverse_profile._check_alone
+moved = transverse_profile.TransverseProfile.moved
+number = text_dialect.Dialect.number
 radius_of_parabola = transverse_profile.TransverseProfile.radius_within
 radii_of_rail = rail.RailScene.radii.fget
 slope_in_one_direction = roughness.Roughness.slope_along.fget
@@ -60,6 +75,42 @@ FAULTS = {
     "the curvature of the other body taken off that of a profile": (
         (test_profiled_rail, "both_together", lambda bodies, curvature: transverse_profile.both_together(bodies, 0.0)),
         test_profiled_rail.test_a_hollow_wheel_and_a_crown_are_one_profile,
+    ),
+    "a wheel moved to the other side": (
+        (transverse_profile.TransverseProfile, "moved", lambda profile, offset: moved(profile, -offset)),
+        test_profiled_rail.test_two_bodies_touch_where_both_together_are_highest,
+    ),
+    "contact where the rail alone is highest": (
+        (test_profiled_rail, "both_together", of_the_rail_alone),
+        test_profiled_rail.test_two_bodies_touch_where_both_together_are_highest,
+    ),
+    "a second contact that is not seen": (
+        (transverse_profile, "_check_alone", lambda *arguments: None),
+        test_profiled_rail.test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none,
+    ),
+    "surfaces that do not give way beside the contact": (
+        (transverse_profile, "_check_alone", rigid_beside_the_contact),
+        test_profiled_rail.test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none,
+    ),
+    "a column of places as a second line of heights": (
+        (line_files, "_kinds", lambda numbers, count: ({}, {})),
+        test_exported_tables.test_the_place_along_the_track_is_no_line,
+    ),
+    "wavenumbers in cycles taken for radians": (
+        (level_files, "WAVENUMBERS", {"1/m": 1 / (2 * math.pi), "1/cm": 1e2 / (2 * math.pi)}),
+        test_exported_tables.test_wavenumbers_are_cycles_over_a_metre,
+    ),
+    "a line filled in with its mean": (
+        (height_edits, "_filled_line", lambda line: np.where(np.isnan(line), np.nanmean(line), line)),
+        test_exported_tables.test_holes_of_a_line_lie_between_their_neighbours,
+    ),
+    "a point without data at zero": (
+        (text_dialect.Dialect, "number", lambda dialect, cell: np.nan_to_num(number(dialect, cell))),
+        functools.partial(test_exported_tables.test_cells_without_data_are_no_numbers, "BAD"),
+    ),
+    "heights of an unknown unit in metres": (
+        (measured_surface, "_metres", lambda surface, given: 1.0),
+        functools.partial(test_measured_heights.test_an_object_that_names_no_unit_is_asked_for_it, {}),
     ),
     "measured heights over half of their mean square": (
         (measured, "_spectrum", half_of_the_level),
@@ -86,7 +137,7 @@ FAULTS = {
         test_height_edits.test_a_crop_is_told_and_its_points_alone_count,
     ),
     "a surface in micrometres taken for one in metres": (
-        (measured_surface, "_metres", lambda surface: 1.0),
+        (measured_surface, "_metres", lambda surface, given: 1.0),
         functools.partial(
             test_measured_heights.test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes, {"unit": "um"}
         ),

@@ -15,8 +15,9 @@ from validation.scenes.measured_surface import measured
 ROUGH = np.random.default_rng(5).standard_normal((40, 32))
 
 
-def surface(height, sizes=None, **more):
-    return SimpleNamespace(heights=height, physical_sizes=sizes or tuple(map(float, np.shape(height))), **more)
+def surface(height, sizes=None, unit="m", **more):
+    sizes = sizes or tuple(map(float, np.shape(height)))
+    return SimpleNamespace(heights=height, physical_sizes=sizes, unit=unit, **more)
 
 
 def with_holes(height, *places):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from validation.__main__ import main
-from validation.scenes import height_files
+from validation.scenes import height_files, table_files
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
@@ -74,23 +74,113 @@ def test_a_header_in_another_encoding_is_left_out(tmp_path, lines):
     assert heights_in(tmp_path, "face.txt", *lines).height == level(HEIGHT)
 
 
-def test_the_sentence_about_a_header_says_how_many_lines_to_skip(tmp_path):
+def test_a_header_that_is_no_comment_is_left_out_and_told(tmp_path):
     (tmp_path / "face.csv").write_text(HEADER.replace(";", ",") + rows_of(HEIGHT))
     for lines in ((), ("skip = 1",)):
-        said = r"got: could not convert string .* \(a header begins with #, or is left out, as: skip = 3\)$"
-        refused(tmp_path, "face.csv", *lines, said=said)
-    refused(tmp_path, "face.csv", "skip = 67", said=r"got: no line below the 67 to skip$")
+        ground = heights_in(tmp_path, "face.csv", *lines)
+        assert ground.height == level(HEIGHT)
+        assert [note for note in ground.notes() if "above its numbers" in note] == [
+            "face.csv: it has 3 lines above its numbers."
+        ]
+    refused(tmp_path, "face.csv", "skip = 67", said=r"got no line below the 67 to skip$")
 
 
-def test_an_empty_field_is_no_height(tmp_path):
-    (tmp_path / "face.csv").write_text("1,2,3\n4,,6\n")
-    refused(tmp_path, "face.csv", said=r"could not convert string '' to float64 .* \(a point without data is nan\)$")
+def test_an_empty_field_is_a_point_without_data(tmp_path):
+    rows = rows_of(HEIGHT).splitlines()
+    rows[4] = ",".join(["", *rows[4].split(",")[1:]])
+    (tmp_path / "face.csv").write_text("\n".join(rows))
+    refused(tmp_path, "face.csv", said=r"heights must be known everywhere, got 1 of 4096 .* \[4, 0\].*: fill = true$")
 
 
 @pytest.mark.parametrize("given", ["-1", "1.5", '"3"', "true", "[3]"])
 def test_lines_to_skip_are_a_whole_number(tmp_path, given):
     np.savetxt(tmp_path / "face.csv", HEIGHT, delimiter=",")
     refused(tmp_path, "face.csv", f"skip = {given}", said=r"heights\.skip must be (a whole|at least 0|a number)")
+
+
+# Places beside the heights
+
+
+def xyz(*, form="{:.6f},{:.6f},{:.9f}", missing=()):
+    """Rows of x and y [um], half a micrometre and one apart, and height [nm], of 64 x 48 points."""
+    points = [(i, j) for i in range(64) for j in range(48) if (i, j) not in missing]
+    return [form.format(i / 2, j, 1e9 * HEIGHT[i, j]) + "\n" for i, j in points]
+
+
+@pytest.mark.parametrize("file", ["face.csv", "face.xyz", "face.txt"])
+def test_three_columns_are_x_y_and_height_in_any_order_of_rows(tmp_path, file):
+    rows = xyz()
+    np.random.default_rng(1).shuffle(rows)
+    (tmp_path / file).write_text("x [um],y [um],z [nm]\n" + "".join(rows))
+    path = scene_of(tmp_path, file, side="1 mm")
+    text = path.read_text().replace('spacing = "1 um"', "").replace("[punch]", "[sphere]").replace("side", "radius")
+    path.write_text(text.replace("0.01 N", "0.04 N"))
+    ground = load_scene(path).ground
+    assert ground.height == level(HEIGHT[:, :48], (0.5e-6, 1e-6))
+    assert ground.spacing == pytest.approx((0.5e-6, 1e-6))
+    assert f"{file}: its columns are x, y and height of 64 x 48 points, 500 nm and 1 µm apart." in ground.notes()
+
+
+def test_columns_that_are_named_x_y_and_z_are_found_among_others(tmp_path):
+    rows = [f"{i},{j},{99 - i},{1e9 * HEIGHT[i, j]:.9f},1\n" for i in range(64) for j in range(64)]
+    (tmp_path / "face.csv").write_text("X [um],Y [um],intensity,Z [nm],mask\n" + "".join(rows))
+    assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
+
+
+def test_places_of_a_grid_without_units_have_those_of_the_spacing(tmp_path):
+    square = [f"{i} {j} {1e9 * HEIGHT[i, j]:.9f}\n" for j in range(64) for i in range(64)]
+    (tmp_path / "face.txt").write_text("".join(square))
+    assert heights_in(tmp_path, "face.txt", 'unit = "nm"').height == level(HEIGHT)
+    refused(
+        tmp_path, "face.txt", spacing='"1.5 um"', said=r"heights\.spacing must be that of column 1 and column 2, 1 ap"
+    )
+    (tmp_path / "face.txt").write_text("".join(square[:-1]))
+    refused(tmp_path, "face.txt", 'unit = "nm"', said=r"got 1 of 4096 .* as: fill = true$")
+    (tmp_path / "face.txt").write_text("".join([*square, square[0]]))
+    refused(
+        tmp_path, "face.txt", said=r"heights: three columns must be x, y and height on a regular grid, got 4097 rows"
+    )
+    (tmp_path / "face.txt").write_text("".join(square).replace("63 ", "63.4 "))
+    refused(tmp_path, "face.txt", said=r"got 64 places along x that are not evenly apart")
+
+
+def test_a_first_column_and_a_first_row_of_places_are_no_heights(tmp_path):
+    places = [f"{i}," + ",".join(map(repr, row)) + "\n" for i, row in enumerate(HEIGHT.tolist())]
+    (tmp_path / "face.csv").write_text("".join(places))
+    said = "face.csv: its first column runs evenly, 1 µm apart, and is left out of the heights"
+    assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
+    assert f"{said}." in heights_in(tmp_path, "face.csv").notes()
+    (tmp_path / "face.csv").write_text("," + ",".join(map(str, range(64))) + "\n" + "".join(places))
+    ground = heights_in(tmp_path, "face.csv")
+    assert ground.height == level(HEIGHT)
+    assert f"{said}; its first row runs evenly, 1 µm apart, and is left out of the heights." in ground.notes()
+
+
+@pytest.mark.parametrize("header", ["z [um]", "# Unit: µm", "Einheit;µm", "height (µm)"])
+def test_a_header_has_the_unit_of_all_heights(tmp_path, header):
+    (tmp_path / "face.csv").write_bytes(f"Gerät 7\n{header}\n".encode("latin-1") + rows_of(1e6 * HEIGHT).encode())
+    ground = heights_in(tmp_path, "face.csv")
+    assert ground.height == level(HEIGHT)
+    assert "its header has the unit um" in ground.notes()[0] and "the encoding cp1252" in ground.notes()[0]
+    refused(tmp_path, "face.csv", 'unit = "nm"', said=r"heights\.unit must be that of the file, um, or be left out")
+
+
+@pytest.mark.parametrize("sentinel", ["-9999", "1e38", "-32768.0"])
+def test_what_instruments_write_for_no_data_is_told_and_no_height(tmp_path, sentinel):
+    rows = rows_of(1e6 * HEIGHT).splitlines()
+    rows[4] = f"{sentinel}," + rows[4].partition(",")[2]
+    (tmp_path / "face.csv").write_text("\n".join(rows))
+    refused(tmp_path, "face.csv", 'unit = "um"', said=r"got 1 of 4096 .*, the first at \[4, 0\].* as: fill = true$")
+    ground = heights_in(tmp_path, "face.csv", 'unit = "um"', "fill = true")
+    assert ground.edits.filled == 1 and ground.rms < 2e-7
+    assert "stands for no data at 1 of 4096 points, far from all others" in ground.notes()[0]
+
+
+def test_a_value_of_no_data_is_a_height_where_others_are_as_large(tmp_path):
+    heights = 1e10 * HEIGHT
+    heights[4, 4] = -999.0
+    np.savetxt(tmp_path / "face.csv", heights)
+    assert heights_in(tmp_path, "face.csv", 'unit = "pm"').edits.filled == 0
 
 
 # Archives
@@ -141,9 +231,9 @@ def test_broken_archives_are_refused(tmp_path, monkeypatch):
     refused(tmp_path, "face.npz", key, said=r"got: objects in place of numbers$")
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("heights.npy", b"no array")
-    refused(tmp_path, "face.npz", key, said=r"got: the magic string is not correct")
+    refused(tmp_path, "face.npz", key, said=r"got: a file that does not begin as arrays of numpy do$")
     np.savez_compressed(path, heights=np.zeros((64, 64)))
-    monkeypatch.setattr(height_files, "MOST_BYTES", 8 * 64 * 64)
+    monkeypatch.setattr(table_files, "MOST_BYTES", 8 * 64 * 64)
     refused(tmp_path, "face.npz", key, said=r"got: an array of 32896 bytes, more than 32768$")
 
 
@@ -221,9 +311,9 @@ def test_spacings_that_are_none_are_refused(tmp_path, spacing, said):
         (("fill = 1",), r"heights\.fill must be true or false, got 1, as: fill = true$"),
         (('crop = "yes"',), r"heights\.crop must be true or false, got 'yes', as: crop = true$"),
         (("fil = true",), r"heights\.fil is unknown, heights must be made of file, spacing, .*, as: fill = true$"),
-        (('unit = "inch"',), r"heights\.unit must be one of m, mm, .*, got 'inch', as: unit = \"um\"$"),
-        (('unit = ""',), r"heights\.unit must be one of m, mm, .*, got '', as: unit = \"um\"$"),
-        (("unit = 3",), r"heights\.unit must be one of m, mm, .*, got 3, as: unit = \"um\"$"),
+        (('unit = "inch"',), r"heights\.unit must be one of m, cm, mm, .*, got 'inch', as: unit = \"um\"$"),
+        (('unit = ""',), r"heights\.unit must be one of m, cm, mm, .*, got '', as: unit = \"um\"$"),
+        (("unit = 3",), r"heights\.unit must be one of m, cm, mm, .*, got 3, as: unit = \"um\"$"),
     ],
 )
 def test_wishes_that_are_none_are_refused(tmp_path, lines, said):
@@ -233,6 +323,7 @@ def test_wishes_that_are_none_are_refused(tmp_path, lines, said):
 
 def test_keys_that_are_missing_are_shown_as_a_line(tmp_path):
     path = scene_of(tmp_path, "face.npy")
+    np.save(tmp_path / "face.npy", HEIGHT)
     text = path.read_text()
     for line, right in (('file = "face.npy"', 'file = "face.npy"'), ('spacing = "1 um"', 'spacing = "1 um"')):
         path.write_text(text.replace(line, ""))

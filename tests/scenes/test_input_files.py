@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from validation.__main__ import main
-from validation.scenes import height_files, height_tables
+from validation.scenes import table_files, text_dialect
 from validation.scenes.bundled import SCENES
-from validation.scenes.height_files import read_heights
 from validation.scenes.input_files import check_regular, contents_of
 from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.reader import LONGEST_LINE, MOST_BYTES
+from validation.scenes.table_files import read_table
 
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 HEIGHT = 1e-6 * np.random.default_rng(1).standard_normal((64, 64))
@@ -51,7 +51,7 @@ MAKE = {
         b"\x93NUMPY\x09\x00" + bytes(100)
     ),
     "objects in place of numbers": lambda path: np.save(path, np.full((64, 64), None)),
-    "the magic string is not correct": lambda path: path.write_bytes(b"no array"),
+    "a file that does not begin as arrays of numpy do": lambda path: path.write_bytes(b"no array"),
 }
 
 
@@ -63,13 +63,13 @@ def test_arrays_that_are_none_are_refused_before_anything_is_allocated(tmp_path,
         f"error: scene {tmp_path}/scene.toml: heights.file {tmp_path}/face.npy must hold a table of "
     )
     with pytest.raises(ValueError, match=f"got: ({said})"):
-        read_heights("it", tmp_path / "face.npy")
+        read_table("it", tmp_path / "face.npy")
 
 
 def test_an_archive_is_told_by_its_own_name_too(tmp_path):
     np.savez(tmp_path / "face.npz", HEIGHT)
-    with pytest.raises(ValueError, match=r"got: an archive, \.npz"):
-        read_heights("it", tmp_path / "face.npz")
+    with pytest.raises(ValueError, match=r'^it\.key is missing, the archive has "arr_0"'):
+        read_table("it", tmp_path / "face.npz")
 
 
 @pytest.mark.parametrize("version", [(1, 0), (2, 0), (3, 0)])
@@ -77,13 +77,13 @@ def test_an_archive_is_told_by_its_own_name_too(tmp_path):
 def test_arrays_of_every_version_and_order_are_read(tmp_path, version, order):
     with (tmp_path / "face.NPY").open("wb") as file:
         np.lib.format.write_array(file, np.array(HEIGHT, order=order), version=version)
-    assert (read_heights("it", tmp_path / "face.NPY") == HEIGHT).all()
+    assert (read_table("it", tmp_path / "face.NPY").values == HEIGHT).all()
 
 
 @pytest.mark.parametrize("kind", [np.float32, np.int16, np.uint8, ">f8"])
 def test_numbers_of_other_kinds_are_read(tmp_path, kind):
     np.save(tmp_path / "face.npy", (100 * np.abs(HEIGHT) / HEIGHT.max()).astype(kind))
-    assert read_heights("it", tmp_path / "face.npy").dtype == np.float64
+    assert read_table("it", tmp_path / "face.npy").values.dtype == np.float64
 
 
 def test_what_is_no_regular_file_is_refused_without_reading_it(tmp_path, capsys):
@@ -109,35 +109,33 @@ def test_sizes_are_bounded(tmp_path, monkeypatch):
     with pytest.raises(ValueError, match=r"^it /proc/self/environ must have at most 4 bytes, got more$"):
         contents_of("it", type(path)("/proc/self/environ"), most=4)
     np.save(tmp_path / "face.npy", HEIGHT)
-    monkeypatch.setattr(height_files, "MOST_VALUES", 4095)
+    monkeypatch.setattr(table_files, "MOST_VALUES", 4095)
     with pytest.raises(ValueError, match=r"must hold at most 4095 heights, got 4096$"):
-        read_heights("it", tmp_path / "face.npy")
-    monkeypatch.setattr(height_files, "MOST_BYTES", 4096)
+        read_table("it", tmp_path / "face.npy")
+    monkeypatch.setattr(table_files, "MOST_BYTES", 4096)
     with pytest.raises(ValueError, match=r"must have at most 4096 bytes, got \d+$"):
-        read_heights("it", tmp_path / "face.npy")
+        read_table("it", tmp_path / "face.npy")
 
 
 @pytest.mark.parametrize(
     ("contents", "said"),
     [
-        (b"1, 2, 3\n1, 2\n", "rows of different length, the number of columns changed from 3 to 2 at row 2"),
-        (
-            b"x, y\n1, 2\n",
-            r"could not convert string 'x' to float64 at row 0, column 1. \(a header belongs behind a #\)",
-        ),
-        (b"1, \x1b[31m2\n", r"could not convert string ' \\x1b\[31m2' "),
-        (b"1," * 500, "more than 99 lines, or one of more than 100 characters"),
-        (b"1\n" * 500, "more than 99 lines, or one of more than 100 characters"),
-        (b"1, 2\n" + b"1," * 500, "more than 99 lines, or one of more than 100 characters"),
-        (b"\xff\xfe1, 2\n", "'utf-8' codec can't decode"),
+        (b"1, 2, 3\n1, 2\n", r"rows must be of one length, got 3 numbers in line 1 and 2 in line 2: .*skip = 1"),
+        (b"1, 2\n1, 2\n1, 2\n1\n", "rows must be of one length, got 1 cell in line 4 of a table of 2"),
+        (b"1, 2\n1, x\n1, 2\n1, 2\n1, 2\n", "rows must be numbers, got 'x' in column 2 of line 2: .*nodata = \"x\""),
+        (b"1, \x1b[31m2\n", r"the format of an instrument"),
+        (b"1," * 500, "the file must have at most 99 lines of at most 100 characters, got more"),
+        (b"1\n" * 500, "the file must have at most 99 lines of at most 100 characters, got more"),
+        (b"1, 2\n" + b"1," * 500, "the file must have at most 99 lines of at most 100 characters, got more"),
+        (b"\xff\xfe1, 2\n", "the format of an instrument"),
     ],
 )
 def test_tables_that_are_none_are_refused_in_one_line(tmp_path, monkeypatch, contents, said):
-    monkeypatch.setattr(height_tables, "MOST_LINES", 99)
-    monkeypatch.setattr(height_tables, "LONGEST_LINE", 100)
+    monkeypatch.setattr(text_dialect, "MOST_LINES", 99)
+    monkeypatch.setattr(text_dialect, "LONGEST_LINE", 100)
     (tmp_path / "face.csv").write_bytes(contents)
-    with pytest.raises(ValueError, match=rf"^it \S+face\.csv must hold a table of numbers, got: {said}[^\n]*$"):
-        read_heights("it", tmp_path / "face.csv")
+    with pytest.raises(ValueError, match=rf"^it \S+face\.csv: {said}[^\n]*$"):
+        read_table("it", tmp_path / "face.csv")
 
 
 @pytest.mark.parametrize("mark", ["", "\ufeff"])
@@ -145,7 +143,7 @@ def test_tables_that_are_none_are_refused_in_one_line(tmp_path, monkeypatch, con
 def test_an_editors_mark_and_a_header_behind_a_sign_are_read(tmp_path, mark, sign):
     rows = "\n".join(sign.join(map(repr, row)) for row in HEIGHT.tolist())
     (tmp_path / "face.csv").write_text(f"{mark}# x, y\n\n{rows}\n", encoding="utf-8")
-    assert (read_heights("it", tmp_path / "face.csv") == HEIGHT).all()
+    assert (read_table("it", tmp_path / "face.csv").values == HEIGHT).all()
 
 
 @pytest.mark.parametrize(
@@ -188,7 +186,7 @@ def test_control_characters_do_not_reach_the_terminal(tmp_path, capsys):
         (
             '"1 mm"',
             r'"1 \u009bmm"',
-            r'punch.side must be a length, as "0.5 m", in one of m, mm, um, µm, nm, km, got "1 ',
+            r'punch.side must be a length, as "0.5 m", in one of m, cm, mm, um, µm, nm, km, got "1 ',
         ),
         ("[roughness]", "[rough", r"got: Expected"),
     ):

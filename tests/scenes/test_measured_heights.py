@@ -117,8 +117,8 @@ def test_other_objects_are_refused():
         measured(SimpleNamespace(heights=np.ones(8), physical_sizes=(1.0,)))
 
 
-def surface(height, sizes=(N * DX, N * DX), **more):
-    return SimpleNamespace(heights=height, physical_sizes=sizes, **more)
+def surface(height, sizes=(N * DX, N * DX), unit="m", **more):
+    return SimpleNamespace(heights=height, physical_sizes=sizes, unit=unit, **more)
 
 
 def refusal(question):
@@ -167,7 +167,9 @@ def test_rows_of_different_length_are_no_heights():
         measured(surface([[1.0, 2.0], [3.0]]))
 
 
-@pytest.mark.parametrize("more", [{"unit": "um"}, {"info": {"unit": "µm"}}, {"unit": None, "info": {"unit": "um"}}])
+@pytest.mark.parametrize(
+    "more", [{"unit": "um"}, {"unit": None, "info": {"unit": "µm"}}, {"unit": "um", "info": {"unit": "µm"}}]
+)
 def test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes(more):
     found = measured(surface(1e6 * drawn(), (1e6 * N * DX, 1e6 * N * DX), **more))
     assert found.rms == pytest.approx(heights(drawn()).rms, rel=1e-12)
@@ -177,10 +179,19 @@ def test_the_unit_that_a_surface_names_is_that_of_heights_and_sizes(more):
 
 def test_a_unit_that_is_none_is_refused():
     with pytest.raises(
-        ValueError, match=r"^unit of the surface must be one of m, mm, um, µm, nm, km, Å, A, pm, got 'parsec'$"
+        ValueError, match=r"^unit of the surface must be one of m, cm, mm, um, µm, nm, km, Å, A, pm, got 'parsec'$"
     ):
         measured(surface(drawn(), unit="parsec"))
-    assert measured(surface(drawn(), unit=None, info={})).rms == heights(drawn()).rms
+
+
+@pytest.mark.parametrize("more", [{}, {"info": {}}, {"info": {"unit": ""}}])
+def test_an_object_that_names_no_unit_is_asked_for_it(more):
+    one = surface(1e6 * drawn(), (1e6 * N * DX, 1e6 * N * DX), unit=None, **more)
+    said = refusal(lambda: measured(one))
+    assert said.startswith("unit of the surface must be known") and said.endswith('measured(surface, unit="m") says it')
+    assert measured(one, unit="um").rms == pytest.approx(heights(drawn()).rms, rel=1e-12)
+    with pytest.raises(ValueError, match=r"^unit of the surface must be one, got unit 'um' and unit= 'mm'$"):
+        measured(surface(drawn(), unit="um"), unit="mm")
 
 
 @pytest.mark.parametrize("sizes", [(1.0,), (1.0, 1.0, 1.0), None, 3.0, "mm"])

@@ -1,4 +1,4 @@
-"""A rail or a wheel whose shape across was measured: files, the radius that is fitted, and what is refused."""
+"""A rail or a wheel whose shape across was measured: files, where both touch, the radius fitted, refusals."""
 
 import math
 import re
@@ -101,16 +101,17 @@ def test_curvatures_of_wheel_and_rail_add(tmp_path):
 @pytest.mark.parametrize(
     ("contents", "said"),
     [
-        ("", "must have two columns, named as 'y [mm],height [mm]', got none"),
+        ("", "must hold rows of numbers, got an empty file"),
         (table(parabola(300.0), header="y,height"), "columns must be named as 'y [mm],height [mm]', with their units"),
-        (table(parabola(300.0), header="height [mm],y [mm]"), "columns must be named as"),
-        (table(parabola(300.0), header="y [N],height [mm]"), "columns must be named as"),
-        (table(parabola(300.0)).replace("-30,", "-30;1,"), "a row must be two numbers"),
-        (table(parabola(300.0)) + "\n31,2,3", "must have two columns"),
+        (table(parabola(300.0), header="height [mm],y [mm]"), "must be highest between its ends"),
+        (table(np.abs(Y), np.zeros_like(Y)), "y must ascend, got 0 m first and 0 m last"),
+        (table(parabola(300.0)).replace("\n5,", "\n7.77,"), "y must ascend"),
+        (table(parabola(300.0), header="y [N],height [mm]"), "columns must be lengths, got y [N]"),
+        (table(parabola(300.0)).replace("-30,", "-30;1,"), "rows must be numbers, got '-30;1' in column 1 of line 3"),
+        (table(parabola(300.0)) + "\n31,2,3", "rows must be of one length, got 3 cells in line 124 of a table of 2"),
         (table(parabola(300.0)[:5], Y[:5]), "profile must have 7 to 100000 points"),
-        (table(parabola(300.0)) + "\n30,1", "y must ascend, got 0.03 m behind 0.03 m"),
-        (table(np.where(Y == 0, np.nan, parabola(300.0))), "height[60] must be finite, got nan"),
-        (table(-parabola(300.0)), "height must be largest between the ends, towards the other body"),
+        (table(parabola(300.0)) + "\n29,1", "y must ascend, got 0.0295 m behind 0.03 m"),
+        (table(-parabola(300.0)), "must be highest between its ends, -30 and 30 mm, got its highest point at -30 mm"),
         (table(parabola(300.0)[40:80:8], Y[40:80:8]), "profile must have 7 to 100000 points"),
         (
             table(parabola(300.0)[::5], Y[::5]),
@@ -135,8 +136,214 @@ def test_a_radius_beside_a_profile_and_a_file_that_is_missing_are_refused(tmp_pa
     (tmp_path / "head.csv").write_text(table(parabola(300.0)), encoding="utf-8")
     with pytest.raises(ValueError, match="rail must have one of crown_radius, profile, got crown_radius and profile"):
         load_scene(written(tmp_path, (CROWN, f"{CROWN}\n{PROFILE}")))
-    with pytest.raises(ValueError, match=r"rail\.profile must be a text"):
+    with pytest.raises(ValueError, match=r"rail\.profile must be a table, got 3"):
         load_scene(written(tmp_path, (CROWN, "profile = 3")))
     beside = profile_of(parabola(30.0), Y + 50)
     with pytest.raises(ValueError, match="must be highest between its ends, 20 and 30 mm, got its highest point at 30"):
         both_together([profile_of(parabola(300.0)), beside], 0.0)
+
+
+# A wheel with cone and flange on a rail with its corners
+
+
+WHEEL_Y, RAIL_Y = np.arange(-69, 60.1, 0.25), np.arange(-35, 35.1, 0.25)
+
+
+def arc(y, radius, until):
+    """A circular arc from y = 0 on, and straight on from a place where it ends."""
+    at = np.minimum(y, until)
+    slope = until / np.sqrt(radius**2 - until**2)
+    return radius - np.sqrt(radius**2 - at**2) + slope * (y - at)
+
+
+def head(y):
+    """A head like that of 60E1: radii of 300, 80 and 13 mm, which meet in tangents at 10.3 and 26 mm [mm]."""
+    a, ends, radii, start, drop, slope = np.abs(y), (10.3, 26.0, 35.2), (300.0, 80.0, 13.0), 0.0, 0.0, 0.0
+    z = np.zeros_like(a)
+    for end, radius in zip(ends, radii, strict=True):
+        centre = start - radius * slope / np.hypot(1, slope)
+        level = drop + radius / np.hypot(1, slope)
+        inside = (a > start) | (start == 0)
+        at = np.clip(a, start, end)
+        z = np.where(inside, np.sqrt(radius**2 - (at - centre) ** 2) - level, z)
+        z = np.where(inside, z, z)
+        start, drop = end, level - np.sqrt(radius**2 - (end - centre) ** 2)
+        slope = (end - centre) / np.sqrt(radius**2 - (end - centre) ** 2)
+    return z
+
+
+def tread(y, cone):
+    """A tread of one cone, a root of 14 mm from y = -32 mm on, a flank of 70 degrees and a flange of 28 mm [mm]."""
+    root = arc(np.maximum(-32 - y, 0), 14.0, 14 * np.sin(np.radians(70)))
+    return -cone * y + np.where(y < -42, np.minimum(root, 28 - 0.05 * (y + 55) ** 2), root)
+
+
+def rolling(folder, *changes, cone=1 / 40, rail=True, flip=1):
+    """The scene of a wheel with a flange."""
+    (folder / "tread.csv").write_text(table(flip * tread(WHEEL_Y, cone), WHEEL_Y))
+    (folder / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y))
+    profile = [(CROWN, PROFILE)] if rail else []
+    return load_scene(written(folder, *profile, ('load = "', 'profile = "tread.csv"\nload = "'), *changes))
+
+
+def test_a_cone_shifts_the_contact_along_a_crown_and_keeps_its_curvature(tmp_path):
+    """Where the crown is as steep as the cone, y = -R sin(atan(cone)); a cone adds no curvature."""
+    flat, cone = rolling(tmp_path, cone=0.0), rolling(tmp_path, cone=0.01)
+    assert flat.profile.at == pytest.approx(0.0, abs=1e-5)
+    assert cone.profile.at == pytest.approx(-3e-3, abs=2e-5)
+    assert cone.profile.inclination == pytest.approx(0.01, rel=0.01)
+    for scene in (flat, cone):
+        assert scene.radii[1] == pytest.approx(0.3, rel=2e-3)
+        assert (scene.contact.along, scene.contact.across) == pytest.approx((5.684e-3, 4.276e-3), rel=2e-3)
+    assert dict(describe(cone))["contact lies at"] == (
+        "y = -3 mm on the rail, -3 mm on the wheel, inclined by 0.57 degrees"
+    )
+
+
+def test_a_cone_of_one_in_twenty_touches_the_smaller_radius(tmp_path):
+    """On the radius of 80 mm, where this is as steep as the cone: y = 10.3 + 80 (sin atan 0.05 - 10.3 / 300)."""
+    scene = rolling(tmp_path, cone=0.05)
+    assert scene.profile.at == pytest.approx(-11.547e-3, abs=3e-5)
+    assert 0.08 < scene.radii[1] < 0.09
+
+
+def test_a_wheel_with_a_flange_runs_on_a_crown_of_one_radius(tmp_path):
+    scene = rolling(tmp_path, rail=False)
+    assert scene.profile.at == pytest.approx(-7.498e-3, abs=1e-5)
+    assert scene.radii[1] == pytest.approx(0.3, rel=1e-6)
+
+
+@pytest.mark.parametrize("offset", [-8, 3, 8])
+def test_an_offset_moves_the_wheel_across_the_rail(tmp_path, offset):
+    """The wheel's y = 0 stands at the offset; on one cone the contact stays on the rail."""
+    scene = rolling(tmp_path, ('load = "', f'offset = "{offset} mm"\nload = "'))
+    place = rolling(tmp_path).profile.at
+    assert scene.profile.at == pytest.approx(place, abs=1e-5)
+    said = f"y = {1e3 * scene.profile.at:.3f} mm on the rail, {1e3 * scene.profile.at - offset:.3f} mm on the wheel"
+    assert scene.contact_place.startswith(said)
+    assert scene.offset == pytest.approx(1e-3 * offset)
+
+
+def test_an_offset_moves_a_wheel_of_one_radius(tmp_path):
+    """-(y^2 / 600 + (y - 6)^2 / 1200) is highest at y = 2 mm."""
+    scene = with_profile(
+        tmp_path, table(parabola(300.0)), ('load = "', 'transverse_radius = "600 mm"\noffset = "6 mm"\nload = "')
+    )
+    assert scene.profile.at == pytest.approx(2e-3, abs=3e-6)
+    assert scene.radii[1] == pytest.approx(0.2, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("settings", "changes", "said"),
+    [
+        ({}, [('load = "', 'offset = "11 mm"\nload = "')], "must be highest between its ends, .* (wheel.offset)"),
+        ({"flip": -1}, [], "wheel.profile must have heights positive towards the rail, .*: flip = true turns it"),
+        ({"rail": False}, [('load = "', 'offset = "-60 mm"\nload = "')], "must reach to twice the contact"),
+        ({}, [('load = "', 'offset = "3"\nload = "')], "wheel.offset must be a length"),
+    ],
+)
+def test_a_flange_in_contact_is_refused(tmp_path, settings, changes, said):
+    with pytest.raises(ValueError, match=re.escape(said).replace(r"\.\*", ".*")):
+        rolling(tmp_path, *changes, **settings)
+
+
+def test_an_offset_without_a_profile_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"wheel\.offset must be left out where neither wheel nor rail has a profile"):
+        load_scene(written(tmp_path, ('load = "', 'offset = "3 mm"\nload = "')))
+
+
+def two_tops(gap):
+    """Two crowns of 300 mm side by side, 30 mm apart, the second lower by a gap [mm]."""
+    y = np.arange(-25, 55.1, 0.5)
+    return profile_of(np.maximum(-(y**2) / 600, -((y - 30) ** 2) / 600 - gap), y)
+
+
+def second_contact(gap, load):
+    """What is said of two crowns under a load; nothing where only one touches."""
+    try:
+        assert fitted_radius(two_tops(gap), along=0.46, modulus=STEEL, load=load) == pytest.approx(0.3, rel=1e-3)
+    except ValueError as problem:
+        return str(problem)
+    return ""
+
+
+def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none():
+    """The approach is 66 um; 30 mm beside the contact the surfaces give way by F / (pi E* r) = 4.6 um."""
+    assert second_contact(0.064, 5e4) == second_contact(0.058, 3e4) == ""
+    assert re.search(r"one contact under the load, got a second one \+(29|30)\S* mm beside", second_contact(0.058, 5e4))
+
+
+def test_two_bodies_touch_where_both_together_are_highest():
+    """-(y^2 / 600 + (y - 6)^2 / 1200) at y = 2 mm; a crown of 300 mm is as steep as a cone of 1 in 100 at 3 mm."""
+    rail, cone = profile_of(parabola(300.0)), profile_of(-Y / 100)
+    assert both_together([rail, profile_of(parabola(600.0)).moved(6e-3)], 0.0).at == pytest.approx(2e-3, abs=3e-6)
+    assert both_together([rail], 1 / 0.6, 6e-3).at == pytest.approx(2e-3, abs=3e-6)
+    for offset in (0.0, 5e-3, -5e-3):
+        assert both_together([rail, cone.moved(offset)], 0.0).at == pytest.approx(-3e-3, abs=3e-6)
+
+
+def test_a_contact_on_a_flank_is_refused():
+    """sin(20 degrees) of a radius of 100 mm beside the top of a cone of tan(20 degrees)."""
+    ball, cone = profile_of(parabola(100.0) + 0.36 * Y), profile_of(-0.2 * Y)
+    assert math.degrees(both_together([ball, cone], 0.0).inclination) == pytest.approx(
+        math.degrees(math.atan(0.2)), 0.01
+    )
+    with pytest.raises(ValueError, match=r"must touch where both are level, .* on a flank of 21\.\d degrees"):
+        both_together([ball, profile_of(-0.4 * Y)], 0.0)
+
+
+def test_flanks_that_turn_back_are_left_out_and_told(tmp_path):
+    """The back of a flange and the side of a head are vertical: no heights over y."""
+    back = "".join(f"-69,{height}\n" for height in (3, 9))
+    (tmp_path / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y) + "\n35,-14\n34.95,-20\n20,-34\n")
+    (tmp_path / "tread.csv").write_text(
+        "y [mm],z [mm]\n" + back + table(tread(WHEEL_Y, 0.01), WHEEL_Y).partition("]\n")[2]
+    )
+    scene = load_scene(written(tmp_path, (CROWN, PROFILE), ('load = "', 'profile = "tread.csv"\nload = "')))
+    assert scene.profile.at == pytest.approx(-3e-3, abs=2e-5)
+    assert "tread.csv: it goes from -69 mm to 60 mm across: 2 points that turn back are left out." in scene.notes
+    assert "head.csv: it goes from -35 mm to 35 mm across: 3 points that turn back are left out." in scene.notes
+
+
+@pytest.mark.parametrize(
+    ("contents", "keys"),
+    [
+        (
+            "n,y [mm],z [mm]\n" + "\n".join(f"7,{y},{z:.9g}" for y, z in zip(Y, parabola(300.0), strict=True)),
+            'columns = ["y", "z"]',
+        ),
+        (table(-parabola(300.0)), "flip = true"),
+        (table(parabola(300.0), header="lateral,vertical"), 'unit = "mm"'),
+        (table(parabola(300.0) / 10, Y / 10, "y [cm];z [cm]").replace(",", ";").replace(".", ","), 'decimal = ","'),
+        ("a;b\nno numbers;x\n" + table(parabola(300.0), header="").replace(",", "\t"), 'unit = "mm"\nskip = 2'),
+    ],
+)
+def test_a_profile_is_a_table_of_keys(tmp_path, contents, keys):
+    (tmp_path / "head.csv").write_text(contents, encoding="utf-8")
+    text = f'[rail.profile]\nfile = "head.csv"\n{keys}\n[rail.levels]'
+    scene = load_scene(written(tmp_path, (CROWN, ""), ("[rail.levels]", text)))
+    assert scene.radii[1] == pytest.approx(0.3, rel=1e-6)
+
+
+def test_heights_in_the_first_column_are_told_by_their_name(tmp_path):
+    text = "\n".join(f"{z:.10g},{y:.10g}" for y, z in zip(Y, parabola(300.0), strict=True))
+    assert with_profile(tmp_path, f"height [mm],y [mm]\n{text}").radii[1] == pytest.approx(0.3, rel=1e-6)
+
+
+def test_noise_of_a_scan_is_smoothed_and_told(tmp_path):
+    """3 um on points every 0.1 mm, as a laser has: over a contact of 8 mm they leave the radius to a few per cent."""
+    y = np.arange(-30, 30.01, 0.1)
+    scan = -(y**2) / 600 + 0.003 * np.random.default_rng(4).standard_normal(y.size)
+    scene = with_profile(tmp_path, table(scan, np.round(y + 0.02 * np.sin(7e3 * y), 3)))
+    assert scene.radii[1] == pytest.approx(0.3, rel=0.06)
+    assert abs(scene.profile.at) < 1e-3
+    (note,) = scene.notes
+    assert re.search(r"head\.csv: .*a spline with a knot every 1 mm smooths its points, which are [23]\S* µm rms", note)
+
+
+def test_a_radius_is_that_of_the_contact_where_noise_has_smaller_ones():
+    """Five points of a noisy top have any radius, in which a tiny contact would fit, too."""
+    y = np.arange(-30, 30.01, 0.05)
+    noisy = -(y**2) / 600 + 0.006 * np.random.default_rng(3).standard_normal(y.size)
+    found = fitted_radius(profile_of(noisy, y - y[noisy.argmax()]), along=0.46, modulus=STEEL, load=5e4)
+    assert found == pytest.approx(0.3, rel=0.05)

@@ -244,10 +244,11 @@ def test_files_are_refused_by_key(tmp_path, old, new, said):
 @pytest.mark.parametrize(
     ("contents", "said"),
     [
-        ("wavelength [mm],level [dB re 1 nm]\n100,60\n", "levels must be in dB re 1 um, got 'level .dB re 1 nm.'"),
+        ("wavelength [mm],level [dB re 1 nm]\n100,60\n", "levels must be in dB re 1 um, got dB re 1 nm"),
         ("wavelength [mm],level_um\n100,1\n", "columns must be named"),
-        ("wavelength,level [dB]\n100,1\n", "columns must be named"),
-        ("100,1\n80,2\n", "columns must be named"),
+        ("wavelength,level [dB]\n100,1\n", 'wavelengths must have a unit, .*: as: unit = "mm"'),
+        ("100,1.0\n80,2.0\n", 'columns must be named as .*, got column 1 and column 2: .*as: unit = "mm"'),
+        ("100,1\n80,2\n", 'two columns or one with decimal commas, .*as: decimal = ","'),
         (f"{HEADER}\n100,-110\n80,-115\n", "levels must lie between .* got -110 dB at 100 mm: is the unit another"),
         (f"{HEADER}\n100,64.9\n80,62.9\n", "levels must lie between .* got 64.9 dB at 100 mm: is the unit another"),
         (f"{HEADER}\n0.1,4.9\n0.08,2.9\n", "from 2000 to 0.8 mm, got 0.1 mm: is it in metres"),
@@ -256,14 +257,14 @@ def test_files_are_refused_by_key(tmp_path, old, new, said):
         (f"{HEADER}\n100,1\n80,2\n80,3\n", "got 80 mm twice"),
         (f"{HEADER}\n100,1\n63,2\n", "no 80 mm behind 100 mm"),
         (f"{HEADER}\n97,1\n", "must be nominal, .* got 97 mm"),
-        (f"{HEADER}\n100,nan\n", "levels must be finite"),
-        (f"{HEADER}\n100,x\n", "two numbers, with decimal points, got '100' and 'x'"),
+        (f"{HEADER}\n100,1\n80,nan\n63,2\n", "no 80 mm behind 100 mm"),
+        (f"{HEADER}\n100,x\n", "rows must be numbers, got 'x' in column 2 of line 2"),
         (
             f"{HEADER}\n100\n",
-            "two columns, .* got '100': a line that is none of these begins with a #",
+            "columns must be named as .*, got column 1",
         ),
-        (f"{HEADER}\n", "must name one band at least"),
-        ("", "two columns"),
+        (f"{HEADER}\n", "must hold rows of numbers, got none in its first 1 lines"),
+        ("", "must hold rows of numbers, got an empty file"),
     ],
 )
 def test_levels_are_refused_by_what_is_wrong(tmp_path, contents, said):

@@ -1,6 +1,7 @@
 """Boundary elements on a strip with a measured shape across: a parabola is its radius, a worn one is not."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import bem3d
 from validation import compare, load_scene
 from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import RailScene
-from validation.scenes.transverse_profile import TransverseProfile
+from validation.scenes.transverse_profile import TransverseProfile, both_together
 from validation.selection.summary import summary
 from validation.simulation import profiled_strip, rail_models
 from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_MODELS, lifted
@@ -109,3 +110,25 @@ def test_another_load_has_another_contact_and_its_own_radius(height):
     lighter = replace(scene, load=scene.load / 20)
     assert lighter.contact.across < scene.contact.across
     assert lighter.radii[1] == pytest.approx(0.3, rel=0.02)
+
+
+@pytest.mark.parametrize("cone", [0.0, 0.01])
+def test_a_cone_and_a_flange_press_as_the_ellipse_of_the_crown(cone):
+    """A smooth crown of 300 mm under a tread with a flange beside it: Hertz's approach and pressure."""
+    rail = -(Y**2) / 0.6 - 40 * np.maximum(np.abs(Y) - 0.02, 0.0) ** 2
+    tread = -cone * Y + 30 * np.maximum(-0.022 - Y, 0.0) ** 2
+    bodies = [TransverseProfile(y=tuple(Y.tolist()), height=tuple(z.tolist())) for z in (rail, tread)]
+    assert tread.argmax() == 0
+    profile = both_together(bodies, 0.0)
+    assert profile.at == pytest.approx(-0.3 * cone, abs=3e-6)
+    names = ("name", "radius", "load", "modulus", "material", "roughness", "speed", "across")
+    scene = ProfiledRail(**{name: getattr(RAIL, name) for name in names}, profile=profile)
+    strip = SimpleNamespace(spacing=0.3e-3, shape=(64, 64))
+    columns, z = profiled_strip.heights_across(strip, scene.profile)
+    x = (np.arange(64) - 31.5) * strip.spacing
+    halfspace = bem3d.HalfSpace(shape=(64, z.size), spacing=strip.spacing, modulus=scene.modulus)
+    found = bem3d.solve(halfspace, np.subtract.outer(x**2 / (2 * scene.radius), z), force=scene.load)
+    assert columns == slice(0, 64)
+    # 20 cells to a semi-axis: half a per cent
+    assert found.approach == pytest.approx(RAIL.contact.approach, rel=5e-3)
+    assert found.pressure.max() == pytest.approx(RAIL.contact.pressure, rel=5e-3)

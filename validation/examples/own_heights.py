@@ -9,11 +9,11 @@ import bem3d
 import mdr
 import validation
 
-# in place of a file: any object with `heights` and `physical_sizes`, as a Topography of SurfaceTopography
+# in place of a file: any object with `heights`, `physical_sizes` and a unit, as a Topography of SurfaceTopography
 n, side = 64, 1e-3
 rough = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi / side, q_max=2 * np.pi / side * n / 8, rms=1e-6)
 heights = bem3d.rough_surface(rough.c2d, shape=(n, n), spacing=side / n, rng=np.random.default_rng(3), rms=1e-6)
-ground = validation.measured(SimpleNamespace(heights=heights, physical_sizes=(side, side)))
+ground = validation.measured(SimpleNamespace(heights=heights, physical_sizes=(side, side)), unit="m")
 scene = validation.IndentationScene(name="my punch", shape="punch", size=side, load=5.0, modulus=2.3e11, ground=ground)
 found = validation.compare(scene, tolerance="30%", solve_all=True)
 print(validation.summary(found))
@@ -21,11 +21,11 @@ Path("own_heights.png").write_bytes(validation.to_figure(found, form="png"))
 assert found.met and found.model.startswith("boundary elements")  # springs know the spectrum, not this one face
 assert ground.rms < 1e-6  # the mean plane is removed
 
-# the same face in a file: micrometres below a header, longer than wide, a point without data
+# the same face in a file: below a header that names micrometres, longer than wide, a point without data
 table = np.pad(1e6 * heights, ((4, 4), (0, 0)))
 table[40, 20] = np.nan
 np.savetxt("face.csv", table, delimiter=",", header="Instrument 7\nz [um]", comments="")
-keys = 'file = "face.csv"\nspacing = "15.625 um"\nunit = "um"\nskip = 2\ncrop = true\nfill = true\n'
+keys = 'file = "face.csv"\nspacing = "15.625 um"\ncrop = true\nfill = true\n'
 body = 'name = "my punch"\npunch = { side = "1 mm", load = "5 N" }\nmaterial = { contact_modulus = "230 GPa" }\n'
 Path("my_punch.toml").write_text(f"{body}[heights]\n{keys}")
 same = validation.compare(validation.load_scene("my_punch.toml"), tolerance="30%")

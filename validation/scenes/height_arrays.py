@@ -75,15 +75,17 @@ def array_of(file: IO[bytes], size: int) -> NDArray[np.generic]:
 
 def _header(file: IO[bytes]) -> tuple[tuple[int, ...], np.dtype[np.generic]]:
     """Shape and type of an .npy."""
-    version = np.lib.format.read_magic(file)
+    try:
+        version = np.lib.format.read_magic(file)
+    except ValueError:
+        raise ValueError("a file that does not begin as arrays of numpy do") from None
     if version not in ((1, 0), (2, 0), (3, 0)):
         raise ValueError(f"an .npy of the unknown version {version}")
     # that of version 3 differs in names alone
     header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
     try:
         shape, _, dtype = header(file)
-    except (ValueError, TypeError, SyntaxError, TokenError, RecursionError, MemoryError) as problem:
+    except (ValueError, TypeError, SyntaxError, TokenError, RecursionError, MemoryError):
         # whatever a parser of Python meets in a text that is none
-        why = "".join(f", {line}" for line in str(problem).splitlines()[:1])
-        raise ValueError(f"a header that cannot be read{why}") from None
+        raise ValueError("a header that cannot be read") from None
     return shape, dtype

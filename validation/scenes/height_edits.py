@@ -17,11 +17,15 @@ SQUARE = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class HeightEdits:
-    """What was done to measured heights: how many points were filled in, of which shape the central square was cut."""
+    """What was done to measured heights: how many points were filled in, of which shape the central square was cut.
+
+    told: what was assumed of their file, in sentences.
+    """
 
     filled: int = 0
     share: float = 0.0
     cropped_from: tuple[int, int] | None = None
+    told: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:
@@ -32,7 +36,7 @@ class HeightEdits:
     @property
     def notes(self) -> tuple[str, ...]:
         """In sentences."""
-        found = []
+        found = [*self.told]
         if self.cropped_from:
             found.append(f"heights are the central square of {_shape(self.cropped_from)} points, as asked by crop.")
         if self.filled:
@@ -60,14 +64,34 @@ def edited(
     of them and more.
     """
     part = central_square(height, spacing) if crop else height
-    check_not_infinite(part)
-    unknown = np.isnan(part)
-    count, share = int(unknown.sum()), float(unknown.mean()) if part.size else 0.0
-    if not (fill and share < MOST_FILLED):
-        advice = f"fewer than 1 % can be filled in from their neighbours, as: {asked_by}"
-        check_known(part, advice if share < MOST_FILLED else f"cut out a part that is known; {advice}")
+    count, share = _to_fill(part, fill=fill, asked_by=asked_by)
     done = HeightEdits(filled=count, share=share, cropped_from=None if part.shape == height.shape else height.shape)
     return filled_in(part, spacing) if count else part, done
+
+
+def edited_lines(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[FloatArray, HeightEdits]:
+    """The same of lines, shape (points, lines), which are filled in by interpolation along each."""
+    count, share = _to_fill(height, fill=fill, asked_by=asked_by)
+    found = np.stack([_filled_line(line) for line in height.T], axis=1) if count else height
+    return found, HeightEdits(filled=count, share=share)
+
+
+def _filled_line(line: FloatArray) -> FloatArray:
+    """Linear between known points, and about the mean slope beyond the first and the last."""
+    known, at = np.isfinite(line), np.arange(line.size)
+    mean = np.polynomial.Polynomial.fit(at[known], line[known], 1)(at)
+    return np.asarray(mean + np.interp(at, at[known], (line - mean)[known]))
+
+
+def _to_fill(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[int, float]:
+    """How many points have no data, and their share. Raises ValueError where they are not to be filled in."""
+    check_not_infinite(height)
+    unknown = np.isnan(height)
+    count, share = int(unknown.sum()), float(unknown.mean()) if height.size else 0.0
+    if not (fill and share < MOST_FILLED):
+        advice = f"fewer than 1 % can be filled in from their neighbours, as: {asked_by}"
+        check_known(height, advice if share < MOST_FILLED else f"cut out a part that is known; {advice}")
+    return count, share
 
 
 def central_square(height: FloatArray, spacing: tuple[float, float]) -> FloatArray:

@@ -1,45 +1,23 @@
-"""Files of measured heights: an array of numpy or a table of text, with the keys of a scene that say how to read it."""
+"""Files of measured heights over an area: rows along x, or x, y and height in three columns, or of an instrument."""
 
-from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
-from typing import IO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.checks import count
-from validation.scenes.height_arrays import KeyOfArchiveError, array_of, array_of_archive, is_archive
-from validation.scenes.height_tables import table_of_numbers
-from validation.scenes.input_files import check_regular
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured import FEWEST, MeasuredHeights
 from validation.scenes.measured_surface import as_asked, metres_of
-from validation.scenes.printable import printable, shortened
-from validation.scenes.reader import LENGTH, Reader, nonblank_text, table, without_unit
+from validation.scenes.number_table import KEYS, NumberTable, form_of
+from validation.scenes.positions import grid_of, metres_of_step, places_of
+from validation.scenes.printable import shortened
+from validation.scenes.reader import LENGTH, Reader, nonblank_text, table
+from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
+from validation.scenes.units import in_unit
 
 FloatArray = NDArray[np.float64]
-
-MOST_BYTES, MOST_VALUES = 2**28, 2**24
-"""Of a file; 4096 x 4096 heights of sixteen characters."""
-ARRAYS = (".npy", ".npz")
-"""How the names of numpy's files end."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class HeightFileForm:
-    """What a scene says about a file beside its name: the lines above the numbers, the array of an archive."""
-
-    name: str
-    skip: int | None = None
-    key: str | None = None
-
-    def check(self, path: Path) -> None:
-        """Raises ValueError for a key that the kind of file has no use for."""
-        is_array = path.suffix.lower() in ARRAYS
-        if self.skip is not None and is_array:
-            raise ValueError(f"{self.name}.skip must be left out of a file of numpy, got {printable(path.name)}")
-        if self.key is not None and not is_array:
-            raise ValueError(f"{self.name}.key must be left out but for an .npz, got {printable(path.name)}")
+Spacing = tuple[float, float]
+Face = tuple[FloatArray, Spacing | None, tuple[str, ...]]
+"""Heights [m], their spacing [m] as far as it is known, and what was assumed."""
 
 
 def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
@@ -53,57 +31,83 @@ def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
         "file": nonblank_text,
         "spacing": _spacing,
         "unit": unit_of,
-        "skip": partial(without_unit, partial(count, least=0)),
+        **KEYS,
         "key": nonblank_text,
-        "crop": _yes_or_no,
-        "fill": _yes_or_no,
+        "crop": yes_or_no,
+        "fill": yes_or_no,
     }
-    found = table(readers, ("unit", "skip", "key", "crop", "fill"), name, given)
-    form = HeightFileForm(name=name, skip=found.get("skip"), key=found.get("key"))
-    height = read_heights(f"{name}.file", folder / found["file"], form) * found.get("unit", 1.0)
+    found = table(readers, tuple(key for key in readers if key != "file"), name, given)
+    path, spacing = folder / found.pop("file"), found.pop("spacing", None)
+    numbers = read_table(f"{name}.file", path, form_of(found))
     wishes = {key: found.get(key, False) for key in ("crop", "fill")}
     try:
-        return as_asked(height, found["spacing"], **wishes, asked_by="fill = true")
+        height, known, notes = _face(numbers, found.get("unit"), spacing)
+        if known is None:
+            raise ValueError(f'spacing is missing, {name} must have it, as: spacing = "1 um"')
+        told = sentence_about(path, (*numbers.notes, *notes))
+        return as_asked(height, known, **wishes, asked_by="fill = true", told=told)
     except ValueError as problem:
-        raise ValueError(f"{name}: {problem}") from None
+        separator = "." if str(problem).partition(" ")[0] in readers else ": "
+        raise ValueError(f"{name}{separator}{problem}") from None
 
 
-def read_heights(name: str, path: Path, form: HeightFileForm | None = None) -> FloatArray:
-    """Rows are lines across the track, x along the first axis. NaN stays.
-
-    form: what the scene says about the file; None where it can say nothing. Raises OSError for a file that cannot be
-    read, ValueError for one that is no table of real numbers, no regular file, or larger than `MOST_BYTES` or
-    `MOST_VALUES`.
-    """
-    size = check_regular(name, path, most=MOST_BYTES)
-    if form:
-        form.check(path)
-    try:
-        with path.open("rb") as file:
-            values = _values(file, path, size, form)
-    except OSError as problem:
-        raise OSError(f"{name} {printable(path)} cannot be read: {problem.strerror or problem}") from None
-    except KeyOfArchiveError as problem:
-        raise ValueError(f"{form.name if form else name}.key {problem}, of {printable(path)}") from None
-    except ValueError as problem:
-        raise ValueError(f"{name} {printable(path)} must hold a table of numbers, got: {printable(problem)}") from None
-    if values.size > MOST_VALUES:
-        raise ValueError(f"{name} {printable(path)} must hold at most {MOST_VALUES} heights, got {values.size}")
-    if values.dtype.kind not in "fiu":
-        raise ValueError(f"{name} {printable(path)} must hold real numbers, got {values.dtype}")
-    return np.asarray(values, dtype=np.float64)
+def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """Heights over an area of any of the forms of a file. Raises ValueError."""
+    values = numbers.values
+    if values.ndim != 2 or not values.size:
+        return values, spacing or (1.0, 1.0), ()
+    every = range(values.shape[1])
+    if numbers.spacing is not None:
+        if not numbers.unit and metre is None:
+            raise ValueError('unit is missing: the file names none, as: unit = "um"')
+        own = [one * (1 if numbers.unit else metre or 1) for one in (*numbers.spacing, 1.0)[:2]]
+        known = _agreed(own, [numbers.unit or "m"] * 2, spacing, "the file")
+        return heights_of_columns(numbers, every, metre), known, ()
+    if {"x", "y", "z"} <= {column.name.lower() for column in numbers.columns}:
+        numbers = numbers.chosen(["x", "y", "z"])
+    if numbers.values.shape[1] == 3 and len(values) > FEWEST:
+        return _of_three(numbers, metre, spacing)
+    return _of_rows(numbers, metre, spacing)
 
 
-def _values(file: IO[bytes], path: Path, size: int, form: HeightFileForm | None) -> NDArray[np.generic]:
-    if path.suffix.lower() not in ARRAYS:
-        return table_of_numbers(file, skip=None if form is None else form.skip or 0)
-    if not is_archive(file):
-        if form and form.key is not None:
-            raise ValueError(f"one array without a name, for which {form.name}.key has no use")
-        return array_of(file, size)
-    if form is None:
-        raise ValueError("an archive, .npz; one array of it can be saved by numpy.save")
-    return array_of_archive(file, form.key, most=MOST_BYTES)
+def _of_rows(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """A row for each x, without its places: those of x in the first column, and of y in a first row."""
+    values, given = numbers.values, spacing or (None, None)
+    if min(values.shape) <= FEWEST:
+        return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
+    across = places_of(values[0, 1:])
+    top = 0 if across is None or across.gaps or places_of(values[1:, 0]) is None else 1
+    along = places_of(values[top:, 0])
+    if along is None or along.gaps:
+        return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
+    height, notes = heights_of_columns(numbers, range(1, values.shape[1]), metre)[top:], []
+    for places, unit, own, what in (
+        (along, numbers.columns[0].unit, given[0], "first column"),
+        *([(across, "", given[1], "first row")] if top and across else []),
+    ):
+        step = metres_of_step(places.step, unit, own, f"the {what}")
+        notes.append(f"its {what} runs evenly, {in_unit(step, 'length')} apart, and is left out of the heights")
+    turned = height[:: -1 if along.step < 0 else 1]
+    return turned[:, :: -1 if top and across and across.step < 0 else 1], spacing, tuple(notes)
+
+
+def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """x, y and height in columns of these names, or in this order."""
+    named = [column.name.lower() for column in numbers.columns]
+    x, y = (named.index("x"), named.index("y")) if {"x", "y"} <= set(named) else (0, 1)
+    z = 3 - x - y
+    grid = grid_of(numbers.values[:, x], numbers.values[:, y], heights_of_columns(numbers, [z], metre)[:, 0])
+    units = [numbers.columns[i].unit for i in (x, y)]
+    known = _agreed(grid.steps, units, spacing, numbers.names([x, y]))
+    size = " x ".join(map(str, grid.height.shape))
+    shown = " and ".join(in_unit(step, "length") for step in known)
+    return grid.height, known, (f"its columns are x, y and height of {size} points, {shown} apart",)
+
+
+def _agreed(steps: tuple[float, ...] | list[float], units: list[str], spacing: Spacing | None, what: str) -> Spacing:
+    given = spacing or (None, None)
+    first, second = (metres_of_step(*one, what) for one in zip(steps, units, given, strict=True))
+    return first, second
 
 
 def unit_of(name: str, given: object) -> float:
@@ -114,7 +118,7 @@ def unit_of(name: str, given: object) -> float:
         raise ValueError(f'{problem}, as: unit = "um"') from None
 
 
-def _spacing(name: str, given: object) -> tuple[float, float]:
+def _spacing(name: str, given: object) -> Spacing:
     """One distance of points for both axes, or two."""
     if not isinstance(given, list):
         both: float = LENGTH(name, given)
@@ -124,7 +128,7 @@ def _spacing(name: str, given: object) -> tuple[float, float]:
     return LENGTH(f"{name}[0]", given[0]), LENGTH(f"{name}[1]", given[1])
 
 
-def _yes_or_no(name: str, given: object) -> bool:
+def yes_or_no(name: str, given: object) -> bool:
     if not isinstance(given, bool):
         raise ValueError(f"{name} must be true or false, got {shortened(given)}, as: {name.rpartition('.')[2]} = true")
     return given

@@ -1,19 +1,26 @@
-"""Files of roughness levels: a CSV of wavelength and dB re 1 um, its units in the names of its columns."""
+"""Tables of roughness levels: wavelength, or wavenumber in cycles per length, and dB re 1 um of one-third octaves."""
 
-import re
-from collections.abc import Sequence
+import math
 from pathlib import Path
 
-from validation.scenes.input_files import contents_of
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.nominal_bands import nominal_wavelength
+from validation.scenes.column_names import WAVENUMBERS
+from validation.scenes.measured_surface import metres_of
+from validation.scenes.number_table import NumberTable, TableForm
 from validation.scenes.printable import printable, quoted
 from validation.scenes.roughness_levels import RoughnessLevels
-from validation.scenes.two_columns import numbers_of, rows_of_two
-from validation.scenes.units import UNITS, quantity
+from validation.scenes.table_files import PLAIN, read_table
+from validation.scenes.units import UNITS
 
 CURVES = Path(__file__).parent / "levels"
-MOST_BYTES = 100_000
 COLUMNS = "wavelength [mm],level [dB re 1 um]"
-"""The header of a file, in another unit of wavelength too; wavelength_mm and level_dB do as well."""
+"""The header of a file; other units of length do as well, and 1/m for a wavenumber."""
+REFERENCES = ("", "1um", "um", "1micron", "1e-6m", "10^-6m", "1micrometre", "1micrometer")
+NEAR = 0.05
+"""By how much the wavelength of a wavenumber may differ from that of its band: 1/16 m beside 63 mm."""
 
 
 def curve_names() -> tuple[str, ...]:
@@ -25,35 +32,93 @@ def curve(name: str) -> RoughnessLevels:
     """The levels of a bundled curve: "iso3095-2013" or "cnossos-average". Raises ValueError for another name."""
     if name not in curve_names():
         raise ValueError(f"curve must be one of {', '.join(curve_names())}, got {quoted(name)}")
-    return read_levels("curve", CURVES / f"{name}.csv", source=name)
+    return read_levels("curve", CURVES / f"{name}.csv", source=name)[0]
 
 
-def read_levels(name: str, path: Path, *, source: str = "") -> RoughnessLevels:
-    """Levels of a file, in any order of long to short waves.
+def read_levels(
+    name: str, path: Path, form: TableForm = PLAIN, *, unit: str | None = None, source: str = ""
+) -> tuple[RoughnessLevels, tuple[str, ...]]:
+    """Levels of a file, in any order of long to short waves, and what was assumed of it, in sentences.
 
-    Raises OSError for a file that cannot be read, ValueError for one that holds no levels; both name it.
+    unit: of the wavelengths, where their column does not name it. Raises OSError for a file that cannot be read,
+    ValueError for one that holds no levels; both name it.
     """
-    text = contents_of(name, path, most=MOST_BYTES)
+    table = read_table(name, path, form)
     try:
-        rows = rows_of_two(text.decode("utf-8-sig"), "a file of levels must have two columns, wavelength and level")
-        metre = _metre(rows[0])
-        pairs = [(wavelength * metre, level) for wavelength, level in map(numbers_of, rows[1:])]
-        if len(pairs) > 1 and pairs[0][0] < pairs[-1][0]:
-            pairs.reverse()
-        wavelengths, levels = zip(*pairs, strict=True) if pairs else ((), ())
-        return RoughnessLevels(wavelengths=wavelengths, levels=levels, source=source or path.name)
+        of_wave, of_level = _both(table, unit)
+        known = np.isfinite(table.values[:, [of_wave, of_level]]).all(axis=1)
+        waves, levels = (table.values[known, i] for i in (of_wave, of_level))
+        wavelengths, notes = _wavelengths(waves, table.columns[of_wave].unit or str(unit))
+        order = slice(None, None, -1 if wavelengths[:1] < wavelengths[-1:] else 1)
+        left_out = int((~known).sum())
+        notes += (f"{left_out} of its rows have no level and are left out",) if left_out else ()
+        found = RoughnessLevels(
+            wavelengths=tuple(wavelengths[order]), levels=tuple(levels[order].tolist()), source=source or path.name
+        )
     except ValueError as problem:
         raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
+    others = [i for i in range(len(table.columns)) if i not in (of_wave, of_level)]
+    notes += (f"without {table.names(others)}",) if others else ()
+    return found, (*table.notes, *notes)
 
 
-def _metre(header: Sequence[str]) -> float:
-    """The unit of wavelength in metres, by the name of the first column; the second must be of dB re 1 um."""
-    words = [re.findall(r"[a-zµμ]+|\d+", cell.replace("_", " "), flags=re.IGNORECASE) for cell in header]
-    units = [word for word in words[0] if word in UNITS["length"]]
-    level = [word.lower() for word in words[1]]
-    reference = level[level.index("re") + 1 :] if "re" in level else []
-    if words[0][:1] != ["wavelength"] or len(units) != 1 or "db" not in level:
-        raise ValueError(f"the columns must be named as {COLUMNS!r}, with their units, got {','.join(header)!r}")
-    if reference not in ([], ["1", "um"], ["1", "µm"], ["1", "μm"], ["um"], ["µm"], ["μm"]):
-        raise ValueError(f"levels must be in dB re 1 um, got {header[1]!r}")
-    return quantity("wavelength", f"1 {units[0]}", "length")
+def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
+    """The columns of wavelength and level. Raises ValueError."""
+    units = [column.unit for column in table.columns]
+    lengths = [i for i, one in enumerate(units) if one in UNITS["length"]]
+    waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS or one == "rad/m"]
+    levels = [i for i, one in enumerate(units) if one == "dB"]
+    if len(units) == 2 and (waves or unit or levels):
+        # the other of two is the other, unless it is another quantity
+        waves = waves or [i for i in ([1 - levels[0]] if levels else [0]) if not units[i]]
+        levels = levels or [i for i in range(2) if i not in waves and not units[i]]
+    if len(levels) > 1 or (levels and len(waves) > 1):
+        raise ValueError(
+            f"one column of wavelengths and one of levels must be read, got {table.names([*waves, *levels])}: say which"
+            f", as: columns = [{(waves or [0])[0] + 1}, {levels[-1] + 1}]"
+        )
+    if not waves or not levels:
+        raise ValueError(
+            f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}: or, of "
+            'two columns, as: unit = "mm"'
+        )
+    of_wave, of_level = waves[0], levels[0]
+    if unit is None and not units[of_wave]:
+        raise ValueError(
+            f'wavelengths must have a unit, as in {COLUMNS!r}, got {table.names([of_wave])}: as: unit = "mm"'
+        )
+    if unit is not None and units[of_wave] and metres_of("unit", unit) != metres_of("unit", units[of_wave]):
+        raise ValueError(
+            f"unit must be that of the column {table.names([of_wave])}, or be left out, got {quoted(unit)}"
+        )
+    reference = table.columns[of_level].reference.replace(" ", "").lower()
+    if reference not in REFERENCES:
+        raise ValueError(f"levels must be in dB re 1 um, got dB re {table.columns[of_level].reference}")
+    return of_wave, of_level
+
+
+def _wavelengths(values: NDArray[np.float64], unit: str) -> tuple[list[float], tuple[str, ...]]:
+    """In metres, those of wavenumbers by the nominal band."""
+    numbers = values.tolist()
+    if unit not in WAVENUMBERS and unit != "rad/m":
+        return [value * metres_of("unit", unit) for value in numbers], ()
+    if any(value <= 0 for value in numbers):
+        raise ValueError(f"wavenumbers must be positive, got {min(numbers):g} {unit}")
+    cycles = 1 / (2 * math.pi) if unit == "rad/m" else WAVENUMBERS[unit]
+    found = []
+    for value in numbers:
+        length = 1 / (value * cycles)
+        band = nominal_wavelength(round(10 * math.log10(length)))
+        if abs(length / band - 1) > NEAR:
+            raise ValueError(f"wavenumbers must be those of one-third octaves, got {value:g} {unit}")
+        found.append(band)
+    words = "k = 2 pi / wavelength" if unit == "rad/m" else "cycles: wavelength = 1 / k"
+    return found, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
+
+
+def unit_of_wavelengths(name: str, given: object) -> str:
+    """A length, or cycles over one. Raises ValueError."""
+    if given in WAVENUMBERS or given == "rad/m":
+        return str(given)
+    metres_of(name, given)
+    return str(given)

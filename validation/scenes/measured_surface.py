@@ -1,6 +1,7 @@
 """Measured heights of an object that has them, and as they were asked for: cropped, filled in."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -18,16 +19,19 @@ FloatArray = NDArray[np.float64]
 
 SMALL = {"Å": Fraction(1, 10**10), "A": Fraction(1, 10**10), "pm": Fraction(1, 10**12)}
 """Units of the atomic force microscope, over a metre; A is how SurfaceTopography writes Å in ASCII."""
+LENGTHS = UNITS["length"] | SMALL
 
 
-def measured(surface: Any, *, crop: bool = False, fill: bool = False) -> MeasuredHeights:
+def measured(surface: Any, *, unit: str | None = None, crop: bool = False, fill: bool = False) -> MeasuredHeights:
     """Measured heights of any object with heights and a size, as the `Topography` of SurfaceTopography.
 
     Parameters
     ----------
     surface : object
         With ``heights``, an array of shape (nx, ny) or a method that returns one, and ``physical_sizes``, (Lx, Ly).
-        Both are in metres, or in the unit that ``surface.unit`` or ``surface.info["unit"]`` names.
+        Both are in the unit that ``surface.unit`` or ``surface.info["unit"]`` names, or in the given one.
+    unit : str or None, optional
+        Of an object that names none: "m", "mm", "um", "nm" or another length. None: the object names it.
     crop : bool, optional
         Whether to cut out the central square, as the face of a punch needs it.
     fill : bool, optional
@@ -46,7 +50,7 @@ def measured(surface: Any, *, crop: bool = False, fill: bool = False) -> Measure
         If the object has no heights or no size, or ``crop`` or ``fill`` are no bool.
     ValueError
         If points have no data and are not to be filled in or are too many, heights are infinite, there is no square to
-        crop, or sizes or unit are not valid.
+        crop, sizes are not valid, or there is no unit, or more than one.
 
     Examples
     --------
@@ -62,45 +66,59 @@ def measured(surface: Any, *, crop: bool = False, fill: bool = False) -> Measure
         if not isinstance(wish, bool):
             raise TypeError(f"{name} must be True or False, got {shortened(wish)}")
     height = real_numbers(surface.heights() if callable(surface.heights) else surface.heights)
-    metres, sizes = _metres(surface), surface.physical_sizes
+    sizes = surface.physical_sizes
     if not isinstance(sizes, (Sequence, np.ndarray)) or height.ndim != 2 or len(sizes) != 2:
         raise ValueError(
             f"heights must be two-dimensional with two physical_sizes, got shape {height.shape} and {shortened(sizes)}"
             ": an object is right that has an array of shape (nx, ny) and physical_sizes=(Lx, Ly)"
         )
-    sides = [positive(f"physical_sizes[{i}]", size) * metres for i, size in enumerate(sizes)]
+    lengths = [positive(f"physical_sizes[{i}]", size) for i, size in enumerate(sizes)]
+    metres = _metres(surface, unit)
+    sides = [length * metres for length in lengths]
     spacing = sides[0] / max(height.shape[0], 1), sides[1] / max(height.shape[1], 1)
     return as_asked(height * metres, spacing, crop=crop, fill=fill, asked_by="fill=True")
 
 
 def as_asked(
-    height: FloatArray, spacing: tuple[float, float], *, crop: bool, fill: bool, asked_by: str
+    height: FloatArray,
+    spacing: tuple[float, float],
+    *,
+    crop: bool,
+    fill: bool,
+    asked_by: str,
+    told: tuple[str, ...] = (),
 ) -> MeasuredHeights:
     """Heights in metres, NaN where there are no data, after the edits that were asked for.
 
-    asked_by: how fill is asked for. Raises ValueError as `edited` and `MeasuredHeights`.
+    asked_by: how fill is asked for; told: what was assumed of their file. Raises ValueError as `edited` and
+    `MeasuredHeights`.
     """
     check_grid(height)
     part, done = edited(height, spacing, crop=crop, fill=fill, asked_by=asked_by)
-    return MeasuredHeights(height=part, spacing=spacing, edits=done)
+    return MeasuredHeights(height=part, spacing=spacing, edits=replace(done, told=told))
 
 
-def _metres(surface: Any) -> float:
-    """The unit of a surface, one metre where it names none."""
+def _metres(surface: Any, given: str | None) -> float:
+    """The unit of a surface, as it names it or as it is given. Raises ValueError for none, and for two."""
     info = getattr(surface, "info", None)
     unit = getattr(surface, "unit", None)
     noted = info.get("unit") if isinstance(info, Mapping) else None
-    factors = {metres_of("unit of the surface", one) for one in (unit, noted) if one}
+    named = {"unit": unit, "info": noted, "unit=": given}
+    factors = {metres_of("unit of the surface", one) for one in named.values() if one}
+    if not factors:
+        raise ValueError(
+            'unit of the surface must be known, got an object that names none: measured(surface, unit="m") says it'
+        )
     if len(factors) > 1:
-        raise ValueError(f"unit of the surface must be one, got unit {shortened(unit)} and info {shortened(noted)}")
-    return factors.pop() if factors else 1.0
+        shown = " and ".join(f"{name} {shortened(one)}" for name, one in named.items() if one)
+        raise ValueError(f"unit of the surface must be one, got {shown}")
+    return factors.pop()
 
 
 def metres_of(name: str, unit: object) -> float:
     """How many metres a unit of heights is. Raises ValueError that begins with the name."""
-    lengths = UNITS["length"] | SMALL
     # the micro sign and the Greek letter look the same, as do the letter and the sign of an angstrom
-    found = lengths.get(str(unit).strip().replace("\N{GREEK SMALL LETTER MU}", "µ").replace("\N{ANGSTROM SIGN}", "Å"))
+    found = LENGTHS.get(str(unit).strip().replace("\N{GREEK SMALL LETTER MU}", "µ").replace("\N{ANGSTROM SIGN}", "Å"))
     if found is None:
-        raise ValueError(f"{name} must be one of {', '.join(lengths)}, got {shortened(unit)}")
+        raise ValueError(f"{name} must be one of {', '.join(LENGTHS)}, got {shortened(unit)}")
     return float(found)

@@ -1,41 +1,108 @@
-"""Files of transverse profiles: a CSV of y and height, their units in the names of the columns."""
+"""Tables of transverse profiles: places across the track and heights, of a rail or a wheel."""
 
-import re
-from collections.abc import Sequence
 from pathlib import Path
 
-from validation.scenes.input_files import contents_of
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from validation.scenes.number_table import NumberTable, TableForm
 from validation.scenes.printable import printable
+from validation.scenes.table_files import PLAIN, heights_of_columns, read_table
 from validation.scenes.transverse_profile import TransverseProfile
-from validation.scenes.two_columns import numbers_of, rows_of_two
-from validation.scenes.units import UNITS, quantity
+from validation.scenes.units import in_unit
 
-MOST_BYTES = 5_000_000
+FloatArray = NDArray[np.float64]
+
 COLUMNS = "y [mm],height [mm]"
-"""The header of a file, in other units of length too; y_mm and height_mm do as well."""
+"""The header of a file, in other units of length too."""
+SAME_PLACE, HIDDEN, FLANK = 1e-4, 1e-3, 2e-3
+"""How far points of a flank may turn back, lie below the profile, where the other body never comes, and beyond [m]."""
+APART = 1e-6
+"""How far apart points are, at the least [m]: between closer ones a spline would follow their noise."""
+KNOTS, DENSE = 1e-3, 6
+"""Distance of the knots of the spline that smooths a profile [m], with so many points to each or more."""
 
 
-def read_profile(name: str, path: Path) -> TransverseProfile:
-    """Profile of a file, y in either order; lines that are blank or begin with a # do not count.
+def read_profile(
+    name: str, path: Path, form: TableForm = PLAIN, *, metre: float | None = None, flip: bool = False
+) -> tuple[TransverseProfile, tuple[str, ...]]:
+    """Profile of a file, y in either order, and what was assumed of it, in sentences.
 
-    Raises OSError for a file that cannot be read, ValueError for one that holds no profile; both name it.
+    metre: the unit of both columns [m], where they do not name it; flip: whether heights of the file point away from
+    the other body. Raises OSError for a file that cannot be read, ValueError for one that holds no profile.
     """
-    contents = contents_of(name, path, most=MOST_BYTES)
+    table = read_table(name, path, form)
     try:
-        rows = rows_of_two(contents.decode("utf-8-sig"), f"a profile must have two columns, named as {COLUMNS!r}")
-        metres = [_metre(cell, word, rows[0]) for cell, word in zip(rows[0], ("y", "height"), strict=True)]
-        points = [(y * metres[0], height * metres[1]) for y, height in map(numbers_of, rows[1:])]
-        if len(points) > 1 and points[0][0] > points[-1][0]:
-            points.reverse()
-        y, height = zip(*points, strict=True) if points else ((), ())
-        return TransverseProfile(y=y, height=height, source=path.name)
+        y, height = _in_metres(table, metre)
+        known = np.isfinite(y) & np.isfinite(height)
+        y, height, of_ends = _ascending(y[known], height[known] * (-1 if flip else 1))
+        smooth, of_noise = _smoothed(y, height)
+        profile = TransverseProfile(y=tuple(y.tolist()), height=tuple(smooth.tolist()), source=path.name)
     except ValueError as problem:
         raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
+    missing = int((~known).sum())
+    notes = (f"{missing} of its points have no data and are left out",) if missing else ()
+    return profile, (*table.notes, *notes, *of_ends, *of_noise)
 
 
-def _metre(cell: str, word: str, header: Sequence[str]) -> float:
-    """The unit of a column in metres, by its name."""
-    words = re.findall(r"[a-zµμ]+", cell.replace("_", " "), flags=re.IGNORECASE)
-    if len(words) != 2 or words[0].lower() != word or words[1] not in UNITS["length"]:
-        raise ValueError(f"the columns must be named as {COLUMNS!r}, with their units, got {','.join(header)!r}")
-    return quantity(word, f"1 {words[1]}", "length")
+def _in_metres(table: NumberTable, metre: float | None) -> tuple[FloatArray, FloatArray]:
+    """Places and heights [m]. Raises ValueError."""
+    columns = table.columns
+    if len(columns) != 2:
+        raise ValueError(f"a profile must have two columns, as {COLUMNS!r}, got {len(columns)}: as: columns = [1, 2]")
+    if metre is None and not (table.unit or all(column.unit for column in columns)):
+        raise ValueError(
+            f'the columns must be named as {COLUMNS!r}, with their units, got {table.names([0, 1])}: or as: unit = "mm"'
+        )
+    of_y = 1 if columns[1].name.lower() == "y" and columns[0].name.lower() != "y" else 0
+    return heights_of_columns(table, [of_y], metre)[:, 0], heights_of_columns(table, [1 - of_y], metre)[:, 0]
+
+
+def _ascending(y: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
+    """From the highest point to both sides, as far as places ascend. Beyond, flanks turn back under the profile.
+
+    Raises ValueError where points that are left out would be seen by the other body.
+    """
+    if y.size < 2:
+        return y, height, ()
+    top = int(np.argmax(height))
+    if y[max(top - 1, 0)] > y[min(top + 1, y.size - 1)]:
+        y, height, top = y[::-1], height[::-1], y.size - 1 - top
+    kept = np.concatenate([top - _onward(-y[top::-1])[:0:-1], top + _onward(y[top:])])
+    run, of_run = y[kept], height[kept]
+    if run.size < 2:
+        raise ValueError(f"y must ascend, got {y[0]:g} m first and {y[-1]:g} m last, and nowhere two in a row")
+    rest = np.setdiff1d(np.arange(y.size), kept)
+    below = height[rest] < np.interp(y[rest], run, of_run) - HIDDEN
+    next_to = np.searchsorted(run, y[rest]).clip(1, run.size - 1)
+    near = np.minimum(np.abs(run[next_to] - y[rest]), np.abs(run[next_to - 1] - y[rest])) <= SAME_PLACE
+    beyond = (y[rest] < run[0] - FLANK) | (y[rest] > run[-1] + FLANK)
+    if ((~below & ~near) | beyond).any():
+        at = int(np.argmax(np.diff(y) <= 0))
+        raise ValueError(f"y must ascend, got {y[at + 1]:g} m behind {y[at]:g} m")
+    span = [in_unit(end, "length") for end in (run[0], run[-1])]
+    note = f"it goes from {span[0]} to {span[1]} across: {rest.size} points that turn back are left out"
+    return run, of_run, (note,) if rest.size else ()
+
+
+def _onward(y: FloatArray) -> NDArray[np.intp]:
+    """Those that go on upwards, up to where places turn back by more than a flank scatters."""
+    most = np.maximum.accumulate(y)
+    turned = np.flatnonzero(most - y > SAME_PLACE)
+    return np.flatnonzero(np.append(True, y[1:] > most[:-1] + APART)[: turned[0] if turned.size else y.size])
+
+
+def _smoothed(y: FloatArray, height: FloatArray) -> tuple[FloatArray, tuple[str, ...]]:
+    """A cubic spline of least squares through many points: what is shorter than its knots is noise, or roughness."""
+    if y.size < 2 * DENSE:
+        return height, ()
+    each = round(KNOTS / float(np.median(np.diff(y))))
+    if not DENSE <= each < y.size / DENSE:
+        return height, ()
+    knots = np.concatenate([y[[0] * 4], y[each:-each:each], y[[-1] * 4]])
+    smooth = np.asarray(scipy.interpolate.make_lsq_spline(y, height, knots)(y))
+    off = in_unit(float(np.sqrt(np.mean((smooth - height) ** 2))), "length", digits=2)
+    return smooth, (
+        f"a spline with a knot every {in_unit(KNOTS, 'length')} smooths its points, which are {off} rms off it",
+    )

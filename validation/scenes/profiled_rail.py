@@ -1,5 +1,6 @@
 """The scene of a wheel on a rail whose shape across the track was measured: a profile in place of two radii."""
 
+import math
 from dataclasses import dataclass
 
 from mdr.checks import positive
@@ -16,11 +17,13 @@ class ProfiledRail(RailScene):
     springs, and the bands and strips on which models are compared.
 
     profile: of both bodies together, zero and highest at y = 0 [m]. The radius across is not given: `crown_radius`
-    becomes that of the fit over the contact, of both bodies, and `transverse_radius` is None. Other fields: as of
-    `RailScene`. Raises ValueError, too, for a profile that has no such radius.
+    becomes that of the fit over the contact, of both bodies, and `transverse_radius` is None. offset: where y = 0 of
+    the wheel stands on the rail [m]. Other fields: as of `RailScene`. Raises ValueError, too, for a profile that has no
+    such radius.
     """
 
     profile: TransverseProfile
+    offset: float = 0.0
 
     def __post_init__(self) -> None:
         if self.transverse_radius is not None:
@@ -35,6 +38,13 @@ class ProfiledRail(RailScene):
     def diagnose(self) -> tuple[str, ...]:
         """With what stands in for the profile."""
         return (f"{self.stand_in}.", *super().diagnose())
+
+    @property
+    def contact_place(self) -> str:
+        """Where the contact lies, in words."""
+        on_rail, on_wheel = (round(1e3 * y, 3) + 0.0 for y in (self.profile.at, self.profile.at - self.offset))
+        inclined = f"{math.degrees(self.profile.inclination):.2g} degrees"
+        return f"y = {on_rail:g} mm on the rail, {on_wheel:g} mm on the wheel, inclined by {inclined}"
 
     @property
     def stand_in(self) -> str:

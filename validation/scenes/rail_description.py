@@ -16,6 +16,7 @@ def of_rail(scene: RailScene) -> tuple[tuple[str, str], ...]:
     return (
         ("wheel", f"radius {in_unit(scene.radius, 'length')}, {_wheel_across(scene)}{_load(scene)}"),
         _rail(scene),
+        *([("contact lies at", scene.contact_place)] if isinstance(scene, ProfiledRail) else []),
         (
             "contact ellipse",
             f"a_x = {_short(contact.along)} along, a_y = {_short(contact.across)} across, of the smooth bodies",

@@ -1,34 +1,37 @@
 """The scene of a rail from the tables of a file, in the units of the field."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from mdr.checks import positive
-from validation.scenes.height_files import heights_of, read_heights, unit_of
-from validation.scenes.level_files import curve, read_levels
+from validation.scenes.height_files import heights_of, unit_of, yes_or_no
+from validation.scenes.level_files import curve, read_levels, unit_of_wavelengths
+from validation.scenes.line_files import key_in_errors, lines_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.printable import shortened
+from validation.scenes.number_table import KEYS, form_of
+from validation.scenes.printable import quoted, shortened
 from validation.scenes.profile_files import read_profile
 from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import Across, RailScene
 from validation.scenes.reader import FORCE, LENGTH, MASS, NUMBER, SPEED, WHOLE, Reader, nonblank_text, table
 from validation.scenes.roughness_levels import RoughnessLevels
+from validation.scenes.table_files import sentence_about
 from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 from validation.scenes.units import in_unit, quantity
 
-OF_WHEEL = ("transverse_radius", "profile", "axle_load", "levels", "lines")
+OF_WHEEL = ("transverse_radius", "profile", "offset", "axle_load", "levels", "lines")
 OF_RAIL = ("crown_radius", "profile", "across", "alpha", "levels", "lines")
 """What stands in the scene of a rail alone, of its wheel and of its rail."""
 GROUNDS = ("levels", "lines", "heights")
 SHAPES_OF_RAIL, SHAPES_OF_WHEEL = ("crown_radius", "profile"), ("transverse_radius", "profile")
 """Across the track."""
+Shape = TransverseProfile | float | None
+CROWN, FLANGE = 0.026, 0.015
+"""Half of the width of a head without its corners [m], 52 mm of 60E1; height that a flange has and a tread has not [m].
+"""
 
 
 def is_rail(tables: dict[str, Any]) -> bool:
@@ -41,12 +44,13 @@ def is_rail(tables: dict[str, Any]) -> bool:
 
 def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     """The scene in the tables of a file, other files beside it. Raises ValueError that names the key."""
+    told: list[str] = []
     ground: dict[str, Reader] = {
-        "levels": partial(_levels, folder=folder),
-        "lines": partial(_lines, folder=folder),
+        "levels": partial(_levels, folder=folder, told=told),
+        "lines": partial(lines_in, folder=folder, told=told),
         "heights": partial(heights_of, folder=folder),
     }
-    shape: dict[str, Reader] = {"profile": partial(_profile, folder=folder)}
+    shape: dict[str, Reader] = {"profile": partial(_profile, folder=folder, told=told)}
     on_wheel = shape | {key: ground[key] for key in ("levels", "lines")}
     on_rail = shape | ground
     readers: dict[str, Reader] = {
@@ -67,18 +71,22 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "material": material,
         "roughness": roughness,
         "across": _one(rail, "rail", ("across", "alpha"), least=0),
-        "notes": (*of_load, *of_roughness),
+        "notes": (*of_load, *of_roughness, *told),
         **{key: wheel[key] for key in ("speed", "mass") if key in wheel},
     }
     of_rail = _one(rail, "rail", SHAPES_OF_RAIL, least=0)
     of_wheel = _one(wheel, "wheel", SHAPES_OF_WHEEL, least=0)
     if not any(isinstance(body, TransverseProfile) for body in (of_rail, of_wheel)):
+        if "offset" in wheel:
+            raise ValueError("wheel.offset must be left out where neither wheel nor rail has a profile, got it")
         return RailScene(**given, crown_radius=of_rail, transverse_radius=of_wheel)
     key = "rail" if isinstance(of_rail, TransverseProfile) else "wheel"
-    with _key_in_errors(key):
-        profile = _together(of_rail, of_wheel)
+    with key_in_errors(key):
+        profile = _together(of_rail, of_wheel, wheel.get("offset", 0.0))
         fitted_radius(profile, along=given["radius"], modulus=given["modulus"], load=load)
-    return ProfiledRail(**given, profile=profile)
+    if isinstance(of_wheel, TransverseProfile):
+        _check_flange(of_wheel, profile.at - wheel.get("offset", 0.0))
+    return ProfiledRail(**given, profile=profile, offset=wheel.get("offset", 0.0))
 
 
 def _one(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
@@ -94,10 +102,26 @@ def _radius(wheel: dict[str, Any]) -> float:
     return one / 2 if "diameter" in wheel else one
 
 
-def _together(*bodies: TransverseProfile | float | None) -> TransverseProfile:
+def _together(of_rail: Shape, of_wheel: Shape, offset: float) -> TransverseProfile:
     """Of rail and wheel, of which one has a profile; the other may have a radius, or be straight."""
-    curvature = sum(1 / body for body in bodies if isinstance(body, float))
-    return both_together([body for body in bodies if isinstance(body, TransverseProfile)], curvature)
+    if isinstance(of_wheel, TransverseProfile):
+        wheel = of_wheel.moved(offset)
+        if isinstance(of_rail, TransverseProfile):
+            return both_together([of_rail, wheel], 0.0)
+        # the rail has no corners, which a flange would meet
+        return both_together([wheel.within(CROWN)], 0.0 if of_rail is None else 1 / of_rail)
+    assert isinstance(of_rail, TransverseProfile)
+    return both_together([of_rail], 0.0 if of_wheel is None else 1 / of_wheel, offset)
+
+
+def _check_flange(wheel: TransverseProfile, at: float) -> None:
+    """Raises ValueError for a wheel that is upside down: a flange goes down beside the rail. at: of the contact [m]."""
+    up, down = (sign * (float(end(wheel.height)) - float(wheel(at))) for sign, end in ((1, max), (-1, min)))
+    if down > FLANGE > up:
+        raise ValueError(
+            f"wheel.profile must have heights positive towards the rail, got one that goes {in_unit(down, 'length')} "
+            "away from it, as a flange does that is upside down: flip = true turns it"
+        )
 
 
 def _load(wheel: dict[str, Any]) -> tuple[float, tuple[str, ...]]:
@@ -130,68 +154,45 @@ def _both(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
     return levels + more, (note,) if missing else ()
 
 
-def _levels(name: str, given: object, *, folder: Path) -> RoughnessLevels:
-    """Of a bundled curve or of a file, so many decibels more, between two wavelengths."""
+def _levels(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
+    """Of a bundled curve or of a file, so many decibels more, between two wavelengths. told: takes what was assumed."""
     readers: dict[str, Reader] = {
         "curve": nonblank_text,
         "file": nonblank_text,
         "offset": _decibels,
         "longest": LENGTH,
         "shortest": LENGTH,
+        "unit": unit_of_wavelengths,
+        **KEYS,
     }
     found = table(readers, tuple(readers), name, given)
     _one(found, name, ("curve", "file"))
     if "file" in found:
-        levels = read_levels(f"{name}.file", folder / found["file"])
-    with _key_in_errors(name):
+        path, form = folder / found["file"], form_of(found)
+        levels, notes = read_levels(f"{name}.file", path, form, unit=found.get("unit"))
+        told += sentence_about(path, notes)
+    elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
+        raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
+    with key_in_errors(name):
         levels = curve(found["curve"]) if "curve" in found else levels
         levels = levels.within(found.get("longest"), found.get("shortest"))
         return levels.raised(found["offset"]) if "offset" in found else levels
 
 
-def _lines(name: str, given: object, *, folder: Path) -> MeasuredLines:
-    """Of a file whose columns are lines along the rail."""
-    readers: dict[str, Reader] = {
-        "file": nonblank_text,
-        "spacing": LENGTH,
-        "unit": unit_of,
-        "positions": _positions,
-        "longest": LENGTH,
-        "shortest": LENGTH,
-    }
-    found = table(readers, ("unit", "positions", "longest", "shortest"), name, given)
-    height = np.atleast_2d(read_heights(f"{name}.file", folder / found.pop("file"))) * found.pop("unit", 1.0)
-    with _key_in_errors(name):
-        lines = MeasuredLines(height=height.T if len(height) == 1 else height, **found)
-        if not lines.height.any():
-            raise ValueError("file must have heights, got zeros alone")
-        _ = lines.levels  # heights in a wrong unit are refused here, by their levels
-        return lines
-
-
-@contextmanager
-def _key_in_errors(name: str) -> Iterator[None]:
-    """Put the key of a scene file in front of the sentence of a ValueError."""
-    try:
-        yield
-    except ValueError as problem:
-        raise ValueError(f"{name}.{problem}") from None
-
-
-def _profile(name: str, given: object, *, folder: Path) -> TransverseProfile:
-    """Of a file beside the scene."""
-    return read_profile(name, folder / nonblank_text(name, given))
+def _profile(name: str, given: object, *, folder: Path, told: list[str]) -> TransverseProfile:
+    """Of a file beside the scene: its name, or a table that has it and says how to read it."""
+    readers: dict[str, Reader] = {"file": nonblank_text, "unit": unit_of, "flip": yes_or_no, **KEYS}
+    found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
+    path, form = folder / found["file"], form_of(found)
+    wishes = {"metre": found.get("unit"), "flip": found.get("flip", False)}
+    profile, notes = read_profile(name if isinstance(given, str) else f"{name}.file", path, form, **wishes)
+    told += sentence_about(path, notes)
+    return profile
 
 
 def _decibels(name: str, given: object) -> float:
     """A number, or a text with its unit."""
     return quantity(name, given, "level") if isinstance(given, str) else NUMBER(name, given)
-
-
-def _positions(name: str, given: object) -> list[float]:
-    if not isinstance(given, list):
-        raise ValueError(f'{name} must be a list of lengths, as ["-10 mm", "0 mm"], got {shortened(given)}')
-    return [quantity(f"{name}[{i}]", one, "length") for i, one in enumerate(given)]
 
 
 def _across(name: str, given: object) -> Across:
@@ -215,6 +216,7 @@ WHEEL: dict[str, Reader] = {
     "wheels_per_axle": WHOLE,
     "speed": SPEED,
     "mass": MASS,
+    "offset": partial(quantity, dimension="length"),
 }
 RAIL: dict[str, Reader] = {"crown_radius": LENGTH, "across": _across, "alpha": _alpha}
 """How each value of a scene file is read."""

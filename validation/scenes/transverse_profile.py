@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -22,10 +22,14 @@ REACH = 2.0
 """Semi-axes across that a profile has on both sides of its highest point, at the least."""
 STRAIGHT = 100.0
 """Radius across over that along, at the most: straighter is no contact of an ellipse."""
-CLOSE = 1e-9
-"""Relative error of the width over which a radius is fitted."""
+STEPS, CLOSE = 60, 1e-9
+"""Widths over which a radius is fitted at first, from wide to narrow; relative error of the one at last."""
 DENSE = 20_001
-"""Places at which the highest point of two bodies is looked for."""
+"""Places at which the highest point of two bodies is looked for, and a second contact."""
+SAME_PLACE = 1e-6
+"""How close points of two profiles are one [m]."""
+STEEPEST = math.radians(15)
+"""Inclination of the bodies in contact, at the most: there the normal load is 4 % more than the wheel's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,13 +37,16 @@ class TransverseProfile:
     """Heights over the places across, a cubic spline between them.
 
     y: places across the track, ascending [m]; height: of the body there, positive towards the other body [m]; source:
-    where they come from. Raises ValueError or TypeError for fewer than seven points, places that do not ascend, values
-    that are no finite numbers, and a highest point at an end.
+    where they come from; of both bodies together, at: where y = 0 is on the rail [m], inclination: of the bodies there
+    [rad]. Raises ValueError or TypeError for fewer than seven points, places that do not ascend, and values that are no
+    finite numbers.
     """
 
     y: tuple[float, ...]
     height: tuple[float, ...]
     source: str = "given"
+    at: float = 0.0
+    inclination: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("y", "height"):
@@ -53,15 +60,23 @@ class TransverseProfile:
         if not (np.diff(self.y) > 0).all():
             at = int(np.argmax(np.diff(self.y) <= 0))
             raise ValueError(f"y must ascend, got {self.y[at + 1]:g} m behind {self.y[at]:g} m")
-        if not 0 < int(np.argmax(self.height)) < len(self.y) - 1:
-            raise ValueError(
-                f"height must be largest between the ends, towards the other body, got its largest at an end, y = "
-                f"{self.y[int(np.argmax(self.height))]:g} m"
-            )
 
     def __call__(self, y: ArrayLike) -> FloatArray:
         """Heights at places across, of any shape [m]; NaN beyond both ends."""
         return np.asarray(self._spline(np.asarray(y, dtype=np.float64)))
+
+    def moved(self, offset: float) -> "TransverseProfile":
+        """The same, its y = 0 at another place across the track [m]."""
+        return replace(self, y=tuple(one + offset for one in self.y))
+
+    def within(self, half_width: float) -> "TransverseProfile":
+        """The part with abs(y) up to a half width [m]."""
+        kept = [i for i, one in enumerate(self.y) if abs(one) <= half_width]
+        return replace(self, y=tuple(self.y[i] for i in kept), height=tuple(self.height[i] for i in kept))
+
+    def slope(self, y: float) -> float:
+        """dz/dy at a place [-]."""
+        return float(self._spline(y, 1))
 
     @property
     def reach(self) -> float:
@@ -82,11 +97,13 @@ class TransverseProfile:
         return 1 / curvature if curvature > 0 else math.inf
 
 
-def both_together(bodies: Sequence[TransverseProfile], curvature: float) -> TransverseProfile:
+def both_together(bodies: Sequence[TransverseProfile], curvature: float, centre: float = 0.0) -> TransverseProfile:
     """Wheel and rail as one profile over a plane: their heights added, zero at the highest point, which is y = 0.
 
-    bodies: with a profile, one or two, their y of the same place across the track; curvature: of the one without, zero
-    where it is straight [1/m]. Raises ValueError where two have no common width, or are highest at an end of it.
+    There the gap of both is smallest, and the smooth bodies touch first. bodies: with a profile, one or two, their y of
+    the same place across the track; curvature: of the one without, zero where it is straight [1/m]; centre: where that
+    one is highest [m]. Raises ValueError where two have no common width, are highest at an end of it, or touch on a
+    flank steeper than `STEEPEST`.
     """
     first, last = max(body.y[0] for body in bodies), min(body.y[-1] for body in bodies)
     if not first < last:
@@ -96,23 +113,34 @@ def both_together(bodies: Sequence[TransverseProfile], curvature: float) -> Tran
         )
 
     def height(at: FloatArray) -> FloatArray:
-        return np.asarray(sum((body(at) for body in bodies), -curvature * at**2 / 2))
+        return np.asarray(sum((body(at) for body in bodies), -curvature * (at - centre) ** 2 / 2))
 
     dense = np.linspace(first, last, DENSE)
     at = int(np.argmax(height(dense)))
     if not 0 < at < DENSE - 1:
         raise ValueError(
             f"profile of wheel and rail together must be highest between its ends, {1e3 * first:.4g} and "
-            f"{1e3 * last:.4g} mm, got its highest point at {1e3 * dense[at]:.4g} mm"
+            f"{1e3 * last:.4g} mm, got its highest point at {1e3 * dense[at]:.4g} mm: heights must be positive towards "
+            "the other body (flip = true turns them), and y of both must have the flange on one side (wheel.offset)"
         )
     top = float(dense[at])
+    inclination = math.atan(abs(bodies[0].slope(top)))
+    if inclination > STEEPEST:
+        raise ValueError(
+            f"profile of wheel and rail must touch where both are level, to {math.degrees(STEEPEST):.3g} degrees, got "
+            f"contact at {1e3 * top:.4g} mm on a flank of {math.degrees(inclination):.3g} degrees: see wheel.offset"
+        )
     own = np.unique(np.concatenate([body.y for body in bodies]))
     y = own[(own >= first) & (own <= last)]
+    # the same place in both files, but for rounding, is one
+    y = y[np.append(True, np.diff(y) > SAME_PLACE)]
     found = height(y) - height(np.array([top]))
     return TransverseProfile(
         y=tuple((y - top).tolist()),
         height=tuple(found.tolist()),
         source=" and ".join(body.source for body in bodies),
+        at=top,
+        inclination=inclination,
     )
 
 
@@ -121,7 +149,8 @@ def fitted_radius(profile: TransverseProfile, *, along: float, modulus: float, l
 
     Hertz's contact with (along, R) has the semi-axis a_y; R is that of the parabola over abs(y) < a_y. profile: highest
     at y = 0; along: the radius along the track [m]; modulus: E* [Pa]; load [N]. Raises ValueError for a profile that is
-    narrower than twice the contact, has fewer than five points in it, or does not fall from its highest point.
+    narrower than twice the contact, has fewer than five points in it, does not fall from its highest point, or touches
+    in a second place.
     """
 
     def wider(half_width: float) -> float:
@@ -135,9 +164,36 @@ def fitted_radius(profile: TransverseProfile, *, along: float, modulus: float, l
             f"profile must reach to twice the contact and have {IN_CONTACT} points in it at the least, got "
             f"{1e3 * profile.reach:.4g} mm to the nearer end, and a contact of more than {1e3 * most:.4g} mm to a side"
         )
-    if wider(least) < 0:
+    # from wide to narrow: over a few points a radius is that of noise
+    half_widths = np.geomspace(most, least, STEPS)
+    narrower = next((half for half in half_widths[1:] if wider(half) >= 0), None)
+    if narrower is None:
         raise ValueError(
             f"profile must have {IN_CONTACT} points in the contact at the least, got so many within "
             f"{1e3 * least:.3g} mm of its highest point, and a contact that is narrower"
         )
-    return profile.radius_within(float(scipy.optimize.brentq(wider, least, most, rtol=CLOSE)))
+    least, most = narrower, float(half_widths[np.searchsorted(-half_widths, -narrower) - 1])
+    half_width = float(scipy.optimize.brentq(wider, least, most, rtol=CLOSE))
+    radius = profile.radius_within(half_width)
+    _check_alone(
+        profile, half_width, elliptic_contact((along, radius), modulus=modulus, force=load).approach, load / modulus
+    )
+    return radius
+
+
+def _check_alone(profile: TransverseProfile, half_width: float, approach: float, force: float) -> None:
+    """Raises ValueError where the bodies touch in a second place, such as a flange.
+
+    Away from the contact the gap is that of the profile and F / (pi E* r), by which the surfaces give way there, less
+    the approach. force: over E* [m^2].
+    """
+    y = np.linspace(profile.y[0], profile.y[-1], DENSE)
+    y = y[np.abs(y) > REACH * half_width]
+    gap = force / (math.pi * np.abs(y)) - profile(y) - approach
+    if y.size and gap.min() < 0:
+        second = float(y[int(gap.argmin())])
+        raise ValueError(
+            f"profile must have one contact under the load, got a second one {1e3 * second:+.3g} mm beside that at "
+            f"{1e3 * profile.at:.4g} mm of the rail, where both bodies overlap by {-1e6 * gap.min():.3g} um: "
+            "wheel.offset moves the wheel"
+        )

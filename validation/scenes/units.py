@@ -11,7 +11,15 @@ Dimension = Literal["length", "mass", "force", "pressure", "speed", "level"]
 
 ONE = Fraction(1)
 UNITS: dict[Dimension, dict[str, Fraction]] = {
-    "length": {"m": ONE, "mm": ONE / 10**3, "um": ONE / 10**6, "µm": ONE / 10**6, "nm": ONE / 10**9, "km": ONE * 10**3},
+    "length": {
+        "m": ONE,
+        "cm": ONE / 10**2,
+        "mm": ONE / 10**3,
+        "um": ONE / 10**6,
+        "µm": ONE / 10**6,
+        "nm": ONE / 10**9,
+        "km": ONE * 10**3,
+    },
     "mass": {"kg": ONE, "g": ONE / 10**3, "t": ONE * 10**3},
     "force": {
         "N": ONE,

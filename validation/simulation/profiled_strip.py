@@ -37,13 +37,15 @@ def roll_on_profile(strip: RailStrip, profile: TransverseProfile, *, positions: 
 
 
 def heights_across(strip: RailStrip, profile: TransverseProfile) -> tuple[slice, FloatArray]:
-    """The columns of a strip that have the profile, as many to both sides of the middle, and the heights there [m].
+    """The columns of a strip that have the profile, and the heights there, zero at the highest [m].
 
-    The highest point of the profile, y = 0, is the middle of axis 1, over which the wheel rolls.
+    There are as many to both sides of the middle. The highest point of the profile, y = 0, is the middle of axis 1,
+    over which the wheel rolls.
     """
     ny = strip.shape[1]
     y = (np.arange(ny) - (ny - 1) / 2) * strip.spacing
     inside = np.flatnonzero(np.abs(y) <= profile.reach)
     columns = slice(int(inside[0]), int(inside[-1]) + 1)
-    # a spline may rise above its highest point by rounding
-    return columns, np.minimum(profile(y[columns]), 0.0)
+    z = profile(y[columns])
+    # columns miss a top; what they miss is a constant approach
+    return columns, z - z.max()

@@ -1,0 +1,501 @@
+"""Tables as others export them: delimiter, decimal sign, header, units, encoding and places are recognised and told."""
+
+import io
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.scenes.test_rail_files import CURVE, LEVELS, loaded
+from validation.scenes import level_files, line_files
+from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
+from validation.scenes.description import description_lines
+from validation.scenes.height_edits import edited_lines
+from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.number_table import KEYS, TableForm, table_of_text
+from validation.scenes.positions import places_of
+from validation.scenes.table_files import read_table
+from validation.scenes.text_dialect import WRITTEN
+
+BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
+"""Nominal wavelengths [mm] and levels [dB]."""
+Z = np.round(5 * np.random.default_rng(2).standard_normal(800), 3)
+"""A line of 5 um."""
+
+
+def comma(value):
+    return str(value).replace(".", ",")
+
+
+def rows(values, delimiter=";", form=str):
+    return "".join(delimiter.join(map(form, row)) + "\n" for row in values)
+
+
+def rail_with(folder, kind, contents, *keys, file="it.csv"):
+    (folder / file).write_bytes(contents if isinstance(contents, bytes) else contents.encode("utf-8"))
+    lines = "\n".join((f'file = "{file}"', *keys))
+    return loaded(folder, (f"{LEVELS} ", f"[rail.{kind}]\n# "), ('# = "iso3095-2013"', f"{lines}\n#"))
+
+
+def told(scene):
+    return [note for note in scene.diagnose() if note.startswith("it.")]
+
+
+def refused(folder, kind, contents, *keys, said, **settings):
+    with pytest.raises(ValueError, match=said) as problem:
+        rail_with(folder, kind, contents, *keys, **settings)
+    assert "\n" not in str(problem.value) and len(str(problem.value)) < 500 + 2 * len(str(folder))
+
+
+# Levels
+
+
+GERMAN = ("Wellenlänge [cm];Pegel [dB re 1 µm]\n" + rows(((w / 10, level) for w, level in BANDS), form=comma)).replace(
+    "\n", "\r\n"
+)
+EXPORTS = {
+    "German, Latin-1, Windows": (GERMAN.encode("latin-1"), "semicolons between its columns, decimal commas, the encod"),
+    "German, UTF-8": (GERMAN.encode(), "it has semicolons between its columns, decimal commas."),
+    "Greek mu": (GERMAN.replace("µ", "\N{GREEK SMALL LETTER MU}").encode(), "decimal commas."),
+    "a spreadsheet": (
+        (
+            "\ufeffwavelength (mm);level (dB)\r\n" + rows(BANDS, form=comma).replace("\n", "\r\n") + ";\r\n;\r\n"
+        ).encode(),
+        "semicolons between its columns, decimal commas.",
+    ),
+    "UTF-16": (("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16"), "the encoding utf-16."),
+    "UTF-16 without its mark": (
+        ("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16-le"),
+        "the encoding utf-16-le.",
+    ),
+    "an old Mac": (
+        ("wavelength_mm\tlevel_dB\n" + rows(BANDS, "\t")).replace("\n", "\r").encode(),
+        "it has tabs between",
+    ),
+    "a standard table": (
+        "EN 15610:2019\nSite: town, km 12.4\nOperator\tN.N.\nPoints\t6\n\nWavelength / cm\tLr / dB re 1 µm\n".encode()
+        + rows(((w / 10, level) for w, level in BANDS), "\t").encode(),
+        "it has tabs between its columns, 5 lines above its numbers.",
+    ),
+    "units in a line of their own": (("lambda;L\nmm;dB\n" + rows(BANDS)).encode(), "2 lines above its numbers."),
+    "quotation marks": (
+        ('"wavelength [mm]","level [dB]"\n' + rows(BANDS, ",", lambda value: f'"{comma(value)}"')).encode(),
+        "it has decimal commas.",
+    ),
+    "spaces": (("% wavelength [mm]   L [dB]\n" + rows(BANDS, "   ")).encode(), "it has spaces between its columns."),
+    "cycles": (
+        (
+            "k [1/m],L [dB]\n"
+            + rows(((k, level) for k, (_, level) in zip((10, 12.5, 16, 20, 25, 31.5), BANDS, strict=True)), ",")
+        ).encode(),
+        "its wavenumbers in 1/m are cycles: wavelength = 1 / k",
+    ),
+    "radians": (
+        ("k [rad/m],L [dB]\n" + rows(((2000 * np.pi / w, level) for w, level in BANDS), ",")).encode(),
+        "its wavenumbers in rad/m are k = 2 pi / wavelength",
+    ),
+    "a count and bands without levels": (
+        ("no;L [dB];lambda [mm]\n" + rows((i, level, w) for i, (w, level) in enumerate(BANDS)) + "9;-;25\n").encode(),
+        "1 of its rows have no level and are left out; without no.",
+    ),
+}
+
+
+@pytest.mark.parametrize("export", EXPORTS)
+def test_levels_are_read_as_they_are_exported_and_how_is_told(tmp_path, export):
+    contents, said = EXPORTS[export]
+    scene = rail_with(tmp_path, "levels", contents)
+    assert scene.levels.levels == tuple(level for _, level in BANDS)
+    assert scene.levels.bands.nominal.tolist() == [w / 1000 for w, _ in BANDS]
+    (note,) = told(scene)
+    assert said in note
+    assert f"note: {note}" in description_lines(scene)
+
+
+def test_a_plain_table_is_not_talked_about(tmp_path):
+    assert told(rail_with(tmp_path, "levels", "wavelength [mm],level [dB re 1 um]\n" + rows(BANDS, ","))) == []
+
+
+TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1) for w, level in BANDS), ",")
+
+
+@pytest.mark.parametrize(
+    ("contents", "key", "said"),
+    [
+        (rows(BANDS, " "), 'unit = "mm"', 'got column 1 and column 2: or, of two columns, as: unit = "mm"'),
+        (TWO, 'columns = ["wavelength", "left"]', r"left \[dB\] and right \[dB\]: say which, as: columns = \[1, 3\]"),
+        (TWO, "columns = [1, 2]", "columns"),
+        (rows(((w, 2) for w, _ in BANDS[:3]), ","), 'decimal = ","', 'as: decimal = ","'),
+        ("1\n2\n3\nwavelength [mm];L [dB]\n" + rows(BANDS), "skip = 3", "skip"),
+        ("wavelength [mm];L [dB]\n125;x\n" + rows(BANDS), 'nodata = "x"', 'as: nodata = "x"'),
+        ("wavelength [mm];L [dB]\n" + rows(BANDS) + "25;77.7\n", "nodata = 77.7", "level"),
+        (
+            GERMAN.replace("µ", "u").encode("cp500"),
+            'encoding = "cp500"',
+            "got none in its first 8 lines: .*, encoding says",
+        ),
+        (
+            "time;lambda [mm];L [dB]\n" + rows((f"12:30:{i}", w, level) for i, (w, level) in enumerate(BANDS)),
+            'columns = ["lambda", "L"]',
+            "got '12:30:5' in column 1 of line 7: .* a column by columns",
+        ),
+        ("text\n" * 3000 + "lambda [mm];L [dB]\n" + rows(BANDS), "skip = 3000", "skip leaves out more"),
+    ],
+)
+def test_keys_decide_where_recognition_cannot(tmp_path, contents, key, said):
+    refused(tmp_path, "levels", contents, said=said)
+    if "decimal" in key:
+        refused(tmp_path, "levels", contents, key, said=r"columns must be named .* got column 1")
+    else:
+        assert rail_with(tmp_path, "levels", contents, key).levels.levels[0] == BANDS[0][1]
+
+
+@pytest.mark.parametrize(
+    ("key", "said"),
+    [
+        ("skip = -1", r"levels\.skip must be at least 0"),
+        ("columns = []", r"levels\.columns must be names or numbers"),
+        ('columns = [1, "x"]', r'columns must name one column each, got "x": the table has 2, "wavelength", "level"'),
+        ("columns = [1, 3]", r"columns must be numbers from 1 to 2, or names, got 3"),
+        ('decimal = ";"', r'levels\.decimal must be "\." or ","'),
+        ('encoding = "klingon"', r'levels\.encoding must be an encoding, as "latin-1"'),
+        ('unit = "inch"', r"levels\.unit must be one of"),
+        ('unit = "cm"', r'unit must be that of the column wavelength \[mm\], or be left out, got "cm"'),
+        ("nodata = [[1]]", r"levels\.nodata must be"),
+        ('curve = "iso3095-2013"', "one of curve, file"),
+    ],
+)
+def test_keys_are_refused_by_name(tmp_path, key, said):
+    refused(tmp_path, "levels", "wavelength [mm],level [dB]\n" + rows(BANDS, ","), key, said=said)
+
+
+def test_a_curve_has_no_use_for_the_keys_of_a_file(tmp_path):
+    with pytest.raises(ValueError, match=r'rail\.levels\.skip must be left out beside a curve, got it with "iso3095'):
+        loaded(tmp_path, (CURVE, f"{CURVE}\nskip = 3"))
+
+
+@pytest.mark.parametrize(
+    "cells",
+    [
+        "1.000,5;3\n",
+        '"1,000.5";3\n',
+        "1 000,5;3\n",
+        "1'000.5;3\n",
+        "1.234.567;3\n",
+        "1\N{NARROW NO-BREAK SPACE}000,5;3\n",
+    ],
+)
+def test_signs_between_thousands_are_refused(tmp_path, cells):
+    contents = "wavelength [mm];L [dB]\n" + cells * 4
+    refused(tmp_path, "levels", contents, said=r"numbers must have no sign between thousands, got '1")
+
+
+# Foreign files
+
+
+@pytest.mark.parametrize(
+    "contents",
+    [
+        b"root:secret:0:0:root:/root:/bin/bash\n" * 30,
+        b"\x7fELF secret" * 40,
+        b"PK\x03\x04 secret",
+        b"%PDF-1.7\nsecret secret secret\n\xe2\xe3\xcf\xd3\x00\n",
+        b'{"secret": "secret secret secret secret secret"}',
+        "secret\n".encode("utf-16"),
+    ],
+)
+@pytest.mark.parametrize("file", ["it.csv", "it.npy", "it.npz"])
+@pytest.mark.parametrize("kind", ["lines", "heights", "levels"])
+def test_nothing_of_a_foreign_file_is_shown(tmp_path, contents, file, kind):
+    with pytest.raises(ValueError) as problem:
+        rail_with(tmp_path, kind, contents, *(['spacing = "1 mm"'] if kind != "levels" else []), file=file)
+    assert "secret" not in str(problem.value)
+
+
+def test_a_bad_cell_is_shown_short_and_by_its_line(tmp_path):
+    contents = rows(enumerate(Z), ";").replace("\n", "\r\n").replace("7;", "7;" + 50 * "word", 1)
+    refused(tmp_path, "lines", contents, said=r"got 'wordwordwordwordword\.\.\.' in column 2 of line 8: ")
+
+
+# Lines
+
+
+HEADER = "".join(f"Key {i}: value {i}\n" for i in range(17)) + "Points\t800\nDate\t2024-05-01\n"
+
+
+def line_of(scene):
+    assert isinstance(scene.roughness, MeasuredLines)
+    return scene.roughness.height[:, 0]
+
+
+PLACED = {
+    "a trolley": (HEADER + "x (mm)\theight (um)\n" + rows(zip(range(800), Z, strict=True), "\t"), 1e-3),
+    "commas": ("x [mm];z [µm]\n" + rows(zip(range(800), Z, strict=True), form=comma), 1e-3),
+    "heights first": ("z [um],x [m]\n" + rows(zip(Z, np.arange(800) / 2000, strict=True), ","), 0.5e-3),
+    "a count, too": ("n,x [mm],z [um]\n" + rows(zip(range(1, 801), np.arange(800) / 2, Z, strict=True), ","), 0.5e-3),
+    "a time, too": ("t [s],x [mm],z [um]\n" + rows(zip(np.arange(800) / 8, range(800), Z, strict=True), ","), 1e-3),
+    "a constant, too": ("x [mm],y [mm],z [um]\n" + rows(((i, 3.5, z) for i, z in enumerate(Z)), ","), 1e-3),
+    "rounded": ("x [mm],z [um]\n" + rows(((f"{i / 3:.2f}", z) for i, z in enumerate(Z)), ","), 1e-3 / 3),
+    "downwards": ("x [mm],z [um]\n" + rows(((f"{(800 - i) / 4:.2f}", z) for i, z in enumerate(Z)), ","), -0.25e-3),
+    "from a kilometre on": (
+        "x [m],z [um]\n" + rows(((f"{12345 + i / 1000:.3f}", z) for i, z in enumerate(Z)), ","),
+        1e-3,
+    ),
+}
+
+
+@pytest.mark.parametrize("export", PLACED)
+def test_a_column_that_runs_evenly_is_the_place_and_no_line(tmp_path, export):
+    contents, step = PLACED[export]
+    scene = rail_with(tmp_path, "lines", contents)
+    assert line_of(scene) == pytest.approx(1e-6 * Z[:: -1 if step < 0 else 1], rel=1e-12)
+    assert scene.roughness.spacing == pytest.approx(abs(step), rel=1e-4)
+    (note,) = told(scene)
+    assert "is the place along the track" in note and "apart, and " in note
+
+
+@pytest.mark.parametrize("spacing", ["1 mm", "1 cm"])
+def test_places_without_a_unit_have_that_of_the_spacing(tmp_path, spacing):
+    """A column of millimetres was a second line: rms 3.75 for 5.3 um."""
+    np.save(tmp_path / "it.npy", np.stack([np.arange(800.0), Z], axis=1))
+    contents = (tmp_path / "it.npy").read_bytes()
+    scene = rail_with(tmp_path, "lines", contents, f'spacing = "{spacing}"', 'unit = "um"', file="it.npy")
+    assert line_of(scene) == pytest.approx(1e-6 * Z)
+    step = spacing.replace("1 cm", "10 mm")
+    assert told(scene) == [f"it.npy: column 1 is the place along the track, {step} apart, and column 2 is a line."]
+    refused(
+        tmp_path, "lines", contents, 'unit = "um"', file="it.npy", said=r'spacing is missing: .* as: spacing = "1 mm"$'
+    )
+    refused(
+        tmp_path, "lines", contents, 'spacing = "3 mm"', file="it.npy", said=r"spacing must be that of column 1, 1 ap"
+    )
+
+
+def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
+    contents = PLACED["rounded"][0]
+    said = r"rail\.lines\.spacing must be that of x \[mm\], 333\.\d+ µm, or be left out, got 1 mm$"
+    refused(tmp_path, "lines", contents, 'spacing = "1 mm"', said=said)
+    assert rail_with(tmp_path, "lines", contents, 'spacing = "0.3333 mm"').roughness.spacing == 0.3333e-3
+
+
+@pytest.mark.parametrize(
+    ("contents", "keys", "said"),
+    [
+        (rows((i + (i % 3) / 4, z) for i, z in enumerate(Z)), (), r"got column 1, which runs one way but not evenly"),
+        (
+            rows((i, i / 2) for i in range(99)),
+            (),
+            r"file must have heights beside places, got column 1 and column 2 al",
+        ),
+        (
+            "x [mm],y [mm],z [um]\n" + rows(((i, i / 2, 1) for i in range(99)), ","),
+            (),
+            "one that runs evenly, .*columns",
+        ),
+        (rows((i,) for i in range(99)), ('spacing = "1 mm"',), "got one column that runs evenly"),
+        (
+            "x [mm],z [um]\n" + rows(enumerate(Z), ","),
+            ('positions = ["-5 mm", "5 mm"]',),
+            r"positions must be one a line, got 2 for 1: x \[mm\] is the place along the track, 1 mm apart, and z",
+        ),
+        (
+            "x [mm],z [um]\n" + rows(enumerate(Z), ","),
+            ('unit = "mm"',),
+            "unit must be that of the file, um, or be left out, got 1 mm",
+        ),
+        (
+            "x [mm],v [m/s]\n" + rows(enumerate(Z), ","),
+            (),
+            r"columns must be lengths, got v \[m/s\]: .*columns = \[1\]",
+        ),
+        ("z [um]\n" + rows((z,) for z in Z), (), 'spacing is missing: .*as: spacing = "1 mm"'),
+        (rows((z,) for z in Z), ('spacing = "1 mm"',), 'is the unit another.*unit = "um"'),
+    ],
+)
+def test_lines_that_cannot_be_told_are_refused_by_the_key_that_helps(tmp_path, contents, keys, said):
+    refused(tmp_path, "lines", contents, *keys, said=rf"rail\.lines\..*{said}")
+
+
+def test_a_line_may_be_tilted_as_much_as_to_run_one_way(tmp_path):
+    tilted = np.round(Z + 50 * np.arange(800), 3)
+    scene = rail_with(tmp_path, "lines", "x [mm],z [um]\n" + rows(enumerate(tilted), ","))
+    assert line_of(scene) == pytest.approx(1e-6 * tilted)
+    both = rows(((z, h) for z, h in zip(tilted, Z, strict=True)), ",")
+    keys = 'spacing = "1 mm"', 'unit = "um"', 'positions = ["0 mm", "5 mm"]'
+    assert rail_with(tmp_path, "lines", both, *keys).roughness.height.shape == (800, 2)
+
+
+GONE = {3: "BAD", 10: "***", 11: "", 12: "-9999", 13: "NaN"}
+
+
+def test_points_without_data_of_lines_are_filled_in_where_it_is_asked_for(tmp_path):
+    contents = "x [mm];z [um]\n" + rows((i / 2, GONE.get(i, z)) for i, z in enumerate(Z))
+    said = r"lines\.heights must be known everywhere, got 5 of 800 \(0\.625 %\) .*\[3, 0\].*, as: fill = true$"
+    refused(tmp_path, "lines", contents, said=said)
+    scene = rail_with(tmp_path, "lines", contents, "fill = true")
+    straight = np.interp(np.arange(800), *(np.delete(one, list(GONE)) for one in (np.arange(800), Z)))
+    assert line_of(scene) == pytest.approx(1e-6 * straight)
+    assert [note for note in scene.diagnose() if "had no data at 5 points (0.625 %), which were filled in" in note]
+    assert "-9999 stands for no data at 1 of 800 points, far from all others" in told(scene)[0]
+
+
+def test_rows_that_are_missing_are_points_without_data(tmp_path):
+    contents = "x [mm];z [um]\n" + rows((i / 2, z) for i, z in enumerate(Z) if i not in (5, 6, 100))
+    refused(tmp_path, "lines", contents, said="got 3 of 800 ")
+    scene = rail_with(tmp_path, "lines", contents, "fill = true")
+    assert len(line_of(scene)) == 800 and line_of(scene)[[4, 7, 99, 101]] == pytest.approx(1e-6 * Z[[4, 7, 99, 101]])
+    assert "3 of its places have no row" in told(scene)[0]
+
+
+def test_more_than_a_hundredth_is_never_filled_in(tmp_path):
+    contents = "x [mm];z [um]\n" + rows((i / 2, "" if i % 50 == 3 else z) for i, z in enumerate(Z))
+    refused(tmp_path, "lines", contents, "fill = true", said="cut out a part that is known; fewer than 1 %")
+
+
+def test_lines_keep_the_slope_beyond_their_last_known_point(tmp_path):
+    ramp = Z + 0.5 * np.arange(800)
+    contents = "x [mm];z [um]\n" + rows((i / 2, "" if i > 797 else z) for i, z in enumerate(ramp))
+    line = line_of(rail_with(tmp_path, "lines", contents, "fill = true"))
+    assert 1e6 * np.diff(line[-3:]) == pytest.approx(0.5, abs=0.05)
+
+
+# Without a file
+
+
+def in_memory(text, **form):
+    return table_of_text(io.BytesIO(text.encode()), TableForm(**form))
+
+
+def test_the_place_along_the_track_is_no_line():
+    table = in_memory("x [mm];z [um]\n" + rows(enumerate(Z)))
+    lines = line_files._along_the_track(table, metre=None, spacing=1e-3)
+    assert lines.height.shape == (800, 1) and lines.height[:, 0] == pytest.approx(1e-6 * Z)
+
+
+def test_wavenumbers_are_cycles_over_a_metre():
+    assert level_files._wavelengths(np.array([10.0, 16.0, 31.5]), "1/m")[0] == [0.1, 0.063, 0.0315]
+    assert level_files._wavelengths(np.array([0.1, 0.16]), "1/cm")[0] == [0.1, 0.063]
+    assert level_files._wavelengths(np.array([62.8, 100.5]), "rad/m")[0] == [0.1, 0.063]
+
+
+def test_holes_of_a_line_lie_between_their_neighbours():
+    line = np.array([0.0, 1.0, np.nan, 3.0, 9.0] + 300 * [0.0])[:, np.newaxis]
+    found, edits = edited_lines(line, fill=True, asked_by="")
+    assert found[2, 0] == pytest.approx(2.0) and edits.filled == 1
+
+
+WAYS = st.sampled_from([way for way in WRITTEN if way != (",", ",")])
+NUMBERS = st.one_of(st.integers(-900, 900).map(float), st.floats(-1e3, 1e3).map(lambda value: round(value, 3)))
+LINES = st.lists(
+    st.sampled_from(["Date: 2024-05-01", "Instrument 7", "# a comment", "", "Key;value", "a\tb"]), max_size=4
+)
+
+
+@given(way=WAYS, width=st.integers(1, 5), count=st.integers(3, 9), above=LINES, named=st.booleans(), data=st.data())
+def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, width, count, above, named, data):
+    delimiter, decimal = way
+    values = [[data.draw(NUMBERS) for _ in range(width)] for _ in range(count)]
+    sign = delimiter or "  "
+    names = [sign.join(f"c{i} [mm]" for i in range(width))] if named else []
+    written = [sign.join(f"{value:g}".replace(".", decimal) for value in row) for row in values]
+    text = "\n".join([*above, *names, *written])
+    shown = [[float(f"{value:g}") for value in row] for row in values]
+    try:
+        table = in_memory(text)
+    except ValueError as problem:
+        assert "decimal" in str(problem) and not named and width < 3
+        table = in_memory(text, decimal=decimal)
+    if named or width > 2:
+        np.testing.assert_array_equal(table.values, shown)
+    assert not named or [column.unit for column in table.columns] == ["mm"] * width
+
+
+@pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
+def test_cells_without_data_are_no_numbers(cell):
+    values = in_memory(f"1;2\n3;{cell}\n4;5\n6;7\n", nodata=(7.5,)).values
+    assert values[:, 0].tolist() == [1, 3, 4, 6] and np.isnan(values[:, 1]).tolist() == [False, True, False, False]
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("1,5;2,5\n3,5;4,5\n", [[1.5, 2.5], [3.5, 4.5]]),
+        ("1,5 2,5\n3,5 4,5\n", [[1.5, 2.5], [3.5, 4.5]]),
+        ("1, 2.5\n3, 4.5\n", [[1.0, 2.5], [3.0, 4.5]]),
+        ("1.5D-1 2e3\n-.5 +4.\n", [[0.15, 2000.0], [-0.5, 4.0]]),
+        ("\N{MINUS SIGN}1,5\t2\n3\t4\n", [[-1.5, 2.0], [3.0, 4.0]]),
+        ("0,05\n0,25\n", [[0.05], [0.25]]),
+        ("a;b\n1;2;\n3;4;\n", [[1.0, 2.0], [3.0, 4.0]]),
+        ("1 2  # a remark\n\n# more\n3 4\n\x1a", [[1.0, 2.0], [3.0, 4.0]]),
+        (";1;2\n0;3;4\n1;5;6\n", [[np.nan, 1.0, 2.0], [0.0, 3.0, 4.0], [1.0, 5.0, 6.0]]),
+        ("0 1 No Data\n1 1 7\n2 1 8\n", [[0.0, 1.0, np.nan], [1.0, 1.0, 7.0], [2.0, 1.0, 8.0]]),
+        ("Points\n3\nx;y\n1;2\n3;4\n", [[1.0, 2.0], [3.0, 4.0]]),
+    ],
+)
+def test_numbers_are_what_is_written(text, values):
+    np.testing.assert_array_equal(in_memory(text).values, values)
+
+
+# Names, places and forms
+
+
+@pytest.mark.parametrize(
+    ("text", "column"),
+    [
+        ("x [mm]", Column("x", "mm")),
+        ("height (um)", Column("height", "um")),
+        ("z/µm", Column("z", "um")),
+        ("z / μm", Column("z", "um")),
+        ("y_mm", Column("y", "mm")),
+        ('"Lr [dB]"', Column("Lr", "dB")),
+        ("Level, dB (re 1 µm)", Column("Level", "dB", "1 um")),
+        ("height (microns)", Column("height", "um")),
+        ("level [dB re 1 um]", Column("level", "dB", "1 um")),
+        ("L [dB] re 1 µm", Column("L", "dB", "1 um")),
+        ("k [1/m]", Column("k", "1/m")),
+        ("time [s]", Column("time", "s")),
+        ("f(x) in nm", Column("f(x) in", "nm")),
+        ("rail (left) [nm]", Column("rail (left)", "nm")),
+        ("name", Column("name")),
+    ],
+)
+def test_names_of_columns(text, column):
+    assert column_of(text) == column
+
+
+def test_names_stand_in_the_nearest_line_that_has_as_many():
+    assert columns_of(["x [mm], z [um]", "# a comment"], 2, ",") == (Column("x", "mm"), Column("z", "um"))
+    assert columns_of(["x   z", "mm  µm"], 2, "") == (Column("x", "mm"), Column("z", "um"))
+    assert columns_of(["x [mm] z [um]"], 2, "") == (Column("x", "mm"), Column("z", "um"))
+    assert columns_of(["date: 1, 2, 3"], 2, ",") == (Column(), Column())
+    assert (
+        unit_of_all(["Instrument 7", "z [um]"]) == unit_of_all(["Einheit: µm"]) == unit_of_all(["Z unit;um"]) == {"um"}
+    )
+    assert unit_of_all(["X unit: mm", "step (mm);0.5", "no [unit]", "x"]) == set()
+
+
+def test_rough_lines_never_run_evenly():
+    rng = np.random.default_rng(1)
+    assert not any(places_of(rng.integers(0, 9, 8).astype(float)) for _ in range(2000))
+    assert not any(places_of(np.cumsum(rng.standard_normal(9))) for _ in range(2000))
+    assert places_of(np.cumsum(1 + rng.random(50))) is None
+    assert places_of(np.arange(7.0)) is None and places_of(np.full(9, 3.0)) is None
+
+
+def test_each_key_of_a_table_is_read():
+    assert {"skip", "columns", "decimal", "encoding", "nodata"} == set(KEYS)
+    assert {*KEYS, "key"} == {name for name in vars(TableForm()) if not name.startswith("_")}
+
+
+PAGE = (Path(__file__).parents[2] / "reports" / "docs" / "own_data.md").read_text(encoding="utf-8")
+
+
+def test_the_page_names_each_way_of_writing_that_is_recognised(tmp_path):
+    for word in ("semicolons", "decimal comma", "byte-order mark", "Latin-1", "UTF-16", *KEYS):
+        assert word in PAGE, word
+    for unit in re.findall(r"`(1/m|rad/m|dB|cm|mm|um|nm)`", PAGE):
+        (tmp_path / "it.csv").write_text(f"a [{unit}],b\n1,2.5\n3,4\n5,6\n")
+        assert read_table("it", tmp_path / "it.csv").columns[0].unit == unit

@@ -1,0 +1,178 @@
+"""Files of measured lines along a rail: columns of heights, beside one of their places along the track."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.scenes.height_edits import edited_lines
+from validation.scenes.height_files import unit_of, yes_or_no
+from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.measured_surface import LENGTHS
+from validation.scenes.number_table import KEYS, NumberTable, form_of
+from validation.scenes.positions import Places, metres_of_step, places_of, runs_one_way
+from validation.scenes.printable import shortened
+from validation.scenes.reader import LENGTH, Reader, nonblank_text, table
+from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
+from validation.scenes.units import in_unit, quantity
+
+FloatArray = NDArray[np.float64]
+
+MOSTLY = 0.9
+"""Of the rows of a column of places, at the least, that have one."""
+
+
+def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> MeasuredLines:
+    """Of a table in a scene file: the file beside it, and how to read it. told: takes what was assumed of it."""
+    readers: dict[str, Reader] = {
+        "file": nonblank_text,
+        "spacing": LENGTH,
+        "unit": unit_of,
+        "positions": _positions,
+        "longest": LENGTH,
+        "shortest": LENGTH,
+        "fill": yes_or_no,
+        **KEYS,
+        "key": nonblank_text,
+    }
+    found = table(readers, tuple(key for key in readers if key != "file"), name, given)
+    path, form = folder / found.pop("file"), form_of(found)
+    numbers = read_table(f"{name}.file", path, form)
+    with key_in_errors(name):
+        count = len(found["positions"]) if "positions" in found else None
+        lines = _along_the_track(
+            numbers, metre=found.pop("unit", None), spacing=found.pop("spacing", None), count=count
+        )
+        height, edits = edited_lines(lines.height, fill=found.pop("fill", False), asked_by="fill = true")
+        measured = MeasuredLines(height=height, spacing=lines.spacing, **found)
+        if not measured.height.any():
+            raise ValueError("file must have heights, got zeros alone")
+        try:
+            _ = measured.levels  # heights in a wrong unit are refused here, by their levels
+        except ValueError as problem:
+            raise ValueError(f'{problem} As: unit = "um"') from None
+    told += [*sentence_about(path, (*numbers.notes, *lines.notes)), *edits.notes]
+    return measured
+
+
+@contextmanager
+def key_in_errors(name: str) -> Iterator[None]:
+    """Put the key of a scene file in front of the sentence of a ValueError."""
+    try:
+        yield
+    except ValueError as problem:
+        raise ValueError(f"{name}.{problem}") from None
+
+
+@dataclass(frozen=True, eq=False)
+class _Lines:
+    """Heights of shape (points, lines) [m], their spacing [m], and what was assumed."""
+
+    height: FloatArray
+    spacing: float
+    notes: tuple[str, ...] = ()
+
+
+def _along_the_track(
+    numbers: NumberTable, *, metre: float | None, spacing: float | None, count: int | None = None
+) -> _Lines:
+    """The columns that are lines, in the order of their places. Raises ValueError that begins with a key.
+
+    count: how many lines there are, if it is known.
+    """
+    values = numbers.values
+    if values.ndim == 1 or (values.ndim == 2 and len(values) == 1):
+        numbers = NumberTable(values=values.reshape(-1, 1), unit=numbers.unit, notes=numbers.notes)
+    if numbers.values.ndim != 2:
+        raise ValueError(f"file must have a column a line, got an array of shape {shortened(values.shape)}")
+    if numbers.spacing is not None or numbers.values.shape[1] == 1:
+        return _of_one(numbers, metre, spacing)
+    places, left_out = _kinds(numbers, count)
+    rest = [i for i in range(len(numbers.columns)) if i not in left_out]
+    if not rest:
+        raise ValueError(f"file must have heights beside places, got {numbers.names(sorted(left_out))} alone")
+    notes = [f"{numbers.names([i])} {why} and is left out" for i, why in sorted(left_out.items()) if i not in places]
+    height = heights_of_columns(numbers, rest, metre)
+    if not places:
+        return _Lines(height, _known(spacing), tuple(notes))
+    (at,) = places
+    name = numbers.names([at])
+    step = metres_of_step(places[at].step, numbers.columns[at].unit, spacing, name)
+    lines = f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
+    notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {lines}")
+    if count not in (None, len(rest)):
+        raise ValueError(f"positions must be one a line, got {count} for {len(rest)}: {notes[-1]}")
+    known = np.isfinite(numbers.values[:, at])
+    whole = np.full((int(places[at].number[-1]) + 1, len(rest)), np.nan)
+    whole[places[at].number] = height[known]
+    if places[at].gaps:
+        notes.append(f"{places[at].gaps} of its places have no row")
+    return _Lines(whole[:: -1 if places[at].step < 0 else 1], step, tuple(notes))
+
+
+def _of_one(numbers: NumberTable, metre: float | None, spacing: float | None) -> _Lines:
+    """A line without places, or of an instrument, which has them in its file."""
+    if numbers.values.shape[1] > 1:
+        raise ValueError("file must have lines, got heights over an area: they belong to [rail.heights]")
+    if places_of(numbers.values[:, 0]):
+        raise ValueError("file must have heights, got one column that runs evenly, as places do")
+    if numbers.spacing is not None:
+        if not numbers.unit and metre is None:
+            raise ValueError('unit is missing: the file names none, as: unit = "um"')
+        step = numbers.spacing[0] * (1.0 if numbers.unit else metre or 1.0)
+        spacing = metres_of_step(step, numbers.unit or "m", spacing, "the file")
+    return _Lines(heights_of_columns(numbers, [0], metre), _known(spacing))
+
+
+def _known(spacing: float | None) -> float:
+    if spacing is None:
+        raise ValueError('spacing is missing: the file has no column of places, as: spacing = "1 mm"')
+    return spacing
+
+
+def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], dict[int, str]]:
+    """The column of places, if any, and why columns are no lines. Raises ValueError."""
+    places: dict[int, Places] = {}
+    constant: dict[int, str] = {}
+    one_way = []
+    for i in range(len(numbers.columns)):
+        values = numbers.values[np.isfinite(numbers.values[:, i]), i]
+        if values.size < MOSTLY * len(numbers.values):
+            continue
+        if found := places_of(values):
+            places[i] = found
+        elif runs_one_way(values):
+            one_way.append(i)
+        elif values.size and np.ptp(values) == 0:
+            constant[i] = f"is {values[0]:g} everywhere"
+    # beside places, or where all columns are told to be lines, a line may be as tilted as that
+    if one_way and not places and count != len(numbers.columns):
+        raise ValueError(
+            f"columns must be lines of heights, got {numbers.names(one_way)}, which runs one way but not evenly, as "
+            "places do that are not equally far apart: resample the lines, or leave it out by columns"
+        )
+    evenly = dict.fromkeys(places, "runs evenly")
+    lines = len(numbers.columns) - len(evenly) - len(constant)
+    return _one_place(numbers, places), {**evenly, **constant} if lines else evenly
+
+
+def _one_place(numbers: NumberTable, places: dict[int, Places]) -> dict[int, Places]:
+    """The one column of places among those that run evenly. Raises ValueError."""
+    lengths = {i: one for i, one in places.items() if numbers.columns[i].unit in LENGTHS}
+    unnamed = {i: one for i, one in places.items() if not numbers.columns[i].unit}
+    found = lengths or {i: one for i, one in unnamed.items() if not one.counts} or unnamed
+    if len(found) > 1:
+        raise ValueError(
+            f"columns must have one that runs evenly, the place along the track, got {numbers.names(sorted(found))}: "
+            "say which to read by columns"
+        )
+    return found
+
+
+def _positions(name: str, given: object) -> list[float]:
+    if not isinstance(given, list):
+        raise ValueError(f'{name} must be a list of lengths, as ["-10 mm", "0 mm"], got {shortened(given)}')
+    return [quantity(f"{name}[{i}]", one, "length") for i, one in enumerate(given)]

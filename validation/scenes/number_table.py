@@ -1,0 +1,239 @@
+"""A table of numbers in a text of others: levels, lines, heights and profiles as they are exported."""
+
+import codecs
+import io
+from array import array
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import chain, islice
+from typing import IO, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mdr.checks import count, finite
+from validation.scenes.column_names import Column, columns_of, unit_of_all
+from validation.scenes.printable import quoted, shortened
+from validation.scenes.reader import Reader, nonblank_text, without_unit
+from validation.scenes.text_dialect import (
+    COMMENTS,
+    Dialect,
+    about_row,
+    encoding_of,
+    lines_of,
+    recognised,
+    sample_of,
+    token,
+)
+
+FloatArray = NDArray[np.float64]
+
+MOST_VALUES = 2**24
+"""Of a table: 4096 x 4096 heights."""
+SENTINELS = (-999.0, -9999.0, -99999.0, -32768.0, -32767.0, 9999.0, 99999.0, 999999.0)
+"""What instruments write where they have no data; beyond `HUGE` no number is a height."""
+HUGE, LONELY = 1e30, 3.0
+"""LONELY: how many spans of all other numbers lie between them and such a value, at the least."""
+FEW = 8
+"""Columns of a table whose columns may be different quantities."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TableForm:
+    """What a scene says about a table, None where recognition decides.
+
+    skip: lines at the top that are none of the table; columns: names or numbers, from one, of those to read; decimal:
+    "." or ","; encoding: a name of Python; nodata: numbers or texts of points without data; key: the array of an .npz.
+    """
+
+    skip: int | None = None
+    columns: tuple[str | int, ...] | None = None
+    decimal: str | None = None
+    encoding: str | None = None
+    nodata: tuple[str | float, ...] = ()
+    key: str | None = None
+
+    @property
+    def of_text(self) -> list[str]:
+        """Keys that are given and say how a text is written."""
+        return [name for name in ("skip", "decimal", "encoding") if getattr(self, name) is not None]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class NumberTable:
+    """Numbers of shape (rows, columns), NaN without data; a name a column; the unit of all; how it was read.
+
+    spacing: of the points along the axes in that unit, where the file has it, which an instrument wrote.
+    """
+
+    values: FloatArray
+    columns: tuple[Column, ...] = ()
+    unit: str = ""
+    spacing: tuple[float, ...] | None = None
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.columns and self.values.ndim > 1:
+            object.__setattr__(self, "columns", (Column(),) * self.values.shape[1])
+
+    def names(self, places: Sequence[int]) -> str:
+        """Of columns, for a sentence: as they are called, or as they are counted."""
+        words = [token(str(self.columns[i]), bare=True) or f"column {i + 1}" for i in places[:FEW]]
+        return " and ".join(words) + (f" and {len(places) - FEW} more" if len(places) > FEW else "")
+
+    def chosen(self, columns: Sequence[str | int] | None) -> "NumberTable":
+        """The columns that are asked for, in this order. Raises ValueError for one that is not there."""
+        if columns is None:
+            return self
+        places = [self._place(column) for column in columns]
+        named = tuple(self.columns[i] for i in places)
+        return replace(self, values=self.values[:, places], columns=named)
+
+    def _place(self, column: str | int) -> int:
+        width = len(self.columns)
+        if isinstance(column, int):
+            if not 1 <= column <= width:
+                raise ValueError(f"columns must be numbers from 1 to {width}, or names, got {column}")
+            return column - 1
+        names = [{one.name.lower(), str(one).lower()} for one in self.columns]
+        found = [i for i, name in enumerate(names) if column.strip().lower() in name]
+        if len(found) != 1:
+            known = ", ".join(quoted(one.name) for one in self.columns[:FEW] if one.name) or "without names"
+            raise ValueError(f"columns must name one column each, got {quoted(column)}: the table has {width}, {known}")
+        return found[0]
+
+
+def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
+    """Of a CSV or another text, as its first lines are written. Raises ValueError, whose sentence names a key."""
+    encoding, skip = encoding_of(file, form.encoding), form.skip or 0
+    file.seek(0)
+    text = io.TextIOWrapper(file, encoding=encoding)
+    try:
+        lines = lines_of(text)
+        sample = sample_of(lines, skip)
+        nodata = frozenset(str(one).strip().lower() for one in form.nodata)
+        numeric = None if form.columns is None else len(form.columns)
+        dialect, first, width = recognised(sample, skip, form.decimal, nodata, numeric)
+        values = _values(chain(islice(sample, first, None), lines), first, dialect, width)
+    finally:
+        text.detach()
+    above = sample[skip:first]
+    units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
+    unit = units.pop() if len(units) == 1 and not any(column.unit for column in columns) else ""
+    notes = _how(dialect, width, _left_out(sample[:first]), encoding)
+    notes += (f"its header has the unit {unit}",) if unit else ()
+    table = NumberTable(values=values, columns=columns, unit=unit, notes=notes)
+    return known_alone(_without_last(table), form.nodata).chosen(form.columns)
+
+
+def _values(lines: Any, first: int, dialect: Dialect, width: int) -> FloatArray:
+    found = array("d")
+    for index, line in enumerate(lines, first):
+        if dialect.says_nothing(line):
+            continue
+        cells = dialect.cells(line)
+        try:
+            if len(cells) != width:
+                raise ValueError
+            found.extend(dialect.numbers(cells))
+        except ValueError:
+            raise ValueError(about_row(line, index, dialect, width)) from None
+        if len(found) > MOST_VALUES * max(1, 3 * (width == 3)):
+            raise ValueError(f"the table must hold at most {MOST_VALUES} heights, got more")
+    return np.frombuffer(found, dtype=np.float64).reshape(-1, width)
+
+
+def _without_last(table: NumberTable) -> NumberTable:
+    """Less a last column that a delimiter at the end of each line makes."""
+    values = table.values
+    if values.shape[1] > 1 and np.isnan(values[:, -1]).all() and not table.columns[-1].name:
+        return replace(table, values=values[:, :-1], columns=table.columns[:-1])
+    return table
+
+
+def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
+    """NaN in place of the values of nodata, and of those that instruments write for it, far from all others."""
+    values, notes = table.values, list(table.notes)
+    wanted = [float(one) for one in nodata if not isinstance(one, str)]
+    gone = np.isin(values, wanted)
+    for i in range(values.shape[1]) if values.shape[1] <= FEW else [slice(None)]:
+        part = values[:, i]
+        huge = np.isfinite(part) & (np.abs(part) > HUGE)
+        found = {f"{one:g}": part == one for one in SENTINELS if one not in wanted and _is_lonely(part, one)}
+        for shown, where in [*found.items(), *([(f"more than {HUGE:g}", huge)] if huge.any() else [])]:
+            gone[:, i] |= where
+            notes.append(f"{shown} stands for no data at {int(where.sum())} of {part.size} points, far from all others")
+    return replace(table, values=np.where(gone, np.nan, values), notes=tuple(notes)) if gone.any() else table
+
+
+def _is_lonely(values: FloatArray, one: float) -> bool:
+    if not (values == one).any():
+        return False
+    others = values[np.isfinite(values) & (np.abs(values) <= HUGE) & ~np.isin(values, SENTINELS)]
+    if others.size < FEW:
+        return False
+    low, high = float(others.min()), float(others.max())
+    return max(low - one, one - high) > LONELY * (high - low)
+
+
+def _left_out(lines: Sequence[str]) -> int:
+    """How many lines of a header there are that are neither blank nor comments."""
+    return sum(bool(line.strip()) and not line.strip().startswith(COMMENTS) for line in lines)
+
+
+def _how(dialect: Dialect, width: int, above: int, encoding: str) -> tuple[str, ...]:
+    """What is not as in a plain CSV: commas, points, one line of names, UTF-8."""
+    delimiter = {";": "semicolons", "\t": "tabs", "": "spaces", ",": ""}[dialect.delimiter] if width > 1 else ""
+    found = [
+        f"{delimiter} between its columns" if delimiter else "",
+        "decimal commas" if dialect.decimal == "," else "",
+        f"{above} lines above its numbers" if above > 1 else "",
+        "" if encoding.startswith("utf-8") else f"the encoding {codecs.lookup(encoding).name}",
+    ]
+    words = ", ".join(filter(None, found))
+    return (f"it has {words}",) if words else ()
+
+
+# Keys of a scene
+
+
+def form_of(found: dict[str, Any]) -> TableForm:
+    """The form in the values of a table of a scene, which are taken out of it."""
+    return TableForm(**{key: found.pop(key) for key in (*KEYS, "key") if key in found})
+
+
+def _columns(name: str, given: object) -> tuple[str | int, ...]:
+    listed = given if isinstance(given, list) else [given]
+    if not listed or not all(isinstance(one, str | int) and not isinstance(one, bool) for one in listed):
+        raise ValueError(f'{name} must be names or numbers of columns, as ["x", "z"] or [1, 3], got {shortened(given)}')
+    return tuple(listed)
+
+
+def _nodata(name: str, given: object) -> tuple[str | float, ...]:
+    listed = given if isinstance(given, list) else [given]
+    return tuple(one if isinstance(one, str) else without_unit(finite, name, one) for one in listed)
+
+
+def _decimal(name: str, given: object) -> str:
+    if given not in (".", ","):
+        raise ValueError(f'{name} must be "." or ",", got {shortened(given)}')
+    return str(given)
+
+
+def _encoding(name: str, given: object) -> str:
+    try:
+        "".encode(codecs.lookup(nonblank_text(name, given)).name)
+    except LookupError:
+        raise ValueError(f'{name} must be an encoding, as "latin-1" or "utf-16", got {shortened(given)}') from None
+    return str(given)
+
+
+KEYS: dict[str, Reader] = {
+    "skip": partial(without_unit, partial(count, least=0)),
+    "columns": _columns,
+    "decimal": _decimal,
+    "encoding": _encoding,
+    "nodata": _nodata,
+}
+"""How each value about a table is read."""

@@ -1,0 +1,133 @@
+"""Columns that are places and no heights: they run evenly, count the points, or stand for the axes of a grid."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.scenes.measured_surface import metres_of
+from validation.scenes.units import UNITS, in_unit
+
+FloatArray = NDArray[np.float64]
+
+FEWEST = 8
+"""Points of a column that can be told to run evenly."""
+CLOSE, ROUNDED = 1e-2, 0.45
+"""Steps that places may be off, and steps over which the last digit to which they are rounded may go."""
+SAME = 1e-6
+"""Over all places along an axis: what is closer is one place."""
+AGREE = 2e-3
+"""By how much two spacings may differ, one of which is rounded."""
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Of a column that runs evenly: the step, and the number of each row on the grid, which has all rows or gaps."""
+
+    step: float
+    first: float
+    number: NDArray[np.intp]
+
+    @property
+    def gaps(self) -> int:
+        """Places of the grid that no row has."""
+        return int(self.number.max()) + 1 - self.number.size
+
+    @property
+    def counts(self) -> bool:
+        """Whether it may count the points, from zero or one."""
+        return self.step == 1 and self.first in (0.0, 1.0)
+
+
+def places_of(values: FloatArray) -> Places | None:
+    """Of a column that runs evenly up or down, but for the last digit and missing rows; None of another."""
+    if values.size < FEWEST or not np.isfinite(values).all():
+        return None
+    steps = np.diff(values)
+    if not ((steps > 0).all() or (steps < 0).all()):
+        return None
+    digit = _last_digit(values)
+    # rows that are all there, or rows some of which are missing
+    for number in (np.arange(values.size), np.append(0, np.cumsum(np.rint(steps / np.median(steps))))):
+        if number[-1] > 2 * values.size or not (np.diff(number) > 0).all():
+            continue
+        # the mean step of all rows is exact where single ones are rounded
+        step = float(values[-1] - values[0]) / float(number[-1])
+        off = float(np.abs(values - values[0] - step * number).max())
+        rounded = 1.01 * digit if digit < ROUNDED * abs(step) else 0.0
+        if off <= max(CLOSE * abs(step), rounded):
+            return Places(step=step, first=float(values[0]), number=number.astype(np.intp))
+    return None
+
+
+def _last_digit(values: FloatArray) -> float:
+    """The decimal place to which all values are rounded; zero where there is none."""
+    for digits in range(10):
+        if np.allclose(np.round(values, digits), values, rtol=1e-15, atol=1e-12 * max(1.0, np.abs(values).max())):
+            return 10.0**-digits
+    return 0.0
+
+
+def runs_one_way(values: FloatArray) -> bool:
+    """Whether a column of some length ascends or descends all along, as no rough line does."""
+    steps = np.diff(values)
+    return values.size >= 2 * FEWEST and bool((steps > 0).all() or (steps < 0).all())
+
+
+def metres_of_step(step: float, unit: str, given: float | None, what: str) -> float:
+    """The spacing of places a step apart [m], which must be the given one where there is one.
+
+    unit: of the places, empty where it is not known: then the given spacing tells it. Raises ValueError.
+    """
+    found = abs(step)
+    if unit:
+        found *= metres_of(f"the unit of {what}", unit)
+        if given is not None and abs(found / given - 1) > AGREE:
+            here, there = in_unit(found, "length"), in_unit(given, "length")
+            raise ValueError(f"spacing must be that of {what}, {here}, or be left out, got {there}")
+        return found if given is None else given
+    if given is None:
+        raise ValueError(
+            f"spacing is missing: the step of {what} is {found:.6g}, in no unit that the file names, as: "
+            'spacing = "1 mm"'
+        )
+    if not any(abs(found * float(metre) / given - 1) < AGREE for metre in UNITS["length"].values()):
+        raise ValueError(
+            f"spacing must be that of {what}, {found:.6g} apart in some unit of length, got {in_unit(given, 'length')}"
+        )
+    return given
+
+
+@dataclass(frozen=True, eq=False)
+class GriddedHeights:
+    """Heights of shape (nx, ny), NaN where no row has the point, and the steps along both axes."""
+
+    height: FloatArray
+    steps: tuple[float, float]
+
+
+def grid_of(x: FloatArray, y: FloatArray, z: FloatArray) -> GriddedHeights:
+    """Heights over a regular grid from rows of x, y and z in any order. Raises ValueError where there is no grid."""
+    if not (np.isfinite(x).all() and np.isfinite(y).all()):
+        raise ValueError("x and y must be known in each row, got some without data")
+    axes = []
+    for name, values in (("x", x), ("y", y)):
+        ends = np.unique(values)
+        ends = ends[np.concatenate([[True], np.diff(ends) > SAME * max(np.ptp(ends), 1e-300)])]
+        places = places_of(ends)
+        if places is None:
+            raise ValueError(
+                f"three columns must be x, y and height on a regular grid, got {ends.size} places along {name} that "
+                "are not evenly apart: resample them, or say which columns are meant by columns"
+            )
+        axes.append((places, np.rint((values - ends[0]) / places.step).astype(np.intp)))
+    (of_x, i), (of_y, j) = axes
+    height = np.full((int(of_x.number.max()) + 1, int(of_y.number.max()) + 1), np.nan)
+    flat = i * height.shape[1] + j
+    if height.size > 4 * z.size or np.unique(flat).size < flat.size:
+        raise ValueError(
+            f"three columns must be x, y and height on a regular grid, got {z.size} rows for "
+            f"{height.shape[0]} x {height.shape[1]} places, with some twice or most missing"
+        )
+    height.flat[flat] = z
+    return GriddedHeights(height, (of_x.step, of_y.step))

@@ -1,0 +1,293 @@
+"""How a text of numbers is written: its encoding, the delimiter and the decimal sign, and where its numbers begin."""
+
+import codecs
+import csv
+import math
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice, takewhile
+from typing import IO
+
+from validation.scenes.column_names import column_of
+from validation.scenes.printable import printable
+
+MOST_LINES, LONGEST_LINE = 2**23, 2**25
+"""Of a file; characters of a line."""
+MOST_HEADER, SAMPLE, RUN = 2000, 2**20, 3
+"""Lines in which the first row of numbers is looked for, and characters; rows on end that make a table."""
+CHUNK = 2**20
+"""Bytes that are decoded at once, to see whether they can be."""
+CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
+"""Bytes that no text has."""
+MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
+COMMENTS = ("#", "%", "//", ";")
+"""How a line begins that holds no numbers; one of a table between semicolons may have an empty first cell."""
+WRITTEN = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","), (",", ","))
+"""Delimiter, "" for white space, and decimal sign; commas for both stand between quotation marks."""
+MISSING = frozenset(
+    ("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "na", "n/a", "#n/a", "#nv", "null")
+) | {"nodata", "bad", "-", "--", "---"}
+"""Cells of points without data, in small letters; asterisks are, too."""
+NO_DATA = re.compile(r"(?i)\bno data\b")
+THOUSANDS = re.compile(
+    r"^[+-]?\d{1,3}(?:([.,' \u00a0\u2009\u202f’])\d{3}(?:\1\d{3})*[.,]\d+|([.,'])\d{3}(?:\2\d{3})+)$"
+)
+FORTRAN = re.compile(r"[+-]?[\d.]+[dD][+-]?\d+")
+COMMA = re.compile(r"[+-]?\d*,\d+")
+STARTS = re.compile(r"\s*[-+]?\d").match
+"""Whether a cell begins as a number does."""
+SHOWN = 20
+"""Characters of a cell that a message shows."""
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """delimiter: "" for white space; decimal: "." or ","; nodata: cells, in small letters, of points without data.
+
+    numeric: cells of a row that are numbers, at the least, where others may be texts; None: all that have data.
+    """
+
+    delimiter: str
+    decimal: str
+    nodata: frozenset[str] = MISSING
+    numeric: int | None = None
+
+    def cells(self, line: str) -> list[str]:
+        """Those of one line."""
+        if '"' in line:
+            return next(csv.reader([line.strip()], delimiter=self.delimiter or " ", skipinitialspace=True))
+        return line.split(self.delimiter) if self.delimiter else line.split()
+
+    def number(self, cell: str) -> float:
+        """Of one cell, NaN for one without data. Raises ValueError."""
+        text = cell.strip().strip('"')
+        if text.lower() in self.nodata or (text and not text.strip("*")):
+            return math.nan
+        if "_" in text or (self.decimal == "," and "." in text):
+            raise ValueError(text)
+        text = text.replace("\N{MINUS SIGN}", "-").replace(self.decimal, ".")
+        return float(re.sub("[dD]", "e", text) if FORTRAN.fullmatch(text) else text)
+
+    def numbers(self, cells: Sequence[str]) -> list[float]:
+        """Of a line. Raises ValueError for cells that are none."""
+        with suppress(ValueError):
+            # most lines have neither holes nor commas; Python alone reads 1_000
+            if self.decimal == "." and not any("_" in cell for cell in cells):
+                return list(map(float, cells))
+        if self.numeric is None:
+            return list(map(self.number, cells))
+        found = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
+        if sum(number == number for number in found) < self.numeric:
+            raise ValueError
+        return found
+
+    def is_number(self, cell: str) -> bool:
+        """Whether a cell is one, and no point without data."""
+        try:
+            found = self.number(cell)
+        except ValueError:
+            return False
+        return found == found
+
+    def row(self, line: str, *, known: bool = True) -> int:
+        """How many columns a line of numbers has, 0 if it is none. known: whether one at least must have data."""
+        if self.delimiter == self.decimal and '"' not in line:
+            return 0
+        cells = self.cells(line)
+        try:
+            return len(cells) if any(number == number for number in self.numbers(cells)) or not known else 0
+        except ValueError:
+            return 0
+
+    def says_nothing(self, line: str) -> bool:
+        """Whether a line is blank, has nothing between its delimiters, or is a comment."""
+        text = line.strip()
+        if not text.strip(f'{self.delimiter}" \t'):
+            return True
+        return text.startswith(COMMENTS) and not (text.startswith(";") and self.delimiter == ";" and self.row(text))
+
+
+def encoding_of(file: IO[bytes], given: str | None) -> str:
+    """The encoding of a text: the given one, that of its mark, UTF-8, or Windows-1252, which has Latin-1.
+
+    Raises ValueError for what is no text, or not in that encoding; the sentence shows nothing of the file.
+    """
+    file.seek(0)
+    start = file.read(4)
+    known = given or next((name for mark, name in MARKS if start.startswith(mark)), None)
+    if known is None and start[1::2] == b"\x00\x00" and 0 not in start[::2]:
+        known = "utf-16-le"
+    for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
+        decoder = codecs.getincrementaldecoder(encoding)()
+        file.seek(0)
+        try:
+            for chunk in iter(partial(file.read, CHUNK), b""):
+                if "16" not in encoding and "32" not in encoding and CONTROL.search(chunk):
+                    raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
+                decoder.decode(chunk)
+            decoder.decode(b"", final=True)
+        except UnicodeError:
+            continue
+        return encoding
+    raise NoTextError(f'the file must be a text in {known}, got other bytes; encoding = "latin-1" is another')
+
+
+class NoTextError(ValueError):
+    """A file that holds no text."""
+
+
+def lines_of(file: IO[str]) -> Iterator[str]:
+    """Of bounded number and length."""
+    for number, line in enumerate(iter(partial(file.readline, LONGEST_LINE + 1), "")):
+        if number >= MOST_LINES or len(line) > LONGEST_LINE:
+            raise ValueError(
+                f"the file must have at most {MOST_LINES} lines of at most {LONGEST_LINE} characters, got more"
+            )
+        # an inline comment, the end of a file of DOS, and the two words of an interferometer
+        line = NO_DATA.sub("nan", line) if "ata" in line else line
+        yield line.partition(" #")[0].rstrip("\r\n\x1a")
+
+
+def sample_of(lines: Iterator[str], skip: int) -> list[str]:
+    """The first lines, and some below those to skip."""
+    found, characters = list(islice(lines, skip)), 0
+    for line in islice(lines, MOST_HEADER):
+        found.append(line)
+        characters += len(line)
+        if characters > SAMPLE and len(found) > skip + RUN:
+            break
+    return found
+
+
+def recognised(
+    lines: Sequence[str], skip: int, decimal: str | None, nodata: frozenset[str], numeric: int | None
+) -> tuple[Dialect, int, int]:
+    """How the first lines of a file are written, the index of its first row of numbers, and its number of columns.
+
+    skip: lines at the top that are none of the table; numeric: as of a `Dialect`. Raises ValueError.
+    """
+    found = []
+    for delimiter, sign in WRITTEN:
+        dialect = Dialect(delimiter, sign, MISSING | nodata, numeric)
+        if decimal in (None, sign) and (start := _start(lines, skip, dialect)):
+            found.append((start[0], dialect, start[1]))
+    if not found:
+        raise ValueError(_no_table(lines, skip, decimal))
+    first = min(start for start, _, _ in found)
+    # whole numbers are the same in any way of writing: later lines decide
+    tied = [(other, width, _read_by(lines[first:], other, width)) for start, other, width in found if start == first]
+    most = max(count for _, _, count in tied)
+    tied = [one for one in tied if one[2] == most]
+    points = next((one for one in tied if (one[0].delimiter, one[0].decimal, one[1]) == (",", ".", 2)), None)
+    commas = next((one for one in tied if one[0].decimal == "," and one[1] == 1), None)
+    dialect, columns, _ = tied[0]
+    if points and commas:
+        dialect, columns, _ = commas if _has_decimal_commas(lines[skip:first], lines[first:], points[0]) else points
+    _check_above(lines, skip, first, dialect, columns)
+    return dialect, first, columns
+
+
+def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int] | None:
+    """The index of the first of a few rows on end of equal length, and this length."""
+    run: list[int] = []
+    columns = 0
+    for i in range(skip, len(lines)):
+        if dialect.says_nothing(lines[i]):
+            continue
+        width = dialect.row(lines[i])
+        run = [*run, i] if width == columns and width else [i] * bool(width)
+        columns = width
+        if len(run) == RUN:
+            break
+    return (run[0], columns) if run else None
+
+
+def _read_by(lines: Sequence[str], dialect: Dialect, columns: int) -> int:
+    """How many lines a dialect reads as rows of so many columns before one that is none."""
+    rows = (line for line in lines if not dialect.says_nothing(line))
+    return sum(1 for _ in takewhile(lambda line: dialect.row(line, known=False) == columns, rows))
+
+
+def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Dialect) -> bool:
+    """Whether lines as 1,25 are one column and not two, by the header or by the digits. Raises ValueError."""
+    header = next((line for line in reversed(above) if line.strip()), "")
+    if header:
+        return header.count(",") != 1
+    last = [points.cells(row)[1].strip() for row in rows if points.row(row) == 2]
+    if all(text.isdigit() for text in last) and not any(text.startswith("0") and len(text) > 1 for text in last):
+        raise ValueError(
+            'rows as "1,25" must be two columns or one with decimal commas, got no header that tells it: say it, as: '
+            'decimal = "," (or ".")'
+        )
+    return all(text.isdigit() for text in last)
+
+
+def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, columns: int) -> None:
+    """Raises ValueError where a line of the table seems to stand above its first row."""
+    said = [i for i in range(skip, first) if not dialect.says_nothing(lines[i])]
+    for i in said:
+        if dialect.row(lines[i]) == columns and columns > 1:
+            bad = next(j for j in said if j > i and dialect.row(lines[j]) != columns)
+            raise ValueError(about_row(lines[bad], bad, dialect, columns))
+    if not said:
+        return
+    cells, before = dialect.cells(lines[said[-1]]), lines[said[-2]] if len(said) > 1 else ""
+    is_row = all(map(STARTS, cells)) or any(column_of(cell).unit for cell in dialect.cells(before))
+    if len(cells) == columns > 1 and any(map(dialect.is_number, cells)) and is_row:
+        raise ValueError(about_row(lines[said[-1]], said[-1], dialect, columns))
+    if width := dialect.row(lines[said[-1]]):
+        raise ValueError(
+            f"rows must be of one length, got {width} numbers in line {said[-1] + 1} and {columns} in line {first + 1}:"
+            f" lines above the numbers are left out, as: skip = {first}"
+        )
+
+
+def _no_table(lines: Sequence[str], skip: int, decimal: str | None) -> str:
+    if not any(line.strip() for line in lines):
+        return "the file must hold rows of numbers, got an empty file"
+    if skip >= len(lines):
+        return f"the file must hold rows of numbers, got no line below the {skip} to skip"
+    last = max(i for i, line in enumerate(lines) if line.strip())
+    written = [Dialect(delimiter, sign) for delimiter, sign in WRITTEN if decimal in (None, sign)]
+    best = max(written, key=lambda dialect: sum(map(dialect.is_number, dialect.cells(lines[last]))))
+    if 2 * sum(map(best.is_number, best.cells(lines[last]))) >= len(best.cells(lines[last])):
+        return about_row(lines[last], last, best, len(best.cells(lines[last])))
+    cells = re.split(r"[;\t\"]", "\t".join(lines[skip:]))
+    if thousands := next((cell for cell in cells if THOUSANDS.match(cell.strip())), None):
+        return f"numbers must have no sign between thousands, got {token(thousands)}"
+    return (
+        f"the file must hold rows of numbers, got none in its first {len(lines)} lines: skip leaves out more of them, "
+        "encoding says how they are written"
+    )
+
+
+def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
+    """What is wrong with a line of a table."""
+    cells = dialect.cells(line)
+    for i, cell in enumerate(cells):
+        try:
+            dialect.number(cell)
+        except ValueError:
+            if THOUSANDS.match(cell.strip()):
+                return f"numbers must have no sign between thousands, got {token(cell)} in line {index + 1}"
+            if dialect.decimal == "." and COMMA.fullmatch(cell.strip()):
+                return f'decimal commas must be told, as: decimal = ",", got {token(cell)} in line {index + 1}'
+            return (
+                f"rows must be numbers, got {token(cell)} in column {i + 1} of line {index + 1}: a comment begins with "
+                f"a #, a header is left out by skip, a column by columns, a cell without data told, as: nodata = "
+                f'"{token(cell, bare=True)}"'
+            )
+    return (
+        f"rows must be of one length, got {len(cells)} {'cell' if len(cells) == 1 else 'cells'} in line {index + 1} of "
+        f"a table of {columns}: lines above the numbers are left out by skip"
+    )
+
+
+def token(cell: str, *, bare: bool = False) -> str:
+    """The beginning of a cell, as a message may show it."""
+    text = printable(cell.strip().strip('"'))
+    text = text if len(text) <= SHOWN else f"{text[:SHOWN]}..."
+    return text if bare else f"'{text}'"
