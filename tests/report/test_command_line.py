@@ -38,6 +38,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import regions as wheel_regions
 from validation.cases.wheel import spectrum as wheel
+from validation.engine import stored
 from validation.engine.engine import Engine
 from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES
@@ -236,6 +237,35 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
     request.getfixturevalue("without_figures")
     report("--only", name, "--out", str(one), "--workers", "1")
     assert contents(one, *NUMBERS) == by_one
+    for place in one_of_each_solve_that_may_fail(one / "realisations"):
+        whole = place.read_bytes()
+        lose(place)
+        with warnings.catch_warnings():
+            # of statistics of too few
+            warnings.simplefilter("ignore", RuntimeWarning)
+            status = report("--only", name, "--out", str(one), "--workers", "1")
+        assert status == command.Exit.NOT_CONVERGED, place.name
+        place.write_bytes(whole)
+
+
+def one_of_each_solve_that_may_fail(store):
+    """Stored results, by the names of their solves."""
+    found = {}
+    for place in sorted(store.glob("*.npz")):
+        with np.load(place) as outcome:
+            if "failed" in outcome and not outcome["failed"].any():
+                found.setdefault(place.name.rpartition("-")[0], place)
+    return list(found.values())
+
+
+def lose(place):
+    """A stored result becomes that of a solve which did not converge: a flag, and no number."""
+    with np.load(place) as stored_there:
+        outcome = dict(stored_there)
+    key = json.loads(str(outcome.pop(stored.LABEL)))["key"]
+    floats = {name: values for name, values in outcome.items() if values.dtype.kind in "fc"}
+    lost = {name: np.full_like(values, np.nan) for name, values in floats.items()}
+    stored.save(place, key, {**outcome, **lost, "failed": np.ones_like(outcome["failed"])})
 
 
 @pytest.mark.slow

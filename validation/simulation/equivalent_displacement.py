@@ -171,7 +171,7 @@ def roll_rail(problem: RolledRail) -> Outcome:
     if BEM in problem.models:
         rolled = roll_boundary_elements(strip, problem.tolerance)
         found |= {BEM: lifted(rolled.approach), AREA: rolled.area / (math.pi * contact.along * contact.across)}
-        failed = np.count_nonzero(~rolled.converged)
+        failed = int(np.count_nonzero(~rolled.converged))
     return {**linear, **found, "failed": np.array(float(failed))}
 
 

@@ -113,7 +113,8 @@ class SurfaceSpringsLaw:
 def roll_and_move(case: WheelOnRail) -> Outcome:
     """What lifts the wheel at constant load and in motion, and the force in motion.
 
-    failed: whether a contact has not converged, without which all three are NaN. Motion begins in the steady state of linear theory.
+    failed: whether a contact has not converged, without which all three are NaN. Motion begins in the steady state of
+    linear theory.
     """
     failed = 0.0
     try:
