@@ -97,6 +97,7 @@ def test_a_case_without_evidence_is_not_converged(error, monkeypatch, tmp_path, 
     assert "no result" in page and "no result" in printed
 
 
+@pytest.mark.slow
 def test_what_is_lost_is_counted_while_it_runs(tmp_path):
     for found, failed in ((0, 2), (4, 2)):
         progress = Part("toy")

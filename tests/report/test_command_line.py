@@ -98,8 +98,8 @@ SMALL = {
         surfaces=4,
         profiles=10,
     ),
-    "reduced_models": reduced_models.ReducedModels(spectra=((0.7, 1.0, 6.0),), strips=3, width=6, cells=6),
-    "rolling_validity": validity.Validity(strips=3, width=8, cells=4),
+    "reduced_models": reduced_models.ReducedModels(spectra=((0.7, 1.0, 6.0),), waves=2, strips=3, width=6, cells=6),
+    "rolling_validity": validity.Validity(strips=3, waves=3, width=7, cells=4),
     "roughness_from_force": roughness_from_force.RoughnessFromForce(
         heights=(0.1,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=4, strips=3
     ),
@@ -125,7 +125,7 @@ SMALL = {
         released=2,
         groups=4,
     ),
-    "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=9, shared=3, coarse=6, coarser=2, wheels=6, groups=3),
+    "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=8, shared=2, coarse=6, coarser=2, wheels=6, groups=3),
     "wheel_regions": wheel_regions.WheelRegions(
         distance=0.1, springs=40, wheels=4, groups=4, ratios=(3.0, 2.0, 1.0), periods=10
     ),
@@ -133,7 +133,7 @@ SMALL = {
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
     "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
-    "rough_rail": RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=3, cells=(4, 5)),
+    "rough_rail": RolledFilters(offsets=(20.0,), across=(GROUND,), strips=3, cells=(4, 5)),
     "line_convention": LineConvention(strips=6),
     "rail_dynamic": RailDynamic(offsets=(0.0,), longest=0.05, periods=2, strips=3, compared=2),
     "rail_sound": RailSound(rail=shipped_rail(), seconds=0.02, repeats=2, cells=(4, 5), parts=2, blocks=5),

@@ -32,6 +32,7 @@ def of(folder, file):
     return json.loads((folder / file).read_text())
 
 
+@pytest.mark.slow
 def test_the_other_case_is_kept(tmp_path, monkeypatch):
     commits = iter(("first00", "second0", "third00"))
     monkeypatch.setattr(provenance, "_commit", lambda: next(commits))

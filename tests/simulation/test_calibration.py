@@ -171,6 +171,7 @@ def test_the_table_says_when_how_and_with_which_code_it_was_measured():
     assert calibration_lines()[0].startswith(f"errors of models: calibrated {about['measured']}, ")
 
 
+@pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
     write_table(calibration.provenance(), calibration.rows_of(calibration.TABLE), path)
@@ -200,6 +201,7 @@ class MeasuredAgain:
         return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("factor", "same"), [(1.0, True), (1.0005, True), (1.01, False)])
 def test_rows_take_the_version_of_today_where_some_measured_again_are_the_same(tmp_path, factor, same):
     path, engine = tmp_path / "table.csv", MeasuredAgain(factor)
