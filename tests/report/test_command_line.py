@@ -98,7 +98,7 @@ SMALL = {
         surfaces=4,
         profiles=10,
     ),
-    "reduced_models": reduced_models.ReducedModels(spectra=((0.7, 1.0, 6.0),), waves=2, strips=3, width=6, cells=6),
+    "reduced_models": reduced_models.ReducedModels(spectra=((0.7, 1.0, 6.0),), strips=3, width=6, cells=6),
     "rolling_validity": validity.Validity(strips=3, waves=3, width=7, cells=4),
     "roughness_from_force": roughness_from_force.RoughnessFromForce(
         heights=(0.1,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=4, strips=3
