@@ -26,7 +26,7 @@ class Rolling(ReadOnly):
     Attributes
     ----------
     force : ndarray, shape (positions,)
-        Normal force [N].
+        Normal force [N]. Like approach and area, NaN where a position has not converged.
     approach : ndarray, shape (positions,)
         Approach to the plane of height zero [m].
     area : ndarray, shape (positions,)

@@ -31,7 +31,8 @@ class WheelContact:
     Attributes
     ----------
     force, approach, area : float
-        Normal force [N], approach to the plane of height zero [m], area of the cells in contact [m^2].
+        Normal force [N], approach to the plane of height zero [m], area of the cells in contact [m^2]; NaN where the
+        solve has not converged.
     history : tuple of float
         Residual at the start and after each iteration.
     operator_applications : int
@@ -205,10 +206,12 @@ class RollingContact:
                 f"{self.track.height.shape[1]} cells at position {position}"
             )
         self._remember(position, pressed, attempt.status)
+        # what is no solution has no number that could be taken for one
+        known = 1.0 if attempt.status is Status.CONVERGED else math.nan
         return WheelContact(
-            force=float(pressed.pressure.sum()) * self.track.cell_area,
-            approach=touch + attempt.overlap,
-            area=int(np.count_nonzero(pressed.pressure)) * self.track.cell_area,
+            force=known * float(pressed.pressure.sum()) * self.track.cell_area,
+            approach=known * (touch + attempt.overlap),
+            area=known * int(np.count_nonzero(pressed.pressure)) * self.track.cell_area,
             history=tuple(attempt.history),
             operator_applications=attempt.operator_applications,
             status=attempt.status or Status.BREAKDOWN,

@@ -43,6 +43,7 @@ def test_all_examples_are_listed():
     assert set(re.findall(r"examples/(\w+)\.py", readme)) == set(NAMES)
 
 
+@pytest.mark.slow
 def test_a_wrong_result_ends_an_example(tmp_path):
     """The assertions of an example are those of a test: with E for E* a sphere is not that of Hertz."""
     wrong = (EXAMPLES / "sphere.py").read_text(encoding="utf-8").replace("modulus=modulus)", "modulus=0.9 * modulus)")

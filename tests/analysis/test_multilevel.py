@@ -125,6 +125,20 @@ def test_degrees_of_freedom_are_of_those_that_contribute():
     assert Linearised(0.0, uneven).half_width > 1.1 * student(4000) * Linearised(0.0, uneven).error
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_degrees_of_freedom_are_twice_the_square_of_the_mean_square_over_its_variance(scale):
+    """One that shifts the value by ten and a hundred that shift it by one, and others that are not used; any unit."""
+    influence = scale * np.concatenate([[10.0], np.ones(100), np.zeros(50)])
+    assert Linearised(0.0, influence).freedom == pytest.approx(2 * 200**2 / (100**2 + 100 - 200**2 / 101))
+
+
+def test_the_bias_of_a_logarithm_is_half_of_its_variance():
+    """E ln x = ln m - var(x) / 2 m^2 + ...: of a log-normal x with relative variance v, ln(1 + v) / 2 exactly."""
+    found = log(Linearised(2.0, np.array([0.6, -0.8])))
+    assert found.value == pytest.approx(math.log(2.0) + math.log(1 + 0.25) / 2)
+    assert found.influence.tolist() == [0.3, -0.4]
+
+
 def test_a_sample_of_two_has_one_degree_of_freedom():
     """Its two contributions are always alike, as if nothing scattered; the interval of the mean holds in 95 %."""
     drawn = np.random.default_rng(9).standard_normal((2000, 2))

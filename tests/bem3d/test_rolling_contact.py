@@ -336,6 +336,8 @@ def test_a_position_that_does_not_converge_is_marked_and_the_wheel_goes_on():
     assert not found.converged[48:72].all()
     assert found.converged[-24:].all()
     good = bem3d.roll(height, **settings)
+    for numbers in (found.force, found.approach, found.area):
+        assert np.array_equal(np.isfinite(numbers), found.converged)
     assert found.force[found.converged] == pytest.approx(good.force[found.converged], rel=10 * 1e-4)
 
 

@@ -250,6 +250,7 @@ def test_the_same_seed_draws_the_same_errors(result, found):
     assert not np.array_equal(different[last], first[last])
 
 
+@pytest.mark.slow
 def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     """Who is interrupted goes on; who is done times everything anew."""
     timed = timed_problem(named("right"))

@@ -99,6 +99,7 @@ def test_claims_hold_on_measured_faces_and_few_of_them_are_refused(body):
     assert sum(answerable) >= 0.8 * len(answerable)
 
 
+@pytest.mark.slow
 def test_linear_theory_of_few_points_claims_what_its_cells_leave():
     """Four points to a contact radius: beside the same theory on cells a third as long, which no rule of h/d knows."""
     scene, name = edge_scene(MEASURED + ROLLING, 6, 3)
@@ -196,6 +197,7 @@ def test_a_question_that_no_model_answers_within_the_tolerance_is_not_refused():
     assert (far_off.value, refused.value) == (0.0, 1.0)
 
 
+@pytest.mark.slow
 def test_a_scene_at_the_edge_is_solved_beside_its_reference():
     (trial,) = edge_trials(((PUNCH, 1),), (0.3,), 14)
     found = solve_edge(trial)
@@ -268,6 +270,7 @@ def test_rolled_scenes_are_asked_for_nothing_finer_than_their_reference():
     assert (pressed_one.tolerances, rolled.tolerances) == ((0.03, 0.1), (0.1,))
 
 
+@pytest.mark.slow
 def test_what_grids_share_changes_no_answer():
     """A second tolerance has the realisations of the first, and as many as it would have alone."""
     trial = EdgeTrial(kind=PUNCH, number=1, tolerances=(0.1, 0.3), seed=14)

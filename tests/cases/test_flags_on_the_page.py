@@ -1,5 +1,6 @@
 """A flag that something did not converge, on the page: the words and exit status 3."""
 
+from concurrent.futures import Future
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine
 from validation.engine.progress import Part
+from validation.report import build
 from validation.report.contents import CASES
 
 
@@ -95,6 +97,7 @@ def test_a_case_without_evidence_is_not_converged(error, monkeypatch, tmp_path, 
     assert "no result" in page and "no result" in printed
 
 
+@pytest.mark.slow
 def test_what_is_lost_is_counted_while_it_runs(tmp_path):
     for found, failed in ((0, 2), (4, 2)):
         progress = Part("toy")
@@ -104,3 +107,32 @@ def test_what_is_lost_is_counted_while_it_runs(tmp_path):
 
 def lost_if_odd(problem):
     return {"failed": np.array(float(problem % 2))} if problem else {}
+
+
+def as_it_is(result):
+    return result
+
+
+def of_a_number_that_is_lost(result):
+    return result.numbers[9]
+
+
+@pytest.mark.parametrize("evidence", [as_it_is, of_a_number_that_is_lost])
+def test_a_lost_solve_is_told_whatever_its_case_makes_of_it(evidence):
+    """A case that drops the flag, or whose evidence cannot be made of what is left, has not converged either."""
+    part, result = Part("geike"), Future()
+    Engine(progress=part).map(lost_if_odd, range(4))
+    result.set_result(Evidence(title="t", method="m", numbers=(), tables=(), conclusions=(), captions={}))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(CASES, "geike", replace(CASES["geike"], evidence=evidence))
+        section = build._section("geike", CASES["geike"].quick, result, part)
+    assert section.unconverged[:1] == ("lost if odd: 2 did not converge",)
+
+
+def test_evidence_that_cannot_be_made_of_whole_solves_is_a_fault():
+    result = Future()
+    result.set_result(())
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(CASES, "geike", replace(CASES["geike"], evidence=lambda result: result[0]))
+        with pytest.raises(IndexError):
+            build._section("geike", CASES["geike"].quick, result, Part("geike"))

@@ -171,6 +171,7 @@ def along(mean=1.0, deviation=0.1, rows=8):
     return {"mean": mean * scatter, "variance": (mean * deviation) ** 2 * scatter, "level": mean**2 * level}
 
 
+@pytest.mark.slow
 def test_the_deviation_is_that_of_the_mean_variance():
     assert math.exp(statistic(DEVIATION, along(2.0, 0.1)).value) == pytest.approx(0.1, rel=1e-3)
     assert math.exp(statistic(MEAN, along(2.0, 0.1)).value) == pytest.approx(2.0, rel=1e-3)
@@ -179,6 +180,7 @@ def test_the_deviation_is_that_of_the_mean_variance():
     assert of_punches(punches, DEVIATION).half_width == pytest.approx(1.96 / math.sqrt(2 * 4000), rel=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("springs", "status"), [(0.1, HOLDS), (0.15, CONTRADICTED)])
 def test_claims_of_the_stiffness_follow_their_numbers(springs, status):
     bem = along()

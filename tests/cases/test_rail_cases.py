@@ -111,6 +111,7 @@ def test_left_by_grid_vanishes_where_grids_agree():
     assert [one.value for one in result.over_twin(key, BEM)] == pytest.approx([2 * math.log(0.5)] * 13)
 
 
+@pytest.mark.slow
 def test_springs_on_few_cells_have_the_filter_near_its_zero_of_many():
     """The shortest band that counts over ridges: to and fro by tenths of a decibel where a spring is a cell."""
     key = published.RailWheel(50.0, 680.0), 0.0, "ridges"

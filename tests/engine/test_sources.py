@@ -73,6 +73,7 @@ def test_a_module_that_imports_by_name_rests_on_everything(tmp_path, monkeypatch
     assert modules_behind(import_module("by_name").__name__) >= set(sources._modules()) - {sources.ENGINE}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "old", "new", "changes"),
     [
@@ -96,6 +97,7 @@ def test_the_classes_of_a_problem_count(problems):
     assert version_behind("validation.theory.wheel", {"key": (problems[0],)}) != plain
 
 
+@pytest.mark.slow
 def test_data_beside_a_module_that_asks_for_its_place_counts(edited):
     table = sources._modules()["validation.simulation.calibration"].with_name("calibration.csv")
     before = version_behind("validation.simulation.calibration", None)
@@ -123,6 +125,7 @@ SPRINGS = "validation.simulation.models.springs_pressed"
 LEFT_OUT = ("validation.scenes", "validation.simulation.models", "validation.simulation.calibration", "mdr.formatting")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("module", "old", "new", "same"),
     [

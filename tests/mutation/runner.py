@@ -69,6 +69,23 @@ VERDICTS = (
     "validation/selection/hierarchy.py",
     "validation/engine/engine.py",
 )
+CLAIMS = {
+    "answers": "validation/report/answers/*.py",
+    "calibration": "validation/simulation/calibrat*.py",
+    "exported": "validation/selection/exported.py",
+    "multilevel": "validation/analysis/multilevel.py",
+    "rail": "validation/simulation/rail_*.py",
+    "sound": "validation/analysis/sound.py",
+}
+"""What claims rest on: grids of Fig. 14.1, calibrated errors, rails, and what is printed of all of them."""
+
+
+def looked_at_by_guards(targets: tuple[str, ...], table: str) -> Field:
+    """Files that the tests of `make verdicts` look at."""
+    data, times = ROOT / ".coverage-verdicts", ROOT / ".coverage-verdicts-times.xml"
+    return Field(targets, "verdicts", data, times, ROOT / "tests" / "mutation" / table)
+
+
 FIELDS = {
     "methods": Field(
         ("mdr/*.py", "bem3d/*.py", "validation/theory/closed_forms.py"),
@@ -77,13 +94,9 @@ FIELDS = {
         ROOT / ".coverage-times.xml",
         ROOT / "tests" / "mutation" / "MUTATIONS.md",
     ),
-    "verdicts": Field(
-        VERDICTS,
-        "verdicts",
-        ROOT / ".coverage-verdicts",
-        ROOT / ".coverage-verdicts-times.xml",
-        ROOT / "tests" / "mutation" / "MUTATIONS_OF_VERDICTS.md",
-    ),
+    "verdicts": looked_at_by_guards(VERDICTS, "MUTATIONS_OF_VERDICTS.md"),
+    "claims": looked_at_by_guards(tuple(CLAIMS.values()), "MUTATIONS_OF_CLAIMS.md"),
+    **{name: looked_at_by_guards((files,), f"MUTATIONS_OF_{name.upper()}.md") for name, files in CLAIMS.items()},
 }
 
 

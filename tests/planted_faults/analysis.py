@@ -31,6 +31,14 @@ from validation.analysis.over_range import signed_mean, worst
 from validation.cases.punch import fractal_punch_decades
 from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
 
+COMBINED = fractal_punch_decades.combined
+
+
+def cancelled(weights, parts):
+    """Grid errors with the signs of their weights."""
+    whole = COMBINED(weights, parts)
+    return dataclasses.replace(whole, grid=abs(float(np.dot(weights, [part.grid for part in parts]))))
+
 
 def each_level_for_itself(realisations, rng):
     """Resamples drawn anew at every level."""
@@ -371,6 +379,18 @@ FAULTS = {
     "the interval of a mean for that of a root mean square": (
         (test_judged_claims, "root_mean_square", of_the_mean_alone),
         test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
+    ),
+    "grid errors of Fig. 14.1 that cancel in a difference": (
+        (fractal_punch_decades, "combined", cancelled),
+        functools.partial(test_error_bars_of_grids.test_grid_errors_of_fig_14_1_never_cancel, (-2.0, 2.0), 0.16),
+    ),
+    "grid errors of Fig. 14.1 that cancel in an exponent": (
+        (fractal_punch_decades, "combined", cancelled),
+        test_error_bars_of_grids.test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up,
+    ),
+    "grid errors of two methods that cancel": (
+        (fractal_punch_decades.PointComparison, "grid", property(lambda p: abs(p.springs.grid - p.bem.grid))),
+        test_error_bars_of_grids.test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up,
     ),
     "limits taken at their word": (
         (JudgedClaim, "status", property(wherever_limits_are_named)),

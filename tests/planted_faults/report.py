@@ -5,13 +5,24 @@ import functools
 import numpy as np
 from markupsafe import Markup
 
-from tests.report import test_answers, test_claims, test_figure_lines, test_printed, test_sounds
+from tests.cases import test_flags_on_the_page
+from tests.report import (
+    test_answers,
+    test_claims,
+    test_colours,
+    test_figure_lines,
+    test_kept,
+    test_page,
+    test_printed,
+    test_sounds,
+)
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.cases.punch import fractal_punch_text
-from validation.report import chapter, formats, sounds
+from validation.report import build, chapter, formats, provenance, sounds
 from validation.report.answers import cells, words
 from validation.report.figures import rolling as rolling_figure
+from validation.report.page_figure import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
 
@@ -45,7 +56,52 @@ def enough_unless_it_differs(cell):
 
 enough_of_a_cell = cells.RangeCell.enough.fget
 
+WITH_KEPT, SHEET = provenance.with_kept, test_colours.sheet()
+
+
+def as_of_today(about, before, kept):
+    """A case that is kept passes for one of this run."""
+    return WITH_KEPT(about, {**before, "kept": {}, "commit": about["commit"]}, kept)
+
+
+def exchanged(one, other):
+    """The style sheet with two classes in each other's place."""
+    return lambda: SHEET.replace(f".{one}", ".between").replace(f".{other}", f".{one}").replace(".between", f".{other}")
+
+
+CITATION = PageFigure.citation
+
 FAULTS = {
+    "a case that is kept has today's commit": (
+        (provenance, "with_kept", as_of_today),
+        test_kept.test_a_case_that_is_kept_twice_has_the_commit_that_made_it,
+    ),
+    "a figure of a case that is kept is cited with today's commit": (
+        (PageFigure, "citation", lambda figure, about, profile: CITATION(figure, {**about, "kept": {}}, profile)),
+        test_page.test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit,
+    ),
+    "a lost solve that nobody tells": (
+        (build, "_lost", lambda progress: ()),
+        functools.partial(
+            test_flags_on_the_page.test_a_lost_solve_is_told_whatever_its_case_makes_of_it,
+            test_flags_on_the_page.as_it_is,
+        ),
+    ),
+    "yes in the colours of no": (
+        (test_colours, "sheet", exchanged("yes", "no")),
+        functools.partial(
+            test_colours.test_yes_is_green_no_is_red_and_undecided_is_neither, ".cell.yes", ".cell.no", ".cell.open"
+        ),
+    ),
+    "what differs in the colours of what agrees": (
+        (test_colours, "sheet", exchanged("agree", "differ")),
+        functools.partial(
+            test_colours.test_yes_is_green_no_is_red_and_undecided_is_neither,
+            ".verdict.agree",
+            ".verdict.differ",
+            ".verdict.undecided",
+        ),
+    ),
     "a place with one number that is undecided under a yes": (
         (cells.RangeCell, "enough", property(enough_unless_it_differs)),
         functools.partial(

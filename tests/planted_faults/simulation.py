@@ -6,10 +6,12 @@ import types
 
 import numpy as np
 
+import bem3d
 import mdr
-from bem3d import few_cells
+from bem3d import few_cells, rolling_contact
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import (
+    test_flags_of_rolling,
     test_light_punch,
     test_periodic_motion,
     test_profiled_strip,
@@ -24,6 +26,7 @@ from tests.simulation import (
 from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
+from validation.cases.rolling import ridges, track_stiffness
 from validation.simulation import (
     band_limited,
     contact_laws,
@@ -153,7 +156,44 @@ def on_the_fitted_radius(strip, profile):
     return slice(None), -(y**2) / (2 * strip.radii[1])
 
 
+def told_of_none(solve):
+    """The outcome of a solve, without its flag."""
+    return lambda *given, **settings: {**solve(*given, **settings), "failed": np.array(0.0)}
+
+
+def without_its_flag(place, solve, path):
+    """A solve that keeps what failed to itself, and the test that rolls it over a position without a solution."""
+    test = functools.partial(test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number, path)
+    return (place, solve, told_of_none(getattr(place, solve))), test
+
+
+FLAGS = (
+    (test_flags_of_rolling, "roll_strip", "validation.simulation.rolling_strip:roll_strip"),
+    (test_flags_of_rolling, "roll_rail", "validation.simulation.equivalent_displacement:roll_boundary_elements"),
+    (test_flags_of_rolling, "roll_on_profile", "validation.simulation.profiled_strip:roll_on_profile"),
+    (test_flags_of_rolling, "roll_held_wheel", "validation.simulation.rail_sound:_boundary_elements"),
+    (test_flags_of_rolling, "roll_and_move", "validation.simulation.wheel_on_rail:at_constant_load"),
+    (test_flags_of_rolling, "roll_by_all", "validation.simulation.reduced_models:boundary_elements"),
+    (ridges, "roll_over", "validation.cases.rolling.ridges:_roll"),
+    (track_stiffness, "roll_loaded_strip", "validation.cases.rolling.track_stiffness:roll_loaded_strip"),
+)
+
 FAULTS = {
+    **{f"{solve} without its flag": without_its_flag(place, solve, path) for place, solve, path in FLAGS},
+    "a rolling contact that always says it has converged": (
+        (rolling_contact.WheelContact, "converged", property(lambda contact: True)),
+        functools.partial(test_flags_of_rolling.test_a_position_without_a_solution_has_no_number, "roll"),
+    ),
+    "numbers of a rolling contact that has not converged": (
+        (rolling_contact, "math", types.SimpleNamespace(nan=1.0)),
+        functools.partial(test_flags_of_rolling.test_a_position_without_a_solution_has_no_number, "RollingContact"),
+    ),
+    "a reduced model on a layer that has not converged": (
+        (bem3d, "solve", functools.partial(bem3d.solve, raise_on_failure=False)),
+        functools.partial(
+            test_flags_of_rolling.test_a_reduced_model_on_a_contact_without_a_solution_has_no_force, "solve"
+        ),
+    ),
     "a finer grid half a cell aside": (
         (light_punch, "refined", half_a_fine_cell_aside),
         functools.partial(test_light_punch.test_the_same_numbers_as_by_transforms, 128),

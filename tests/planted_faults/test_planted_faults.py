@@ -1,5 +1,6 @@
 """Negative controls: each fault is planted on purpose, and the named test must catch it."""
 
+import functools
 import inspect
 import sys
 from collections.abc import Iterator
@@ -76,7 +77,24 @@ def stop_at_the_first_failure(test, monkeypatch):
         monkeypatch.setattr(test, "_hypothesis_internal_use_settings", quick)
 
 
+@pytest.fixture
+def nothing_remembered():
+    """What the project keeps of earlier calls is neither taken nor left: it would outlive the fault."""
+    forget()
+    yield
+    forget()
+
+
+def forget():
+    for name, module in list(sys.modules.items()):
+        if name.partition(".")[0] in ("mdr", "bem3d", "validation", "tests"):
+            for value in vars(module).values():
+                if isinstance(value, functools._lru_cache_wrapper):
+                    value.cache_clear()
+
+
 @pytest.mark.slow
+@pytest.mark.usefixtures("nothing_remembered")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_named_test_catches(fault, monkeypatch):
     (places, name, wrong), named_test = FAULTS[fault]

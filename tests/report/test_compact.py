@@ -138,6 +138,7 @@ def test_the_same_strokes_at_the_same_places_in_the_same_look(plain: str) -> Non
     same(compact(plain), plain)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "fault",
     ["a mark less", "another colour", "a point aside", "another mark", "a word aside", "a clip forgotten"],

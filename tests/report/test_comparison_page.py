@@ -4,6 +4,8 @@ import html
 import json
 import re
 
+import pytest
+
 import validation
 from tests.selection.test_model_hierarchy import Fake, Finding, punch
 from validation.__main__ import main
@@ -35,6 +37,7 @@ def of_models(*models, **settings):
     return Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2, **settings))
 
 
+@pytest.mark.slow
 def test_the_page_has_scene_answer_claims_and_costs():
     scene = validation.load_scene("rolling_wheel")
     found = validation.compare(scene, "force-spectrum", "3 dB", models=["linear filter, 3D", "springs"])
@@ -61,6 +64,7 @@ def test_the_page_needs_no_other_file():
     assert set(re.findall(r'href="([^"#]+)"', page)) <= set(files_of(of_models(Finding())))
 
 
+@pytest.mark.slow
 def test_what_was_not_met_says_what_would_help():
     text = text_of(files_of(of_models(Finding(parts=(0.5, 0, 0))))[PAGE])
     assert "✗ tolerance not met" in text and "What would help: a tolerance of 52 %" in text
@@ -74,6 +78,7 @@ def test_names_are_text_and_no_markup():
     assert b"<b>a" not in files_of(found, found)[PAGE]
 
 
+@pytest.mark.slow
 def test_several_scenes_have_one_figure_and_a_section_each():
     one, other = (of_models(Finding(value=(value,))) for value in (1.0, 2.0))
     files = files_of(one, other)
@@ -84,6 +89,7 @@ def test_several_scenes_have_one_figure_and_a_section_each():
     assert [found["value"] for found in json.loads(files["comparison.json"])] == [[1.0], [2.0]]
 
 
+@pytest.mark.slow
 def test_a_folder_is_written_and_replaced_and_no_other_touched(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     mine, theirs, report = (tmp_path / name for name in ("mine", "theirs", "report"))

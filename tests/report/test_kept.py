@@ -1,12 +1,15 @@
 """A report that makes one case anew keeps the others as they were made."""
 
 import json
+import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
+from validation.report import provenance
 from validation.report.contents import CASES
 
 
@@ -29,7 +32,10 @@ def of(folder, file):
     return json.loads((folder / file).read_text())
 
 
-def test_the_other_case_is_kept(tmp_path):
+@pytest.mark.slow
+def test_the_other_case_is_kept(tmp_path, monkeypatch):
+    commits = iter(("first00", "second0", "third00"))
+    monkeypatch.setattr(provenance, "_commit", lambda: next(commits))
     assert report(tmp_path, "--only", "hertz", "geike") == command.Exit.MET
     first, made = of(tmp_path, "results.json"), of(tmp_path, "provenance.json")
     assert report(tmp_path, "--only", "geike", "--keep", "--seed", "5") == command.Exit.MET
@@ -37,11 +43,27 @@ def test_the_other_case_is_kept(tmp_path):
     assert list(second["cases"]) == ["hertz", "geike"]
     assert second["cases"]["hertz"] == first["cases"]["hertz"]
     assert second["cases"]["geike"] != first["cases"]["geike"]
-    assert about["kept"] == {"hertz": made["commit"]}
+    assert (made["commit"], about["commit"]) == ("first00", "second0")
+    assert about["kept"] == {"hertz": "first00"}
     assert about["seconds"]["hertz"] == made["seconds"]["hertz"]
-    assert f"kept as made at commit {made['commit']}: hertz" in (tmp_path / "index.html").read_text()
+    page = (tmp_path / "index.html").read_text()
+    assert "Version" in page and "commit second0; kept as made at commit first00: hertz" in page
+    cited = {
+        figure: commit for commit, figure in re.findall(r"commit (\w+), profile quick\), index.html#figure-(\w+)", page)
+    }
+    assert cited == {"hertz": "first00", "geike": "second0"}
     assert report(tmp_path, "--only", "geike") == command.Exit.MET
     assert list(of(tmp_path, "results.json")["cases"]) == ["geike"]
+
+
+def test_a_case_that_is_kept_twice_has_the_commit_that_made_it():
+    about = {"commit": "today00", "seeds": {"ridges": 1}, "seconds": {"ridges": 1.0}, "kept": {}}
+    before = {"commit": "before0", "seeds": {}, "seconds": {"hertz": 3.0}, "kept": {"geike": "first00"}}
+    sections = [SimpleNamespace(name="hertz"), SimpleNamespace(name="geike")]
+    found = provenance.with_kept(about, before, sections)
+    assert found["kept"] == {"hertz": "before0", "geike": "first00"}
+    assert found["commit"] == "today00" and found["seconds"] == {"ridges": 1.0, "hertz": 3.0}
+    assert provenance.kept_from(found) == {"before0": ["hertz"], "first00": ["geike"]}
 
 
 def test_what_cannot_be_kept_is_refused(tmp_path, capsys):

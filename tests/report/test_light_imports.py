@@ -39,6 +39,7 @@ def test_packages_import_nothing_heavy(code):
     assert not modules_of(code) & HEAVY
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["sphere", "rough_punch"])
 def test_a_closed_form_or_springs_need_no_boundary_elements(scene):
     found = modules_of(COMMAND, "compare", scene, "--tolerance", "50%")

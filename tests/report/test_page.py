@@ -158,6 +158,8 @@ def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit()
         "profile full), index.html#figure-geike"
     )
     assert figure.citation(ABOUT, "full") in text
+    assert "commit 0ld0000, profile" in figure.citation({**ABOUT, "kept": {"geike": "0ld0000"}}, "full")
+    assert "commit abc1234, profile" in figure.citation({**ABOUT, "kept": {"hertz": "0ld0000"}}, "full")
 
 
 def test_no_finding_is_stated_of_a_scene_without_a_steady_answer():

@@ -46,6 +46,7 @@ def test_the_keys_are_documented():
     assert set(found["models"][0]) == said["`models`"]
 
 
+@pytest.mark.slow
 def test_a_spectrum_is_written_band_by_band():
     result = spectrum(solve_all=True)
     found = read(result)

@@ -499,6 +499,7 @@ def test_a_face_that_a_spectrum_does_not_tell_is_left_to_boundary_elements():
     assert all(model.estimate().error < 0.3 for model in grids_of(scene, "stiffness", 0.3))
 
 
+@pytest.mark.slow
 def test_a_face_is_pressed_on_its_own_points_alone():
     # four summits of 2 x 2 points, which bear all of the load and which means over 2 x 2 and 4 x 4 points lower
     rng = np.random.default_rng(5)

@@ -94,6 +94,7 @@ def measured(height=HEIGHTS):
     return punch(ground=validation.MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
 
 
+@pytest.mark.slow
 def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
     """Bit for bit, text and files; of a rail its errors in bands, of a measured face all of its heights."""
     problems = [

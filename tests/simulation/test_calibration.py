@@ -122,6 +122,49 @@ def test_an_error_that_grows_with_the_height_is_followed():
         assert table.estimate(at).error == pytest.approx(0.2 * height)
 
 
+def left_out_by_loops(table, scene):
+    """Root mean square of the errors of the nearest others, a tenth of the weight for the farthest of them.
+
+    The first condition counts twice in the distance; nearest is a share of all, six at the least; under spheres the
+    errors grow with the height by the power that least squares find, from zero to one.
+    """
+    kind = next(kind for kind, names in NAMES.items() if names == table.names)
+    others = [i for i in range(len(table.errors)) if i != scene]
+    here, trend, share = table.points[scene], 0.0, 0.05
+    if kind == "sphere":
+        x, y = table.points[:, 0], np.log10(table.errors / table.shapes)
+        share, trend = 0.3, ((x - x.mean()) * (y - y.mean())).sum() / ((x - x.mean()) ** 2).sum()
+        trend = min(max(trend, 0.0), 1.0)
+    distance = {}
+    for i in others:
+        apart = [(2.0 if k == 0 else 1.0) * (table.points[i][k] - here[k]) for k in range(4)]
+        distance[i] = math.sqrt(sum(step**2 for step in apart))
+    nearest = sorted(others, key=distance.get)[: max(6, round(share * len(others)))]
+    total = weights = 0.0
+    for i in nearest:
+        weight = 1 - 0.9 * (distance[i] / distance[nearest[-1]]) ** 2
+        grown = 10 ** (trend * (here[0] - table.points[i][0]))
+        total += weight * (table.errors[i] / table.shapes[i] * grown) ** 2
+        weights += weight
+    return table.shapes[scene] * math.sqrt(total / weights)
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_errors_nearby_are_those_of_a_loop_over_all_scenes(kind):
+    points, errors = population(200, 8, kind)
+    shapes = np.random.default_rng(9).uniform(0.5, 2.0, 200)
+    table = MeasuredErrors(NAMES[kind], points, errors, shapes)
+    found = table.left_out()
+    for scene in (0, 7, 63, 199):
+        assert found[scene] == pytest.approx(left_out_by_loops(table, scene), rel=1e-9)
+    # 97 % of the scenes are within the claim, by the quantile that counts a scene that is not there
+    ratios = np.sort(errors / found)
+    place = 0.97 * 201 - 1
+    assert table.factor == pytest.approx(np.interp(place, np.arange(200), ratios))
+    claimed = table.estimate(conditions(points[7], kind), 1.7).error
+    assert claimed == pytest.approx(table.factor * 1.7 * table._scale(points[7], np.ones(200, dtype=bool)))
+
+
 def test_a_scene_does_not_calibrate_itself():
     points, errors = population(40, 6)
     one = errors.copy()
@@ -172,6 +215,7 @@ def test_the_table_says_when_how_and_with_which_code_it_was_measured():
     assert calibration_lines()[0].startswith(f"errors of models: calibrated {about['measured']}, ")
 
 
+@pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
     write_table(calibration.provenance(), calibration.rows_of(calibration.TABLE), path)
@@ -201,6 +245,7 @@ class MeasuredAgain:
         return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("factor", "same"), [(1.0, True), (1.0005, True), (1.01, False)])
 def test_rows_take_the_version_of_today_where_some_measured_again_are_the_same(tmp_path, factor, same):
     path, engine = tmp_path / "table.csv", MeasuredAgain(factor)

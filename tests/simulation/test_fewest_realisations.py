@@ -28,6 +28,7 @@ def skewed(rng, shape):
     return (np.log(rng.gamma(3.0, size=shape)) - digamma(3.0)) / np.sqrt(polygamma(1, 3.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("draw", [normal, skewed])
 def test_samples_that_begin_with_eight_are_seldom_far_off(draw):
     assert FEWEST == 8

@@ -89,6 +89,7 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     assert mine["mean stiffness"].setting == "three realisations"
 
 
+@pytest.mark.slow
 def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
     """The linear filter under another name, beside itself: the rms force of linear theory over that of strips."""
     use_a_clock_of_its_own(monkeypatch)

@@ -5,6 +5,7 @@ import shutil
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from types import TracebackType
@@ -23,7 +24,7 @@ BACK, ERASED = "\r", "\x1b[K"
 
 
 class Part:
-    """A part of a run: counts of its solves, and the seconds of work that they took."""
+    """A part of a run: counts of its solves, those of each kind that did not converge, and their seconds of work."""
 
     def __init__(self, name: str = "", seconds: float = 0.0, refresh: Callable[[], None] = lambda: None):
         self.name, self.seconds = name, seconds
@@ -31,6 +32,7 @@ class Part:
         self.over = self.solving = False
         self.doing = ""
         self.done = self.total = self.found = self.failed = 0
+        self.lost: Counter[str] = Counter()
         self._of_others = (0, 0, 0)
         self._refresh = refresh
 
@@ -39,6 +41,7 @@ class Part:
         before = self._of_others
         self._of_others = (before[0] + self.done, before[1] + self.total, before[2] + self.found)
         self.doing, self.done, self.total, self.found, self.failed = doing, found, total, found, failed
+        self.lost[doing] += failed
         self.solving |= total > found
         self._refresh()
 
@@ -51,6 +54,7 @@ class Part:
         """One solve more. seconds: that it took."""
         self.done += 1
         self.failed += failed
+        self.lost[self.doing] += failed
         self.worked += seconds
         self._refresh()
 

@@ -112,12 +112,23 @@ def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> S
     try:
         with as_not_converged():
             evidence = case.evidence(result.result())
+        # whatever a case makes of it: a solve that did not converge is told
+        evidence = replace(evidence, unconverged=evidence.unconverged or _lost(progress))
         return of(evidence, files=_data_files(name, evidence) | sound_files(name, evidence))
     except NotConvergedError as error:
         return of(None, (str(error), *error.unconverged))
+    except (ValueError, ArithmeticError, LookupError) as error:
+        if not _lost(progress):
+            raise
+        return of(None, (*_lost(progress), f"no evidence without them: {error}"))
     finally:
         progress.worked += time.perf_counter() - began
         progress.finish()
+
+
+def _lost(progress: Part) -> tuple[str, ...]:
+    """A line for each kind of solve of a case that did not converge."""
+    return tuple(f"{doing}: {count} did not converge" for doing, count in progress.lost.items() if count)
 
 
 def _provenance(sections: Sequence[Section], profile: Profile, engine: Engine, progress: Progress) -> dict[str, object]:

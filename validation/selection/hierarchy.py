@@ -8,6 +8,7 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.simulation.model import Cost, ErrorEstimate
 
 FloatArray = NDArray[np.float64]
@@ -69,8 +70,8 @@ class ContactModel(Protocol):
 
 
 Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range", "not asked"]
-REFUSALS = (ValueError, ArithmeticError, MemoryError)
-"""What a solve raises where it cannot serve a scene; it is a row of the table, and the other models go on."""
+REFUSALS = (ValueError, ArithmeticError, MemoryError, NotConvergedError)
+"""What a solve raises where it has no answer to a scene; it is a row of the table, and the other models go on."""
 
 
 @dataclass(frozen=True)
@@ -180,7 +181,8 @@ def needed(models: Sequence[ContactModel], tolerance: float) -> ContactModel | N
 
 def try_to_solve(model: ContactModel) -> Answer:
     try:
-        return model.solve()
+        with as_not_converged():
+            return model.solve()
     except REFUSALS as problem:
         return Answer(value=np.array([np.nan]), cost=model.cost(), failed=str(problem) or type(problem).__name__)
 

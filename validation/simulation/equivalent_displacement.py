@@ -56,11 +56,11 @@ LINEAR_MODELS: Mapping[str, Callable[[EllipticContact], Transfer]] = {
 
 def boundary_elements(strip: RailStrip, tolerance: float) -> FloatArray:
     """The half-space, one-sided; NaN where it has not converged."""
-    return _lifted_by(roll_boundary_elements(strip, tolerance))
+    return lifted(roll_boundary_elements(strip, tolerance).approach)
 
 
 def roll_boundary_elements(strip: RailStrip, tolerance: float) -> bem3d.Rolling:
-    """Force, approach and area along the strip."""
+    """Force, approach and area along the strip, NaN where it has not converged."""
     return bem3d.roll(
         strip.surface,
         spacing=strip.spacing,
@@ -70,10 +70,6 @@ def roll_boundary_elements(strip: RailStrip, tolerance: float) -> bem3d.Rolling:
         tolerance=tolerance,
         raise_on_failure=False,
     )
-
-
-def _lifted_by(found: bem3d.Rolling) -> FloatArray:
-    return lifted(np.where(found.converged, found.approach, np.nan))
 
 
 def springs_that_read(strip: RailStrip, tolerance: float) -> FloatArray:
@@ -166,16 +162,17 @@ def roll_rail(problem: RolledRail) -> Outcome:
     """Equivalent displacement along the strip of each model and of all linear ones, by their names [m].
 
     area in contact: of boundary elements, over that of the smooth wheel; failed: positions at which they did not
-    converge, whose displacement is NaN.
+    converge: the displacement counts from its mean, which then is not known.
     """
     strip, contact = problem.strip, problem.strip.contact
     linear = {name: strip.along_middle(transfer(contact)) for name, transfer in LINEAR_MODELS.items()}
     found = {name: ONE_SIDED[name].displacement(strip, problem.tolerance) for name in problem.models if name != BEM}
+    failed = 0
     if BEM in problem.models:
         rolled = roll_boundary_elements(strip, problem.tolerance)
-        found |= {BEM: _lifted_by(rolled), AREA: rolled.area / (math.pi * contact.along * contact.across)}
-    failed = sum(float(np.isnan(track).sum()) for track in found.values())
-    return {**linear, **found, "failed": np.array(failed)}
+        found |= {BEM: lifted(rolled.approach), AREA: rolled.area / (math.pi * contact.along * contact.across)}
+        failed = int(np.count_nonzero(~rolled.converged))
+    return {**linear, **found, "failed": np.array(float(failed))}
 
 
 def band_powers(outcomes: Sequence[Outcome], name: str, spacing: float, bands: Bands) -> FloatArray:

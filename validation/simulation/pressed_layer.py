@@ -56,7 +56,8 @@ class Layers:
 def roll_on_layer(surface: FloatArray, spacing: float) -> LayerTrack:
     """Roll along the middle of a strip, periodic along axis 0, heights over d; spacing over a.
 
-    Raises ValueError where it is shorter than twice the contact that is looked at.
+    Raises ValueError where it is shorter than twice the contact that is looked at, bem3d.ConvergenceError where a layer
+    does not converge.
     """
     if len(surface) * spacing < 2 * ALONG:
         raise ValueError(f"surface must be longer than {2 * ALONG:g} radii, got {len(surface) * spacing:g}")
@@ -76,9 +77,7 @@ def press(strip: FloatArray, spacing: float) -> Layers:
         with warnings.catch_warnings():
             # how much of it touches is what a layer is for
             warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-            found = bem3d.solve(
-                half_space, -strip, force=mean * strip.size * spacing**2, tolerance=TOLERANCE, raise_on_failure=False
-            )
+            found = bem3d.solve(half_space, -strip, force=mean * strip.size * spacing**2, tolerance=TOLERANCE)
         deformed = half_space.displacement(found.pressure) - found.approach
         gaps.append(deformed.mean())
         heights.append(np.fft.rfft(deformed - gaps[-1], axis=0))

@@ -16,7 +16,8 @@ def roll_on_profile(strip: RailStrip, profile: TransverseProfile, *, positions: 
     """Equivalent displacement along a strip with the profile across, and of its linear twin, by their names, (nx,) [m].
 
     The linear twin is that of the ellipse of the strip's two radii. positions: of boundary elements, from the first
-    cell of the strip, None for all; failed: positions at which they have not converged, whose displacement is NaN.
+    cell of the strip, None for all; failed: positions at which they have not converged: the displacement counts from
+    its mean, which then is not known.
     Raises ValueError where the contact reaches the end of the profile.
     """
     columns, z = heights_across(strip, profile)
@@ -31,9 +32,9 @@ def roll_on_profile(strip: RailStrip, profile: TransverseProfile, *, positions: 
         tolerance=RolledRail.tolerance,
         raise_on_failure=False,
     )
-    found = lifted(np.where(rolled.converged, rolled.approach, np.nan))
+    found = lifted(rolled.approach)
     linear = strip.along_middle(LINEAR_MODELS[LINEAR](strip.contact))
-    return {LINEAR: linear, BEM: found, "failed": np.array(float(np.isnan(found).sum()))}
+    return {LINEAR: linear, BEM: found, "failed": np.array(float(np.count_nonzero(~rolled.converged)))}
 
 
 def heights_across(strip: RailStrip, profile: TransverseProfile) -> tuple[slice, FloatArray]:

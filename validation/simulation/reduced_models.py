@@ -116,8 +116,8 @@ def frozen_weights(strip: FloatArray, dx: float) -> Reduced:
     total, share, work = np.zeros(len(strip)), np.zeros(len(strip)), 0
     for centre in range(0, len(strip), step):
         here = near[(centre + x) % len(strip)]
-        found = bem3d.solve(body, wheel - here, approach=1.0, tolerance=1e-3, raise_on_failure=False)
-        frozen = bem3d.solve_fixed_area(body, found.pressure > 0, raise_on_failure=False)
+        found = bem3d.solve(body, wheel - here, approach=1.0, tolerance=1e-3)
+        frozen = bem3d.solve_fixed_area(body, found.pressure > 0)
         work += (found.operator_applications + frozen.operator_applications) * 4 * x.size * y.size
         for shift in range(1 - step, step):
             changed = near[(centre + shift + x) % len(strip)] - here
@@ -133,14 +133,10 @@ def pressed_layer(strip: FloatArray, dx: float) -> Reduced:
 
 
 def boundary_elements(strip: FloatArray, dx: float) -> Reduced:
-    """NaN where a position did not converge; work: of windows three radii wide, doubled in free space."""
-    found = bem3d.roll(
-        crop_to_reach(strip, dx), spacing=dx, tolerance=TOLERANCE * float(strip.std()), raise_on_failure=False, **SMOOTH
-    )
+    """work: of windows three radii wide, doubled in free space."""
+    found = bem3d.roll(crop_to_reach(strip, dx), spacing=dx, tolerance=TOLERANCE * float(strip.std()), **SMOOTH)
     cells = (2 * 3 / dx) ** 2
-    return Reduced(
-        np.where(found.converged, found.force, np.nan) / HERTZ, float(found.operator_applications.sum()) * cells
-    )
+    return Reduced(found.force / HERTZ, float(found.operator_applications.sum()) * cells)
 
 
 def split(strip: FloatArray, dx: float) -> tuple[FloatArray, FloatArray]:

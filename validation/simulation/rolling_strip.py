@@ -116,9 +116,9 @@ def roll_strip(strip: Strip) -> Outcome:
         crop_to_reach(surface, spacing), spacing=spacing, tolerance=strip.tolerance, raise_on_failure=False, **SMOOTH
     )
     return {
-        "force": np.where(found.converged, found.force, np.nan) / HERTZ,
+        "force": found.force / HERTZ,
         "linear": linear / HERTZ,
-        "area": np.where(found.converged, found.area, np.nan) / math.pi,
+        "area": found.area / math.pi,
         "applications": found.operator_applications.astype(np.float64),
         "failed": np.array(float(np.count_nonzero(~found.converged))),
     }

@@ -111,14 +111,17 @@ class SurfaceSpringsLaw:
 
 
 def roll_and_move(case: WheelOnRail) -> Outcome:
-    """What lifts the wheel at constant load and in motion, and the force in motion; NaN where it has not converged.
+    """What lifts the wheel at constant load and in motion, and the force in motion.
 
-    Motion begins in the steady state of linear theory.
+    failed: whether a contact has not converged, without which all three are NaN. Motion begins in the steady state of
+    linear theory.
     """
+    failed = 0.0
     try:
         still = at_constant_load(case)
         approach, force = in_motion(case)
     except bem3d.ConvergenceError:
+        failed = 1.0
         still, approach, force = np.full((3, case.strip.shape[0]), np.nan)
     return {
         "constant": still,
@@ -126,6 +129,7 @@ def roll_and_move(case: WheelOnRail) -> Outcome:
         "force": force,
         "linear": case.linear.change[:, 0] / case.wheel.stiffness,
         "line": case.strip.along_middle(lambda x, y: np.ones_like(x + y)),
+        "failed": np.array(failed),
     }
 
 

@@ -8,6 +8,7 @@ import bem3d
 from validation.analysis.evidence import Table, table_of
 from validation.benchmarks.isolation import measure_alone, timed
 from validation.benchmarks.work_precision.rolling import moving_window
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, Outcome
 from validation.simulation.method import FloatArray
 from validation.simulation.rolling_strip import RoughStrip, Strip, crop_to_reach
@@ -85,9 +86,10 @@ class RolledStrip:
         height = crop_to_reach(strip.surface(), 1 / strip.cells)
         track = bem3d.Track(height=height, spacing=1 / strip.cells, radius=1.0, modulus=1.0)
         wheel = bem3d.RollingContact(track, tolerance=strip.tolerance)
-        for position in range(WARM):
-            wheel.press(position, 1.0)
+        before = [wheel.press(position, 1.0) for position in range(WARM)]
         after, seconds = timed(lambda: [wheel.press(i, 1.0) for i in range(WARM, self.positions)])
+        if lost := sum(not contact.converged for contact in (*before, *after)):
+            raise NotConvergedError(f"{lost} positions at h/d = {strip.scene.height:g} did not converge")
         # plans were made meanwhile, as many as there are sizes of frames: the faster of two looks counts
         again = bem3d.RollingContact(track, tolerance=strip.tolerance)
         again.press(0, 1.0)

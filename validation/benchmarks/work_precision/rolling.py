@@ -28,6 +28,7 @@ from validation.benchmarks.work_precision.problem import (
     Quantity,
     log_power,
 )
+from validation.engine.convergence import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve, Values
@@ -249,7 +250,7 @@ def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tup
         along = [wheel.press(position, SMOOTH["approach"]) for position in range(positions)]
         failed = sum(not contact.converged for contact in along)
         if failed:
-            raise RuntimeError(f"{failed} of {positions} positions did not converge")
+            raise NotConvergedError(f"{failed} of {positions} positions did not converge")
         work = sum(contact.operator_applications for contact in along) * (2 * cells) ** 2
         return np.array([contact.force for contact in along]), float(work)
 

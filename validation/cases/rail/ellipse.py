@@ -23,6 +23,7 @@ from validation.cases.rail.filters import (
     weighted_difference,
 )
 from validation.cases.rail.published import RailWheel
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.equivalent_displacement import LINEAR
 from validation.simulation.rail_ground import StatedAcross
@@ -98,15 +99,18 @@ def press_ellipse(problem: PublishedContact) -> Outcome:
     found = wheel.carry(0, problem.force)
     return {
         APPROACH: np.array(1e3 * found.approach),
-        PRESSURE: np.array(1e-6 * wheel.pressure()[2].max()),
+        PRESSURE: np.array(1e-6 * wheel.pressure()[2].max() if found.converged else math.nan),
         "failed": np.array(float(not found.converged)),
     }
 
 
 def run(case: Ellipse, engine: Engine = SERIAL) -> EllipseResult:
-    """Press on every grid."""
+    """Press on every grid. Raises NotConvergedError where one does not converge."""
     problems = [PublishedContact(cells=n, tolerance=case.tolerance) for n in case.cells]
-    return EllipseResult(case, dict(zip(case.cells, engine.map(press_ellipse, problems), strict=True)))
+    found = dict(zip(case.cells, engine.map(press_ellipse, problems), strict=True))
+    if lost := [f"{n} cells to the semi-axis" for n, one in found.items() if one["failed"]]:
+        raise NotConvergedError("a grid of the ellipse has no contact", lost)
+    return EllipseResult(case, found)
 
 
 def evidence(result: EllipseResult) -> Evidence:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.spectra import Bands
+from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.level_files import curve
 from validation.simulation.rail_ground import RailGround
@@ -114,15 +115,10 @@ class RailDynamic:
 
 @dataclass(frozen=True)
 class RailDynamicResult:
-    """Outcomes of the strips that converged, by offset, model and grid."""
+    """Outcomes of the strips, by offset, model and grid."""
 
     case: RailDynamic
     outcomes: dict[Key, list[Outcome]]
-
-    @property
-    def unconverged(self) -> tuple[str, ...]:
-        lost = {key: sum(bool(np.isnan(o["force"]).any()) for o in some) for key, some in self.outcomes.items()}
-        return tuple(f"{key[1]} at +{key[0]:g} dB, {key[2]} grid: {n} strips" for key, n in lost.items() if n)
 
     def powers(self, key: Key, name: str) -> FloatArray:
         """Mean square in each band of what lifts the wheel, (strips, bands), through Hann's window.
@@ -156,6 +152,10 @@ def hann(points: int) -> FloatArray:
 
 
 def run(case: RailDynamic, engine: Engine = SERIAL) -> RailDynamicResult:
-    """All strips, on both grids."""
+    """All strips, on both grids. Raises NotConvergedError where one is lost: the models are compared strip by strip."""
     problems = {key: [case.problem(key, i) for i in range(count)] for key, count in case.keys.items()}
-    return RailDynamicResult(case, engine.map_groups(roll_and_move, problems))
+    outcomes = engine.map_groups(roll_and_move, problems)
+    failed = {key: sum(bool(one["failed"]) for one in some) for key, some in outcomes.items()}
+    if lost := [f"{key[1]} at +{key[0]:g} dB, {key[2]} grid: {n} strips" for key, n in failed.items() if n]:
+        raise NotConvergedError("models are compared strip by strip, and some are lost", lost)
+    return RailDynamicResult(case, outcomes)

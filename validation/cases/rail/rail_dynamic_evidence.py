@@ -93,7 +93,6 @@ def evidence(result: RailDynamicResult) -> Evidence:
         headlines={"rail_dynamic": headline(claims[0])},
         conclusions=(_resonance(result),),
         captions=_captions(result.case),
-        unconverged=result.unconverged,
     )
 
 

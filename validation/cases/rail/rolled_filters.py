@@ -126,9 +126,11 @@ def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersRe
     }
     rolled = engine.map_groups(roll_rail, groups)
     spectral = engine.map_groups(roll_spectral_springs, {(key, n): case.spectral_problems(key, n) for key, n in groups})
-    # positions that failed are those of boundary elements
     outcomes = {
-        kind: [{**springs, **one} for springs, one in zip(spectral[kind], found, strict=True)]
+        kind: [
+            {**springs, **one, "failed": springs["failed"] + one["failed"]}
+            for springs, one in zip(spectral[kind], found, strict=True)
+        ]
         for kind, found in rolled.items()
     }
     lost = tuple(

@@ -101,10 +101,10 @@ def run(case: ReducedModels, engine: Engine = SERIAL) -> ReducedResult:
     }
     found = engine.map_groups(roll_by_all, groups)
     unconverged = tuple(
-        f"strip {i}, h/d = {key[1]:g}: a position of boundary elements did not converge"
+        f"strip {i}, h/d = {key[1]:g}: {int(outcome['failed'])} models with a contact that did not converge"
         for key, outcomes in found.items()
         for i, outcome in enumerate(outcomes)
-        if not np.isfinite(outcome["level"]).all()
+        if outcome["failed"]
     )
     return ReducedResult(case, found, unconverged)
 
@@ -118,7 +118,8 @@ def bands_of(spectrum: PiecewisePowerLaw) -> Bands:
 def roll_by_all(strip: Strip) -> Outcome:
     """Models in the order of `MODELS`: level in each band, cross level with boundary elements, mean force, and work.
 
-    level, cross (complex): (models, bands), of the force over that of Hertz; mean, work of the whole strip: (models,).
+    level, cross (complex): (models, bands), of the force over that of Hertz; mean, work of the whole strip: (models,);
+    failed: models with a contact that did not converge, which have no force.
     """
     bands = bands_of(strip.scene.spectrum)
     rolled = [_roll(strip, solve, coarser) for solve, coarser in MODELS.values()]
@@ -132,6 +133,7 @@ def roll_by_all(strip: Strip) -> Outcome:
         "cross": np.stack([cross.real, cross.imag]),
         "mean": np.array([one.force.mean() for one in rolled]),
         "work": np.array([one.work for one in rolled]),
+        "failed": np.array(float(sum(math.isnan(one.work) for one in rolled))),
     }
 
 
@@ -141,7 +143,11 @@ def _roll(strip: Strip, solve: Callable[[FloatArray, float], reduced.Reduced], c
         # what fewer cells change is compared
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        return solve(replace(strip, cells=cells).surface(), 1 / cells)
+        surface = replace(strip, cells=cells).surface()
+        try:
+            return solve(surface, 1 / cells)
+        except bem3d.ConvergenceError:
+            return reduced.Reduced(np.full(len(surface), math.nan), math.nan)
 
 
 def _waves(force: FloatArray, spacing: float, bands: Bands) -> Waves:

@@ -1,0 +1,76 @@
+"""Colours and borders of verdicts: what is well is green, what is not is red, and both are known without colour."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from validation import report
+
+TEMPLATES = Path(report.__file__).parent / "templates"
+YES = (".strip .yes", ".cell.yes", "table.map td.agree", ".verdict.agree", ".holds")
+NO = (".strip .no", ".cell.no", "table.map td.differ", ".verdict.differ", ".contradicted")
+OPEN = (".strip .open", ".cell.open", "table.map td.undecided", ".verdict.undecided", ".open")
+NAMED = {"white": "#ffffff"}
+DARK, LIGHT = 0.3, 0.7
+"""Brightness of a field that is told from another in grey, 0 to 1."""
+
+
+def sheet():
+    return "".join(file.read_text() for file in sorted(TEMPLATES.glob("*.css")))
+
+
+def declared(selector, text):
+    """The declarations of all rules of a selector, the last of each property."""
+    found = {}
+    for names, body in re.findall(r"([^{}]+)\{([^{}]*)\}", text):
+        if selector in [" ".join(name.split()) for name in names.split(",")]:
+            found |= {key.strip(): value.strip() for key, value in re.findall(r"([\w-]+):([^;]+)", body)}
+    return found
+
+
+def painted(selector, text):
+    """Red, green, blue of what a reader sees the meaning by, 0 to 1: the field where it is filled, else the type."""
+    rules = declared(selector, text)
+    value = rules.get("background", rules["color"])
+    if value == "white":
+        value = rules["color"]
+    if variable := re.fullmatch(r"var\((--[\w-]+)\)", value):
+        value = declared(":root", text)[variable[1]]
+    digits = re.match(r"#([0-9a-f]{6})", NAMED.get(value, value))[1]
+    return tuple(int(digits[i : i + 2], 16) / 255 for i in (0, 2, 4))
+
+
+def bright(colour):
+    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]
+
+
+@pytest.mark.parametrize(("yes", "no", "undecided"), list(zip(YES, NO, OPEN, strict=True)))
+def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):
+    text = sheet()
+    (r, g, b), (red, green, blue), between = (painted(name, text) for name in (yes, no, undecided))
+    assert g > r and g > b
+    assert red > green and red > blue
+    assert between[2] < between[0] and abs(between[0] - between[1]) < 0.05
+
+
+@pytest.mark.parametrize(("yes", "no"), [(".strip .yes", ".strip .no"), ("table.map td.agree", "table.map td.differ")])
+def test_filled_fields_are_told_apart_in_grey(yes, no):
+    dark, light = sorted(bright(painted(name, sheet())) for name in (yes, no))
+    assert dark < DARK and light > LIGHT
+
+
+@pytest.mark.parametrize(
+    ("selector", "border"),
+    [
+        (".strip .no", "double"),
+        (".strip .open", "dashed"),
+        (".verdict.differ", "double"),
+        (".verdict.undecided", "dashed"),
+    ],
+)
+def test_what_is_not_yes_has_a_border_of_its_own(selector, border):
+    rules = declared(selector, sheet())
+    assert border in f"{rules.get('border', '')} {rules.get('border-style', '')}"
+    yes = declared(".verdict.agree", sheet()) | declared(".strip .yes", sheet())
+    assert border not in f"{yes.get('border', '')} {yes.get('border-style', '')}"

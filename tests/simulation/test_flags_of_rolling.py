@@ -1,0 +1,229 @@
+"""A position that does not converge, in all that rolls on boundary elements: a flag and no number, or an exception."""
+
+import ast
+import warnings
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import bem3d
+from tests.simulation.test_calibration import wheel
+from validation.benchmarks.solvers.rolling import RolledStrip
+from validation.benchmarks.work_precision import rolling as rolling_chart
+from validation.cases.limits import spheres
+from validation.cases.rail import ellipse
+from validation.cases.rolling import ridges, track_stiffness
+from validation.cases.rolling.reduced_models import roll_by_all
+from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.scenes.load import load_scene
+from validation.scenes.transverse_profile import TransverseProfile
+from validation.scenes.wheel_body import Wheel
+from validation.selection.hierarchy import try_to_solve
+from validation.selection.scene_model import SceneModel
+from validation.simulation import rail_models, wheel_on_rail
+from validation.simulation.contact_laws import BoundaryElementsLaw
+from validation.simulation.equivalent_displacement import BEM, RolledRail, roll_rail
+from validation.simulation.model import Resolution, Target
+from validation.simulation.models import rail_boundary_elements
+from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
+from validation.simulation.profiled_strip import roll_on_profile
+from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
+from validation.simulation.rail_strip import PowerLawGround, RailStrip
+from validation.simulation.rolling_strip import RoughStrip, roll_strip
+from validation.simulation.track_spectrum import self_affine
+from validation.simulation.wheel_on_rail import WheelOnRail, roll_and_move
+
+ROOT = Path(bem3d.__file__).parents[1]
+
+(STRIP,) = RoughStrip(spectrum=self_affine(0.7, 1.0, 4.0), height=0.2, length=8.0, width=6.0, seed=1).strips(6, 1e-6, 1)
+RAIL = RailStrip(
+    ground=PowerLawGround(rms=3e-6, exponent=2.0, first=2 * np.pi / 0.06, last=2 * np.pi / 0.015),
+    radii=(0.46, 0.3),
+    force=5e4,
+    modulus=115e9,
+    length=0.06,
+    width=0.06,
+    spacing=1.5e-3,
+    realisation=0,
+    seed=3,
+)
+ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
+ONE_POSITION = ("validation.cases.rail.ellipse:press_ellipse",)
+TOO_SHORT = bem3d.HalfSpace(shape=(12, 12), spacing=0.2, modulus=1.0), np.add.outer(*[np.linspace(-1, 1, 12) ** 2] * 2)
+Y = np.linspace(-0.03, 0.03, 61)
+PROFILE = TransverseProfile(y=tuple(Y.tolist()), height=tuple((-(Y**2) / 0.6).tolist()), source="head.csv")
+
+
+def over_ridges():
+    case = ridges.RollingOverRidges(length=8, shortest=4.0, cells=(4,))
+    return ridges.roll_over(ridges.RidgesTrack(case=case, method="bem3d", cells=4))
+
+
+def at_constant_load():
+    case = track_stiffness.TrackStiffness()
+    return track_stiffness.roll_loaded_strip(track_stiffness.LoadedStrip(strip=STRIP, bands=case.bands))
+
+
+def on_the_chart():
+    force, _ = rolling_chart.ROLLERS["BEM"](STRIP.surface(), 6, 1e-6)()
+    return {"force": force, "failed": np.zeros(1)}
+
+
+def in_time():
+    law = BoundaryElementsLaw(Wheel(radius=1.0, mass=1.0, modulus=1.0, load=4 / 3), [STRIP.surface()], 1 / 6)
+    return {"force": np.array([law.force(i, np.ones(1)) for i in range(4)]), "failed": np.zeros(1)}
+
+
+def by_a_model(target):
+    result = ROLLING.prepare(target, Resolution(size=4))(0)()
+    return {**result.values, "failed": np.array(float(bool(result.failed)))}
+
+
+PATHS = {
+    "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
+    "validation.cases.rolling.ridges:_roll": over_ridges,
+    "validation.cases.rolling.track_stiffness:roll_loaded_strip": at_constant_load,
+    "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
+    "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
+    "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,
+    "validation.simulation.equivalent_displacement:roll_boundary_elements": lambda: roll_rail(
+        RolledRail(strip=RAIL, models=(BEM,))
+    ),
+    "validation.simulation.profiled_strip:roll_on_profile": lambda: roll_on_profile(RAIL, PROFILE, positions=4),
+    "validation.simulation.rail_sound:_boundary_elements": lambda: roll_held_wheel(
+        HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
+    ),
+    "validation.simulation.wheel_on_rail:at_constant_load": lambda: roll_and_move(moving()),
+    "validation.simulation.wheel_on_rail:EllipseLaw": lambda: dict(
+        zip(("approach", "force", "failed"), (*wheel_on_rail.in_motion(moving()), np.zeros(1)), strict=True)
+    ),
+    "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
+    "validation.benchmarks.solvers.rolling:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
+    "validation.cases.rail.ellipse:press_ellipse": lambda: ellipse.press_ellipse(
+        ellipse.PublishedContact(cells=6, tolerance=1e-6)
+    ),
+    "validation.cases.limits.spheres:sweep_strip_width": lambda: spheres.sweep_strip_width(
+        spheres.Spheres(finer=6, sides=(13, 18))
+    ),
+}
+
+
+def moving():
+    return WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=wheel_on_rail.BEM, tolerance=1e-6)
+
+
+def outcome(path):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return PATHS[path]()
+
+
+@contextmanager
+def one_iteration_at(positions):
+    """Boundary elements that roll stop after one iteration over these cells of the track, without a solution."""
+
+    def cut(method):
+        def solve(self, position, prescribed):
+            whole, self.max_iterations = self.max_iterations, 1 if position in positions else self.max_iterations
+            found = method(self, position, prescribed)
+            self.max_iterations = whole
+            return found
+
+        return solve
+
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("press", "carry"):
+            patch.setattr(bem3d.RollingContact, name, cut(getattr(bem3d.RollingContact, name)))
+        yield
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_a_position_without_a_solution_is_flagged_and_is_no_number(path):
+    """All that it changes is NaN. Where nothing can do without it, there is no outcome at all."""
+    whole = outcome(path)
+    assert not whole.get("failed", False)
+    with one_iteration_at((0,) if path in ONE_POSITION else (1,)):
+        try:
+            with as_not_converged():
+                found = outcome(path)
+        except NotConvergedError:
+            return
+    assert found["failed"] >= 1
+    changed = {
+        name: found[name][far(found[name], values)]
+        for name, values in whole.items()
+        if name not in ("failed", "applications")
+    }
+    assert any(values.size for values in changed.values())
+    for name, values in changed.items():
+        assert np.isnan(values).all(), name
+
+
+def far(values, others):
+    """Where they are farther apart than positions that begin from nothing."""
+    return ~(np.abs(values - others) <= 1e-3 * np.nanmax(np.abs(others), initial=0.0))
+
+
+def test_all_that_rolls_is_looked_at():
+    """Whoever calls boundary elements that roll, by function or class."""
+    found = set()
+    for file in (ROOT / "validation").rglob("*.py"):
+        module, text = ".".join(file.relative_to(ROOT).with_suffix("").parts), file.read_text()
+        for top in ast.parse(text).body if any(roller in text for roller in ROLLERS) else ():
+            calls = (node.func for node in ast.walk(top) if isinstance(node, ast.Call))
+            if any(ast.unparse(call) in ROLLERS for call in calls):
+                found.add(f"{module}:{top.name}")
+    assert {path for path in found if ".examples." not in path} == set(PATHS)
+
+
+@pytest.mark.parametrize("by", ["roll", "RollingContact"])
+def test_a_position_without_a_solution_has_no_number(by):
+    """Of force, approach and area; residual and work are known."""
+    settings = {"spacing": 1 / 6, "radius": 1.0, "modulus": 1.0}
+    with one_iteration_at((1,)):
+        if by == "roll":
+            found = bem3d.roll(STRIP.surface(), **settings, approach=1.0, positions=3, raise_on_failure=False)
+            assert found.converged.tolist() == [True, False, True]
+            found = [found.force, found.approach, found.area]
+            assert (found[0][1] > 0) is np.False_
+        else:
+            wheel = bem3d.RollingContact(bem3d.Track(height=STRIP.surface(), **settings))
+            along = [wheel.carry(i, 4 / 3) for i in range(3)]
+            assert [one.converged for one in along] == [True, False, True]
+            found = [np.array([getattr(one, name) for one in along]) for name in ("force", "approach", "area")]
+    for values in found:
+        assert np.isnan(values).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("solve", ["solve", "solve_fixed_area"])
+def test_a_reduced_model_on_a_contact_without_a_solution_has_no_force(solve):
+    """The others have theirs."""
+    whole = outcome("validation.simulation.reduced_models:boundary_elements")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bem3d, solve, partial(getattr(bem3d, solve), max_iterations=1))
+        found = outcome("validation.simulation.reduced_models:boundary_elements")
+    lost = np.isnan(found["level"]).any(axis=1)
+    assert found["failed"] == lost.sum() > 0
+    assert np.isnan(found["mean"]).tolist() == lost.tolist()
+    np.testing.assert_array_equal(found["level"][~lost], whole["level"][~lost])
+
+
+def test_strips_of_a_rail_that_are_lost_leave_no_filter(monkeypatch):
+    monkeypatch.setattr(rail_models, "STRIPS", 2)
+    failed = iter((0.0, 1.0))
+    monkeypatch.setattr(rail_boundary_elements.MODEL.__class__, "roll", lambda *_: {"failed": np.array(next(failed))})
+    found = rail_boundary_elements.MODEL.over_twin(load_scene("rail"), "ridges", 3, 1)
+    assert np.isnan(found).all()
+
+
+def test_a_model_whose_solve_raises_has_failed():
+    """Another model goes on; the reason is that of the solver."""
+    target = Target(wheel(), "force-rms")
+    model = SceneModel(ROLLING, target, ROLLING.resolutions(target)[0])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(SceneModel, "solve", lambda self: bem3d.solve(*TOO_SHORT, approach=0.5, max_iterations=1))
+        answer = try_to_solve(model)
+    assert "residual" in answer.failed and np.isnan(answer.value).all()
