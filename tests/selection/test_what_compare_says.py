@@ -11,8 +11,9 @@ import validation
 from tests.selection.planted_answers import planted
 from tests.selection.test_model_hierarchy import PARTS, Fake, Finding, punch, wheel
 from validation.scenes.load import bundled_for_compare
-from validation.selection.compare import Comparison, quantities_of
+from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
+from validation.selection.quantities import quantities_of
 from validation.selection.side_by_side import error_of_difference, side_by_side
 from validation.selection.summary import BECAME, WIDTH, label, sentences_on_mdr, summary
 from validation.selection.tolerance import Tolerance, tolerance_of

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from validation.scenes.rail import RailScene
 from validation.selection.hierarchy import Answer
-from validation.selection.scene_model import SceneModel
+from validation.selection.scene_model import SceneModel, Shared
 from validation.simulation.model import Target, models_serving
-from validation.simulation.rail_models import rail_quantity, reason_of, relative, worst
+from validation.simulation.rail_models import RailModel, rail_quantity, reason_of, relative, worst
 from validation.simulation.rail_quantity import COUNTED, RailQuantity
 
 FloatArray = NDArray[np.float64]
@@ -28,9 +28,15 @@ class RailSceneModel(SceneModel):
     def quantity(self) -> RailQuantity:
         return rail_quantity(self.target)
 
+    @cached_property
+    def closed(self) -> FloatArray:
+        """A3 of the linear filter, in the middle of both ends of the ground [dB]."""
+        assert isinstance(self.model, RailModel)  # which alone serves a rail
+        return np.asarray(self.model.closed(self.quantity).mean(axis=0))
+
     def solve(self) -> Answer:
         """The largest errors of the bands in which the tolerance counts, and those of each band."""
-        result = self.model.prepare(self.target, self.resolution)(0)()
+        (result,) = self._first(self.resolution, 1)
         if result.failed:
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=result.failed)
         a3, model, grid, sample = (result.values[name] for name in ("a3", "model", "grid", "sample"))
@@ -47,14 +53,15 @@ class RailSceneModel(SceneModel):
             reason=reason_of(self.quantity, a3, error),
             counted=counted_wavelengths(self.quantity, a3),
             band_errors={"model": model, "grid": grid, "sample": sample},
+            seconds=self._seconds(1),
         )
 
 
-def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
-    """All models of a quantity, the cheapest first."""
+def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int, shared: Shared) -> list[SceneModel]:
+    """All models of a quantity, the cheapest first. shared: what is solved for both quantities."""
     target = Target(scene, quantity, tolerance, seed)
     found = [
-        RailSceneModel(model, target, resolution)
+        RailSceneModel(model, target, resolution, shared)
         for model in models_serving(scene, quantity)
         for resolution in model.resolutions(target)
     ]
