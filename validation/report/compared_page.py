@@ -56,7 +56,7 @@ def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -
         "provenance.json": as_json(about),
     }
     drawn = {f"scene-{i}": [one] for i, one in enumerate(found, 1) if _solved(one)}
-    if len({one.scene.name for one in found}) > 1 and any(map(_solved, found)):
+    if len(found) > len(by_quantity(found)) and any(map(_solved, found)):
         drawn["all"] = list(found)
     for name, of in drawn.items():
         for form in ("svg", "pdf"):

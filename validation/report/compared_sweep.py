@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 from numpy.typing import NDArray
 
-from validation.report.style import curve
+from validation.report.style import curve, tick
 from validation.selection.compare import Comparison
 from validation.selection.side_by_side import counts, shown_models
 
@@ -17,6 +17,8 @@ FloatArray = NDArray[np.float64]
 
 PANELS = 4
 """Bands of a spectrum that are drawn: those that change most among the ones that count."""
+DECADE = 10.0
+"""Ratio of swept values from which on their axis is logarithmic."""
 SAME = 10**0.05
 """Ratio of wavelengths within one band, at the most."""
 
@@ -62,12 +64,16 @@ def _draw(axes: Axes, found: Sequence[Comparison], lines: Sequence[Line]) -> Non
     order = np.argsort(x)
     for i, line in enumerate(lines):
         value, low, high = line.rows[order].T
-        axes.plot(x[order], value, label=line.name, **curve(i))
+        axes.plot(x[order], value, label=line.name, **{"marker": ".", **curve(i)})
         axes.fill_between(x[order], low, high, color=curve(i)["color"], alpha=0.12, linewidth=0)
         edges = {"color": curve(i)["color"], "linestyle": curve(i)["linestyle"], "linewidth": 0.5}
         axes.plot(x[order], np.column_stack([low, high]), **edges)
     if not numbers:
         axes.set_xticks(x, [str(value) for value in values])
+        axes.margins(x=0.2)
+    elif x.min() > 0 and x.max() >= DECADE * x.min():
+        axes.set_xscale("log")
+        tick(axes, x)
     swept = found[0].swept
     axes.set_xlabel(swept.label if swept else "")
     axes.set_ylabel(f"{found[0].quantity} [{found[0].unit}]")

@@ -153,7 +153,7 @@ def _rows(comparison: Comparison) -> Iterator[str]:
 def took_by(comparison: Comparison, one: Candidate) -> str:
     """Seconds of a solve by the clock."""
     seconds = comparison.seconds_of(one)
-    return format_seconds(seconds) if math.isfinite(seconds) else "—"
+    return ("< 1 ms" if seconds < 1e-3 else format_seconds(seconds)) if math.isfinite(seconds) else "—"
 
 
 def _reasons(comparison: Comparison) -> Iterator[str]:
