@@ -94,7 +94,7 @@ def _lines(quantities: Sequence[Comparison]) -> Iterator[str]:
         yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
         yield from columns_as_lines(bands_of(comparison, best)) if comparison.is_level else ()
         if force := contact_force(comparison):
-            yield from ("", *force.sentences, *(f"  {line}" for line in columns_as_lines(force.table)))
+            yield from ("", *force.sentences, *(f"  {line}" for line in columns_as_lines(force.table)), "")
         yield from side_by_side(comparison)
         yield from (age_of_errors(comparison), cost_of(comparison))
     yield from (*what_would_help(comparison), *sentences_on_mdr(comparison))
