@@ -76,7 +76,8 @@ def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
             title, table = _shown(found)
             axes = part.subplots()
             axes.set_title(title, loc="left")
-            (_spectra if found[0].is_level else _numbers)(axes, table)
+            spectra = found[0].is_level and np.isfinite(table["wavelength_mm"]).all()
+            (_spectra if spectra and len(table["model"]) else _numbers)(axes, table)
     return written(figure, form)
 
 
@@ -152,9 +153,8 @@ def _numbers(axes: Axes, table: Table) -> None:
         if selected:
             names[i] += ",\nselected"
     axes.set_yticks(range(len(names)), names)
-    axes.set_ylim(-0.6, len(names) - 0.4)
-    axes.invert_yaxis()
-    axes.set_xlabel(f"{table.name} [{table['unit'][0]}]")
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.set_xlabel(f"{table.name} [{table['unit'][0]}]" if names else "no model has a result with a known error")
 
 
 def _png(figure: Figure) -> bytes:

@@ -1,6 +1,7 @@
 """The figure of a sweep: a quantity over the swept value, a line a model with the band of its error."""
 
 import itertools
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from validation.report.style import curve, tick
 from validation.selection.compare import Comparison
-from validation.selection.side_by_side import counts, shown_models
+from validation.selection.side_by_side import counts, reference_of, shown_models
 
 FloatArray = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ class Line:
 
 def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> None:
     """Of a spectrum a panel a band."""
-    waves: Sequence[float] = _changing(found) if found[0].is_level else [np.nan]
+    waves = (_changing(found) if found[0].is_level else []) or [math.nan]
     columns = 2 if len(waves) > 1 else 1
     axes = figure.subplots(-(-len(waves) // columns), columns, sharex=True, squeeze=False).flat
     scenes = list(dict.fromkeys(one.swept.scene for one in found if one.swept))
@@ -45,6 +46,9 @@ def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> Non
         lines = list(_lines(found, scenes, wave))
         _draw(axis, found, lines[:most])
         axis.set_title("" if np.isnan(wave) else f"{wave:.4g} mm", loc="left")
+    if not lines:
+        axes[0].set_title("no model has a result", loc="left")
+        return
     more = len(lines) - most
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(
@@ -108,8 +112,8 @@ def _band(comparison: Comparison, wave: float) -> int | None:
 
 def _changing(found: Sequence[Comparison]) -> list[float]:
     """Wavelengths of the bands that change most [mm], from long to short."""
-    best = [(one, one.selection.best) for one in found]
-    known = [(one, chosen) for one, chosen in best if chosen is not None]
+    solved = [one for one in found if one.selection.solved]
+    known = [(one, one.selection.best or reference_of(one)) for one in solved]
     if not known:
         return []
     first, chosen = known[0]

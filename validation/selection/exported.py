@@ -106,7 +106,9 @@ def levels_of_models(comparison: Comparison) -> Table:
     found = [_columns(comparison, one, force) for one in comparison.selection.solved]
     if not found:
         none = dict.fromkeys(("wavelength_mm", "frequency_hz", "value", "low", "high"), math.nan)
-        return table_of(comparison.quantity, [{**none, "unit": comparison.unit, "model": "", "selected": False}])
+        swept = swept_of(comparison) if comparison.swept else {}
+        row = {**none, "unit": comparison.unit, "model": "", "selected": False, **swept}
+        return table_of(comparison.quantity, [row])
     return Table(comparison.quantity, {name: [value for one in found for value in one[name]] for name in found[0]})
 
 
