@@ -4,6 +4,8 @@ import html
 import json
 import re
 
+import pytest
+
 import validation
 from tests.selection.test_model_hierarchy import Fake, Finding, punch
 from validation.__main__ import main
@@ -56,6 +58,7 @@ def test_the_page_has_scene_answer_claims_and_costs():
     assert files == files_of(found)
 
 
+@pytest.mark.slow
 def test_the_page_of_a_rail_has_its_levels_its_force_and_the_seconds_of_its_models():
     """A section a quantity; what has the same name in text and page has the same words."""
     names = ("linear, ellipse", "Remington")

@@ -68,7 +68,10 @@ def test_another_filter_changes_the_sum_by_what_it_is_louder():
     assert [force.over_chosen(name) for name in force.levels] == pytest.approx([0.0, 0.8, -1.5])
     assert "another filter changes the sum by -1.5 to +0.8 dB(A)" in force.sentences[0]
     assert "another filter changes the sum by +0.8 dB(A)" in contact_force(filters(0.0, 0.8)).sentences[0]
-    assert all(said in force.sentences[1] for said in ("3 F / (2 d) = 1.14 GN/m", "f = v / lambda", "IEC 61672-1"))
+    assert all(
+        said in force.sentences[1]
+        for said in ("3 F / (2 d) = 1.14 GN/m", "f = v / lambda", "IEC 61672-1", "2000 to 0.8 mm")
+    )
 
 
 def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
@@ -83,7 +86,12 @@ def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
 def test_bands_without_an_answer_are_left_out_of_both_sums():
     found = filters(0.0, 2.0)
     found.models[0].answer.value[:15] = np.nan
-    assert contact_force(found).over_chosen("by 2 dB") == pytest.approx(2.0)
+    force = contact_force(found)
+    assert force.over_chosen("by 2 dB") == pytest.approx(2.0)
+    assert "summed over bands of 2000 to 0.8 mm, but for 15 without an answer" in force.sentences[1]
+    assert math.isfinite(force.error) and math.isfinite(force.unsure)
+    found.models[0].answer.value[:] = np.nan
+    assert contact_force(found) is None
 
 
 def test_the_closed_filters_stand_beside_the_chosen_one_unasked():

@@ -30,13 +30,14 @@ class ContactForce:
     """Of a wheel that rolls at a constant height, by each filter: F = k times the equivalent displacement.
 
     levels: A-weighted at f = v / lambda in each band, dB re 1 N, by model, the chosen first; half_width: of the chosen
-    [dB]; stiffness: k = 3 F / (2 d) of the smooth contact [N/m]; speed: [m/s].
+    [dB]; stiffness: k = 3 F / (2 d) of the smooth contact [N/m]; speed: [m/s]; span: of the bands, in words.
     """
 
     levels: Mapping[str, FloatArray]
     half_width: FloatArray
     stiffness: float
     speed: float
+    span: str
 
     @property
     def chosen(self) -> str:
@@ -45,7 +46,7 @@ class ContactForce:
     def total(self, model: str) -> float:
         """Sum over the bands that it has [dB(A) re 1 N]."""
         level = self.levels[model]
-        return energy_sum(level[np.isfinite(level)])
+        return energy_sum(level[known]) if (known := np.isfinite(level)).any() else math.nan
 
     def over_chosen(self, model: str) -> float:
         """The sum of another filter over that of the chosen, of bands that both have [dB]."""
@@ -92,8 +93,14 @@ class ContactForce:
             f"{self.change}",
             "what is weighted: the force at a constant height, k times the equivalent displacement, whose level is "
             f"L_eq, with k = 3 F / (2 d) = {self.stiffness / 1e9:.3g} GN/m of the smooth contact, at f = v / lambda, "
-            "by the A-weighting of IEC 61672-1; no mobility of wheel or track, no radiation",
+            f"by the A-weighting of IEC 61672-1, summed over bands of {self.span}{self._left_out}; no mobility of "
+            "wheel or track, no radiation",
         )
+
+    @property
+    def _left_out(self) -> str:
+        missing = int((~np.isfinite(self.levels[self.chosen])).sum())
+        return f", but for {missing} without an answer" if missing else ""
 
     @property
     def table(self) -> Columns:
@@ -116,11 +123,14 @@ def contact_force(comparison: Comparison) -> ContactForce | None:
     of_force = comparison.roughness + 20 * math.log10(stiffness * MICROMETRE)
     of_force = of_force + a_weighting(scene.speed / bands.wavelengths)
     filters = {chosen.name: comparison.a3_of(chosen)} | _filters(comparison)
+    if not np.isfinite(filters[chosen.name]).any():
+        return None
     return ContactForce(
         levels={name: of_force + a3 for name, a3 in filters.items()},
         half_width=comparison.errors_of(chosen),
         stiffness=stiffness,
         speed=scene.speed,
+        span=bands.span,
     )
 
 

@@ -59,7 +59,9 @@ def half_width(error: float, digits: int = 2) -> str:
 
 
 def signed(value: float, digits: int) -> str:
-    """With its sign, but for a zero."""
+    """With its sign, but for a zero; a dash where there is no number."""
+    if not math.isfinite(value):
+        return "—"
     return f"{rounded:+.{digits}f}" if (rounded := round(value, digits)) else f"{0:.{digits}f}"
 
 
@@ -106,7 +108,7 @@ def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     letters = dict(zip(string.ascii_uppercase, others, strict=False))
     columns = axis_of(comparison)
     columns.pop("f [Hz]", None)
-    columns["level"] = [f"{level:.1f}" for level in comparison.value_of(reference).round(1) + 0.0]
+    columns["level"] = [f"{x:.1f}" if math.isfinite(x) else "—" for x in comparison.value_of(reference).round(1) + 0.0]
     for letter, one in letters.items():
         columns[letter] = [signed(off, 1) for off in differences(comparison, one, reference).tolist()]
     errors = {letter: error_of_difference(comparison, one, reference) for letter, one in letters.items()}
