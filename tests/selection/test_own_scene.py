@@ -22,6 +22,7 @@ from validation.report.compared_sweep import draw_sweep
 from validation.report.style import CURVES
 from validation.selection import scene_model
 from validation.selection.compare import compare_quantities
+from validation.selection.contact_force import contact_force
 from validation.selection.exported import levels_of_models
 from validation.selection.reasons import grouped
 from validation.selection.side_by_side import shown_models
@@ -114,7 +115,9 @@ def test_a_sweep_is_a_line_a_model_over_the_swept_value():
     draw_sweep(figure.subfigures(), found, 5)
     panels = [axes for axes in figure.subfigs[0].axes if axes.lines]
     assert len(panels) == 4 and {axes.get_xlabel() for axes in panels} == {"wheel.load [kN]"}
-    for axes in panels:
+    sums = {line.get_label(): line.get_ydata() for line in panels[0].lines}
+    assert sums["Remington"] == pytest.approx([contact_force(one).total("Remington") for one in found])
+    for axes in panels[1:]:
         lines = {line.get_label(): line for line in axes.lines if not line.get_label().startswith("_")}
         assert sorted(lines) == sorted(CLOSED)
         wave = float(axes.get_title(loc="left").removesuffix(" mm"))
@@ -125,6 +128,21 @@ def test_a_sweep_is_a_line_a_model_over_the_swept_value():
             values = [each.value_of(one)[at] for each, one in zip(found, ones, strict=True)]
             assert line.get_ydata() == pytest.approx(values)
         assert len(axes.collections) == len(CLOSED)
+
+
+def test_a_sweep_of_two_scenes_is_a_line_a_scene_and_a_value_may_come_twice():
+    loads = swept_values("punch.load", ["5 kN", "1 kN", "5 kN"], "one")
+    found = [
+        replace(compared(Finding(value=(1.0 + i + 10 * j,))), swept=replace(of, scene=scene))
+        for j, scene in enumerate(("one", "other"))
+        for i, of in enumerate(loads)
+    ]
+    figure = Figure()
+    draw_sweep(figure.subfigures(), found, 5)
+    (axes,) = figure.subfigs[0].axes
+    lines = {line.get_label(): line for line in axes.lines}
+    assert lines["one"].get_xdata().tolist() == [1.0, 5.0, 5.0] == lines["other"].get_xdata().tolist()
+    assert (lines["one"].get_ydata().tolist(), lines["other"].get_ydata().tolist()) == ([2, 1, 3], [12, 11, 13])
 
 
 def test_a_sweep_of_numbers_has_one_panel_and_text_its_names():

@@ -99,7 +99,7 @@ def _describe_runs_of_several(comparing: argparse.ArgumentParser) -> None:
 
 def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
-    scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments.sweep)]
+    scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments)]
     problems = [_problem(scene, arguments) for scene, _ in scenes]
     _check_files(problems, arguments)
     swept = [of for (_, of), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
@@ -107,13 +107,15 @@ def compare(arguments: argparse.Namespace) -> Exit:
     return Exit.MET if all(one.met for one in found) else Exit.NOT_CONVERGED
 
 
-def _scenes_of(name: str, sweep: tuple[str, list[str]] | None) -> list[tuple[Scene, Swept | None]]:
-    if sweep is None:
+def _scenes_of(name: str, arguments: argparse.Namespace) -> list[tuple[Scene, Swept | None]]:
+    """With the value of a sweep, which belongs to the file: two files may have scenes of one name."""
+    if arguments.sweep is None:
         return [(load_scene(name), None)]
-    key, values = sweep
+    key, values = arguments.sweep
     varied = [load_varied(name, key, value) for value in values]
-    base = varied[0].name.removesuffix(f", {key.split('.')[-1]} = {values[0]}")
-    return list(zip(varied, swept_values(key, values, base), strict=True))
+    title = varied[0].name.removesuffix(f", {key.split('.')[-1]} = {values[0]}")
+    scene = title if len(arguments.scene) == 1 else f"{title}, {printable(name)}"
+    return list(zip(varied, swept_values(key, values, scene), strict=True))
 
 
 def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
