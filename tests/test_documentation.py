@@ -2,20 +2,24 @@
 
 import ast
 import re
+import tomllib
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import bem3d
 import mdr
 import validation
 from validation.report.documentation import BUILT
+from validation.scenes import rail_file
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "reports" / "docs"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md")}
 NAMED = {name for page in PAGES.values() for name in re.findall(r"\{py:\w+\}`(?:[^`<]*<)?~?([\w.]+)>?`", page)}
+(SCENE,) = re.findall(r"```toml\n(.*?)```", PAGES["own_rail"], flags=re.DOTALL)
 THEORY = Path(validation.__file__).parent / "theory"
 HELPERS = {
     "validation.theory.closed_forms.positive",
@@ -98,6 +102,35 @@ def test_pages_are_included_not_copied():
     assert {name for name, *_ in included} == {"commands", "conventions", "theory", "verdicts"}
     for _, path, start, end in included:
         assert re.search(f"{re.escape(start)}.+{re.escape(end)}", path.read_text(encoding="utf-8"), re.DOTALL)
+
+
+def test_your_own_rail_names_every_key_of_a_rail(tmp_path):
+    """Those that the readers of a file have; the message of an unknown key lists them."""
+    page = PAGES["own_rail"]
+    keys = [f"wheel.{key}" for key in (*rail_file.WHEEL, "profile")] + [f"rail.{key}" for key in rail_file.RAIL]
+    assert [key for key in (*keys, "rail.profile") if f"`{key}`" not in page] == []
+    own = own_rail(tmp_path)
+    for name in ("levels", "lines"):
+        own.write_text(SCENE.replace("[rail.lines]", f"[rail.{name}]\nweight = 1"))
+        with pytest.raises(ValueError, match=rf"rail\.{name}\.weight is unknown") as refused:
+            validation.load_scene(own)
+        known = str(refused.value).partition("must be made of ")[2].split("\n")[0].split(", ")
+        assert "file" in known and [key for key in known if f"`{key}`" not in page] == []
+
+
+def test_the_scene_of_your_own_rail_is_one_and_that_of_the_readme_a_part_of_it(tmp_path):
+    rail = validation.load_scene(own_rail(tmp_path))
+    assert (rail.load, rail.radius, rail.roughness.positions) == (50e3, 0.46, (-0.01, 0.0, 0.01))
+    (shown,) = re.findall(r"```toml\n(\[rail\].*?)```", (ROOT / "README.md").read_text(), flags=re.DOTALL)
+    part, whole = tomllib.loads(shown)["rail"], tomllib.loads(SCENE)["rail"]
+    assert set(part) == set(whole) and set(part["lines"]) < set(whole["lines"])
+
+
+def own_rail(folder):
+    """The scene of the page, beside three lines of noise."""
+    np.savetxt(folder / "lines.csv", np.random.default_rng(1).standard_normal((2000, 3)), delimiter=",")
+    (folder / "my_rail.toml").write_text(SCENE)
+    return folder / "my_rail.toml"
 
 
 def test_reports_look_for_it_where_make_puts_it():

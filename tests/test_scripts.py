@@ -13,7 +13,7 @@ import validation
 
 EXAMPLES = Path(validation.__file__).parent / "examples"
 NAMES = sorted(path.stem for path in EXAMPLES.glob("*.py"))
-SECONDS = {"sphere", "own_rail"}
+SECONDS = {"sphere", "own_rail", "own_lines"}
 """Those that take next to none; the others are slow."""
 
 

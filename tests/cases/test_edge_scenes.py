@@ -23,7 +23,8 @@ from validation.cases.selection.edge_scenes import (
 from validation.cases.selection.edge_test import PARTS, EdgeTrial, edge_trials, solve_edge, true_error
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
-from validation.selection.compare import compare, models_of, quantities_of
+from validation.selection.compare import compare
+from validation.selection.quantities import models_of, quantities_of
 from validation.simulation import rolling_levels
 from validation.simulation.model import GridModel
 from validation.simulation.rolling_levels import by_linear_theory, strip_of

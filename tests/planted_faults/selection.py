@@ -1,5 +1,6 @@
 """Faults planted in what `tests/selection` looks at: where, what is wrong there, and the test that must catch it."""
 
+import dataclasses
 import functools
 import math
 import types
@@ -11,14 +12,24 @@ import mdr
 from tests import test_face
 from tests.cases import test_edge_scenes
 from tests.planted_faults.wrong import scaled, with_math
-from tests.selection import test_claims, test_selection, test_what_compare_says
+from tests.selection import test_claims, test_contact_force, test_own_scene, test_selection, test_what_compare_says
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.cases.selection import edge_evidence
 from validation.engine.random_numbers import random_generator
-from validation.scenes import measured
-from validation.selection import compare, hierarchy, scene_model, side_by_side, summary
+from validation.report import compared
+from validation.scenes import measured, rail
+from validation.selection import (
+    compare,
+    contact_force,
+    hierarchy,
+    scene_model,
+    side_by_side,
+    speed_accuracy,
+    summary,
+    swept,
+)
 from validation.simulation import calibration, rolling_claims, sampling
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
@@ -99,7 +110,64 @@ def geike_for_what_rolls(ground, contact_radius):
     return functools.partial(mdr.geike, c2d=ground.c2d)
 
 
+real_weighting, real_models_of = contact_force.a_weighting, compare.models_of
+
+
+def of_its_own_grid(model, count):
+    return sum(model.shared[model.model, model.resolution].seconds[:count])
+
+
+real_contact = rail.RailScene.contact.func
+
+
+def of_the_secant(scene):
+    contact = real_contact(scene)
+    return dataclasses.replace(contact, stiffness=contact.force / contact.approach)
+
+
+def independent_bands(force):
+    level = force.levels[force.chosen]
+    share = 10 ** (level / 10) / np.sum(10 ** (level / 10))
+    return float(np.sqrt(np.sum((share * force.half_width) ** 2)))
+
+
 FAULTS = {
+    "A-weighting at the frequency of half a wave": (
+        (contact_force, "a_weighting", lambda frequency: real_weighting(2 * frequency)),
+        test_contact_force.test_the_sum_is_that_of_the_table_of_the_standard,
+    ),
+    "the force over the approach for the stiffness of Hertz": (
+        (rail.RailScene, "contact", property(of_the_secant)),
+        test_contact_force.test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement,
+    ),
+    "errors of bands taken as independent in their sum": (
+        (contact_force.ContactForce, "error", property(independent_bands)),
+        test_contact_force.test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown,
+    ),
+    "the equivalent roughness filtered once more": (
+        (compare.Comparison, "a3_of", compare.Comparison.value_of),
+        test_contact_force.test_text_json_and_csv_have_the_same_table,
+    ),
+    "a rail solved anew for each quantity": (
+        (compare, "models_of", lambda *given: real_models_of(*given[:4])),
+        test_own_scene.test_both_quantities_of_a_rail_are_solved_once,
+    ),
+    "seconds without those of the grids that tell the error": (
+        (scene_model.SceneModel, "_seconds", of_its_own_grid),
+        test_own_scene.test_seconds_are_those_of_all_solves_that_a_model_needs,
+    ),
+    "a distance from the reference where nothing is left to hear": (
+        (speed_accuracy, "counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)),
+        test_own_scene.test_accuracy_of_a_filter_is_the_largest_difference_that_counts,
+    ),
+    "curves in the order of their cost": (
+        (compared, "shown_models", lambda found: [one.name for one in found.models]),
+        test_own_scene.test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey,
+    ),
+    "a sweep with values in units of their own": (
+        (swept, "quantity", lambda name, text, dimension: float(swept.NUMBER.fullmatch(text)[1])),
+        test_own_scene.test_a_sweep_has_the_values_in_the_unit_of_the_first,
+    ),
     "Geike for the half-space under a wheel": (
         (rolling_question, "force_spectrum_3d", by_the_filter_of_one_dimension),
         test_ladder.test_the_expected_levels_are_integrals_of_the_spectrum,

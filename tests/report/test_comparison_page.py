@@ -11,7 +11,8 @@ from tests.selection.test_model_hierarchy import Fake, Finding, punch
 from validation.__main__ import main
 from validation.report.compared_page import PAGE, files_of_comparison
 from validation.report.provenance import LIBRARIES
-from validation.selection.compare import Comparison
+from validation.selection.compare import Comparison, compare_quantities
+from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import select_model
 from validation.selection.summary import label, sentences_on_mdr
 
@@ -56,6 +57,21 @@ def test_the_page_has_scene_answer_claims_and_costs():
     assert files["comparison.json"].decode() == validation.to_json(found)
     assert files["data/levels.csv"].decode() == validation.to_csv(found)
     assert files == files_of(found)
+
+
+@pytest.mark.slow
+def test_the_page_of_a_rail_has_its_levels_its_force_and_the_seconds_of_its_models():
+    """A section a quantity; what has the same name in text and page has the same words."""
+    names = ("linear, ellipse", "Remington")
+    scene, quantities = validation.load_scene("rail"), ("contact-filter", "equivalent-roughness")
+    found = compare_quantities(scene, quantities, "1 dB", 0, solve_all=True, models=names)
+    files = files_of(*found.values())
+    text, force = text_of(files[PAGE]), contact_force(found["contact-filter"])
+    assert files[PAGE].count(b"<section id=") == 2 and "figures/all.svg" not in files
+    assert "Wheel on a rail: contact-filter, equivalent-roughness within 1 dB" in text
+    assert text.count(force.sentences[0]) == 2 and text.count(LEVELS) == 2
+    for words in ("Took", "sum [dB(A) re 1 N]", f"{force.total('Remington'):.1f}", "band [Hz] L_r A3 L_eq ± [dB] L_FA"):
+        assert words in text
 
 
 def test_the_page_needs_no_other_file():

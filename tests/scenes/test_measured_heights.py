@@ -13,7 +13,7 @@ import mdr
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
-from validation.selection.compare import models_of
+from validation.selection.quantities import models_of
 
 N, DX = 256, 1e-6
 BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)

@@ -188,13 +188,13 @@ def test_what_cannot_be_reached_is_no_success(capsys, tmp_path):
 
 
 def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
-    seeds, compared = [], command_compare.compared
+    seeds, real = [], command_compare.compare_quantities
 
-    def seen(scene, **settings):
-        seeds.append(settings["seed"])
-        return compared(scene, **settings)
+    def seen(scene, quantities, tolerance, seed, **settings):
+        seeds.append(seed)
+        return real(scene, quantities, tolerance, seed, **settings)
 
-    monkeypatch.setattr(command_compare, "compared", seen)
+    monkeypatch.setattr(command_compare, "compare_quantities", seen)
     for words in ([], ["--seed", "0"], ["--seed", "7"]):
         assert main(["compare", "sphere", *words]) == 0
     assert seeds == [0, 0, 7]

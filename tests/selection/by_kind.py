@@ -1,8 +1,8 @@
 """Models of a scene by their kind, so that a model added to `simulation/models` changes no test."""
 
 from validation.scenes.load import Scene
-from validation.selection.compare import models_of
 from validation.selection.hierarchy import ContactModel
+from validation.selection.quantities import models_of
 from validation.selection.scene_model import SceneModel
 from validation.simulation.method import Resolution
 from validation.simulation.model import ErrorEstimate, GridModel, Target

@@ -16,8 +16,9 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection import hierarchy
-from validation.selection.compare import Comparison, compare, models_of, quantities_of
+from validation.selection.compare import Comparison, compare
 from validation.selection.hierarchy import select_model
+from validation.selection.quantities import models_of, quantities_of
 from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled

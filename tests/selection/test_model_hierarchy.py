@@ -24,7 +24,7 @@ from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection.compare import QUANTITIES, RAIL_QUANTITIES, Comparison, compare, models_of, quantities_of
+from validation.selection.compare import Comparison, compare
 from validation.selection.hierarchy import (
     Answer,
     Candidate,
@@ -32,6 +32,7 @@ from validation.selection.hierarchy import (
     needed,
     select_model,
 )
+from validation.selection.quantities import QUANTITIES, RAIL_QUANTITIES, models_of, quantities_of
 from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled

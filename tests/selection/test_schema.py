@@ -11,9 +11,10 @@ from tests.selection.json_schema import faults
 from tests.selection.planted_answers import planted
 from tests.selection.test_model_hierarchy import Fake, Finding, punch
 from validation.scenes.load import bundled_for_compare
-from validation.selection.compare import QUANTITIES, Comparison, quantities_of
+from validation.selection.compare import Comparison
 from validation.selection.exported import to_json_of
 from validation.selection.hierarchy import Status, select_model
+from validation.selection.quantities import QUANTITIES, quantities_of
 
 SCHEMA = json.loads((resources.files("validation.selection") / "comparison.schema.json").read_text(encoding="utf-8"))
 

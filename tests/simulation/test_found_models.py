@@ -18,7 +18,8 @@ from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
-from validation.selection.compare import compare, models_of
+from validation.selection.compare import compare
+from validation.selection.quantities import models_of
 from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution

@@ -1,13 +1,26 @@
-"""Signals that are heard: columns of a table, played at one rate and with one gain."""
+"""What is heard: the A-weighting of levels, and columns of a table that are played at one rate and with one gain."""
 
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+
+
+def a_weighting(frequency: ArrayLike) -> FloatArray:
+    """A(f) [dB] of IEC 61672-1: 20 lg of the product of its four corner frequencies' factors, 0 at 1 kHz."""
+    square = np.asarray(frequency, dtype=np.float64) ** 2
+    low, middle, upper, high = 20.6**2, 107.7**2, 737.9**2, 12194.0**2
+    gain = high * square**2 / ((square + low) * np.sqrt((square + middle) * (square + upper)) * (square + high))
+    return np.asarray(20 * np.log10(gain) + 2.00)
+
+
+def energy_sum(levels: ArrayLike) -> float:
+    """10 lg of the sum of the powers of levels [dB]."""
+    return float(10 * np.log10(np.sum(10 ** (np.asarray(levels) / 10))))
 
 
 @dataclass(frozen=True, kw_only=True)

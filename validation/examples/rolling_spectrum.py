@@ -5,8 +5,6 @@ from pathlib import Path
 import numpy as np
 
 import validation
-from validation.report.compared import figure_of_models
-from validation.selection.exported import levels_of_models
 
 scene = validation.load_scene("rolling_wheel")
 found = validation.compare(scene, quantity="force-spectrum", tolerance="1 dB", solve_all=True)
@@ -25,5 +23,4 @@ assert off("linear filter, 3D") < 1  # the roughness is low beside the approach
 assert off("springs") > 2  # right in the mean over bands, not in each
 assert off("linear filter, 1D") > 3  # Geike's rule keeps the variance of the force, not its levels
 
-picture = figure_of_models("Rolling wheel: levels of the force", levels_of_models(found), "png")
-Path("rolling_spectrum.png").write_bytes(picture)
+Path("rolling_spectrum.png").write_bytes(validation.to_figure(found, form="png"))

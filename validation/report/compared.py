@@ -1,6 +1,7 @@
-"""The figure of `compare`: levels with their error, or one number of each model, side by side."""
+"""The figures of `compare`: spectra with their error, or one number of each model, side by side."""
 
 import io
+from collections.abc import Sequence
 from typing import Any
 
 import matplotlib
@@ -11,17 +12,24 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
-from validation.report.style import SETTINGS, graded, pdf, svg, tick
+from validation.report.compared_sweep import draw_sweep
+from validation.report.style import MARKERS, SETTINGS, Style, curve, pdf, svg, tick
 from validation.selection.compare import Comparison
 from validation.selection.exported import levels_of_models
+from validation.selection.several import by_quantity, selected_of_several, table_of_several
+from validation.selection.side_by_side import shown_models
 
 FORMATS = ("svg", "png", "pdf")
 TICKS = 12
 """Wavelengths on the axis, at the most."""
+MOST = 5
+"""Curves in one panel: of more, none is told from the others."""
 
 
 def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
     """Picture of a comparison: the models that were solved, the selected one with its error.
+
+    Of spectra at most five: the selected model, the reference, springs of MDR, and what is nearest to the selected.
 
     Parameters
     ----------
@@ -46,35 +54,68 @@ def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
     >>> picture[1:4]
     b'PNG'
     """
+    return figure_of([comparison], form)
+
+
+def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
+    """A panel a quantity, in one of the `FORMATS`: models of a scene, a sweep, or the selected ones of several scenes.
+
+    The same bytes for the same comparisons. Raises ValueError for another form.
+    """
     if form not in FORMATS:
         raise ValueError(f"form must be one of {', '.join(FORMATS)}, got {form!r}")
-    table = levels_of_models(comparison)
-    return figure_of_models(f"{comparison.scene.name}: {table.name}", table, form)
-
-
-def figure_of_models(title: str, table: Table, form: str) -> bytes:
-    """A picture in one of the `FORMATS`; the same bytes for the same table.
-
-    table: columns wavelength_mm, frequency_hz, value, low, high, unit, model, selected.
-    """
-    models = list(dict.fromkeys(table["model"].tolist()))
+    panels = list(by_quantity(comparisons).values())
     with matplotlib.rc_context(SETTINGS):
-        spectra = bool(np.isfinite(table["wavelength_mm"]).all())
-        figure = Figure(figsize=(7.0, 4.2 if spectra else 1.2 + 0.4 * len(models)), layout="constrained")
-        axes = figure.subplots()
-        axes.set_title(title, loc="left")
-        (_spectra if spectra else _numbers)(axes, table, models)
+        heights = [_height(found) for found in panels]
+        figure = Figure(figsize=(7.0, sum(heights)), layout="constrained")
+        parts = figure.subfigures(len(panels), 1, squeeze=False, height_ratios=heights)
+        for part, found in zip(parts[:, 0], panels, strict=True):
+            if _is_sweep(found):
+                draw_sweep(part, found, MOST)
+                continue
+            title, table = _shown(found)
+            axes = part.subplots()
+            axes.set_title(title, loc="left")
+            spectra = found[0].is_level and np.isfinite(table["wavelength_mm"]).all()
+            (_spectra if spectra and len(table["model"]) else _numbers)(axes, table)
+    return written(figure, form)
+
+
+def written(figure: Figure, form: str) -> bytes:
+    """In one of the `FORMATS`."""
     return {"svg": svg, "pdf": pdf, "png": _png}[form](figure)
 
 
-def _spectra(axes: Axes, table: Table, models: list[str]) -> None:
+def _is_sweep(found: Sequence[Comparison]) -> bool:
+    return len(found) > 1 and found[0].swept is not None
+
+
+def _height(found: Sequence[Comparison]) -> float:
+    rows = len(found[0].selection.solved) if len(found) == 1 else len(found)
+    if _is_sweep(found):
+        return 5.5 if found[0].is_level else 4.2
+    return 4.2 if found[0].is_level else 1.2 + 0.4 * rows
+
+
+def _shown(found: Sequence[Comparison]) -> tuple[str, Table]:
+    """Title and rows, of spectra in the order in which curves are drawn."""
+    if len(found) > 1:
+        return found[0].quantity, selected_of_several(table_of_several(found))
+    (one,) = found
+    title, table = f"{one.scene.name}: {one.quantity}", levels_of_models(one)
+    if not one.is_level or not one.selection.solved:
+        return title, table
+    order = shown_models(one)
+    rows = sorted(range(len(table["model"])), key=lambda row: order.index(str(table["model"][row])))
+    return title, Table(table.name, {name: [column[row] for row in rows] for name, column in table.columns.items()})
+
+
+def _spectra(axes: Axes, table: Table) -> None:
     """The selected model with the band of its error; the others beside it."""
-    for i, model in enumerate(models):
-        mine = table.where(model=model)
-        x, style = mine["wavelength_mm"], graded(i, len(models))
-        selected = bool(mine["selected"][0])
-        if selected:
-            style["linewidth"] = 2.5
+    models = list(dict.fromkeys(table["model"].tolist()))
+    for i, model in enumerate(models[:MOST]):
+        mine, style = table.where(model=model), curve(i)
+        x, selected = mine["wavelength_mm"], bool(mine["selected"][0])
         axes.plot(x, mine["value"], label=f"{model}, selected" if selected else model, **style)
         if selected:
             axes.fill_between(x, mine["low"], mine["high"], color=style["color"], alpha=0.2, linewidth=0)
@@ -86,7 +127,8 @@ def _spectra(axes: Axes, table: Table, models: list[str]) -> None:
     if np.isfinite(table["frequency_hz"]).all():
         _add_frequencies(axes, float(table["wavelength_mm"][0] * table["frequency_hz"][0]))
     axes.set_ylabel(f"{table.name} [{table['unit'][0]}]")
-    axes.legend()
+    more = len(models) - MOST
+    axes.legend(title=f"and {more} more in the CSV" if more > 0 else None, title_fontsize=8)
 
 
 def _add_frequencies(axes: Axes, speed: float) -> None:
@@ -101,17 +143,18 @@ def _add_frequencies(axes: Axes, speed: float) -> None:
     above.set_xlabel("frequency [Hz]")
 
 
-def _numbers(axes: Axes, table: Table, models: list[str]) -> None:
+def _numbers(axes: Axes, table: Table) -> None:
+    """A row a model, or a scene."""
+    names = table["model"].tolist()
     for i, (value, low, selected) in enumerate(zip(table["value"], table["low"], table["selected"], strict=True)):
-        style: dict[str, Any] = graded(i, len(models))
-        half = value - low if np.isfinite(low) else 0.0
-        axes.errorbar(value, i, xerr=half, capsize=3 if half else 0, fmt=style["marker"], color=style["color"])
+        style: Style = {"color": curve(not selected)["color"], "fmt": MARKERS[i % len(MARKERS)]}
+        half: Any = value - low if np.isfinite(low) else 0.0
+        axes.errorbar(value, i, xerr=half, capsize=3 if half else 0, markersize=4, **style)
         if selected:
-            models[i] += ",\nselected"
-    axes.set_yticks(range(len(models)), models)
-    axes.set_ylim(-0.6, len(models) - 0.4)
-    axes.invert_yaxis()
-    axes.set_xlabel(f"{table.name} [{table['unit'][0]}]")
+            names[i] += ",\nselected"
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.set_xlabel(f"{table.name} [{table['unit'][0]}]" if names else "no model has a result with a known error")
 
 
 def _png(figure: Figure) -> bytes:

@@ -7,13 +7,15 @@ from pathlib import Path
 import jinja2
 
 from validation.analysis.contents import as_csv, as_json
-from validation.report.compared import figure_of_models
+from validation.report.compared import figure_of
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
-from validation.selection.compare import MOVING, Comparison
-from validation.selection.exported import SCHEMA_OF_JSON, levels_of_models, to_json_of
+from validation.selection.compare import Comparison
+from validation.selection.contact_force import LEVELS, contact_force
+from validation.selection.exported import SCHEMA_OF_JSON, to_json_of
 from validation.selection.hierarchy import Candidate
-from validation.selection.several import overview_of, same_quantity, selected_of_several, table_of_several
+from validation.selection.quantities import MOVING
+from validation.selection.several import by_quantity, overview_of, table_of_several
 from validation.selection.side_by_side import (
     TOGETHER,
     differences,
@@ -36,6 +38,7 @@ from validation.selection.summary import (
     label,
     result_of,
     sentences_on_mdr,
+    took_by,
     what_would_help,
 )
 from validation.selection.tolerance import short
@@ -46,20 +49,18 @@ Columns = Mapping[str, Sequence[str]]
 
 def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -> dict[str, bytes]:
     """All that the folder holds, the page last. about: its provenance."""
-    table = levels_of_models(found[0]) if len(found) == 1 else table_of_several(found)
     files = {
         JSON: to_json_of(found).encode(),
-        CSV: as_csv(table),
+        CSV: as_csv(table_of_several(found)),
         SCHEMA: SCHEMA_OF_JSON.read_bytes(),
         "provenance.json": as_json(about),
     }
-    drawn = {f"scene-{i}": (one.scene.name, levels_of_models(one)) for i, one in enumerate(found, 1) if _solved(one)}
-    if len(found) > 1 and same_quantity(found) and any(map(_solved, found)):
-        drawn["all"] = (table.name, selected_of_several(table))
-    for name, (title, of) in drawn.items():
-        heading = title if name == "all" else f"{title}: {of.name}"
+    drawn = {f"scene-{i}": [one] for i, one in enumerate(found, 1) if _solved(one)}
+    if len(found) > len(by_quantity(found)) and any(map(_solved, found)):
+        drawn["all"] = list(found)
+    for name, of in drawn.items():
         for form in ("svg", "pdf"):
-            files[f"figures/{name}.{form}"] = figure_of_models(heading, of, form)
+            files[f"figures/{name}.{form}"] = figure_of(of, form)
     files[PAGE] = _page(found, files, about)
     return files
 
@@ -73,7 +74,7 @@ def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[s
         lstrip_blocks=True,
     )
     text = environment.get_template("comparison.html").render(
-        title=_asked(found[0]) if len(found) == 1 else f"{len(found)} scenes: {found[0].quantity}",
+        title=_asked(found[0]) if len(found) == 1 else _asked_of_several(found),
         scenes=[_of_scene(f"scene-{i}", one) for i, one in enumerate(found, 1)],
         overview=overview_of(found) if len(found) > 1 else None,
         pictures={
@@ -104,6 +105,9 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
         "understood": (*describe(scene), ("assumed", ASSUMED)),
         "models": [_model_row(found, one) for one in found.models],
         "bands": bands_of(found, best) if best and found.is_level else None,
+        "levels": LEVELS if found.roughness.size else "",
+        "force": contact_force(found),
+        "timed": found.timed,
         "beside": levels or (numbers_beside(found) if beside else None),
         "letters": letters,
         "reference": reference_of(found).name if beside else "",
@@ -122,6 +126,7 @@ def _model_row(found: Comparison, one: Candidate) -> dict[str, str]:
         "found": found_of(found, one),
         "apart": _apart(found, one),
         "cost": format_seconds(one.cost),
+        "took": took_by(found, one),
         "became": became_of(one),
         "why": one.reason,
         "selected": "selected" if one.name == found.model else "",
@@ -145,6 +150,12 @@ def _apart(found: Comparison, one: Candidate) -> str:
 
 def _asked(found: Comparison) -> str:
     return f"{found.scene.name}: {found.quantity} within {found.tolerance}"
+
+
+def _asked_of_several(found: Sequence[Comparison]) -> str:
+    scenes = list(dict.fromkeys(one.scene.name for one in found))
+    of = scenes[0] if len(scenes) == 1 else f"{len(scenes)} scenes"
+    return f"{of}: {', '.join(by_quantity(found))} within {found[0].tolerance}"
 
 
 def _notes(found: Comparison) -> list[str]:

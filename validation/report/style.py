@@ -32,6 +32,27 @@ def graded(i: int, count: int) -> Style:
     return {"color": color, "marker": MARKERS[i % len(MARKERS)], "markersize": 4, "linewidth": 1.0}
 
 
+CURVES: tuple[Style, ...] = (
+    {"color": "#000000", "linestyle": "-", "linewidth": 2.2},
+    {
+        "color": "#0072B2",
+        "linestyle": "-",
+        "marker": "o",
+        "markersize": 5.5,
+        "markerfacecolor": "none",
+        "linewidth": 0.8,
+    },
+    {"color": "#D55E00", "linestyle": "--", "marker": "s", "markersize": 3.5, "linewidth": 1.2},
+    {"color": "#009E73", "linestyle": "-.", "marker": "^", "markersize": 4, "linewidth": 1.2},
+    {"color": "#CC79A7", "linestyle": ":", "marker": "D", "markersize": 3.5, "linewidth": 1.4},
+)
+
+
+def curve(i: int) -> Style:
+    """The i-th of up to five curves: apart in colour, and in grey by dash and marker."""
+    return dict(CURVES[i % len(CURVES)])
+
+
 SETTINGS: Any = {
     "svg.hashsalt": "validation",
     "svg.fonttype": "path",

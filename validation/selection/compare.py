@@ -9,39 +9,21 @@ from numpy.typing import NDArray
 
 from mdr.checks import count
 from validation.analysis.nominal_bands import MANTISSAS
-from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
 from validation.selection.model_names import models_named
-from validation.selection.rail_model import rail_models
-from validation.selection.scene_model import SceneModel, models_on
+from validation.selection.quantities import LEVELS, REFERENCES, UNITS, models_of, quantities_of
+from validation.selection.scene_model import SceneModel, Shared
+from validation.selection.swept import Swept
 from validation.selection.tolerance import Tolerance, tolerance_of
-from validation.simulation.rail_quantity import MICROMETRE, RAIL_QUANTITIES
 from validation.simulation.rolling_quantity import RollingQuantity
 
 FloatArray = NDArray[np.float64]
 
-PRESSED = ("stiffness",)
-ROLLING = ("force-rms", "force-spectrum")
-MOVING = ("acceleration", "acceleration-rms")
-QUANTITIES = (*PRESSED, *ROLLING, *MOVING, *RAIL_QUANTITIES)
-LEVELS = ("force-spectrum", "acceleration", *RAIL_QUANTITIES)
-"""In one-third octaves; the others are one number."""
-UNITS = {
-    "stiffness": "N/m",
-    "force-rms": "N",
-    "force-spectrum": "N",
-    "acceleration": "m/s²",
-    "acceleration-rms": "m/s²",
-    "contact-filter": "1",
-    "equivalent-roughness": "µm",
-}
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""
-REFERENCES = {"equivalent-roughness": MICROMETRE}
-"""Of levels, in SI units; one of those that are not named."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +41,10 @@ class Comparison:
         Models, estimates and answers in full.
     in_decibels : bool
         Whether the tolerance was asked in dB, so that errors are printed in dB.
+    timed : bool
+        Whether all models were asked, so that the seconds of their solves are printed and written, too.
+    swept : Swept or None
+        The value of a sweep, of which this is one scene.
     tolerance : Tolerance
         What was asked, with its unit.
     value : ndarray
@@ -92,6 +78,8 @@ class Comparison:
     quantity: str
     selection: Selection
     in_decibels: bool = False
+    timed: bool = False
+    swept: Swept | None = None
 
     @property
     def tolerance(self) -> Tolerance:
@@ -126,6 +114,20 @@ class Comparison:
             name: self._half_widths(candidate, part)
             for name, part in (("model", answer.model), ("grid", answer.grid), ("sample", answer.sample))
         }
+
+    @property
+    def roughness(self) -> FloatArray:
+        """L_r of a rail in each band [dB re 1 µm]; empty of any other scene."""
+        return np.array(self.scene.levels.levels if isinstance(self.scene, RailScene) else ())
+
+    def a3_of(self, candidate: Candidate) -> FloatArray:
+        """Contact filter of a model of a rail that was solved, whichever quantity was asked [dB]."""
+        value = self.value_of(candidate)
+        return value - self.roughness if self.quantity == "equivalent-roughness" else value
+
+    def seconds_of(self, candidate: Candidate) -> float:
+        """That a model took; NaN where it was not solved, or not all models were asked."""
+        return candidate.answer.seconds if self.timed and candidate.answer is not None else math.nan
 
     def _half_widths(self, candidate: Candidate, error: float) -> FloatArray:
         """Of a relative error of all numbers together."""
@@ -196,31 +198,6 @@ class Comparison:
         return self.selection.best.answer if self.selection.best is not None else None
 
 
-def quantities_of(scene: Scene) -> tuple[str, ...]:
-    """The quantities that a scene has; the first is the default. Raises ValueError where it has none."""
-    if isinstance(scene, IndentationScene):
-        return PRESSED
-    if isinstance(scene, RailScene):
-        return RAIL_QUANTITIES
-    return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
-
-
-def check_quantity(scene: Scene, quantity: str) -> None:
-    """Raises ValueError for a quantity that the scene has not."""
-    if quantity not in quantities_of(scene):
-        raise ValueError(
-            f"quantity must be one of {', '.join(quantities_of(scene))} for scene {scene.name!r}, got {quantity!r}"
-        )
-
-
-def models_of(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
-    """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not."""
-    check_quantity(scene, quantity)
-    if isinstance(scene, RailScene):
-        return rail_models(scene, quantity, tolerance, seed)
-    return models_on(scene, quantity, tolerance, seed)
-
-
 def compare(
     scene: Scene,
     quantity: str | None = None,
@@ -245,8 +222,8 @@ def compare(
     seed : int, optional
         Seed of the roughness that is drawn, zero or positive.
     solve_all : bool, optional
-        Whether all models are solved, to see them side by side. The selected one stays. Out of its range a model is
-        solved where that takes a minute at the most; the error of what it finds is unknown.
+        Whether all models are solved and timed, to see them side by side. The selected one stays. Out of its range a
+        model is solved where that takes a minute at the most; the error of what it finds is unknown.
     models : sequence of str, optional
         Solve these models and no others: "mdr", "bem", or names of models of this scene.
     callback : callable, optional
@@ -276,11 +253,40 @@ def compare(
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
-    asked, wanted = quantity or quantities_of(scene)[0], tolerance_of(tolerance)
-    every = models_of(scene, asked, wanted.relative, seed)
-    named, solve_all = (models_named(every, models, wanted.relative), True) if models else (every, solve_all)
-    selection = select_model(every, wanted.relative, callback=callback, solve_all=solve_all, only=named, beyond=_beyond)
-    return Comparison(scene, asked, selection, wanted.in_decibels)
+    asked = quantity or quantities_of(scene)[0]
+    return compare_quantities(scene, (asked,), tolerance, seed, solve_all=solve_all, models=models, callback=callback)[
+        asked
+    ]
+
+
+def compare_quantities(
+    scene: Scene,
+    quantities: Sequence[str],
+    tolerance: float | str,
+    seed: int,
+    *,
+    solve_all: bool,
+    models: Sequence[str],
+    callback: Callable[[ContactModel], None] = lambda _: None,
+) -> dict[str, Comparison]:
+    """`compare` of several quantities of a scene, by their names; a filter and what it leaves share their solves."""
+    found, shared, wanted = dict[str, Comparison](), Shared(), tolerance_of(tolerance)
+    for asked in quantities:
+        every = models_of(scene, asked, wanted.relative, seed, shared)
+        selection = select_model(
+            every,
+            wanted.relative,
+            callback=_ignore if found and isinstance(scene, RailScene) else callback,
+            solve_all=solve_all or bool(models),
+            only=models_named(every, models, wanted.relative) if models else every,
+            beyond=_beyond,
+        )
+        found[asked] = Comparison(scene, asked, selection, wanted.in_decibels, timed=solve_all)
+    return found
+
+
+def _ignore(model: ContactModel) -> None:
+    """Both quantities of a rail have the same solves."""
 
 
 def _beyond(model: ContactModel) -> bool:

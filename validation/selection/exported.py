@@ -3,6 +3,9 @@
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
@@ -10,6 +13,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
+from validation.selection.contact_force import ContactForce, contact_force
 from validation.selection.hierarchy import Candidate
 
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
@@ -45,7 +49,9 @@ def to_json_of(comparisons: Sequence[Comparison]) -> str:
 
 
 def _found(comparison: Comparison) -> dict[str, object]:
-    best = comparison.selection.best
+    best, force = comparison.selection.best, contact_force(comparison)
+    roughness = comparison.roughness if best else np.empty(0)
+    a3 = comparison.a3_of(best) if best and roughness.size else np.empty(0)
     return {
         "scene": comparison.scene.name,
         "quantity": comparison.quantity,
@@ -60,8 +66,13 @@ def _found(comparison: Comparison) -> dict[str, object]:
         "wavelength_mm": _numbers(comparison.wavelength_mm),
         "frequency_hz": _numbers(comparison.frequency_hz),
         "nominal_hz": _numbers(comparison.nominal_hz),
+        "roughness_dB": _numbers(roughness),
+        "a3_dB": _numbers(a3),
+        "equivalent_dB": _numbers(roughness + a3),
+        "force_dBA": _numbers(force.levels[force.chosen]) if force else [],
+        **swept_of(comparison),
         "assumed": assumed(comparison.scene),
-        "models": [_became(comparison, one) for one in comparison.models],
+        "models": [_became(comparison, one, force) for one in comparison.models],
     }
 
 
@@ -77,7 +88,8 @@ def to_csv(comparison: Comparison) -> str:
     -------
     str
         Columns wavelength_mm, frequency_hz, value, low, high, unit, model, selected; low and high end the 95 %
-        interval. A cell is empty where there is no number.
+        interval. Of a rail also the levels roughness_dB, a3_dB and equivalent_dB, with a speed those of the force; of
+        all models their seconds; of a sweep its value. A cell is empty where there is no number.
 
     Examples
     --------
@@ -90,22 +102,41 @@ def to_csv(comparison: Comparison) -> str:
 
 def levels_of_models(comparison: Comparison) -> Table:
     """A row a number or a band, of each model that was solved; NaN where there is no number."""
-    none = {"wavelength_mm": math.nan, "frequency_hz": math.nan, "value": math.nan, "low": math.nan, "high": math.nan}
-    rows: list[dict[str, object]] = []
-    for one in comparison.selection.solved:
-        value, half = comparison.value_of(one), comparison.errors_of(one)
-        for i in range(value.size):
-            place = {
-                name: float(numbers[i]) if numbers.size else math.nan
-                for name, numbers in (
-                    ("wavelength_mm", comparison.wavelength_mm),
-                    ("frequency_hz", comparison.frequency_hz),
-                )
-            }
-            low, high = float(value[i] - half[i]), float(value[i] + half[i])
-            named = {"unit": comparison.unit, "model": one.name, "selected": one.name == comparison.model}
-            rows.append({**place, "value": float(value[i]), "low": low, "high": high, **named})
-    return table_of(comparison.quantity, rows or [{**none, "unit": comparison.unit, "model": "", "selected": False}])
+    force = contact_force(comparison)
+    found = [_columns(comparison, one, force) for one in comparison.selection.solved]
+    if not found:
+        none = dict.fromkeys(("wavelength_mm", "frequency_hz", "value", "low", "high"), math.nan)
+        swept = swept_of(comparison) if comparison.swept else {}
+        row = {**none, "unit": comparison.unit, "model": "", "selected": False, **swept}
+        return table_of(comparison.quantity, [row])
+    return Table(comparison.quantity, {name: [value for one in found for value in one[name]] for name in found[0]})
+
+
+def _columns(comparison: Comparison, one: Candidate, force: ContactForce | None) -> dict[str, list[object]]:
+    """Of one model; those of a rail, of its force, of a clock and of a sweep where there are such."""
+    value, half = comparison.value_of(one), comparison.errors_of(one)
+    found: dict[str, Any] = {
+        "wavelength_mm": comparison.wavelength_mm if comparison.is_level else math.nan,
+        "frequency_hz": comparison.frequency_hz if comparison.frequency_hz.size else math.nan,
+        **{"value": value, "low": value - half, "high": value + half},
+        **{"unit": comparison.unit, "model": one.name, "selected": one.name == comparison.model},
+    }
+    if comparison.roughness.size:
+        a3 = comparison.a3_of(one)
+        found |= {"roughness_dB": comparison.roughness, "a3_dB": a3, "equivalent_dB": comparison.roughness + a3}
+    if force:
+        found |= {"force_dBA": force.levels[one.name], "force_sum_dBA": force.total(one.name)}
+        found |= {"force_over_selected_dB": force.over_chosen(one.name)}
+    if comparison.timed:
+        found["seconds"] = comparison.seconds_of(one)
+    found |= swept_of(comparison) if comparison.swept else {}
+    return {name: np.broadcast_to(np.asarray(of), value.shape).tolist() for name, of in found.items()}
+
+
+def swept_of(comparison: Comparison) -> dict[str, object]:
+    """Key, value and unit of a sweep; None where there is none."""
+    swept = comparison.swept
+    return {"swept": swept and swept.key, "swept_value": swept and swept.value, "swept_unit": swept and swept.unit}
 
 
 def assumed(scene: Scene) -> dict[str, float]:
@@ -123,7 +154,7 @@ def assumed(scene: Scene) -> dict[str, float]:
     return {**found, "a_x_m": a_x, "a_y_m": a_y, "approach_m": approach, "largest_pressure_Pa": pressure}
 
 
-def _became(comparison: Comparison, one: Candidate) -> dict[str, object]:
+def _became(comparison: Comparison, one: Candidate, force: ContactForce | None) -> dict[str, object]:
     solved = one in comparison.selection.solved
     return {
         "model": one.name,
@@ -134,6 +165,8 @@ def _became(comparison: Comparison, one: Candidate) -> dict[str, object]:
         "cost_s": _number(one.cost),
         "reason": one.reason,
         "value": _numbers(comparison.value_of(one)) if solved else None,
+        "seconds": _number(comparison.seconds_of(one)),
+        "force_sum_dBA": _number(force.total(one.name)) if force and one.name in force.levels else None,
     }
 
 

@@ -21,7 +21,8 @@ class Answer:
     value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
     of all numbers together, see `distance`; cost: of what was done, not of what was expected; reason: what the error
     rests on; failed: why it is none, empty where it is one; band_errors: half-widths of model, grid and sample in each
-    band [dB], empty where they are known of all bands together alone; counted: the bands in which the tolerance counts.
+    band [dB], empty where they are known of all bands together alone; counted: the bands in which the tolerance counts;
+    seconds: that its solves took by the clock, also those that another model shares; NaN where no clock ran.
     """
 
     value: FloatArray
@@ -33,6 +34,7 @@ class Answer:
     failed: str = ""
     band_errors: Mapping[str, FloatArray] = field(default_factory=dict)
     counted: str = ""
+    seconds: float = math.nan
 
     @property
     def error(self) -> float:

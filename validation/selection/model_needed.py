@@ -10,8 +10,8 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection.compare import MOVING, PRESSED, ROLLING, models_of
 from validation.selection.hierarchy import needed
+from validation.selection.quantities import MOVING, PRESSED, ROLLING, models_of
 from validation.simulation.rough_punch import PunchRoughness
 
 TOLERANCE = 0.1

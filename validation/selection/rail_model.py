@@ -12,7 +12,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.rail import RailScene
 from validation.selection.hierarchy import Answer
-from validation.selection.scene_model import SceneModel
+from validation.selection.scene_model import SceneModel, Shared
 from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_models import RailModel, rail_quantity, reason_of, relative, worst
 from validation.simulation.rail_quantity import COUNTED, RailQuantity
@@ -37,9 +37,15 @@ class RailSceneModel(SceneModel):
         assert isinstance(self.model, RailModel)  # as all of `rail_models`
         return np.asarray(self.model.closed(replace(self.quantity, longest=LONGEST)).mean(axis=0))
 
+    @cached_property
+    def closed(self) -> FloatArray:
+        """A3 of the linear filter, in the middle of both ends of the ground [dB]."""
+        assert isinstance(self.model, RailModel)  # which alone serves a rail
+        return np.asarray(self.model.closed(self.quantity).mean(axis=0))
+
     def solve(self) -> Answer:
         """The largest errors of the bands in which the tolerance counts, and those of each band."""
-        result = self.model.prepare(self.target, self.resolution)(0)()
+        (result,) = self._first(self.resolution, 1)
         if result.failed:
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=result.failed)
         asked, a3 = self.quantity, result.values["a3"]
@@ -48,6 +54,7 @@ class RailSceneModel(SceneModel):
             cost=self.cost(),
             counted=counted_wavelengths(asked, a3),
             band_errors={name: result.values[name] for name in ("model", "grid", "sample")},
+            seconds=self._seconds(1),
         )
         error, counts = answer.error_in_bands, asked.counted(a3)
         at = int(np.argmax(np.where(counts, error, -1.0)))
@@ -56,11 +63,11 @@ class RailSceneModel(SceneModel):
         return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason_of(asked, a3, error))
 
 
-def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
-    """All models of a quantity, the cheapest first."""
+def rail_models(scene: RailScene, quantity: str, tolerance: float, seed: int, shared: Shared) -> list[SceneModel]:
+    """All models of a quantity, the cheapest first. shared: what is solved for both quantities."""
     target = Target(scene, quantity, tolerance, seed)
     found = [
-        RailSceneModel(model, target, resolution)
+        RailSceneModel(model, target, resolution, shared)
         for model in models_serving(scene, quantity)
         for resolution in model.resolutions(target)
     ]

@@ -1,6 +1,7 @@
 """A model on a scene: realisations are solved until the error is small enough, and other grids tell the grid error."""
 
 import itertools
+import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -23,10 +24,14 @@ SAMPLE_SHARE = 0.9
 
 @dataclass(eq=False)
 class Realisations:
-    """Those of a model at one resolution, each solved once, whichever candidate needs it first."""
+    """Those of a model at one resolution, each solved once, whichever candidate needs it first.
+
+    seconds: of each by the clock, of the first with what was prepared for all.
+    """
 
     prepare: Callable[[], Prepared]
     solved: list[Result] = field(default_factory=list)
+    seconds: list[float] = field(default_factory=list)
 
     @cached_property
     def solve(self) -> Prepared:
@@ -34,7 +39,9 @@ class Realisations:
 
     def first(self, count: int) -> list[Result]:
         while len(self.solved) < count:
+            begin = time.perf_counter()
             self.solved.append(self.solve(len(self.solved))())
+            self.seconds.append(time.perf_counter() - begin)
         return self.solved[:count]
 
 
@@ -115,6 +122,7 @@ class SceneModel:
                 reason=reason,
                 failed=self._too_few(found)
                 or ("" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"),
+                seconds=self._seconds(len(found)),
             )
             hopeless = bool(answer.failed) or answer.model + grid > self.target.tolerance
             if answer.error <= self.target.tolerance or hopeless or len(found) >= plan.most:
@@ -131,6 +139,11 @@ class SceneModel:
         """Realisations so far, of this resolution and of its references."""
         shared = [(one, self.shared.get((self.model, one))) for one in (self.resolution, *self.references)]
         return {one: len(found.solved) if found else 0 for one, found in shared}
+
+    def _seconds(self, count: int) -> float:
+        """Of so many realisations, and of those on the grids that they are compared with."""
+        counts = {self.resolution: count, **dict.fromkeys(self.references, self.sampling.compared)}
+        return sum(sum(self.shared[self.model, one].seconds[:some]) for one, some in counts.items())
 
     def _left_by_grid(self, values: FloatArray, others: FloatArray, expected: ErrorEstimate) -> tuple[float, str]:
         if not isinstance(self.model, GridModel):

@@ -1,9 +1,11 @@
 """Comparisons of several scenes in one table."""
 
+import math
 from collections.abc import Sequence
 
 from validation.analysis.evidence import Table
 from validation.selection.compare import Comparison
+from validation.selection.contact_force import contact_force
 from validation.selection.exported import levels_of_models
 from validation.selection.summary import WIDTH, label, scaled, what_would_help, wrapped
 
@@ -30,13 +32,14 @@ def help_with(comparisons: Sequence[Comparison]) -> list[str]:
 
 
 def overview_of(comparisons: Sequence[Comparison]) -> dict[str, list[str]]:
-    """A row a scene: the model that is enough, its error, the errors of MDR, the result where it is one number."""
+    """A row a scene: the model that is enough, its error, that of MDR, and the result, one number or the force."""
     columns: dict[str, list[str]] = {"scene": [], "model": [], "error": [], "MDR": [], "result": []}
+    several = len(by_quantity(comparisons)) > 1
     for one in comparisons:
         best, shown = one.selection.best, one.tolerance.shown
         mdr = min((springs.error for springs in one.models if springs.model.is_mdr), default=None)
         row = (
-            one.scene.name,
+            f"{one.scene.name}: {one.quantity}" if several else one.scene.name,
             "none is enough" if best is None or not one.met else label(best),
             "none" if best is None else shown(best.error),
             "—" if mdr is None else shown(mdr),
@@ -47,15 +50,17 @@ def overview_of(comparisons: Sequence[Comparison]) -> dict[str, list[str]]:
     return columns
 
 
-def same_quantity(comparisons: Sequence[Comparison]) -> bool:
-    """Whether one figure can show all of them."""
-    return len({one.quantity for one in comparisons}) == 1
+def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]]:
+    """In the order in which they were asked."""
+    return {name: [one for one in comparisons if one.quantity == name] for name in (o.quantity for o in comparisons)}
 
 
 def _result(comparison: Comparison) -> str:
     best = comparison.selection.best
     if best is None:
         return ""
+    if force := contact_force(comparison):
+        return force.shown
     if comparison.is_level:
         return f"{comparison.value.size} bands"
     (value,), (half,) = comparison.value, comparison.errors_of(best)
@@ -63,11 +68,20 @@ def _result(comparison: Comparison) -> str:
 
 
 def table_of_several(comparisons: Sequence[Comparison]) -> Table:
-    """The tables of all, one under another, with the name of the scene in front, as `to_csv` has them."""
+    """The tables of all, one under another, behind the name of the scene, and of the quantity where these differ."""
+    if len(comparisons) == 1:
+        return levels_of_models(comparisons[0])
     tables = [levels_of_models(one) for one in comparisons]
-    scenes = [one.scene.name for one, table in zip(comparisons, tables, strict=True) for _ in table["value"]]
-    columns = {name: [value for table in tables for value in table.columns[name]] for name in tables[0].columns}
-    return Table(comparisons[0].quantity, {"scene": scenes, **columns})
+    counts = [len(table["value"]) for table in tables]
+    front = {"scene": [one.scene.name for one in comparisons]}
+    if len(by_quantity(comparisons)) > 1:
+        front["quantity"] = [one.quantity for one in comparisons]
+    repeated = {name: [v for v, n in zip(of, counts, strict=True) for _ in range(n)] for name, of in front.items()}
+    columns = {
+        name: [v for table, n in zip(tables, counts, strict=True) for v in table.columns.get(name, [math.nan] * n)]
+        for name in dict.fromkeys(name for table in tables for name in table.columns)
+    }
+    return Table(comparisons[0].quantity, {**repeated, **columns})
 
 
 def selected_of_several(table: Table) -> Table:

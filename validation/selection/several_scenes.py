@@ -10,21 +10,22 @@ from numpy.typing import NDArray
 
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.load import Scene
-from validation.selection.compare import Comparison, compare, models_of
+from validation.selection.compare import Comparison, compare_quantities
 from validation.selection.hierarchy import Answer, Candidate, Selection
+from validation.selection.quantities import models_of
 from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.model import Cost, ErrorEstimate
 
 
 @dataclass(frozen=True)
 class SceneProblem:
-    """What `compare` is asked of one scene.
+    """What `compare` is asked of one scene, of each quantity.
 
     content: digest of all that the scene is made of, since its repr leaves out most of an array.
     """
 
     scene: Scene = field(repr=False)
-    quantity: str
+    quantities: tuple[str, ...]
     tolerance: float | str
     seed: int = 0
     solve_all: bool = False
@@ -40,23 +41,27 @@ class SceneProblem:
 
 
 def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Comparison]:
-    """`compare` of each scene, in their order; finished scenes are taken from the store of the engine."""
+    """`compare` of each scene and quantity, in their order; finished scenes are taken from the store of the engine."""
     outcomes = engine.map(compare_scene, problems)
-    return [_comparison(problem, outcome) for problem, outcome in zip(problems, outcomes, strict=True)]
+    return [
+        _comparison(problem, quantity, outcome)
+        for problem, outcome in zip(problems, outcomes, strict=True)
+        for quantity in problem.quantities
+    ]
 
 
 def compare_scene(problem: SceneProblem) -> Outcome:
-    """What became of each model, as JSON in one array."""
-    found = compare(
+    """What became of each model, as JSON in one array a quantity."""
+    found = compare_quantities(
         problem.scene,
-        problem.quantity,
+        problem.quantities,
         problem.tolerance,
         problem.seed,
         solve_all=problem.solve_all,
         models=problem.models,
     )
-    text = json.dumps([_plain(candidate) for candidate in found.models])
-    return {"candidates": np.frombuffer(text.encode(), dtype=np.uint8).astype(np.float64)}
+    texts = {name: json.dumps([_plain(candidate) for candidate in one.models]) for name, one in found.items()}
+    return {name: np.frombuffer(text.encode(), dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
 
 
 def content_of(scene: Scene) -> str:
@@ -90,9 +95,9 @@ def _plain(candidate: Candidate) -> dict[str, object]:
     }
 
 
-def _comparison(problem: SceneProblem, outcome: Outcome) -> Comparison:
-    rows = json.loads(outcome["candidates"].astype(np.uint8).tobytes())
-    models = models_of(problem.scene, problem.quantity, problem.wanted.relative, problem.seed)
+def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Comparison:
+    rows = json.loads(outcome[quantity].astype(np.uint8).tobytes())
+    models = models_of(problem.scene, quantity, problem.wanted.relative, problem.seed)
     candidates = tuple(
         Candidate(
             model=model,
@@ -104,7 +109,7 @@ def _comparison(problem: SceneProblem, outcome: Outcome) -> Comparison:
         for model, row in zip(models, rows, strict=True)
     )
     selection = Selection(problem.wanted.relative, candidates)
-    return Comparison(problem.scene, problem.quantity, selection, problem.wanted.in_decibels)
+    return Comparison(problem.scene, quantity, selection, problem.wanted.in_decibels, timed=problem.solve_all)
 
 
 def _answer(row: dict[str, object]) -> Answer:

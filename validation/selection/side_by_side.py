@@ -5,11 +5,15 @@ import string
 from collections.abc import Iterator, Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
+from validation.simulation.rail_quantity import COUNTED
 
 Columns = dict[str, list[str]]
+ABREAST = 10
+"""Models in a table, so that its lines fit."""
 NAMES = "by"
 """The column of the names of models."""
 TOGETHER = "both errors together: of the models the sum, of grid and sample the root of the sum of squares"
@@ -54,8 +58,10 @@ def half_width(error: float, digits: int = 2) -> str:
     return f"± {float(f'{error:.{digits}g}'):g}" if math.isfinite(error) else "± unknown"
 
 
-def _signed(value: float, digits: int) -> str:
-    """With its sign, but for a zero."""
+def signed(value: float, digits: int) -> str:
+    """With its sign, but for a zero; a dash where there is no number."""
+    if not math.isfinite(value):
+        return "—"
     return f"{rounded:+.{digits}f}" if (rounded := round(value, digits)) else f"{0:.{digits}f}"
 
 
@@ -79,8 +85,8 @@ def numbers_beside(comparison: Comparison) -> Columns:
             NAMES: one.name,
             f"{comparison.quantity} [{comparison.unit}]": f"{value:.4g}",
             "±": f"{half:.2g}" if math.isfinite(half) else "unknown",
-            "difference [dB]": "—" if here else f"{_signed(float(off), 2)} {half_width(apart)}",
-            "[%]": "—" if here else f"{_signed(per_cent(off), 1)} {half_width(per_cent(apart))}",
+            "difference [dB]": "—" if here else f"{signed(float(off), 2)} {half_width(apart)}",
+            "[%]": "—" if here else f"{signed(per_cent(off), 1)} {half_width(per_cent(apart))}",
         }
         for name, text in row.items():
             columns.setdefault(name, []).append(text)
@@ -102,9 +108,9 @@ def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     letters = dict(zip(string.ascii_uppercase, others, strict=False))
     columns = axis_of(comparison)
     columns.pop("f [Hz]", None)
-    columns["level"] = [f"{level:.1f}" for level in comparison.value_of(reference).round(1) + 0.0]
+    columns["level"] = [f"{x:.1f}" if math.isfinite(x) else "—" for x in comparison.value_of(reference).round(1) + 0.0]
     for letter, one in letters.items():
-        columns[letter] = [_signed(off, 1) for off in differences(comparison, one, reference).tolist()]
+        columns[letter] = [signed(off, 1) for off in differences(comparison, one, reference).tolist()]
     errors = {letter: error_of_difference(comparison, one, reference) for letter, one in letters.items()}
     return {letter: f"{one.name}, {_range(one, errors[letter])}" for letter, one in letters.items()}, columns
 
@@ -121,12 +127,33 @@ def _range(one: Candidate, errors: np.ndarray) -> str:
     )
 
 
+def counts(comparison: Comparison, one: Candidate) -> NDArray[np.bool_]:
+    """Where the tolerance counts: of a rail not in bands of which next to nothing is left."""
+    level = comparison.a3_of(one) if comparison.roughness.size else np.zeros(comparison.value_of(one).size)
+    return np.asarray(level > COUNTED)
+
+
+def shown_models(comparison: Comparison) -> list[str]:
+    """Names of the solved models, in the order that a figure shows: selected, reference, MDR, the nearest others."""
+    solved, reference = comparison.selection.solved, reference_of(comparison)
+    chosen = comparison.selection.best or reference
+    springs = min((one for one in solved if one.model.is_mdr), key=lambda one: one.error, default=chosen)
+
+    def apart(one: Candidate) -> float:
+        off = differences(comparison, one, chosen)[counts(comparison, chosen)]
+        return float(np.sqrt(np.nanmean(off**2))) if np.isfinite(off).any() else math.inf
+
+    first = [chosen.name, reference.name, springs.name]
+    return list(dict.fromkeys([*first, *(one.name for one in sorted(solved, key=apart))]))
+
+
 def columns_as_lines(columns: Mapping[str, list[str]]) -> Iterator[str]:
-    """Names of models to the left, all else to the right; columns under a letter are narrow."""
+    """Names of models to the left, all else to the right; columns under a letter are narrow and close together."""
     widths = {name: max(5 if len(name) == 1 else 8, *map(len, [name, *cells])) for name, cells in columns.items()}
     signs = {name: "<" if name == NAMES else ">" for name in columns}
     for row in (tuple(columns), *zip(*columns.values(), strict=True)):
-        yield "  ".join(f"{text:{signs[name]}{widths[name]}s}" for name, text in zip(columns, row, strict=True))
+        cells = [f"{text:{signs[name]}{widths[name]}s}" for name, text in zip(columns, row, strict=True)]
+        yield "".join(f"{' ' if len(name) == 1 else '  '}{cell}" for name, cell in zip(columns, cells, strict=True))[2:]
 
 
 def _numbers(comparison: Comparison) -> Iterator[str]:
@@ -139,4 +166,7 @@ def _spectra(comparison: Comparison) -> Iterator[str]:
     level = f"level by {reference_of(comparison).name} [{comparison.unit}]"
     yield f"side by side: {level}, and from there to the others, ± {TOGETHER}"
     yield from (f"  {letter}: {name}" for letter, name in letters.items())
-    yield from columns_as_lines(columns)
+    others = list(letters)
+    for first in range(0, len(others), ABREAST):
+        abreast = others[first : first + ABREAST]
+        yield from columns_as_lines({name: of for name, of in columns.items() if name not in set(others) - {*abreast}})

@@ -2,7 +2,10 @@
 
 import math
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
 
 from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
@@ -12,13 +15,18 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
-from validation.selection.compare import MOVING, UNITS, Comparison
+from validation.selection.compare import Comparison
+from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import Answer, Candidate, Status
+from validation.selection.quantities import MOVING, UNITS
 from validation.selection.rail_model import what_would_state_the_ground
+from validation.selection.reasons import grouped
 from validation.selection.side_by_side import axis_of, columns_as_lines, side_by_side
 from validation.selection.tolerance import Tolerance, short
 from validation.simulation.model import Target
 from validation.simulation.rail_models import MEASURED_ON_STRIPS, rail_quantity
+
+FloatArray = NDArray[np.float64]
 
 WIDTH = 100
 """Columns of a terminal."""
@@ -54,31 +62,44 @@ def summary(comparison: Comparison) -> str:
     >>> print(text.splitlines()[0])
     Smooth sphere: stiffness within 10 %
     """
-    understood = heading(comparison.scene, comparison.quantity, comparison.tolerance)
-    return f"{understood}\n{findings(comparison)}"
+    understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
+    return f"{understood}\n{findings([comparison])}"
 
 
-def heading(scene: Scene, quantity: str, tolerance: Tolerance) -> str:
+def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> str:
     """What was understood, before anything is solved: what is asked, bodies, contact, roughness, what is assumed."""
-    described = description_lines(scene, moving=quantity in MOVING)
-    lines = [f"{scene.name}: {quantity} within {tolerance}", *described, f"  {'assumed':18s}  {ASSUMED}"]
+    described = description_lines(scene, moving=any(quantity in MOVING for quantity in quantities))
+    lines = [f"{scene.name}: {', '.join(quantities)} within {tolerance}", *described, f"  {'assumed':18s}  {ASSUMED}"]
     return "\n".join(part for line in lines for part in wrapped([line], indent=22 if line[0] == " " else 4))
 
 
-def findings(comparison: Comparison) -> str:
-    """What became of each model, the result, its cost, and whether MDR is enough."""
-    best = comparison.selection.best
-    lines = ["", f"{'model':36s}{'claims':>12s}{'found':>9s}{'cost':>8s}  what became of it"]
-    lines += _rows(comparison)
-    lines.append("")
+def findings(comparisons: Sequence[Comparison]) -> str:
+    """What became of each model, the result, and whether MDR is enough; both quantities of a rail have one table."""
+    parts = [comparisons] if comparisons[0].roughness.size else [[one] for one in comparisons]
+    lines = [line for part in parts for line in _lines(part)]
+    # no blank line below another
+    apart = [line for before, line in zip(["text", *lines], lines, strict=False) if line or before]
+    return "\n".join(wrapped(apart, indent=4))
+
+
+def _lines(quantities: Sequence[Comparison]) -> Iterator[str]:
+    """Of quantities that have the same solves and errors."""
+    comparison = quantities[0]
+    best, spent = comparison.selection.best, "took" if comparison.timed else "cost"
+    yield from ("", f"{'model':36s}{'claims':>12s}{'found':>9s}{spent:>8s}  what became of it")
+    yield from (*_rows(comparison), "", *_reasons(comparison), "")
     if best is None or best.answer is None:
-        solved = comparison.selection.solved
-        lines += [f"no model has {'a known error' if solved else 'a result'}", *side_by_side(comparison)]
+        yield f"no model has {'a known error' if comparison.selection.solved else 'a result'}"
+        yield from side_by_side(comparison)
     else:
-        bands = columns_as_lines(bands_of(comparison, best)) if comparison.is_level else []
-        lines += [result_of(comparison, best.answer), *([best.answer.counted] if best.answer.counted else []), *bands]
-        lines += [*side_by_side(comparison), age_of_errors(comparison), cost_of(comparison)]
-    return "\n".join(wrapped([*lines, *what_would_help(comparison), *sentences_on_mdr(comparison)], indent=4))
+        yield from (result_of(one, best.answer) for one in quantities)
+        yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
+        yield from columns_as_lines(bands_of(comparison, best)) if comparison.is_level else ()
+        if force := contact_force(comparison):
+            yield from ("", *force.sentences, *(f"  {line}" for line in columns_as_lines(force.table)), "")
+        yield from side_by_side(comparison)
+        yield from (age_of_errors(comparison), cost_of(comparison))
+    yield from (*what_would_help(comparison), *sentences_on_mdr(comparison))
 
 
 def label(candidate: Candidate) -> str:
@@ -87,7 +108,7 @@ def label(candidate: Candidate) -> str:
 
 
 def sentences_on_mdr(comparison: Comparison) -> list[str]:
-    """Whether springs by the method of dimensionality reduction are enough, and why: one a model of them."""
+    """Whether springs by the method of dimensionality reduction are enough: one a model of them."""
     springs = [one for one in comparison.models if one.model.is_mdr]
     if not springs:
         return ["MDR: no springs are among the models of this scene."]
@@ -98,14 +119,14 @@ def sentences_on_mdr(comparison: Comparison) -> list[str]:
 def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     tolerance, selection = comparison.tolerance, comparison.selection
     if not math.isfinite(springs.error):
-        return f"not known to be enough, because {springs.reason}"
+        return "not known to be enough"
     shown = tolerance.shown_beside(springs.error)
     if springs.answer is None:
         errors = f"for {_asked_of(comparison.scene)} ({shown} claimed before a solve, {tolerance} wanted)"
     else:
         errors = f"({shown} found, {tolerance} wanted)"
     if springs.error > selection.tolerance:
-        return f"not enough {errors}, because {springs.reason}"
+        return f"not enough {errors}"
     cheaper = selection.best
     others = f"; {cheaper.name} is cheaper" if cheaper is not None and cheaper.model is not springs.model else ""
     return f"enough {errors}{others}"
@@ -133,14 +154,25 @@ def became_of(one: Candidate) -> str:
 
 
 def _rows(comparison: Comparison) -> Iterator[str]:
-    """A line a model, and its reason where that is another than of the model before."""
-    before = ""
+    """A line a model; what a solve took where all were timed, else what it costs."""
     for one in comparison.models:
-        claimed, found, cost = claim_of(comparison, one), found_of(comparison, one), format_seconds(one.cost)
-        yield f"{label(one):36s}{claimed:>12s}{found:>9s}{cost:>8s}  {became_of(one)}"
-        if one.reason != before:
-            yield f"    {one.reason}"
-        before = one.reason
+        claimed, found = claim_of(comparison, one), found_of(comparison, one)
+        spent = took_by(comparison, one) if comparison.timed else format_seconds(one.cost)
+        yield f"{label(one):36s}{claimed:>12s}{found:>9s}{spent:>8s}  {became_of(one)}"
+
+
+def took_by(comparison: Comparison, one: Candidate) -> str:
+    """Seconds of a solve by the clock."""
+    seconds = comparison.seconds_of(one)
+    return ("< 1 ms" if seconds < 1e-3 else format_seconds(seconds)) if math.isfinite(seconds) else "—"
+
+
+def _reasons(comparison: Comparison) -> Iterator[str]:
+    """What errors rest on, each clause once."""
+    yield "why"
+    every = tuple(one.name for one in comparison.models)
+    for names, reason in grouped({one.name: one.reason for one in comparison.models}):
+        yield f"  {'all' if names == every and len(every) > 1 else '; '.join(names)}: {reason}"
 
 
 def result_of(comparison: Comparison, answer: Answer) -> str:
@@ -158,19 +190,34 @@ def result_of(comparison: Comparison, answer: Answer) -> str:
 
 
 def bands_of(comparison: Comparison, one: Candidate) -> dict[str, list[str]]:
-    """A row a band: wavelength, frequency, q a, root mean square, level and its error, as the scene has them."""
+    """A row a band: wavelength, frequency, q a, root mean square, levels and their error, as the scene has them."""
     scene, unit, answer = comparison.scene, UNITS[comparison.quantity], one.answer
     assert answer is not None  # of a model that was solved
     columns = axis_of(comparison)
+    if isinstance(scene, RailScene):
+        return columns | _levels_of_rail(comparison, one)
     if isinstance(scene, RollingScene):
         columns["q a"] = [f"{q * scene.contact_radius:.2f}" for q in comparison.wavenumbers]
         columns[f"rms [{unit}]"] = [f"{value:.4g}" for value in answer.value]
-    columns[f"level [{comparison.unit}]"] = [
-        f"{round(float(level), 1) + 0.0:.1f}" for level in comparison.value_of(one)
-    ]
-    for name, halves in {"± [dB]": comparison.errors_of(one), **answer.band_errors}.items():
-        columns[name] = [f"{half:.2g}" if math.isfinite(half) else "unknown" for half in halves]
-    return columns
+    columns[f"level [{comparison.unit}]"] = _decibels(comparison.value_of(one))
+    return columns | {"± [dB]": _half_widths(comparison, one)}
+
+
+def _levels_of_rail(comparison: Comparison, one: Candidate) -> dict[str, list[str]]:
+    """`LEVELS`, and the error of the filter; the force where the wheel has a speed."""
+    a3, roughness, force = comparison.a3_of(one), comparison.roughness, contact_force(comparison)
+    levels = {"L_r": roughness, "A3": a3, "L_eq": roughness + a3}
+    columns = {name: _decibels(of) for name, of in levels.items()} | {"± [dB]": _half_widths(comparison, one)}
+    return columns | ({"L_FA": _decibels(force.levels[one.name])} if force else {})
+
+
+def _decibels(levels: FloatArray) -> list[str]:
+    """To a tenth, without the sign of a zero."""
+    return [f"{round(float(level), 1) + 0.0:.1f}" if math.isfinite(level) else "—" for level in levels]
+
+
+def _half_widths(comparison: Comparison, one: Candidate) -> list[str]:
+    return [f"{half:.2g}" if math.isfinite(half) else "unknown" for half in comparison.errors_of(one)]
 
 
 def age_of_errors(comparison: Comparison) -> str:

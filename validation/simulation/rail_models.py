@@ -7,7 +7,7 @@ model is its difference from linear theory and that of linear theory. What is no
 import math
 from abc import abstractmethod
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
 
@@ -130,8 +130,9 @@ class RailModel(Model):
 
         def read(found: FoundFilter) -> Result:
             values = {"a3": found.a3, "model": found.model, "grid": found.grid, "sample": found.sample}
+            both = {str(name): replace(quantity, name=name).amplitude(found.a3) for name in RAIL_QUANTITIES}
             failed = "" if np.isfinite(found.a3).all() else "a contact along a strip did not converge"
-            return Result({quantity.name: quantity.amplitude(found.a3), **values}, work, failed=failed)
+            return Result({**both, **values}, work, failed=failed)
 
         return lambda _: Solve(lambda: self.find(quantity, target.seed), read)
 

@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from validation.analysis.sound import a_weighting, energy_sum
 from validation.cases.rail.published import RailWheel
 from validation.scenes.level_files import curve
 from validation.scenes.rail import RailScene
@@ -71,14 +72,6 @@ def decibel(power: ArrayLike) -> FloatArray:
     return np.asarray(10 * np.log10(power))
 
 
-def a_weighting(frequency: ArrayLike) -> FloatArray:
-    """A(f) [dB] of IEC 61672-1: 20 lg of the product of its four corner frequencies' factors, 0 at 1 kHz."""
-    square = np.asarray(frequency, dtype=np.float64) ** 2
-    low, middle, upper, high = 20.6**2, 107.7**2, 737.9**2, 12194.0**2
-    gain = high * square**2 / ((square + low) * np.sqrt((square + middle) * (square + upper)) * (square + high))
-    return np.asarray(20 * np.log10(gain) + 2.00)
-
-
 def weighted_level(scene: RailScene, a3: FloatArray, speed: float) -> float:
     """dB(A): levels and filter at f = v / lambda, A-weighted and summed over all bands; speed [km/h].
 
@@ -86,7 +79,7 @@ def weighted_level(scene: RailScene, a3: FloatArray, speed: float) -> float:
     or track, no radiation. Of use as a difference between filters alone.
     """
     frequency = speed / 3.6 / scene.levels.bands.wavelengths
-    return float(decibel(np.sum(10 ** ((np.array(scene.levels.levels) + a3 + a_weighting(frequency)) / 10))))
+    return energy_sum(np.array(scene.levels.levels) + a3 + a_weighting(frequency))
 
 
 def weighted_difference(

@@ -7,10 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.evidence import Table, table_of
-from validation.analysis.sound import filtered, powers_of_blocks
+from validation.analysis.sound import a_weighting, filtered, powers_of_blocks
 from validation.analysis.spectra import KILOHERTZ, Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
-from validation.cases.rail.filters import a_weighting
 from validation.cases.rail.rail_sound import LABELS, RailSoundResult
 from validation.simulation.equivalent_displacement import BEM
 

@@ -13,8 +13,8 @@ from validation.engine.engine import Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
-from validation.selection.compare import models_of
 from validation.selection.hierarchy import select_model, try_to_solve
+from validation.selection.quantities import models_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.simulation.model import GridModel
 from validation.simulation.rail_models import relative

@@ -11,8 +11,8 @@ from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, 
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
-from validation.selection.compare import models_of
 from validation.selection.hierarchy import ContactModel, select_model, try_to_solve
+from validation.selection.quantities import models_of
 from validation.simulation.model import GridModel, all_models
 from validation.simulation.rail_models import RailModel
 from validation.simulation.sampling import distance

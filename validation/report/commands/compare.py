@@ -4,6 +4,7 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from validation.analysis.contents import as_csv
@@ -16,15 +17,16 @@ from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, load_scene, load_varied
 from validation.scenes.printable import printable
-from validation.selection.compare import QUANTITIES, Comparison, models_of, quantities_of
-from validation.selection.compare import compare as compared
-from validation.selection.exported import levels_of_models, to_json_of
+from validation.selection.compare import Comparison, compare_quantities
+from validation.selection.exported import to_json_of
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import ContactModel
 from validation.selection.model_names import models_named, names_in
-from validation.selection.several import help_with, overview, selected_of_several, table_of_several
+from validation.selection.quantities import QUANTITIES, models_of, quantities_of
+from validation.selection.several import help_with, overview, table_of_several
 from validation.selection.several_scenes import SceneProblem, compare_scenes
 from validation.selection.summary import findings, format_seconds, heading
+from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
 
 FIGURES = (".svg", ".png", ".pdf")
@@ -48,15 +50,16 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     comparing.add_argument(
         "--quantity",
         "--want",
-        choices=QUANTITIES,
-        metavar="QUANTITY",
+        type=_quantities,
+        metavar="A,B",
         help=(
-            f"one of {', '.join(QUANTITIES)} (default: the first that the scene has); --want is an old name, until 0.3"
+            f"of {', '.join(QUANTITIES)}, one or several (default: the first that the scene has); --want is an old "
+            "name, until 0.3"
         ),
     )
     comparing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
     solved = comparing.add_mutually_exclusive_group()
-    solved.add_argument("--all", action="store_true", help="solve all models, and print them side by side")
+    solved.add_argument("--all", action="store_true", help="solve and time all models, and print them side by side")
     solved.add_argument(
         "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "fit,springs"'
     )
@@ -64,9 +67,12 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         ("--json", "write the result for other programs; `--report` writes it with a schema that describes its keys"),
         ("--csv", "write a row a number or a band, of each model that was solved"),
         ("--cnossos", "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
-        ("--figure", "draw the models that were solved, in a .svg, .png or .pdf"),
+        ("--figure", "draw the models that were solved, of spectra five at the most, in a .svg, .png or .pdf"),
     ):
         comparing.add_argument(name, type=Path, metavar="FILE", help=what)
+    comparing.add_argument(
+        "--over", choices=("seconds",), help="draw in --figure how far off each model is over the time that it took"
+    )
     comparing.add_argument(
         "--report", type=Path, metavar="DIR", help="write a page with figure and data into a folder of its own"
     )
@@ -93,80 +99,95 @@ def _describe_runs_of_several(comparing: argparse.ArgumentParser) -> None:
 
 def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
-    scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments.sweep)]
-    problems = [_problem(scene, arguments) for scene in scenes]
+    scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments)]
+    problems = [_problem(scene, arguments) for scene, _ in scenes]
     _check_files(problems, arguments)
-    if arguments.report is None:
-        found = _found(problems, arguments)
-        _write(found, arguments)
-    else:
-        found = _reported(problems, arguments)
+    swept = [of for (_, of), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
+    found = _reported(problems, swept, arguments) if arguments.report else _found(problems, swept, arguments)
     return Exit.MET if all(one.met for one in found) else Exit.NOT_CONVERGED
 
 
-def _scenes_of(name: str, sweep: tuple[str, list[str]] | None) -> list[Scene]:
-    if sweep is None:
-        return [load_scene(name)]
-    key, values = sweep
-    return [load_varied(name, key, value) for value in values]
+def _scenes_of(name: str, arguments: argparse.Namespace) -> list[tuple[Scene, Swept | None]]:
+    """With the value of a sweep, which belongs to the file: two files may have scenes of one name."""
+    if arguments.sweep is None:
+        return [(load_scene(name), None)]
+    key, values = arguments.sweep
+    varied = [load_varied(name, key, value) for value in values]
+    title = varied[0].name.removesuffix(f", {key.split('.')[-1]} = {values[0]}")
+    scene = title if len(arguments.scene) == 1 else f"{title}, {printable(name)}"
+    return list(zip(varied, swept_values(key, values, scene), strict=True))
 
 
 def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
     """What is asked of a scene. Raises ValueError for a quantity or a model that it has not."""
-    quantity, seed = arguments.quantity or quantities_of(scene)[0], arguments.seed or 0
-    tolerance = tolerance_of(arguments.tolerance).relative
-    models = models_of(scene, quantity, tolerance, seed)
-    names = names_in(arguments.models, [model.name for model in models]) if arguments.models is not None else []
-    models_named(models, names, tolerance)
-    return SceneProblem(scene, quantity, arguments.tolerance, seed, arguments.all, tuple(names))
+    quantities, seed = arguments.quantity or quantities_of(scene)[:1], arguments.seed or 0
+    tolerance, names = tolerance_of(arguments.tolerance).relative, list[str]()
+    for quantity in quantities:
+        models = models_of(scene, quantity, tolerance, seed)
+        if arguments.models is not None:
+            names = names_in(arguments.models, [model.name for model in models])
+        models_named(models, names, tolerance)
+    timed = arguments.all or arguments.over is not None
+    return SceneProblem(scene, tuple(quantities), arguments.tolerance, seed, timed, tuple(names))
 
 
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
     """Raises ValueError before anything is solved."""
-    quantities = list(dict.fromkeys(problem.quantity for problem in problems))
+    quantities = list(dict.fromkeys(name for problem in problems for name in problem.quantities))
     figure = arguments.figure
     if figure is not None and figure.suffix not in FIGURES:
         raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(figure)}")
-    if len(quantities) > 1 and (figure is not None or arguments.csv is not None):
-        raise ValueError(f"--figure and --csv must have one quantity, named by --quantity, got {', '.join(quantities)}")
-    if arguments.cnossos is not None and quantities != ["contact-filter"]:
+    if arguments.over is not None and (figure is None or not (arguments.all or arguments.models)):
+        raise ValueError("--over seconds must have --figure, and --all or --models, which say what is solved and timed")
+    if arguments.over is not None and (len(problems) > 1 or len(quantities) > 1):
+        raise ValueError(f"--over seconds is for one quantity of one scene, got {len(problems) * len(quantities)}")
+    if arguments.cnossos is not None and "contact-filter" not in quantities:
         raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {', '.join(quantities)}")
 
 
-def _found(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
-    """Solve, and print: all about one scene, what was understood before it is solved; a line each of several."""
+def _found(
+    problems: Sequence[SceneProblem], swept: Sequence[Swept | None], arguments: argparse.Namespace
+) -> list[Comparison]:
+    """Solve, print, and write the files that are asked for."""
+    solved = _solved(problems, arguments)
+    found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
+    print(findings(found) if len(problems) == 1 else "\n".join([*overview(found), *help_with(found)]))
+    _write(found, arguments)
+    return found
+
+
+def _solved(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
+    """What was understood of one scene is printed before it is solved."""
     if len(problems) == 1:
         (problem,) = problems
-        print(heading(problem.scene, problem.quantity, problem.wanted), flush=True)
-        found = compared(
+        print(heading(problem.scene, problem.quantities, problem.wanted), flush=True)
+        found = compare_quantities(
             problem.scene,
-            quantity=problem.quantity,
-            tolerance=problem.tolerance,
-            seed=problem.seed,
+            problem.quantities,
+            problem.tolerance,
+            problem.seed,
             solve_all=problem.solve_all,
             models=problem.models,
             callback=_announce,
         )
-        print(findings(found))
-        return [found]
+        return list(found.values())
     # a run that ends before its time says that what is finished is kept
     arguments.out = arguments.store or arguments.report or STORE
     with progress_of("scenes", arguments.workers) as progress:
         engine = Engine(workers=arguments.workers, store=arguments.out / "realisations", progress=progress)
-        several = compare_scenes(problems, engine)
-    print("\n".join([*overview(several), *help_with(several)]))
-    return several
+        return compare_scenes(problems, engine)
 
 
-def _reported(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
+def _reported(
+    problems: Sequence[SceneProblem], swept: Sequence[Swept | None], arguments: argparse.Namespace
+) -> list[Comparison]:
     """The same, with a page in a folder of its own."""
     from validation.report.compared_page import PAGE, files_of_comparison  # which takes half a second to import
     from validation.report.folder import Folder
     from validation.report.provenance import provenance
 
     with Folder(arguments.report, kind=COMPARISON, option="--report") as folder:
-        found = _found(problems, arguments)
-        _write(found, arguments)
+        found = _found(problems, swept, arguments)
         about = provenance("compare", {"compare": problems[0].seed}, Engine(workers=arguments.workers), {})
         folder.replace(files_of_comparison(found, about))
     print(printable(f"report: {arguments.report / PAGE}"))
@@ -181,24 +202,27 @@ def _announce(model: ContactModel) -> None:
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
-    several = len(found) > 1
     if arguments.json is not None:
         write_whole(arguments.json, to_json_of(found).encode())
     if arguments.csv is not None:
-        write_whole(arguments.csv, as_csv(table_of_several(found) if several else levels_of_models(found[0])))
+        write_whole(arguments.csv, as_csv(table_of_several(found)))
     if arguments.cnossos is not None:
-        filters = [filter_table(one) for one in found]
+        filters = [filter_table(one) for one in found if one.quantity == "contact-filter"]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_whole(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
-        from validation.report.compared import figure_of_models, to_figure  # which takes half a second to import
+        from validation.report.compared import figure_of  # which takes half a second to import
+        from validation.report.compared_seconds import figure_over_seconds
 
         form = arguments.figure.suffix[1:]
-        if several:
-            table = selected_of_several(table_of_several(found))
-            write_whole(arguments.figure, figure_of_models(table.name, table, form))
-        else:
-            write_whole(arguments.figure, to_figure(found[0], form=form))
+        write_whole(arguments.figure, figure_over_seconds(found[0], form) if arguments.over else figure_of(found, form))
+
+
+def _quantities(word: str) -> tuple[str, ...]:
+    names = tuple(dict.fromkeys(name.strip() for name in word.split(",")))
+    if unknown := [name for name in names if name not in QUANTITIES]:
+        raise argparse.ArgumentTypeError(f"must be of {', '.join(QUANTITIES)}, got {', '.join(map(repr, unknown))}")
+    return names
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

@@ -1,0 +1,97 @@
+"""The figure of speed against accuracy: what each model of a scene takes, and how far it is from the reference."""
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from validation.analysis.evidence import Table
+from validation.report.compared import written
+from validation.report.style import GUIDE, SETTINGS, Style
+from validation.selection.compare import Comparison
+from validation.selection.speed_accuracy import speed_and_accuracy
+
+KINDS: dict[str, Style] = {
+    "reference, its own error": {"color": "#000000", "marker": "*", "markersize": 9},
+    "MDR": {"color": "#D55E00", "marker": "s", "markersize": 5, "markerfacecolor": "none"},
+    "other models": {"color": "#0072B2", "marker": "o", "markersize": 5},
+}
+BARS: Style = {"linestyle": "none", "capsize": 3, "elinewidth": 0.6}
+ROOM = 1.6
+"""Factor by which the axis of errors goes on below the smallest."""
+LINE, WIDE = 10.0, 4.0
+"""Height of a line of labels, and about the width of a letter [points]."""
+
+
+def figure_over_seconds(comparison: Comparison, form: str) -> bytes:
+    """Error over seconds, both logarithmic, a point a model. Raises ValueError where no model was timed."""
+    if not any(np.isfinite(comparison.seconds_of(one)) for one in comparison.selection.solved):
+        raise ValueError("--over seconds needs models that were solved, got none")
+    table = speed_and_accuracy(comparison)
+    tolerance = comparison.tolerance.relative
+    limit = 20 * np.log10(1 + tolerance) if table["unit"][0] == "dB" else 100 * tolerance
+    with matplotlib.rc_context(SETTINGS):
+        figure = Figure(figsize=(7.0, 5.0))
+        # labels are placed by the size of the panel, which no layout may change afterwards
+        axes = figure.subplots(gridspec_kw={"left": 0.1, "right": 0.98, "bottom": 0.18, "top": 0.93})
+        axes.set_title(f"{comparison.scene.name}: {comparison.quantity}", loc="left")
+        axes.axhline(limit, label=f"tolerance, {comparison.tolerance}", **GUIDE)
+        _draw(axes, table)
+        figure.legend(loc="lower center", ncols=4)
+    return written(figure, form)
+
+
+def _draw(axes: Axes, table: Table) -> None:
+    shown = np.where(table["is_reference"] | ~(table["error"] > 0), table["high"], table["error"])
+    positive = np.concatenate([shown, table["low"]])
+    least = float(np.min(positive[positive > 0], initial=np.inf)) / ROOM
+    kinds = _kinds(table)
+    for kind, style in KINDS.items():
+        mine = kinds == kind
+        y, low, high = shown[mine], np.maximum(table["low"][mine], least), table["high"][mine]
+        if mine.any():
+            bars = np.nan_to_num([y - low, high - y]).clip(0)
+            axes.errorbar(table["seconds"][mine], y, yerr=bars, label=kind, **style, **BARS)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.margins(x=0.15, y=0.1)
+    axes.set_ylim(bottom=least if np.isfinite(least) else None)
+    (reference,) = table.where(is_reference=True)["model"]
+    axes.set_xlabel("time of the solves [s]")
+    axes.set_ylabel(f"difference from {reference} [{table['unit'][0]}]")
+    seen = np.isfinite(shown) & (shown > 0)
+    _label(axes, table["seconds"][seen], shown[seen], table["model"][seen].tolist())
+
+
+def _kinds(table: Table) -> np.ndarray:
+    """Of each model."""
+    reference, mdr, other = KINDS
+    return np.where(table["is_reference"], reference, np.where(table["is_mdr"], mdr, other))
+
+
+def _label(axes: Axes, x: np.ndarray, y: np.ndarray, names: list[str]) -> None:
+    """Each name beside its point, moved up or down until it lies on no other."""
+    points = 72 / axes.figure.dpi * axes.transData.transform(np.column_stack([x, y]))
+    right = 72 / axes.figure.dpi * axes.bbox.x1
+    taken = [(px - 4, px + 4, py) for px, py in points]
+    for (px, py), at, name in zip(points, zip(x, y, strict=True), names, strict=True):
+        wide = WIDE * len(name)
+        begin = px + 8 if px + 8 + wide < right else px - 8 - wide
+        steps = sorted(range(-12, 13), key=abs)
+        free = (n for n in steps if not any(_meet(begin, begin + wide, py + n * LINE, other) for other in taken))
+        shift = LINE * next(free, 0)
+        taken.append((begin, begin + wide, py + shift))
+        axes.annotate(
+            name,
+            at,
+            xytext=(begin - px, shift),
+            textcoords="offset points",
+            va="center",
+            fontsize=7.5,
+            arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if shift else None,
+        )
+
+
+def _meet(begin: float, end: float, height: float, other: tuple[float, float, float]) -> bool:
+    """Whether a label lies on what is there."""
+    return begin < other[1] and end > other[0] and abs(height - other[2]) < LINE

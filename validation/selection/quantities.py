@@ -1,0 +1,56 @@
+"""The quantities that scenes have, and the models of each."""
+
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.load import Scene
+from validation.scenes.rail import RailScene
+from validation.selection.rail_model import rail_models
+from validation.selection.scene_model import SceneModel, Shared, models_on
+from validation.simulation.rail_quantity import MICROMETRE, RAIL_QUANTITIES
+
+PRESSED = ("stiffness",)
+ROLLING = ("force-rms", "force-spectrum")
+MOVING = ("acceleration", "acceleration-rms")
+QUANTITIES = (*PRESSED, *ROLLING, *MOVING, *RAIL_QUANTITIES)
+LEVELS = ("force-spectrum", "acceleration", *RAIL_QUANTITIES)
+"""In one-third octaves; the others are one number."""
+UNITS = {
+    "stiffness": "N/m",
+    "force-rms": "N",
+    "force-spectrum": "N",
+    "acceleration": "m/s²",
+    "acceleration-rms": "m/s²",
+    "contact-filter": "1",
+    "equivalent-roughness": "µm",
+}
+REFERENCES = {"equivalent-roughness": MICROMETRE}
+"""Of levels, in SI units; one of those that are not named."""
+
+
+def quantities_of(scene: Scene) -> tuple[str, ...]:
+    """The quantities that a scene has; the first is the default. Raises ValueError where it has none."""
+    if isinstance(scene, IndentationScene):
+        return PRESSED
+    if isinstance(scene, RailScene):
+        return RAIL_QUANTITIES
+    return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
+
+
+def check_quantity(scene: Scene, quantity: str) -> None:
+    """Raises ValueError for a quantity that the scene has not."""
+    if quantity not in quantities_of(scene):
+        raise ValueError(
+            f"quantity must be one of {', '.join(quantities_of(scene))} for scene {scene.name!r}, got {quantity!r}"
+        )
+
+
+def models_of(
+    scene: Scene, quantity: str, tolerance: float, seed: int, shared: Shared | None = None
+) -> list[SceneModel]:
+    """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not.
+
+    shared: what is solved for several quantities of one scene.
+    """
+    check_quantity(scene, quantity)
+    if isinstance(scene, RailScene):
+        return rail_models(scene, quantity, tolerance, seed, Shared() if shared is None else shared)
+    return models_on(scene, quantity, tolerance, seed)
