@@ -9,7 +9,7 @@ from pathlib import Path
 from validation.analysis.contents import as_csv
 from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
-from validation.engine.files import write_whole
+from validation.engine.files import write_given
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
@@ -183,22 +183,22 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
     several = len(found) > 1
     if arguments.json is not None:
-        write_whole(arguments.json, to_json_of(found).encode())
+        write_given(arguments.json, to_json_of(found).encode())
     if arguments.csv is not None:
-        write_whole(arguments.csv, as_csv(table_of_several(found) if several else levels_of_models(found[0])))
+        write_given(arguments.csv, as_csv(table_of_several(found) if several else levels_of_models(found[0])))
     if arguments.cnossos is not None:
         filters = [filter_table(one) for one in found]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
-        write_whole(arguments.cnossos, as_csv(Table("contact-filter", rows)))
+        write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
         from validation.report.compared import figure_of_models, to_figure  # which takes half a second to import
 
         form = arguments.figure.suffix[1:]
         if several:
             table = selected_of_several(table_of_several(found))
-            write_whole(arguments.figure, figure_of_models(table.name, table, form))
+            write_given(arguments.figure, figure_of_models(table.name, table, form))
         else:
-            write_whole(arguments.figure, to_figure(found[0], form=form))
+            write_given(arguments.figure, to_figure(found[0], form=form))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:
