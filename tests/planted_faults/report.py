@@ -5,12 +5,21 @@ import functools
 import numpy as np
 from markupsafe import Markup
 
-from tests.report import test_answers, test_claims, test_figure_lines, test_printed, test_sounds
+from tests.report import (
+    test_answers,
+    test_calibration_figure,
+    test_claims,
+    test_figure_lines,
+    test_printed,
+    test_sounds,
+    test_texts_of_users,
+)
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.cases.punch import fractal_punch_text
-from validation.report import chapter, formats, sounds
+from validation.report import chapter, formats, sounds, style
 from validation.report.answers import cells, words
+from validation.report.figures import ladder
 from validation.report.figures import rolling as rolling_figure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
@@ -37,7 +46,31 @@ def enough_by_most(cell):
     return cells.Enough.YES if 2 * agree > len(cell.numbers) else cells.Enough.NO
 
 
+def with_labels_of_the_other_axis(evidence):
+    figure = calibration_figure(evidence)
+    for axis in figure.axes:
+        axis.set(xlabel=axis.get_ylabel(), ylabel=axis.get_xlabel())
+    return figure
+
+
+calibration_figure = ladder.draw
+
+
 FAULTS = {
+    "labels of the calibration figure on the other axes": (
+        (ladder, "draw", with_labels_of_the_other_axis),
+        functools.partial(
+            test_calibration_figure.test_axes_are_labelled_as_their_columns,
+            0,
+            test_calibration_figure.TRUE,
+            "true error",
+            "selected models",
+        ),
+    ),
+    "texts of users as mathematics": (
+        (style, "plain", lambda text: text),
+        functools.partial(test_texts_of_users.test_a_plain_text_is_drawn_as_it_is_written, "$x^2$"),
+    ),
     "a cell that says what most of its numbers say": (
         (cells.RangeCell, "enough", property(enough_by_most)),
         test_answers.test_one_counterexample_among_all_exponents_is_a_no,

@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any, Literal
 
 import matplotlib
@@ -11,7 +12,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from validation.analysis.evidence import Evidence
+from validation.analysis.evidence import Evidence, Table
 from validation.report.compact import compact
 
 Style = dict[str, Any]
@@ -80,10 +81,25 @@ def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
     return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 
+def plain(text: str) -> str:
+    """A text of a user's, as it is in a figure: a $ is no mathematics, and a label that begins with _ is a label."""
+    text = text.replace("$", r"\$")
+    return f" {text}" if text.startswith("_") else text
+
+
+def plain_texts(table: Table) -> Table:
+    """The same with all of its texts as `plain` ones."""
+    columns = {
+        name: [plain(cell) if isinstance(cell, str) else cell for cell in column]
+        for name, column in table.columns.items()
+    }
+    return Table(table.name, columns)
+
+
 def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:
-    """A case's figure in this style, stamped where it is not the real size."""
+    """A case's figure in this style, stamped where it is not the real size. The texts of its tables are no markup."""
     with matplotlib.rc_context(SETTINGS):
-        figure = draw(evidence)
+        figure = draw(replace(evidence, tables=tuple(map(plain_texts, evidence.tables))))
         engine = figure.get_layout_engine()
         if profile != "full":
             if isinstance(engine, ConstrainedLayoutEngine):
