@@ -6,6 +6,8 @@ import stat
 import subprocess
 import sys
 import threading
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -38,26 +40,34 @@ def test_a_new_file_has_the_mode_of_the_umask(write, mask, wanted, tmp_path, uma
 
 
 @pytest.mark.parametrize("before", [0o600, 0o640, 0o666])
-def test_a_file_that_is_there_keeps_its_mode_and_is_replaced(before, tmp_path, umask):
-    path = tmp_path / "old"
-    path.write_bytes(b"before")
-    path.chmod(before)
-    with path.open("rb") as reader:
-        write_given(path, b"after")
-        assert reader.read() == b"before"
-    assert (path.read_bytes(), mode(path), names(tmp_path)) == (b"after", before, ["old"])
+def test_a_file_that_is_there_keeps_its_mode_and_is_replaced(before):
+    """It is replaced: who reads it goes on with the file that it was."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "old")
+        path.write_bytes(b"before")
+        path.chmod(before)
+        with path.open("rb") as reader:
+            write_given(path, b"after")
+            assert reader.read() == b"before"
+        assert (path.read_bytes(), oct(path.stat().st_mode & 0o777), names(path.parent)) == (
+            b"after",
+            oct(before),
+            ["old"],
+        )
 
 
-def test_a_link_is_followed(tmp_path):
-    real, link, to_nothing = tmp_path / "real", tmp_path / "link", tmp_path / "to nothing"
-    real.write_bytes(b"before")
-    real.chmod(0o640)
-    link.symlink_to("real")
-    to_nothing.symlink_to("new")
-    write_given(link, b"after")
-    write_given(to_nothing, b"made")
-    assert (real.read_bytes(), mode(real), link.is_symlink()) == (b"after", 0o640, True)
-    assert ((tmp_path / "new").read_bytes(), to_nothing.is_symlink()) == (b"made", True)
+def test_a_link_is_followed():
+    """To a file, and to nothing yet."""
+    with TemporaryDirectory() as folder:
+        real, link, to_nothing = (Path(folder, name) for name in ("real", "link", "to nothing"))
+        real.write_bytes(b"before")
+        real.chmod(0o640)
+        link.symlink_to("real")
+        to_nothing.symlink_to("new")
+        write_given(link, b"after")
+        write_given(to_nothing, b"made")
+        assert (link.is_symlink(), to_nothing.is_symlink()) == (True, True)
+        assert (real.read_bytes(), mode(real), Path(folder, "new").read_bytes()) == (b"after", 0o640, b"made")
 
 
 def test_a_pipe_is_written_into(tmp_path):

@@ -11,14 +11,14 @@ import mdr
 from tests import test_face
 from tests.cases import test_edge_scenes
 from tests.planted_faults.wrong import scaled, with_math
-from tests.selection import test_claims, test_selection, test_what_compare_says
+from tests.selection import test_calibrate_command, test_claims, test_selection, test_what_compare_says
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.cases.selection import edge_evidence
 from validation.engine.random_numbers import random_generator
 from validation.scenes import measured
-from validation.selection import compare, hierarchy, scene_model, side_by_side, summary
+from validation.selection import calibration_install, compare, hierarchy, scene_model, side_by_side, summary
 from validation.simulation import calibration, rolling_claims, sampling
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
@@ -155,6 +155,10 @@ FAULTS = {
     "a claim that half of the scenes exceed": (
         (calibration, "SHARE", 0.5),
         functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "sphere"),
+    ),
+    "a table of any size in the place of that of the package": (
+        (calibration_install, "_check", lambda mine, there: None),
+        test_calibrate_command.test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one,
     ),
     "a scene that calibrates itself": (
         (calibration.MeasuredErrors, "left_out", lambda table: table.errors),

@@ -46,8 +46,8 @@ def processor() -> str:
         lines = PROCESSORS.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
         lines = []
-    known = dict(reversed([tuple(map(str.strip, line.split(":", 1))) for line in lines if ":" in line]))
-    return printable(known.get("model name") or platform.processor() or platform.machine() or "unknown")
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return printable("".join(models[:1]) or platform.processor() or platform.machine() or "unknown")
 
 
 def with_kept(about: dict[str, Any], before: Mapping[str, Any], kept: Sequence[Section]) -> dict[str, Any]:
