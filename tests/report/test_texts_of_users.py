@@ -15,6 +15,7 @@ from validation.report import compared, style
 from validation.report.compared import FORMATS, figure_of_models, to_figure
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
+from validation.selection.several import selected_of_several
 
 NAMES = (r"costs $\frac{$", "$x^2$", "a$b", r"\$ and $", r"$\alpha_{$ and \\", "_hidden", "10 % of #1 & <b>")
 
@@ -32,15 +33,8 @@ def test_a_plain_text_is_drawn_as_it_is_written(name):
     assert pixels(style.plain(name)) == pixels(name, parse_math=False)
 
 
-def test_a_label_that_begins_with_a_line_is_in_the_legend():
-    figure = Figure()
-    axes = figure.subplots()
-    axes.plot([0, 1], label=style.plain("_hidden"))
-    assert [text.get_text().strip() for text in axes.legend().get_texts()] == ["_hidden"]
-
-
 def of_name(name):
-    return Comparison(punch(load=1.0, name=name), "stiffness", select_model([Finding(kind=name)], 0.2))
+    return Comparison(punch(load=1.0, name=name), "stiffness", select_model([Finding(name=name)], 0.2))
 
 
 @pytest.mark.slow
@@ -55,8 +49,7 @@ def test_no_text_of_a_figure_is_parsed():
     drawn = to_figure(found, form="png")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(compared, "SETTINGS", {**style.SETTINGS, "text.parse_math": False})
-        patch.setattr(compared, "plain", lambda text: text)
-        patch.setattr(compared, "plain_texts", lambda table: table)
+        patch.setattr(compared, "plain_figure", lambda figure: None)
         assert to_figure(found, form="png") == drawn
 
 
@@ -68,14 +61,14 @@ def test_curves_of_several_scenes_are_named_in_the_legend():
             "frequency_hz": [np.nan] * 4,
             **{column: [0.0, -1.0] * 2 for column in ("value", "low", "high")},
             "unit": ["dB"] * 4,
-            "model": ["_one", "_one", "$two$", "$two$"],
-            "selected": [False] * 4,
+            "scene": ["_one", "_one", "$two$", "$two$"],
+            "selected": [True] * 4,
         },
     )
     figures = []
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(compared, "_png", lambda figure: figures.append(figure) or b"")
-        figure_of_models("$", table, "png")
+        figure_of_models("$", selected_of_several(table), "png")
     (figure,) = figures
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == [" _one", r"\$two\$"]
     assert figure.axes[0].get_title(loc="left") == r"\$"

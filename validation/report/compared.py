@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
-from validation.report.style import SETTINGS, graded, pdf, plain, plain_texts, svg, tick
+from validation.report.style import SETTINGS, graded, pdf, plain_figure, svg, tick
 from validation.selection.compare import Comparison
 from validation.selection.exported import levels_of_models
 
@@ -57,7 +57,6 @@ def figure_of_models(title: str, table: Table, form: str) -> bytes:
 
     table: columns wavelength_mm, frequency_hz, value, low, high, unit, model, selected.
     """
-    title, table = plain(title), plain_texts(table)
     models = list(dict.fromkeys(table["model"].tolist()))
     with matplotlib.rc_context(SETTINGS):
         spectra = bool(np.isfinite(table["wavelength_mm"]).all())
@@ -65,6 +64,7 @@ def figure_of_models(title: str, table: Table, form: str) -> bytes:
         axes = figure.subplots()
         axes.set_title(title, loc="left")
         (_spectra if spectra else _numbers)(axes, table, models)
+        plain_figure(figure)
     return {"svg": svg, "pdf": pdf, "png": _png}[form](figure)
 
 

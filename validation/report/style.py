@@ -8,9 +8,12 @@ from typing import Any, Literal
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.text import Text
+from matplotlib.ticker import LogFormatter
 
 from validation.analysis.evidence import Evidence, Table
 from validation.report.compact import compact
@@ -82,12 +85,21 @@ def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
 
 
 def plain(text: str) -> str:
-    """A text of a user's, as it is in a figure: a $ is no mathematics, and a label that begins with _ is a label."""
-    text = text.replace("$", r"\$")
-    return f" {text}" if text.startswith("_") else text
+    """A text of a user's in a figure, in which a $ is no mathematics."""
+    return text.replace("$", r"\$")
 
 
-def plain_texts(table: Table) -> Table:
+def plain_figure(figure: Figure) -> None:
+    """Make all of its texts `plain`, once; but for the numbers that a logarithmic axis makes."""
+    for text in figure.findobj(Text):
+        text.set_text(plain(text.get_text()))
+    for axis in figure.findobj(Axis):
+        labels = [label.get_text() for label in axis.get_majorticklabels()]
+        if any("$" in label for label in labels) and not isinstance(axis.get_major_formatter(), LogFormatter):
+            axis.set_ticklabels([plain(label) for label in labels])
+
+
+def plain_table(table: Table) -> Table:
     """The same with all of its texts as `plain` ones."""
     columns = {
         name: [plain(cell) if isinstance(cell, str) else cell for cell in column]
@@ -99,7 +111,7 @@ def plain_texts(table: Table) -> Table:
 def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:
     """A case's figure in this style, stamped where it is not the real size. The texts of its tables are no markup."""
     with matplotlib.rc_context(SETTINGS):
-        figure = draw(replace(evidence, tables=tuple(map(plain_texts, evidence.tables))))
+        figure = draw(replace(evidence, tables=tuple(map(plain_table, evidence.tables))))
         engine = figure.get_layout_engine()
         if profile != "full":
             if isinstance(engine, ConstrainedLayoutEngine):
