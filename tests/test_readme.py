@@ -37,6 +37,8 @@ def test_files_that_are_linked_exist(page):
         if place and linked.suffix == ".md":
             headings = re.findall(r"^#+ (.*)", linked.read_text(), flags=re.MULTILINE)
             assert place in [re.sub(r"[^\w\- ]", "", heading).lower().replace(" ", "-") for heading in headings]
+        if place and linked.suffix == ".html":
+            assert f'id="{place}"' in linked.read_text()
 
 
 @pytest.mark.parametrize("page", [*PAGES, "tests/README.md"])

@@ -83,6 +83,16 @@ def test_stiffness_is_the_slope_of_the_load():
     assert before.stiffness == pytest.approx(slope, rel=1e-5)
 
 
+@pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 30.0), (1000.0, 1.0)])
+def test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve(spacing):
+    """Error: the square of the residual, 1e-12, times the condition of K, and the rounding of the direct solve."""
+    body = bem3d.HalfSpace(shape=(12, 12), spacing=spacing, modulus=1.0)
+    (contact,) = bem3d.indent_few_cells(body, np.zeros(body.shape), forces=[1.0])
+    dense = dense_operator(body)
+    exact = np.linalg.solve(dense, np.ones(dense.shape[0])).sum() * body.cell_area
+    assert contact.stiffness == pytest.approx(exact, rel=1e-12 * np.linalg.cond(dense) + 1e-13)
+
+
 def test_one_cell_is_as_soft_as_it_is_alone():
     body = bem3d.HalfSpace(shape=(16, 9), spacing=(2.0, 0.5), modulus=3.0)
     gap = np.ones(body.shape)
@@ -91,6 +101,20 @@ def test_one_cell_is_as_soft_as_it_is_alone():
     assert contact.cells.tolist() == [[11, 4]]
     assert contact.stiffness == pytest.approx(body.cell_area / body.self_compliance, rel=1e-12)
     assert contact.approach == pytest.approx(contact.pressure[0] * body.self_compliance, rel=1e-12)
+
+
+@pytest.mark.parametrize("modulus", [1e-3, 3.0, 2e11])
+def test_the_modulus_is_the_unit_of_force(modulus):
+    """The same grid under E* times the force, one body after another: every approach is the same."""
+    body, gap = rough_punch(48)
+    soft = list(bem3d.indent_few_cells(body, gap, forces=FORCES))
+    other = bem3d.HalfSpace(shape=body.shape, spacing=body.steps, modulus=modulus)
+    scaled = bem3d.indent_few_cells(other, gap, forces=[modulus * force for force in FORCES])
+    for one, same in zip(soft, scaled, strict=True):
+        np.testing.assert_array_equal(one.cells, same.cells)
+        np.testing.assert_allclose(same.pressure, modulus * one.pressure, rtol=1e-5)
+        assert same.approach == pytest.approx(one.approach, rel=1e-5)
+        assert same.stiffness == pytest.approx(modulus * one.stiffness, rel=1e-8)
 
 
 def test_as_many_cells_as_are_allowed_and_no_more():

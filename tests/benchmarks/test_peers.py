@@ -17,6 +17,7 @@ from validation.benchmarks import peers, timing
 from validation.benchmarks.found_models import TimedProblem
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, PressureField
 from validation.benchmarks.solvers import case as comparison
+from validation.benchmarks.solvers import claims as comparison_claims
 from validation.benchmarks.solvers import evidence as comparison_evidence
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.solvers.problems import SurfaceProblem
@@ -25,6 +26,7 @@ from validation.benchmarks.solvers.wheel_steps import SteppingThroughput
 from validation.benchmarks.timing import RunLimits
 from validation.report import contents
 from validation.report.contents import TIMED
+from validation.simulation.method import Result
 
 RUN = TimedProblem(SurfaceProblem("rough", 0.004, 32, True, 1, 1e-6), RunLimits(slow=5.0, enough=0.0))
 
@@ -192,6 +194,42 @@ def times_of(ratio):
         "seconds": np.stack([median, 0.9 * median, 1.1 * median, 5 + 0 * median], axis=1),
         "interval": np.stack([0.95 * median, 1.05 * median], axis=1),
     }
+
+
+FIRST = (other("theirs", dies), *SOLVERS[:2])
+"""Somebody's solver, placed before ours."""
+
+
+def timed_rows(problem, limits):
+    """Ours takes 2 s and presses with 1, the published iteration 3 s and 1, the other one 4 s and 3."""
+    found = {"theirs": (4.0, 3.0), "bem3d": (2.0, 1.0), "bem3d, Polonsky-Keer": (3.0, 1.0)}
+    return [
+        timing.Timing(
+            timing.FINISHED,
+            0.0,
+            seconds=[seconds] * 5,
+            results=[Result({"pressure": np.full((4, 4), pressure), "residual": np.array(0.0)}, 1.0)],
+        )
+        for seconds, pressure in found.values()
+    ]
+
+
+def test_a_solver_that_is_placed_first_does_not_become_ours():
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        for module in (peers, problems, comparison, comparison_claims, comparison_evidence):
+            monkeypatch.setattr(module, "SOLVERS", FIRST)
+        monkeypatch.setattr(comparison, "time_in_turns", timed_rows)
+        named = [SimpleNamespace(label=each.name) for each in FIRST]
+        monkeypatch.setattr(comparison, "configurations_of", lambda problem: named)
+        outcome = comparison.time_problem(dataclasses.replace(RUN, problem=dataclasses.replace(RUN.problem, cells=4)))
+        result = SimpleNamespace(problems=[(RUN.problem, outcome)])
+        # (3 - 1) / 1 of the pressure field
+        assert outcome["difference"][:, 0].tolist() == [2.0, 0.0, 0.0]
+        (number,) = comparison_claims.speed_numbers(result)
+        assert (number.model, number.source, number.value) == ("bem3d", "bem3d, Polonsky-Keer", 2 / 3)
+        assert {n.model for n in comparison_evidence._agreement(result)} == {"theirs", "bem3d, Polonsky-Keer"}
+        assert "first on 1 of 1 problems; 2.0 times" in comparison_evidence._standing(result, True, "it", [0])
+        assert peers.of_others() == FIRST[:1]
 
 
 def test_the_median_lies_between_order_statistics():

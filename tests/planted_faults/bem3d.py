@@ -5,6 +5,7 @@ import functools
 import math
 
 import numpy as np
+import scipy
 
 import bem3d
 from bem3d import (
@@ -108,6 +109,17 @@ def whoever_has_ended(contact):
     return contact.status in ("converged", "iteration limit")
 
 
+def of_the_first_body(kept):
+    """Influence kept by the shape of the grid alone."""
+    return lambda body: kept.setdefault(body.shape, influence(body))
+
+
+def summed_pressure(operator):
+    """1.x by the same iteration, of x itself."""
+    ones = np.ones(len(operator.matrix))
+    return float(scipy.sparse.linalg.cg(operator.matrix, ones, rtol=few_cells.STIFFNESS_TOLERANCE)[0].sum())
+
+
 influence = few_cells._influence
 judged = window_solve.IterationState.record_residual
 moments = Frame._moments
@@ -139,6 +151,18 @@ FAULTS = {
     "a cell that has left, kept for the rounding of its pressure": (
         (projected_cg, "_left_over", lambda pressure, change: np.maximum(pressure + change, 0.0)),
         test_few_cells.test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure,
+    ),
+    "a second modulus among few cells": (
+        (few_cells, "_influence", lambda body: influence(body) / body.modulus),
+        functools.partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
+    ),
+    "few cells on the body that was pressed before": (
+        (few_cells, "_influence", of_the_first_body({})),
+        functools.partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
+    ),
+    "the sum of the pressure for its energy": (
+        (few_cells, "_sum_of_unit_pressure", summed_pressure),
+        functools.partial(test_few_cells.test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve, (1.0, 1.0)),
     ),
     "few cells as wide as they are long": (
         (few_cells, "_influence", among_square_cells),

@@ -9,6 +9,8 @@ from tests.benchmarks import test_chart_errors, test_fronts, test_peers
 from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
 from validation.benchmarks import timing
+from validation.benchmarks.solvers import claims as comparison_claims
+from validation.benchmarks.solvers import evidence as comparison_evidence
 from validation.benchmarks.work_precision import claims as precision_claims
 from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
 from validation.benchmarks.work_precision import errors as precision_error
@@ -54,6 +56,10 @@ FAULTS = {
     "a median without an interval": (
         (timing, "interval_of_median", lambda times: (np.median(times), np.median(times))),
         test_peers.test_the_median_lies_between_order_statistics,
+    ),
+    "our solver for the first of the list": (
+        ((comparison_claims, comparison_evidence), "place_of", lambda name: 0),
+        test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
     ),
     "nothing left open by a reference": (
         (test_fronts.Point, "rank", property(lambda point: point.error + point.half_width)),

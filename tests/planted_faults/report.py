@@ -8,6 +8,7 @@ from markupsafe import Markup
 from tests.cases import test_flags_on_the_page
 from tests.report import (
     test_answers,
+    test_calibration_figure,
     test_claims,
     test_colours,
     test_figure_lines,
@@ -15,12 +16,14 @@ from tests.report import (
     test_page,
     test_printed,
     test_sounds,
+    test_texts_of_users,
 )
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.cases.punch import fractal_punch_text
-from validation.report import build, chapter, formats, provenance, sounds
+from validation.report import build, chapter, formats, provenance, sounds, style
 from validation.report.answers import cells, words
+from validation.report.figures import ladder
 from validation.report.figures import rolling as rolling_figure
 from validation.report.page_figure import PageFigure
 
@@ -71,6 +74,17 @@ def exchanged(one, other):
 
 CITATION = PageFigure.citation
 
+
+def with_labels_of_the_other_axis(evidence):
+    figure = calibration_figure(evidence)
+    for axis in figure.axes:
+        axis.set(xlabel=axis.get_ylabel(), ylabel=axis.get_xlabel())
+    return figure
+
+
+calibration_figure = ladder.draw
+
+
 FAULTS = {
     "a case that is kept has today's commit": (
         (provenance, "with_kept", as_of_today),
@@ -109,6 +123,20 @@ FAULTS = {
             [test_answers.AGREES, test_answers.UNDECIDED],
             cells.Enough.OPEN,
         ),
+    ),
+    "labels of the calibration figure on the other axes": (
+        (ladder, "draw", with_labels_of_the_other_axis),
+        functools.partial(
+            test_calibration_figure.test_axes_are_labelled_as_their_columns,
+            0,
+            test_calibration_figure.TRUE,
+            "true error",
+            "selected models",
+        ),
+    ),
+    "texts of users as mathematics": (
+        (style, "plain", lambda text: text),
+        functools.partial(test_texts_of_users.test_a_plain_text_is_drawn_as_it_is_written, "$x^2$"),
     ),
     "a cell that says what most of its numbers say": (
         (cells.RangeCell, "enough", property(enough_by_most)),

@@ -12,7 +12,14 @@ import mdr
 from tests import test_face
 from tests.cases import test_edge_scenes
 from tests.planted_faults.wrong import scaled, with_math
-from tests.selection import test_claims, test_contact_force, test_own_scene, test_selection, test_what_compare_says
+from tests.selection import (
+    test_calibrate_command,
+    test_claims,
+    test_contact_force,
+    test_own_scene,
+    test_selection,
+    test_what_compare_says,
+)
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
@@ -21,6 +28,7 @@ from validation.engine.random_numbers import random_generator
 from validation.report import compared
 from validation.scenes import measured, rail
 from validation.selection import (
+    calibration_install,
     compare,
     contact_force,
     hierarchy,
@@ -223,6 +231,10 @@ FAULTS = {
     "a claim that half of the scenes exceed": (
         (calibration, "SHARE", 0.5),
         functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "sphere"),
+    ),
+    "a table of any size in the place of that of the package": (
+        (calibration_install, "_check", lambda mine, there: None),
+        test_calibrate_command.test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one,
     ),
     "a scene that calibrates itself": (
         (calibration.MeasuredErrors, "left_out", lambda table: table.errors),

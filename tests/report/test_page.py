@@ -22,7 +22,7 @@ from validation.report.verdict_map import map_of
 
 PICTURES = {"geike": b"<svg>curves</svg>", "hertz": b"<svg>sphere</svg>"}
 ABOUT = {
-    **dict.fromkeys(("python", "system", "workers"), ""),
+    **dict.fromkeys(("python", "system", "processor", "cores", "workers"), ""),
     **{"libraries": {}, "seeds": {}, "kept": {}, "timed": (), "seconds": dict.fromkeys(PICTURES, 1.0)},
     **{"version": "1.2.3", "commit": "abc1234", "documentation": ""},
 }

@@ -100,7 +100,7 @@ def evidence_with(numbers, page_tables=(), claims=()):
 def html_of(section, documentation=""):
     """The page of one case."""
     about = {name: {} for name in ("libraries", "seeds", "kept")} | {"seconds": {section.name: 1.0}, "timed": ()}
-    about |= dict.fromkeys(("version", "commit", "python", "system", "workers"), "")
+    about |= dict.fromkeys(("version", "commit", "python", "system", "processor", "cores", "workers"), "")
     about |= {"documentation": documentation}
     return page.page([section], "full", {}, about, None).decode()
 

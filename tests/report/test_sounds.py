@@ -108,6 +108,14 @@ def test_the_command_writes_one_sound_a_model_with_one_gain(tmp_path, capsys):
     assert {f.name: f.read_bytes() for f in one.iterdir()} == {f.name: f.read_bytes() for f in two.iterdir()}
 
 
+def test_a_folder_with_files_of_others_is_refused_and_left_as_it_is(tmp_path, capsys):
+    """Measured levels are in a levels.csv, too."""
+    (tmp_path / "levels.csv").write_text("my own")
+    assert sound(tmp_path, "--models", "linear") == command.Exit.BAD_INPUT
+    assert "--out must be a new or empty folder" in capsys.readouterr().err
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("levels.csv", "my own")]
+
+
 def test_geikes_rule_is_left_out_where_the_ground_is_not_isotropic(tmp_path, capsys):
     scene = tmp_path / "ridges.toml"
     command.main(["scene", "rail"])

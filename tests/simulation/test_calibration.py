@@ -3,6 +3,7 @@
 import csv
 import math
 from dataclasses import replace
+from datetime import date, timedelta
 
 import numpy as np
 import pytest
@@ -17,10 +18,10 @@ from validation.selection.calibrate import (
     RESONANCES,
     CalibrationRun,
     CalibrationScene,
+    as_table,
     calibration_age,
     calibration_lines,
-    write_calibration,
-    write_table,
+    measured_table,
 )
 from validation.selection.calibration_check import check_calibration
 from validation.selection.hierarchy import Answer
@@ -218,14 +219,39 @@ def test_the_table_says_when_how_and_with_which_code_it_was_measured():
 @pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
-    write_table(calibration.provenance(), calibration.rows_of(calibration.TABLE), path)
-    assert not check_calibration(1, MeasuredAgain(1.0), path)
-    assert calibration_age(path, asked).endswith("by today's code")
+    written(path, calibration.rows_of(calibration.TABLE))
+    assert check_calibration(1, MeasuredAgain(1.0), path, stamp=True)[0] == []
+    for age in (calibration_age(path, asked), calibration_age(path)):
+        assert "by code that gives the same as today's, checked " in age and age.endswith(" solves")
+    written(path, calibration.rows_of(path))
     assert calibration_age(path).endswith("by today's code")
     of_springs = [{**row, "code": "0" * 12} if row["model"] == "springs" else row for row in calibration.rows_of(path)]
-    write_table(calibration.provenance(), of_springs, tmp_path / "other.csv")
+    written(tmp_path / "other.csv", of_springs)
     assert calibration_age(tmp_path / "other.csv", asked).endswith("by other code than today's: springs")
     assert "sphere stiffness, springs" in calibration_age(tmp_path / "other.csv")
+
+
+def written(path, rows):
+    """A table that was measured when that of the package was, and not checked since."""
+    about = {name: text for name, text in calibration.provenance().items() if name != "checked"}
+    path.write_bytes(as_table(about, rows))
+    calibration.table.cache_clear()
+
+
+def test_the_age_follows_from_what_is_there(tmp_path, monkeypatch):
+    """Of a table with punches alone, measured today or before; models of other scenes have no errors in it."""
+    path, still = tmp_path / "table.csv", Target(wheel(), "force-rms")
+    punch = CalibrationScene(kind="punch", number=0, quantity="stiffness", seed=19).target(0.1)
+    written(path, [row for row in calibration.rows_of(calibration.TABLE) if row["kind"] == "punch"])
+    measured_on = date.fromisoformat(calibration.provenance()["measured"])
+    for days, said in ((0, "0 days ago"), (1, "1 day ago"), (40, "40 days ago")):
+        monkeypatch.setattr(calibrate, "today", lambda days=days: measured_on + timedelta(days=days))
+        assert f"calibrated {measured_on}, {said}, " in calibration_age(path, punch)
+    assert "not in the table" not in calibration_age(path, punch)
+    nothing = calibration_age(path, still)
+    assert nothing.startswith("errors of models: not in the table of the calibration: ") and "ago" not in nothing
+    whole = calibration_lines(path)[0]
+    assert "; not in the table of the calibration: " in whole and "rolling force-rms, springs" in whole
 
 
 class MeasuredAgain:
@@ -250,11 +276,12 @@ class MeasuredAgain:
 def test_rows_take_the_version_of_today_where_some_measured_again_are_the_same(tmp_path, factor, same):
     path, engine = tmp_path / "table.csv", MeasuredAgain(factor)
     rows = [{**row, "code": "0" * 12} for row in calibration.rows_of(calibration.TABLE)]
-    write_table(calibration.provenance(), rows, path)
-    differing = check_calibration(2, engine, path)
+    written(path, rows)
+    differing, solves = check_calibration(2, engine, path, stamp=True)
+    assert solves.startswith(f"{len(engine.points)} of ")
     assert len(engine.points) == 2 * sum(len(quantities) for quantities in QUANTITIES.values())
     assert (not differing) is same
-    assert calibration_age(path).endswith("by today's code") is same
+    assert ("by code that gives the same as today's, checked" in calibration_age(path)) is same
     assert (calibration.rows_of(path) == rows) is not same
     assert [{**row, "code": "0" * 12} for row in calibration.rows_of(path)] == rows
     assert ("checked" in calibration.provenance(path)) or not same
@@ -295,8 +322,7 @@ def test_no_measured_error_depends_on_units():
 def test_a_table_is_measured_once(tmp_path, monkeypatch):
     run, engine = CalibrationRun(punches=2, spheres=0, rolling=0, wheels=0, seed=4), Engine(store=tmp_path / "store")
     monkeypatch.setitem(calibrate.DESIGNS, "punch", ((0.0, 1.0), (0.0, 0.0), (0.5, 0.9), (0.5, 0.9)))
-    write_calibration(run, engine, tmp_path / "table.csv")
-    first = (tmp_path / "table.csv").read_text()
+    first = measured_table(run, engine).decode()
     rows = list(csv.DictReader(line for line in first.splitlines() if not line.startswith("#")))
     assert [(row["number"], row["model"]) for row in rows] == [(n, model) for n in "01" for model in ("fit", "springs")]
     assert all(0 < float(row["error"]) < 0.5 and float(row["reference"]) < 0.1 for row in rows)
@@ -308,8 +334,7 @@ def test_a_table_is_measured_once(tmp_path, monkeypatch):
         setattr(solved_again, name, "measure_errors")
     solved_again.__module__ = calibrate.__name__
     monkeypatch.setattr(calibrate, "measure_errors", solved_again)
-    write_calibration(run, engine, tmp_path / "table.csv")
-    assert (tmp_path / "table.csv").read_text() == first
+    assert measured_table(run, engine).decode() == first
 
 
 def test_the_fit_claims_less_under_more_waves():

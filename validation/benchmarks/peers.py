@@ -191,10 +191,11 @@ def _count_calls(thing: Any, name: str) -> list[None]:
 
 
 OURS = "mdr-validation"
+OUR_SOLVER, PUBLISHED = "bem3d", "bem3d, Polonsky-Keer"
 TIGHTER = (3.0, 1.0, 0.3, 0.1, 0.03, 0.01)
 SOLVERS = (
-    PeerSolver("bem3d", OURS, "solve, by force", bem3d_fast),
-    PeerSolver("bem3d, Polonsky-Keer", OURS, "solve_polonsky_keer, by force", bem3d_plain),
+    PeerSolver(OUR_SOLVER, OURS, "solve, by force", bem3d_fast),
+    PeerSolver(PUBLISHED, OURS, "solve_polonsky_keer, by force", bem3d_plain),
     PeerSolver("tamaas", "tamaas", "PolonskyKeerRey, by mean pressure; free space: dcfft", tamaas, TIGHTER),
     PeerSolver(
         "ContactMechanics",
@@ -206,9 +207,19 @@ SOLVERS = (
 )
 
 
+def place_of(name: str) -> int:
+    """Of a solver, among all of them."""
+    return [solver.name for solver in SOLVERS].index(name)
+
+
+def of_others() -> tuple[PeerSolver, ...]:
+    """Those of other packages."""
+    return tuple(solver for solver in SOLVERS if solver.package != OURS)
+
+
 def peers_installed() -> bool:
     """Whether another package is installed."""
-    return any(solver.version for solver in SOLVERS if solver.package != OURS)
+    return any(solver.version for solver in of_others())
 
 
 class DiscreteScene(Protocol):

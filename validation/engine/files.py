@@ -3,44 +3,90 @@
 import errno
 import os
 import re
+import secrets
 import stat
-import tempfile
+import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import TextIO
 
 PARTIAL_FILE = re.compile(r"\.mdr-validation-[a-z0-9_]{8}\.part")
 """The name of a file that a process is writing, or was writing when it was killed."""
-_NAMES = ("ENOENT", "ENOTDIR", "EISDIR", "EEXIST", "EACCES", "EPERM", "EROFS", "ENAMETOOLONG", "ELOOP", "EINVAL")
-ERRORS_OF_A_PATH = frozenset(getattr(errno, name) for name in _NAMES)
+_NAMES = "ENOENT ENOTDIR EISDIR EEXIST EACCES EPERM EROFS ENAMETOOLONG ELOOP EINVAL ENXIO"
+ERRORS_OF_A_PATH = frozenset(getattr(errno, name) for name in _NAMES.split())
 """Errors that are due to the path; all others are due to the machine."""
+
+
+def write_given(path: Path, contents: bytes) -> None:
+    """Write where a user says: a plain file is replaced, with the mode and the owner that it has, or as the umask says.
+
+    Links are followed. A device, a pipe, or the file that this program prints to is written into and stays what it is.
+    Raises OSError, which names the path.
+    """
+    with with_path_in_errors(path):
+        there = path.stat() if path.exists() else None
+        if there and (stream := _stream_of(there)):
+            stream.flush()
+            _write_into(os.dup(stream.fileno()), contents)
+        elif there and not stat.S_ISREG(there.st_mode):
+            _write_into(os.open(path, os.O_WRONLY), contents)
+        else:
+            _replace(Path(os.path.realpath(path)), contents, there)
+
+
+def _replace(place: Path, contents: bytes, there: os.stat_result | None) -> None:
+    """there: what it replaces, whose mode and owner it keeps."""
+    temporary = write_partial_file(place, contents)
+    with _removed_on_errors(temporary):
+        if there:
+            with suppress(PermissionError):
+                os.chown(temporary, there.st_uid, there.st_gid)
+            temporary.chmod(stat.S_IMODE(there.st_mode))
+        temporary.replace(place)
 
 
 def write_whole(path: Path, contents: bytes) -> None:
     """Write beside the place and rename: no reader ever sees half a file. Raises OSError, which names the place."""
     temporary = write_partial_file(path, contents)
-    try:
-        with with_path_in_errors(path):
-            temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+    with with_path_in_errors(path), _removed_on_errors(temporary):
+        temporary.replace(path)
 
 
 def write_partial_file(path: Path, contents: bytes) -> Path:
     """The contents in a file beside their place, to be renamed. Raises OSError, which names the place."""
     with with_path_in_errors(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".mdr-validation-", suffix=".part")
-        temporary = Path(name)
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(contents)
-            temporary.chmod(0o644)
-        except BaseException:
-            temporary.unlink(missing_ok=True)
-            raise
+        temporary = path.parent / f".mdr-validation-{secrets.token_hex(4)}.part"
+        handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+        with _removed_on_errors(temporary):
+            _write_into(handle, contents)
     return temporary
+
+
+def _write_into(handle: int, contents: bytes) -> None:
+    """And close it."""
+    with os.fdopen(handle, "wb") as file:
+        file.write(contents)
+
+
+def _stream_of(file: os.stat_result) -> TextIO | None:
+    """The stream of this program that writes to the same file."""
+    for stream in (sys.stdout, sys.stderr):
+        # what stands in their place may be no file
+        with suppress(OSError, ValueError, AttributeError):
+            if os.path.samestat(file, os.fstat(stream.fileno())):
+                return stream
+    return None
+
+
+@contextmanager
+def _removed_on_errors(temporary: Path) -> Iterator[None]:
+    try:
+        yield
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
 
 
 def read_plain(path: Path) -> bytes:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
 from validation.report.compared_sweep import draw_sweep
-from validation.report.style import MARKERS, SETTINGS, Style, curve, pdf, svg, tick
+from validation.report.style import MARKERS, SETTINGS, Style, curve, pdf, plain_figure, svg, tick
 from validation.selection.compare import Comparison
 from validation.selection.exported import levels_of_models
 from validation.selection.several import by_quantity, selected_of_several, table_of_several
@@ -83,6 +83,7 @@ def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
 
 def written(figure: Figure, form: str) -> bytes:
     """In one of the `FORMATS`."""
+    plain_figure(figure)
     return {"svg": svg, "pdf": pdf, "png": _png}[form](figure)
 
 

@@ -10,9 +10,12 @@ from typing import Any
 
 from validation.engine.engine import LOCAL, Engine
 from validation.report.section import Section
+from validation.scenes.printable import printable
 
 ROOT = Path(__file__).parents[2]
 LIBRARIES = ("numpy", "scipy", "pyfftw", "matplotlib", "joblib")
+PROCESSORS = Path("/proc/cpuinfo")
+"""Where Linux lists them, and their models but for some ARM."""
 
 
 def provenance(profile: str, seeds: dict[str, object], engine: Engine, seconds: dict[str, float]) -> dict[str, object]:
@@ -31,9 +34,20 @@ def provenance(profile: str, seeds: dict[str, object], engine: Engine, seconds: 
         "version": importlib.metadata.version("mdr-validation"),
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
+        "processor": processor(),
         "cores": os.cpu_count(),
         "libraries": {name: importlib.metadata.version(name) for name in LIBRARIES},
     }
+
+
+def processor() -> str:
+    """Model of the processor, which times are those of; its architecture where the system names no model."""
+    try:
+        lines = PROCESSORS.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return printable("".join(models[:1]) or platform.processor() or platform.machine() or "unknown")
 
 
 def with_kept(about: dict[str, Any], before: Mapping[str, Any], kept: Sequence[Section]) -> dict[str, Any]:

@@ -2,16 +2,20 @@
 
 import io
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any, Literal
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.text import Text
+from matplotlib.ticker import LogFormatter
 
-from validation.analysis.evidence import Evidence
+from validation.analysis.evidence import Evidence, Table
 from validation.report.compact import compact
 
 Style = dict[str, Any]
@@ -101,10 +105,34 @@ def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
     return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 
+def plain(text: str) -> str:
+    """A text of a user's in a figure, in which a $ is no mathematics."""
+    return text.replace("$", r"\$")
+
+
+def plain_figure(figure: Figure) -> None:
+    """Make all of its texts `plain`, once; but for the numbers that a logarithmic axis makes."""
+    for text in figure.findobj(Text):
+        text.set_text(plain(text.get_text()))
+    for axis in figure.findobj(Axis):
+        labels = [label.get_text() for label in axis.get_majorticklabels()]
+        if any("$" in label for label in labels) and not isinstance(axis.get_major_formatter(), LogFormatter):
+            axis.set_ticklabels([plain(label) for label in labels])
+
+
+def plain_table(table: Table) -> Table:
+    """The same with all of its texts as `plain` ones."""
+    columns = {
+        name: [plain(cell) if isinstance(cell, str) else cell for cell in column]
+        for name, column in table.columns.items()
+    }
+    return Table(table.name, columns)
+
+
 def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:
-    """A case's figure in this style, stamped where it is not the real size."""
+    """A case's figure in this style, stamped where it is not the real size. The texts of its tables are no markup."""
     with matplotlib.rc_context(SETTINGS):
-        figure = draw(evidence)
+        figure = draw(replace(evidence, tables=tuple(map(plain_table, evidence.tables))))
         engine = figure.get_layout_engine()
         if profile != "full":
             if isinstance(engine, ConstrainedLayoutEngine):

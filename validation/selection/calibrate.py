@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.engine.files import write_whole
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
@@ -157,24 +156,29 @@ class CalibrationRun:
         ]
 
 
-def write_calibration(run: CalibrationRun, engine: Engine = SERIAL, path: Path | None = None) -> None:
-    """Measure all errors; path: of the table, that of the package by default."""
+def table_in(folder: Path | None) -> Path:
+    """Of a folder of a user's own; without one, that of the package."""
+    return TABLE if folder is None else folder / TABLE.name
+
+
+def measured_table(run: CalibrationRun, engine: Engine = SERIAL) -> bytes:
+    """Measure all errors: the table of them."""
     points = run.points
     outcomes = engine.map(measure_errors, points)
     rows = [row for point, outcome in zip(points, outcomes, strict=True) for row in rows_of_point(point, outcome)]
     counts = f"--punches {run.punches} --spheres {run.spheres} --rolling {run.rolling} --wheels {run.wheels}"
     about = {"measured": today().isoformat(), "command": f"mdr-validation calibrate {counts} --seed {run.seed}"}
-    write_table(about, rows, path or TABLE)
+    return as_table(about, rows)
 
 
-def write_table(about: Mapping[str, str], rows: Sequence[Mapping[str, object]], path: Path) -> None:
+def as_table(about: Mapping[str, str], rows: Sequence[Mapping[str, object]]) -> bytes:
     """about: lines of the provenance."""
     text = io.StringIO()
     text.writelines(f"# {name}: {value}\n" for name, value in about.items())
     writer = csv.DictWriter(text, COLUMNS)
     writer.writeheader()
     writer.writerows(rows)
-    write_whole(path, text.getvalue().encode())
+    return text.getvalue().encode()
 
 
 def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, object]]:
@@ -198,41 +202,62 @@ def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, o
     ]
 
 
-def calibration_lines(path: Path | None = None) -> list[str]:
+def calibration_lines(path: Path = TABLE) -> list[str]:
     """What the table holds: its age, its code, and how well claims cover scenes that are left out of it."""
     head = f"{'scene':10s}{'quantity':18s}{'model':20s}{'scenes':>7s}{'covered':>9s}{'claim/error':>13s}"
-    lines = [calibration_age(path or TABLE), head]
-    for (kind, quantity, model), measured in table(path or TABLE).items():
-        claimed = measured.factor * measured.left_out()
-        covered, ratio = np.mean(measured.errors <= claimed), np.median(claimed / measured.errors)
-        lines.append(f"{kind:10s}{quantity:18s}{model:20s}{len(claimed):7d}{covered:9.0%}{ratio:13.2g}")
+    table.cache_clear()  # which may have been written since
+    lines = [calibration_age(path), head]
+    for (kind, quantity, model), measured in table(path).items():
+        count, shown = len(measured.errors), f"{'—':>9s}{'—':>13s}"
+        if count > 1:
+            claimed = measured.factor * measured.left_out()
+            covered, ratio = np.mean(measured.errors <= claimed), np.median(claimed / measured.errors)
+            shown = f"{covered:9.0%}{ratio:13.2g}"
+        lines.append(f"{kind:10s}{quantity:18s}{model:20s}{count:7d}{shown}")
     return lines
 
 
 def calibration_age(path: Path = TABLE, target: Target | None = None) -> str:
-    """Age of the table, and the models that it was measured with whose code is another today.
+    """Age of the table, what it has not, and the models that it was measured with whose code is another today.
 
     target: of a comparison, whose models alone are asked for.
     """
     about = provenance(path)
     if not about:
         return "errors of models: no calibration"
+    known, without, other, own = table(path), [], [], 0
+    for one in _one_of_each() if target is None else [target]:
+        for model in cheap_models(one):
+            key = kind_of(one), one.quantity, model.name
+            name = model.name if target else f"{key[0]} {key[1]}, {key[2]}"
+            if key not in known:
+                without.append(name)
+            elif known[key].codes == {code_behind(model, one)}:
+                own += 1
+            else:
+                other.append(name)
+    missing = f"not in the table of the calibration: {'; '.join(without)}" if without else ""
+    if not (own or other):
+        return f"errors of models: {missing}"
     days = (today() - date.fromisoformat(about["measured"])).days
-    if target is None:
-        asked = [
-            point.target(MODEL_TOLERANCE) for point in CalibrationRun(punches=1, spheres=1, rolling=1, wheels=1).points
-        ]
-        other = [f"{kind_of(one)} {one.quantity}, {name}" for one in asked for name in of_other_code(one, path)]
-    else:
-        other = of_other_code(target, path)
-    code = f"by other code than today's: {'; '.join(other)}" if other else "by today's code"
-    return f"errors of models: calibrated {about['measured']}, {days} days ago, {code}"
+    age = f"calibrated {about['measured']}, {days} day{'s' * (days != 1)} ago, {_code(about, other)}"
+    return f"errors of models: {'; '.join(filter(None, (age, missing)))}"
 
 
-def of_other_code(target: Target, path: Path = TABLE) -> list[str]:
-    """Models of a target whose errors were measured with other code than today's."""
-    found = [(one, table(path).get((kind_of(target), target.quantity, one.name))) for one in cheap_models(target)]
-    return [one.name for one, mine in found if mine and mine.codes != {code_behind(one, target)}]
+def _one_of_each() -> list[Target]:
+    """What the table is asked for, as a whole."""
+    points = CalibrationRun(punches=1, spheres=1, rolling=1, wheels=1).points
+    return [point.target(MODEL_TOLERANCE) for point in points]
+
+
+def _code(about: Mapping[str, str], other: Sequence[str]) -> str:
+    """By which code, of all of the table; what was checked was measured by another, and then taken for today's."""
+    if other:
+        return f"by other code than today's: {'; '.join(other)}"
+    if "checked" in about:
+        day, _, solves = about["checked"].partition(", ")
+        return f"by code that gives the same as today's, checked {day} on {solves}"
+    return "by today's code"
 
 
 def cheap_models(target: Target) -> tuple[Model, ...]:

@@ -6,15 +6,17 @@ from pathlib import Path
 import numpy as np
 
 from validation.engine.engine import SERIAL, Engine
+from validation.engine.files import write_given
+from validation.scenes.printable import printable
 from validation.selection.calibrate import (
     MODEL_TOLERANCE,
     CalibrationScene,
+    as_table,
     measure_errors,
     rows_of_point,
     today,
-    write_table,
 )
-from validation.simulation.calibration import TABLE, code_behind, provenance, rows_of
+from validation.simulation.calibration import TABLE, code_behind, provenance, rows_of, table
 
 SAME = 1e-3
 """Relative difference of an error measured again: the last bits of a solve are those of the machine, and its residual
@@ -22,14 +24,17 @@ leaves more than they do."""
 Row = dict[str, str]
 
 
-def check_calibration(scenes: int, engine: Engine = SERIAL, path: Path | None = None) -> list[str]:
-    """Measure so many scenes of each kind and quantity again; where all rows are the same, today's code is theirs.
+def check_calibration(
+    scenes: int, engine: Engine = SERIAL, path: Path = TABLE, *, stamp: bool = False
+) -> tuple[list[str], str]:
+    """Measure so many scenes of each kind and quantity of a table again.
 
-    path: of the table, that of the package by default. Returns the rows that differ, in words; the table is left as it
-    is where there are any.
+    stamp: whether today's code becomes that of all rows where these are the same; the table is left as it is
+    otherwise. Returns the rows that differ, in words, and how many solves were measured.
     """
-    path = path or TABLE
     rows, about = rows_of(path), provenance(path)
+    if not rows:
+        raise ValueError(f"no table of the calibration is in {printable(path)}")
     seed = int(about["command"].rsplit(" ", 1)[1])
     points = [point for group in _points(rows, seed).values() for point in _spread(group, scenes)]
     outcomes = engine.map(measure_errors, points)
@@ -41,10 +46,12 @@ def check_calibration(scenes: int, engine: Engine = SERIAL, path: Path | None = 
             [{name: str(value) for name, value in row.items()} for row in rows_of_point(point, outcome)],
         )
     ]
-    if not differing:
-        checked = f"{today().isoformat()}, {len(points)} of {len({_point(row, seed) for row in rows})} solves"
-        write_table({**about, "checked": checked}, [_with_code_of_today(row, seed) for row in rows], path)
-    return differing
+    solves = f"{len(points)} of {len({_point(row, seed) for row in rows})} solves"
+    if stamp and not differing:
+        checked = {**about, "checked": f"{today().isoformat()}, {solves}"}
+        write_given(path, as_table(checked, [_with_code_of_today(row, seed) for row in rows]))
+        table.cache_clear()
+    return differing, solves
 
 
 def _points(rows: list[Row], seed: int) -> dict[tuple[str, str], list[CalibrationScene]]:

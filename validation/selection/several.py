@@ -87,5 +87,7 @@ def table_of_several(comparisons: Sequence[Comparison]) -> Table:
 def selected_of_several(table: Table) -> Table:
     """The selected model of each scene alone, named by its scene: what a figure of several scenes shows."""
     selected = table.where(selected=True)
-    others = {"model": selected.columns["scene"], "selected": [False] * len(selected["scene"])}
+    # a label that begins with _ is left out of a legend
+    names = [f" {name}" if name.startswith("_") else name for name in map(str, selected.columns["scene"])]
+    others: dict[str, Sequence[object]] = {"model": names, "selected": [False] * len(names)}
     return Table(table.name, {**selected.columns, **others})

@@ -11,7 +11,7 @@ import bem3d
 from validation.analysis.evidence import Table
 from validation.benchmarks.found_models import TimedProblem, all_methods, configurations_of
 from validation.benchmarks.isolation import measure_alone, peak_memory, timed
-from validation.benchmarks.peers import SOLVERS
+from validation.benchmarks.peers import OUR_SOLVER, SOLVERS
 from validation.benchmarks.solvers.problems import PUNCH, ROUGH, SPHERE, SPHERE_LOAD, SurfaceProblem, punch
 from validation.benchmarks.solvers.rolling import RollingThroughput, rolling_throughput
 from validation.benchmarks.solvers.wheel_steps import SteppingThroughput, stepping_throughput
@@ -150,7 +150,8 @@ def time_problem(timed: TimedProblem) -> Outcome:
     by_name = {solver.name: Timing(NOT_INSTALLED, np.nan) for solver in SOLVERS}
     by_name |= dict(zip((each.label for each in configurations), timings, strict=True))
     rows = list(by_name.values())
-    ours = rows[0].results[0].values["pressure"] if rows[0].results else None
+    found = by_name[OUR_SOLVER].results
+    ours = found[0].values["pressure"] if found else None
     whole = _of_the_contact(problem, ours) if problem.scene and ours is not None else {}
     return {
         "method": np.array(list(by_name)),

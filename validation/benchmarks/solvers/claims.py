@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from validation.analysis.answers import answered
 from validation.analysis.evidence import JudgedClaim, Number, Role, Verdict
 from validation.analysis.wording import share
-from validation.benchmarks.peers import SOLVERS, peers_installed
+from validation.benchmarks.peers import OUR_SOLVER, SOLVERS, peers_installed, place_of
 from validation.benchmarks.solvers.case import SolverComparisonResult
 from validation.benchmarks.timing import FINISHED
 
@@ -15,19 +15,19 @@ SAME_PRESSURE = "Different solvers of the same discrete problem find the same pr
 
 def speed_numbers(result: SolverComparisonResult) -> tuple[Number, ...]:
     """Our time over that of the fastest other solver, for each problem: above one another solver is faster."""
-    found = []
+    found, us = [], place_of(OUR_SOLVER)
     for problem, outcome in result.problems:
-        finished = [i for i in range(len(SOLVERS)) if outcome["status"][i] == FINISHED]
-        if finished[:1] != [0] or len(finished) == 1:
+        rivals = [i for i in range(len(SOLVERS)) if i != us and outcome["status"][i] == FINISHED]
+        if outcome["status"][us] != FINISHED or not rivals:
             continue
-        rival = min(finished[1:], key=lambda i: float(outcome["seconds"][i, 0]))
-        ours, other = outcome["seconds"][[0, rival], 0]
-        (low, high), (rival_low, rival_high) = outcome["interval"][[0, rival]]
+        rival = min(rivals, key=lambda i: float(outcome["seconds"][i, 0]))
+        ours, other = outcome["seconds"][[us, rival], 0]
+        (low, high), (rival_low, rival_high) = outcome["interval"][[us, rival]]
         ratio = float(ours / other)
         found.append(
             Number(
                 quantity="time over that of the fastest other solver",
-                model=SOLVERS[0].name,
+                model=OUR_SOLVER,
                 where={"problem": problem.label},
                 value=ratio,
                 reference=0.0,

@@ -4,7 +4,7 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.evidence import Evidence, Number, Table, table_of
-from validation.benchmarks.peers import OURS, SOLVERS
+from validation.benchmarks.peers import OUR_SOLVER, OURS, PUBLISHED, SOLVERS, place_of
 from validation.benchmarks.solvers.case import (
     LoadPathWorkload,
     Solved,
@@ -23,8 +23,6 @@ AGREEMENT = (
     ("force, relative", 1e-6, "100 times the residual: zero where the force is prescribed, by the stiffness elsewhere"),
     ("contact area, relative", 1e-3, "single cells of vanishing pressure may be in or out of contact"),
 )
-OTHERS = [i for i, solver in enumerate(SOLVERS) if solver.package != OURS]
-AGAINST = (("the fastest peer", OTHERS), ("the iteration of Polonsky and Keer", [1]))
 RATIO = "solve / (applications x one on the whole grid)"
 
 
@@ -77,10 +75,10 @@ def evidence(result: SolverComparisonResult) -> Evidence:
             ),
         },
         unconverged=tuple(
-            f"{problem.label}: {SOLVERS[i].name} {outcome['status'][i]}"
+            f"{problem.label}: {solver.name} {outcome['status'][i]}"
             for problem, outcome in result.problems
-            for i in range(2)
-            if outcome["status"][i] != FINISHED
+            for i, solver in enumerate(SOLVERS)
+            if solver.package == OURS and outcome["status"][i] != FINISHED
         ),
     )
 
@@ -154,10 +152,10 @@ def _scaling(result: SolverComparisonResult) -> Table:
 
 def _agreement(result: SolverComparisonResult) -> list[Number]:
     """The largest difference to our answer over all runs that a solver has finished."""
-    numbers = []
-    for i, solver in enumerate(SOLVERS[1:], start=1):
-        done = [o["difference"][i] for _, o in result.problems if o["status"][i] == o["status"][0] == FINISHED]
-        if not done:
+    numbers, us = [], place_of(OUR_SOLVER)
+    for i, solver in enumerate(SOLVERS):
+        done = [o["difference"][i] for _, o in result.problems if o["status"][i] == o["status"][us] == FINISHED]
+        if not done or i == us:
             continue
         for column, (what, tolerance, reason) in enumerate(AGREEMENT):
             numbers.append(
@@ -176,11 +174,12 @@ def _agreement(result: SolverComparisonResult) -> list[Number]:
 
 
 def _conclusions(result: SolverComparisonResult) -> list[str]:
-    sentences = [_standing(result, periodic, *against) for periodic in (True, False) for against in AGAINST]
+    against = ("the fastest peer", _others()), ("the iteration of Polonsky and Keer", [place_of(PUBLISHED)])
+    sentences = [_standing(result, periodic, *some) for periodic in (True, False) for some in against]
     sentences += [
         f"Not finished: {problem.label}: {SOLVERS[i].name} {outcome['status'][i]}."
         for problem, outcome in (*result.problems, *result.load_path_problems)
-        for i in OTHERS
+        for i in _others()
         if outcome["status"][i].startswith("failed")
     ]
     if result.resumed:
@@ -205,13 +204,13 @@ def _work(result: SolverComparisonResult) -> str:
     )
     times = {
         SOLVERS[i].name: float(np.mean([outcome["seconds"][i, 0] for outcome in cold_solves]))
-        for i in OTHERS
+        for i in _others()
         if all(outcome["status"][i] == FINISHED for outcome in cold_solves)
     }
     if not times:
         return f"{ours}; no peer has finished all of the sampled loads."
     fastest = min(times, key=lambda name: times[name])
-    cold = float(np.mean([outcome["seconds"][0, 0] for outcome in cold_solves]))
+    cold = float(np.mean([outcome["seconds"][place_of(OUR_SOLVER), 0] for outcome in cold_solves]))
     return (
         f"{ours}. A cold solve without stiffness takes us {1e3 * cold:.1f} ms in the mean over "
         f"{len(load_path.sampled)} of these loads, and the fastest peer that solves them all, {fastest}, "
@@ -257,11 +256,11 @@ def _growth(problem: str, rows: Table) -> str:
 def _standing(result: SolverComparisonResult, periodic: bool, name: str, others: list[int]) -> str:
     """Our time beside the fastest of others on each problem."""
     where = f"{'Periodic' if periodic else 'Free space'}, beside {name}"
-    pairs = []
+    pairs, us = [], place_of(OUR_SOLVER)
     for problem, outcome in result.problems:
         finished = [i for i in others if outcome["status"][i] == FINISHED]
-        if problem.periodic == periodic and outcome["status"][0] == FINISHED and finished:
-            pairs.append(outcome["seconds"][finished, :2].min(axis=0) / outcome["seconds"][0, :2])
+        if problem.periodic == periodic and outcome["status"][us] == FINISHED and finished:
+            pairs.append(outcome["seconds"][finished, :2].min(axis=0) / outcome["seconds"][us, :2])
     if not pairs:
         return f"{where}: no solver has finished."
     by_median, by_fastest = np.array(pairs).T
@@ -280,6 +279,11 @@ def _over_plain_sums(wheel: Table) -> str:
         f"With {finest['a/dx'][0]:g} springs to a radius a step is {ratios.min():.3g} to {ratios.max():.3g} times as "
         "fast as a plain sum over all of them"
     )
+
+
+def _others() -> list[int]:
+    """Rows of the solvers of other packages."""
+    return [i for i, solver in enumerate(SOLVERS) if solver.package != OURS]
 
 
 def _mean(ratios: np.ndarray) -> float:

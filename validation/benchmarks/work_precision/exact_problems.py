@@ -85,7 +85,7 @@ class ExactProblem(ChartProblem):
             *along(ClosedForm(), self, (1.0,), "exact", is_reference=True),
             *along(PressedSprings(), self, self.springs, f"# springs {grids.per}"),
             *self.boundary_elements(),
-            *solvers_on_grids(peers.SOLVERS[2:], self, self.peers, grids.per, grids.tight),
+            *solvers_on_grids(peers.of_others(), self, self.peers, grids.per, grids.tight),
         )
 
     def discrete(self, cells: int) -> DiscreteProblem:

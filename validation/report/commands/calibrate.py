@@ -8,9 +8,15 @@ from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
-from validation.selection.calibrate import CalibrationRun, calibration_lines, write_calibration
+from validation.report.folder import REALISATIONS, Folder
+from validation.report.manifest import CALIBRATION
+from validation.scenes.printable import printable
+from validation.selection.calibrate import CalibrationRun, calibration_lines, measured_table, table_in
 from validation.selection.calibration_check import check_calibration
+from validation.selection.calibration_install import check_installable, install
 
+OUT = Path("calibration")
+"""Where a table is measured, below the working folder."""
 COUNTED = {
     "punches": "rough punches",
     "spheres": "rough spheres",
@@ -29,33 +35,72 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
     calibrating.add_argument("--seed", type=at_least(0), default=run.seed, metavar="S", help="seed of the scenes")
     calibrating.add_argument("--workers", type=at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
     calibrating.add_argument(
-        "--store",
+        "--out",
         type=Path,
-        default=Path(".mdr-validation-calibration"),
         metavar="DIR",
-        help="folder of finished solves",
+        help=f"folder of the table and of finished solves, from which a run goes on (default: {OUT}; of --show and "
+        "--check: the table of the package)",
     )
-    calibrating.add_argument("--out", type=Path, metavar="FILE", help="the table (default: that of the package)")
-    calibrating.add_argument("--show", action="store_true", help="show what the table holds, and measure nothing")
     calibrating.add_argument(
-        "--check",
-        type=at_least(1),
-        metavar="N",
-        help="measure N scenes of each kind again; rows take the version of today's code where all are the same",
+        "--install",
+        action="store_true",
+        help="put the table in the place of that of the package, if it has as many scenes of all kinds; with --check, "
+        "give the rows of that the version of today's code where all are the same",
+    )
+    alone = calibrating.add_mutually_exclusive_group()
+    alone.add_argument("--show", action="store_true", help="show what the table holds, and measure nothing")
+    alone.add_argument(
+        "--check", type=at_least(1), metavar="N", help="measure N scenes of each kind again, and report which differ"
     )
     calibrating.set_defaults(command=calibrate)
 
 
 def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or check or show those that were measured."""
+    table = table_in(arguments.out)
+    if arguments.install and (arguments.show or (arguments.check and arguments.out is not None)):
+        raise ValueError("--install is for a table that is measured, or for --check of that of the package")
     if arguments.check:
-        differing = check_calibration(arguments.check, Engine(workers=arguments.workers), arguments.out)
-        print("\n".join(differing or calibration_lines(arguments.out)))
-        return Exit.CRITERION_FAILED if differing else Exit.MET
+        return _check(table, arguments)
     if not arguments.show:
-        run = CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
-        with progress_of("calibration", arguments.workers) as progress:
-            engine = Engine(workers=arguments.workers, store=arguments.store, progress=progress)
-            write_calibration(run, engine, arguments.out)
-    print("\n".join(calibration_lines(arguments.out)))
+        table = _measure(arguments)
+    print("\n".join(calibration_lines(table)))
+    if not arguments.show:
+        print(_what_is_used(table, arguments))
     return Exit.MET
+
+
+def _check(table: Path, arguments: argparse.Namespace) -> Exit:
+    engine = Engine(workers=arguments.workers)
+    differing, solves = check_calibration(arguments.check, engine, table, stamp=arguments.install)
+    if differing:
+        print("\n".join(differing))
+        return Exit.CRITERION_FAILED
+    print("\n".join(calibration_lines(table)))
+    rows = "their rows have today's code" if arguments.install else "nothing was written"
+    print(f"measured again: {solves}, all the same; {rows}")
+    return Exit.MET
+
+
+def _measure(arguments: argparse.Namespace) -> Path:
+    """The table, in a folder of the user's own, and in the place of that of the package if asked for."""
+    run = CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
+    if arguments.install:
+        check_installable(run)
+    arguments.out = arguments.out or OUT
+    table = table_in(arguments.out)
+    with (
+        Folder(arguments.out, kind=CALIBRATION) as folder,
+        progress_of("calibration", arguments.workers) as progress,
+    ):
+        engine = Engine(workers=arguments.workers, store=arguments.out / REALISATIONS, progress=progress)
+        folder.replace({table.name: measured_table(run, engine)})
+    if arguments.install:
+        install(table)
+    return table
+
+
+def _what_is_used(table: Path, arguments: argparse.Namespace) -> str:
+    if arguments.install:
+        return printable(f"table: {table}, installed: `compare` claims errors by it")
+    return printable(f"table: {table}; `compare` goes on with that of the package: the same command with --install")

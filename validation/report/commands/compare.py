@@ -10,7 +10,7 @@ from pathlib import Path
 from validation.analysis.contents import as_csv
 from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
-from validation.engine.files import write_whole
+from validation.engine.files import write_given
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
@@ -203,19 +203,19 @@ def _announce(model: ContactModel) -> None:
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
     if arguments.json is not None:
-        write_whole(arguments.json, to_json_of(found).encode())
+        write_given(arguments.json, to_json_of(found).encode())
     if arguments.csv is not None:
-        write_whole(arguments.csv, as_csv(table_of_several(found)))
+        write_given(arguments.csv, as_csv(table_of_several(found)))
     if arguments.cnossos is not None:
         filters = [filter_table(one) for one in found if one.quantity == "contact-filter"]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
-        write_whole(arguments.cnossos, as_csv(Table("contact-filter", rows)))
+        write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
         from validation.report.compared import figure_of  # which takes half a second to import
         from validation.report.compared_seconds import figure_over_seconds
 
         form = arguments.figure.suffix[1:]
-        write_whole(arguments.figure, figure_over_seconds(found[0], form) if arguments.over else figure_of(found, form))
+        write_given(arguments.figure, figure_over_seconds(found[0], form) if arguments.over else figure_of(found, form))
 
 
 def _quantities(word: str) -> tuple[str, ...]:

@@ -11,10 +11,11 @@ from validation.cases.rail.rail_sound import LABELS, SOUNDING, RailSound, RailSo
 from validation.cases.rail.rail_sound_evidence import signed, sounds_of, what_is_heard
 from validation.cases.rail.rail_sound_levels import SoundLevels
 from validation.engine.engine import Engine
-from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
+from validation.report.folder import Folder
+from validation.report.manifest import SOUND
 from validation.report.sounds import wav
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
@@ -72,11 +73,10 @@ def sound(arguments: argparse.Namespace) -> Exit:
     )
     case.strip(case.cells[1])  # what cannot be drawn is refused before the first line
     print("\n".join([scene.name, *description_lines(scene), *_assumed(case), ""]), flush=True)
-    with progress_of("sound", arguments.workers) as progress:
-        result = run(case, Engine(workers=arguments.workers, progress=progress))
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    for name, contents in files_of(result).items():
-        write_whole(arguments.out / name, contents)
+    with Folder(arguments.out, kind=SOUND) as folder:
+        with progress_of("sound", arguments.workers) as progress:
+            result = run(case, Engine(workers=arguments.workers, progress=progress))
+        folder.replace(files_of(result))
     said = [line for sentence in what_is_heard(result) for line in textwrap.wrap(sentence, COLUMNS)]
     print("\n".join([*said, "", *_lines(SoundLevels(result))]))
     print(printable(f"sounds: {arguments.out}"))

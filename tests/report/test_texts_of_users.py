@@ -1,0 +1,100 @@
+"""Names that a user gives are text in every figure: a $ begins no mathematics, and no name hides a curve."""
+
+import io
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+import validation.scenes.bundled
+from tests.selection.test_model_hierarchy import Finding, punch
+from validation.__main__ import main
+from validation.analysis.evidence import Evidence, Table
+from validation.report import compared, style
+from validation.report.compared import FORMATS, figure_of_models, to_figure
+from validation.selection.compare import Comparison
+from validation.selection.hierarchy import select_model
+from validation.selection.several import selected_of_several
+
+NAMES = (r"costs $\frac{$", "$x^2$", "a$b", r"\$ and $", r"$\alpha_{$ and \\", "_hidden", "10 % of #1 & <b>")
+
+
+def pixels(text, **how):
+    figure = Figure(figsize=(3, 1))
+    figure.text(0.02, 0.4, text, **how)
+    buffer = io.BytesIO()
+    FigureCanvasAgg(figure).print_raw(buffer)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("_")])
+def test_a_plain_text_is_drawn_as_it_is_written(name):
+    assert pixels(style.plain(name)) == pixels(name, parse_math=False)
+
+
+def of_name(name):
+    return Comparison(punch(load=1.0, name=name), "stiffness", select_model([Finding(name=name)], 0.2))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("form", "name"), [*((form, NAMES[0]) for form in FORMATS), *(("png", n) for n in NAMES)])
+def test_every_form_of_a_figure_is_drawn_whatever_a_scene_is_called(name, form):
+    assert len(to_figure(of_name(name), form=form)) > 1000
+
+
+def test_no_text_of_a_figure_is_parsed():
+    """The same picture as with all parsing of mathematics left out: the title, and the names of models."""
+    found = of_name("$x^2$")
+    drawn = to_figure(found, form="png")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(compared, "SETTINGS", {**style.SETTINGS, "text.parse_math": False})
+        patch.setattr(compared, "plain_figure", lambda figure: None)
+        assert to_figure(found, form="png") == drawn
+
+
+def test_curves_of_several_scenes_are_named_in_the_legend():
+    table = Table(
+        "contact-filter",
+        {
+            "wavelength_mm": [10.0, 5.0] * 2,
+            "frequency_hz": [np.nan] * 4,
+            **{column: [0.0, -1.0] * 2 for column in ("value", "low", "high")},
+            "unit": ["dB"] * 4,
+            "scene": ["_one", "_one", "$two$", "$two$"],
+            "selected": [True] * 4,
+        },
+    )
+    figures = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(compared, "_png", lambda figure: figures.append(figure) or b"")
+        figure_of_models("$", selected_of_several(table), "png")
+    (figure,) = figures
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == [" _one", r"\$two\$"]
+    assert figure.axes[0].get_title(loc="left") == r"\$"
+
+
+def test_figures_of_cases_take_the_texts_of_their_tables_as_they_are():
+    """Of a case and a scene of a user's own, too; mathematics of our own figures stays."""
+    table = Table("it", {"scene": ["$a", "b$", "$c$"], "x": [1.0, 2.0, 3.0]})
+    evidence = Evidence(title="t", method="m", numbers=(), tables=(table,), conclusions=(), captions={})
+    seen = []
+
+    def draw(given):
+        seen.extend(given.table("it")["scene"].tolist())
+        return Figure()
+
+    style.drawn(draw, evidence, "full")
+    assert seen == [r"\$a", r"b\$", r"\$c\$"] and evidence.table("it")["x"].tolist() == [1.0, 2.0, 3.0]
+    assert evidence.table("it")["scene"].tolist() == ["$a", "b$", "$c$"]
+
+
+@pytest.mark.slow
+def test_the_command_draws_and_reports_a_scene_of_any_name(tmp_path, capsys):
+    text = validation.scenes.bundled.path_of("sphere").read_text(encoding="utf-8")
+    scene = tmp_path / "my.toml"
+    scene.write_text(text.replace('name = "Smooth sphere"', r"name = 'costs $\frac{$ & <b>'"), encoding="utf-8")
+    words = ["compare", str(scene), "--report", str(tmp_path / "page"), "--figure", str(tmp_path / "it.png")]
+    assert main(words) == 0
+    page = (tmp_path / "page" / "index.html").read_text()
+    assert r"costs $\frac{$ &amp; &lt;b&gt;: stiffness" in page and "<b>: stiffness" not in page

@@ -1,0 +1,158 @@
+"""`calibrate` writes into a folder of the user's; the table of the package is replaced on demand, by no smaller one."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from validation.__main__ import main
+from validation.report.commands import calibrate as command
+from validation.selection import calibrate, calibration_install
+from validation.selection.calibrate import CalibrationRun, as_table
+from validation.selection.calibration_install import check_installable, install
+from validation.simulation import calibration
+
+ONE_PUNCH = ("calibrate", "--spheres", "0", "--rolling", "0", "--wheels", "0", "--workers", "1", "--punches", "1")
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    """In a folder of its own; solves are made up. The table of the package is the same afterwards."""
+    before = calibration.TABLE.read_bytes()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(calibrate, "measure_errors", made_up)
+    yield
+    assert calibration.TABLE.read_bytes() == before
+
+
+def made_up(point):
+    return {"error": np.full(len(point.cheap), 0.1), "reference": np.array(0.01), "failed": np.array(0.0)}
+
+
+@pytest.mark.slow
+def test_a_table_is_written_into_a_folder_of_the_users(tmp_path, capsys):
+    assert main([*ONE_PUNCH]) == 0
+    printed = capsys.readouterr().out
+    assert {row["number"] for row in calibration.rows_of(tmp_path / "calibration" / "calibration.csv")} == {"0"}
+    assert "table: calibration/calibration.csv; `compare` goes on with that of the package" in printed
+    assert "not in the table of the calibration: wheel acceleration-rms" in printed.splitlines()[0]
+    assert sorted(path.name for path in (tmp_path / "calibration").iterdir() if path.is_file()) == [
+        "calibration.csv",
+        "manifest.json",
+    ]
+
+
+@pytest.mark.slow
+def test_a_run_goes_on_in_its_folder(monkeypatch, capsys):
+    assert main([*ONE_PUNCH, "--out", "mine"]) == 0
+    solved = []
+
+    def again(point):
+        solved.append(point.number)
+        return made_up(point)
+
+    for name in ("__name__", "__qualname__", "__module__"):
+        setattr(again, name, getattr(made_up, name))
+    monkeypatch.setattr(calibrate, "measure_errors", again)
+    assert main([*ONE_PUNCH[:-1], "3", "--out", "mine"]) == 0
+    assert solved == [1, 2]
+
+
+def test_files_of_others_are_left_as_they_are(tmp_path, capsys):
+    (tmp_path / "calibration.csv").write_text("mine")
+    assert main([*ONE_PUNCH, "--out", "."]) == 2
+    assert "--out must be a new or empty folder" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["calibration.csv"]
+
+
+@pytest.mark.parametrize("few", [("--punches", "8"), ("--wheels", "0"), ("--spheres", "118")])
+def test_a_smaller_table_is_not_installed_nor_measured(few, tmp_path, capsys):
+    assert main(["calibrate", "--install", *few]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("error: --install must leave as many scenes as the table of the package has, ")
+    assert len(said.splitlines()) == 1 and not list(tmp_path.iterdir())
+
+
+def of_kinds(path, **counts):
+    """A table with so many scenes of each kind, of one model."""
+    about = {"measured": "2026-01-01", "command": "mdr-validation calibrate --seed 1"}
+    rows = [
+        {"kind": kind, "quantity": "stiffness", "number": i, "model": "fit"}
+        for kind, count in counts.items()
+        for i in range(count)
+    ]
+    path.write_bytes(as_table(about, rows))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("mine", "installed"),
+    [
+        ({"punch": 3, "sphere": 2}, True),
+        ({"punch": 4, "sphere": 2, "wheel": 1}, True),
+        ({"punch": 2, "sphere": 9}, False),
+        ({"punch": 9}, False),
+    ],
+)
+def test_a_table_is_installed_where_no_kind_has_fewer_scenes(mine, installed, tmp_path):
+    there, new = of_kinds(tmp_path / "there.csv", punch=3, sphere=2), of_kinds(tmp_path / "new.csv", **mine)
+    there.chmod(0o640)
+    before = there.read_bytes()
+    if installed:
+        install(new, there)
+    else:
+        with pytest.raises(ValueError, match="--install must leave as many scenes"):
+            install(new, there)
+    assert there.read_bytes() == (new.read_bytes() if installed else before)
+    assert there.stat().st_mode & 0o777 == 0o640
+
+
+def refusal(**counts):
+    try:
+        check_installable(CalibrationRun(**counts))
+    except ValueError as refused:
+        return str(refused)
+    return ""
+
+
+def test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one():
+    """Scenes without an answer of boundary elements are none of the table."""
+    assert not refusal()
+    assert "of punch stiffness, got 100" in refusal(punches=100)
+    assert "of wheel acceleration" in refusal(wheels=0)
+
+
+def test_a_table_that_cannot_be_written_is_refused_before_anything_is_measured(monkeypatch, capsys):
+    monkeypatch.setattr(calibration_install.os, "access", lambda path, mode: False)
+    assert main(["calibrate", "--install"]) == 2
+    assert "--install must be allowed to write" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("differing", [[], ["punch 0, stiffness, fit: an error of 1 in the table, of 2 today"]])
+def test_a_check_reports_and_writes_nothing(differing, monkeypatch, capsys):
+    """Rows take today's code with --install alone."""
+    stamps = Counter()
+
+    def checked(count, engine, path, *, stamp):
+        stamps[count, path, stamp] += 1
+        return differing, "6 of 60 solves"
+
+    monkeypatch.setattr(command, "check_calibration", checked)
+    monkeypatch.setattr(command, "calibration_lines", lambda path: [])
+    wanted = 1 if differing else 0
+    assert main(["calibrate", "--check", "1"]) == wanted
+    printed = capsys.readouterr().out
+    assert (differing or ["measured again: 6 of 60 solves, all the same; nothing was written"])[0] in printed
+    assert main(["calibrate", "--check", "1", "--install"]) == wanted
+    assert stamps == {(1, calibration.TABLE, False): 1, (1, calibration.TABLE, True): 1}
+
+
+@pytest.mark.parametrize("words", [("--show", "--install"), ("--check", "1", "--install", "--out", "mine")])
+def test_what_cannot_be_installed_is_refused(words, capsys):
+    assert main(["calibrate", *words]) == 2
+    assert "--install is for" in capsys.readouterr().err
+
+
+def test_a_folder_without_a_table_cannot_be_checked(capsys):
+    assert main(["calibrate", "--check", "1", "--out", "mine"]) == 2
+    assert "no table of the calibration is in mine/calibration.csv" in capsys.readouterr().err
