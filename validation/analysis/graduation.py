@@ -5,7 +5,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
+
+from validation.analysis.statistics import student
 
 FloatArray = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ class Graduation:
     def quantile(self) -> float:
         """Of 95 %: Student's, of the degrees of freedom that a median deviation has."""
         free = EFFICIENCY * max(len(self.values) - float(np.trace(self.hat)), 1.0)
-        return float(stats.t.ppf(0.975, free))
+        return student(free)
 
     def slope_error(self, reach: int) -> FloatArray:
         """95 % half-width of the mean slope from each value to the one `reach` later, or to the last, shape (n,)."""
