@@ -413,6 +413,15 @@ def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, wid
     assert not named or [column.unit for column in table.columns] == ["mm"] * width
 
 
+@pytest.mark.parametrize("told", [(7.5,), ("7.50",), ("7.5",)])
+def test_nodata_is_a_number_however_it_is_written(told):
+    assert np.isnan(in_memory("1;2\n3;7.50\n4;5\n", nodata=told).values).sum() == 1
+
+
+def test_a_mark_of_utf_8_is_left_out_where_the_encoding_is_told():
+    assert in_memory("\ufeffx [mm],z [um]\n1,2.5\n2,3\n3,4\n", encoding="UTF8").columns[0].name == "x"
+
+
 @pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
 def test_cells_without_data_are_no_numbers(cell):
     values = in_memory(f"1;2\n3;{cell}\n4;5\n6;7\n", nodata=(7.5,)).values

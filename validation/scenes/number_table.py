@@ -2,6 +2,7 @@
 
 import codecs
 import io
+import re
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -35,6 +36,7 @@ SENTINELS = (-999.0, -9999.0, -99999.0, -32768.0, -32767.0, 9999.0, 99999.0, 999
 """What instruments write where they have no data; beyond `HUGE` no number is a height."""
 HUGE, LONELY = 1e30, 3.0
 """LONELY: how many spans of all other numbers lie between them and such a value, at the least."""
+NUMERIC = re.compile(r"[+-]?\d+\.?\d*")
 FEW = 8
 """Columns of a table whose columns may be different quantities."""
 
@@ -155,7 +157,7 @@ def _without_last(table: NumberTable) -> NumberTable:
 def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
     """NaN in place of the values of nodata, and of those that instruments write for it, far from all others."""
     values, notes = table.values, list(table.notes)
-    wanted = [float(one) for one in nodata if not isinstance(one, str)]
+    wanted = [float(one) for one in nodata if not isinstance(one, str) or NUMERIC.fullmatch(one.strip())]
     gone = np.isin(values, wanted)
     for i in range(values.shape[1]) if values.shape[1] <= FEW else [slice(None)]:
         part = values[:, i]

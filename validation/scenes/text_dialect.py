@@ -118,6 +118,8 @@ def encoding_of(file: IO[bytes], given: str | None) -> str:
     file.seek(0)
     start = file.read(4)
     known = given or next((name for mark, name in MARKS if start.startswith(mark)), None)
+    if known and codecs.lookup(known).name == "utf-8":
+        known = "utf-8-sig"
     if known is None and start[1::2] == b"\x00\x00" and 0 not in start[::2]:
         known = "utf-16-le"
     for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
