@@ -74,9 +74,11 @@ class Dialect:
     def numbers(self, cells: Sequence[str]) -> list[float]:
         """Of a line. Raises ValueError for cells that are none."""
         with suppress(ValueError):
-            # most lines have neither holes nor commas; Python alone reads 1_000
+            # most cells are plain numbers; Python alone reads 1_000
             if self.decimal == "." and not any("_" in cell for cell in cells):
                 return list(map(float, cells))
+            if self.decimal == "," and not any("_" in cell or "." in cell for cell in cells):
+                return [float(cell.replace(",", ".")) for cell in cells]
         if self.numeric is None:
             return list(map(self.number, cells))
         found = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
