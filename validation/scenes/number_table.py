@@ -5,6 +5,7 @@ import io
 import re
 from array import array
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, islice
@@ -107,15 +108,24 @@ class NumberTable:
 
 
 def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
-    """Of a CSV or another text, as its first lines are written. Raises ValueError, whose sentence names a key."""
-    encoding, skip = encoding_of(file, form.encoding), form.skip or 0
+    """Of a CSV or another text, as its first lines are written. Raises ValueError, whose sentence names a key.
+
+    Where columns are chosen, others may be texts.
+    """
+    encoding = encoding_of(file, form.encoding)
+    if form.columns is not None:
+        with suppress(ValueError):
+            return _as_written(file, encoding, form)
+    return _as_written(file, encoding, form, numeric=None if form.columns is None else len(form.columns))
+
+
+def _as_written(file: IO[bytes], encoding: str, form: TableForm, *, numeric: int | None = None) -> NumberTable:
     file.seek(0)
-    text = io.TextIOWrapper(file, encoding=encoding)
+    text, skip = io.TextIOWrapper(file, encoding=encoding), form.skip or 0
     try:
         lines = lines_of(text)
         sample = sample_of(lines, skip)
         nodata = frozenset(str(one).strip().lower() for one in form.nodata)
-        numeric = None if form.columns is None else len(form.columns)
         dialect, first, width = recognised(sample, skip, form.decimal, nodata, numeric)
         values = _values(chain(islice(sample, first, None), lines), first, dialect, width)
     finally:

@@ -18,6 +18,8 @@ MOST_LINES, LONGEST_LINE = 2**23, 2**25
 """Of a file; characters of a line."""
 MOST_HEADER, SAMPLE, RUN = 2000, 2**20, 3
 """Lines in which the first row of numbers is looked for, and characters; rows on end that make a table."""
+MANY = 10
+"""Rows to a line of a header that looks like one, at the least."""
 CHUNK = 2**20
 """Bytes that are decoded at once, to see whether they can be."""
 CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
@@ -195,16 +197,21 @@ def recognised(
 
 
 def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int] | None:
-    """The index of the first of a few rows on end of equal length, and this length."""
+    """The index of the first of a few rows on end of equal length, and this length.
+
+    Where cells may be texts, lines of a header look like rows: then it is the first of those up to the end.
+    """
     run: list[int] = []
     columns = 0
     for i in range(skip, len(lines)):
         if dialect.says_nothing(lines[i]):
             continue
         width = dialect.row(lines[i])
-        run = [*run, i] if width == columns and width else [i] * bool(width)
+        if width != columns or not width:
+            run = []
+        run += [i] * bool(width)
         columns = width
-        if len(run) == RUN:
+        if len(run) == RUN and dialect.numeric is None:
             break
     return (run[0], columns) if run else None
 
@@ -219,7 +226,7 @@ def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Diale
     """Whether lines as 1,25 are one column and not two, by the header or by the digits. Raises ValueError."""
     header = next((line for line in reversed(above) if line.strip()), "")
     if header:
-        return header.count(",") != 1
+        return header.count(",") != 1 or any(map(STARTS, header.split(",")))
     last = [points.cells(row)[1].strip() for row in rows if points.row(row) == 2]
     if all(text.isdigit() for text in last) and not any(text.startswith("0") and len(text) > 1 for text in last):
         raise ValueError(
@@ -232,10 +239,10 @@ def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Diale
 def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, columns: int) -> None:
     """Raises ValueError where a line of the table seems to stand above its first row."""
     said = [i for i in range(skip, first) if not dialect.says_nothing(lines[i])]
-    for i in said:
-        if dialect.row(lines[i]) == columns and columns > 1:
-            bad = next(j for j in said if j > i and dialect.row(lines[j]) != columns)
-            raise ValueError(about_row(lines[bad], bad, dialect, columns))
+    alike = [i for i in said if dialect.row(lines[i]) == columns > 1]
+    if alike and (dialect.numeric is None or MANY * len(alike) > len(lines) - first):
+        bad = max(i for i in said if i not in alike)
+        raise ValueError(about_row(lines[bad], bad, dialect, columns))
     if not said:
         return
     cells, before = dialect.cells(lines[said[-1]]), lines[said[-2]] if len(said) > 1 else ""
