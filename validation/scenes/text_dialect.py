@@ -59,7 +59,7 @@ class Dialect:
 
     def cells(self, line: str) -> list[str]:
         """Those of one line."""
-        if '"' in line:
+        if '"' in line and len(line) < csv.field_size_limit():
             return next(csv.reader([line.strip()], delimiter=self.delimiter or " ", skipinitialspace=True))
         return line.split(self.delimiter) if self.delimiter else line.split()
 
