@@ -413,6 +413,31 @@ def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, wid
     assert not named or [column.unit for column in table.columns] == ["mm"] * width
 
 
+@pytest.mark.parametrize("told", [(7.5,), ("7.50",), ("7.5",)])
+def test_nodata_is_a_number_however_it_is_written(told):
+    assert np.isnan(in_memory("1;2\n3;7.50\n4;5\n", nodata=told).values).sum() == 1
+
+
+def test_other_columns_than_the_chosen_may_be_texts():
+    header = "Points;3\nStep;0.5\nGain;2\nstamp;z [um]\n"
+    numbers, texts = (header + "".join(f"{stamp}{i};{i}.5\n" for i in range(40)) for stamp in ("7", "12:0"))
+    for text in (numbers, texts):
+        for chosen in ("z", 2):
+            assert in_memory(text, columns=(chosen,)).values[:, 0].tolist() == [i + 0.5 for i in range(40)]
+    with pytest.raises(ValueError, match=r"a column by columns"):
+        in_memory(texts)
+    with pytest.raises(ValueError, match=r"got 'broken' in column 1 of line 25"):
+        in_memory(texts.replace("12:020;20.5", "broken;broken"), columns=(2,))
+
+
+def test_a_header_with_a_decimal_comma_is_no_pair_of_names():
+    assert in_memory("Weg 1,5 m\n3,25\n4,5\n1,25\n").values[:, 0].tolist() == [3.25, 4.5, 1.25]
+
+
+def test_a_mark_of_utf_8_is_left_out_where_the_encoding_is_told():
+    assert in_memory("\ufeffx [mm],z [um]\n1,2.5\n2,3\n3,4\n", encoding="UTF8").columns[0].name == "x"
+
+
 @pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
 def test_cells_without_data_are_no_numbers(cell):
     values = in_memory(f"1;2\n3;{cell}\n4;5\n6;7\n", nodata=(7.5,)).values

@@ -202,6 +202,13 @@ def test_a_line_of_an_instrument_is_one_of_a_rail(tmp_path, monkeypatch):
         loaded(tmp_path, *changes)
 
 
+def test_a_line_of_an_instrument_is_no_face(tmp_path, monkeypatch):
+    (tmp_path / "line.nc").write_bytes(BINARY)
+    as_installed(monkeypatch, uniform(HEIGHT[0], (48.0,), "um"))
+    with pytest.raises(ValueError, match=r"heights\.file must have heights over an area, got one line"):
+        load_scene(scene_of(tmp_path, "line.nc"))
+
+
 def test_what_no_reader_knows_is_a_sentence_that_shows_nothing_of_it(tmp_path, monkeypatch, capsys):
     (tmp_path / "face.nc").write_bytes(b"secret" + BINARY)
     as_installed(monkeypatch, None)

@@ -8,6 +8,7 @@ from validation.scenes.units import UNITS
 
 MICRO = re.compile("[\N{GREEK SMALL LETTER MU}\N{MICRO SIGN}]")
 OTHER_WORDS = {"Å": "Å", "pm": "pm", "db": "dB", "DB": "dB", "dB": "dB", "micron": "um", "microns": "um"}
+OTHER_WORDS |= {"MM": "mm", "UM": "um", "CM": "cm"}
 OTHER_WORDS |= {f"{word}met{end}": unit for word, unit in (("micro", "um"), ("milli", "mm")) for end in ("er", "re")}
 WAVENUMBERS = {"1/m": 1.0, "m^-1": 1.0, "m-1": 1.0, "m⁻¹": 1.0, "1/cm": 1e2, "1/mm": 1e3}
 """Cycles over a length, in cycles over a metre."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from validation.scenes.measured import FEWEST, MeasuredHeights
 from validation.scenes.measured_surface import as_asked, metres_of
 from validation.scenes.number_table import KEYS, NumberTable, form_of
-from validation.scenes.positions import grid_of, metres_of_step, places_of
+from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.printable import shortened
 from validation.scenes.reader import LENGTH, Reader, nonblank_text, table
 from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
@@ -56,13 +56,11 @@ def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) ->
     values = numbers.values
     if values.ndim != 2 or not values.size:
         return values, spacing or (1.0, 1.0), ()
-    every = range(values.shape[1])
     if numbers.spacing is not None:
-        if not numbers.unit and metre is None:
-            raise ValueError('unit is missing: the file names none, as: unit = "um"')
-        own = [one * (1 if numbers.unit else metre or 1) for one in (*numbers.spacing, 1.0)[:2]]
-        known = _agreed(own, [numbers.unit or "m"] * 2, spacing, "the file")
-        return heights_of_columns(numbers, every, metre), known, ()
+        if len(numbers.spacing) != 2:
+            raise ValueError("file must have heights over an area, got one line: it belongs to [rail.lines]")
+        dx, dy = own_spacing(numbers, metre, spacing or (None, None))
+        return heights_of_columns(numbers, range(values.shape[1]), metre), (dx, dy), ()
     if {"x", "y", "z"} <= {column.name.lower() for column in numbers.columns}:
         numbers = numbers.chosen(["x", "y", "z"])
     if numbers.values.shape[1] == 3 and len(values) > FEWEST:
@@ -98,16 +96,13 @@ def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None
     z = 3 - x - y
     grid = grid_of(numbers.values[:, x], numbers.values[:, y], heights_of_columns(numbers, [z], metre)[:, 0])
     units = [numbers.columns[i].unit for i in (x, y)]
-    known = _agreed(grid.steps, units, spacing, numbers.names([x, y]))
+    dx, dy = (
+        metres_of_step(*one, numbers.names([x, y]))
+        for one in zip(grid.steps, units, spacing or (None, None), strict=True)
+    )
     size = " x ".join(map(str, grid.height.shape))
-    shown = " and ".join(in_unit(step, "length") for step in known)
-    return grid.height, known, (f"its columns are x, y and height of {size} points, {shown} apart",)
-
-
-def _agreed(steps: tuple[float, ...] | list[float], units: list[str], spacing: Spacing | None, what: str) -> Spacing:
-    given = spacing or (None, None)
-    first, second = (metres_of_step(*one, what) for one in zip(steps, units, given, strict=True))
-    return first, second
+    shown = f"{in_unit(dx, 'length')} and {in_unit(dy, 'length')}"
+    return grid.height, (dx, dy), (f"its columns are x, y and height of {size} points, {shown} apart",)
 
 
 def unit_of(name: str, given: object) -> float:

@@ -13,7 +13,7 @@ from validation.scenes.height_files import unit_of, yes_or_no
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.measured_surface import LENGTHS
 from validation.scenes.number_table import KEYS, NumberTable, form_of
-from validation.scenes.positions import Places, metres_of_step, places_of, runs_one_way
+from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
 from validation.scenes.printable import shortened
 from validation.scenes.reader import LENGTH, Reader, nonblank_text, table
 from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
@@ -120,10 +120,7 @@ def _of_one(numbers: NumberTable, metre: float | None, spacing: float | None) ->
     if places_of(numbers.values[:, 0]):
         raise ValueError("file must have heights, got one column that runs evenly, as places do")
     if numbers.spacing is not None:
-        if not numbers.unit and metre is None:
-            raise ValueError('unit is missing: the file names none, as: unit = "um"')
-        step = numbers.spacing[0] * (1.0 if numbers.unit else metre or 1.0)
-        spacing = metres_of_step(step, numbers.unit or "m", spacing, "the file")
+        (spacing,) = own_spacing(numbers, metre, [spacing])
     return _Lines(heights_of_columns(numbers, [0], metre), _known(spacing))
 
 

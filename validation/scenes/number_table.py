@@ -2,8 +2,10 @@
 
 import codecs
 import io
+import re
 from array import array
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, islice
@@ -35,6 +37,7 @@ SENTINELS = (-999.0, -9999.0, -99999.0, -32768.0, -32767.0, 9999.0, 99999.0, 999
 """What instruments write where they have no data; beyond `HUGE` no number is a height."""
 HUGE, LONELY = 1e30, 3.0
 """LONELY: how many spans of all other numbers lie between them and such a value, at the least."""
+NUMERIC = re.compile(r"[+-]?\d+\.?\d*")
 FEW = 8
 """Columns of a table whose columns may be different quantities."""
 
@@ -105,15 +108,24 @@ class NumberTable:
 
 
 def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
-    """Of a CSV or another text, as its first lines are written. Raises ValueError, whose sentence names a key."""
-    encoding, skip = encoding_of(file, form.encoding), form.skip or 0
+    """Of a CSV or another text, as its first lines are written. Raises ValueError, whose sentence names a key.
+
+    Where columns are chosen, others may be texts.
+    """
+    encoding = encoding_of(file, form.encoding)
+    if form.columns is not None:
+        with suppress(ValueError):
+            return _as_written(file, encoding, form)
+    return _as_written(file, encoding, form, numeric=None if form.columns is None else len(form.columns))
+
+
+def _as_written(file: IO[bytes], encoding: str, form: TableForm, *, numeric: int | None = None) -> NumberTable:
     file.seek(0)
-    text = io.TextIOWrapper(file, encoding=encoding)
+    text, skip = io.TextIOWrapper(file, encoding=encoding), form.skip or 0
     try:
         lines = lines_of(text)
         sample = sample_of(lines, skip)
         nodata = frozenset(str(one).strip().lower() for one in form.nodata)
-        numeric = None if form.columns is None else len(form.columns)
         dialect, first, width = recognised(sample, skip, form.decimal, nodata, numeric)
         values = _values(chain(islice(sample, first, None), lines), first, dialect, width)
     finally:
@@ -155,7 +167,7 @@ def _without_last(table: NumberTable) -> NumberTable:
 def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
     """NaN in place of the values of nodata, and of those that instruments write for it, far from all others."""
     values, notes = table.values, list(table.notes)
-    wanted = [float(one) for one in nodata if not isinstance(one, str)]
+    wanted = [float(one) for one in nodata if not isinstance(one, str) or NUMERIC.fullmatch(one.strip())]
     gone = np.isin(values, wanted)
     for i in range(values.shape[1]) if values.shape[1] <= FEW else [slice(None)]:
         part = values[:, i]

@@ -1,11 +1,13 @@
 """Columns that are places and no heights: they run evenly, count the points, or stand for the axes of a grid."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.scenes.measured_surface import metres_of
+from validation.scenes.number_table import NumberTable
 from validation.scenes.units import UNITS, in_unit
 
 FloatArray = NDArray[np.float64]
@@ -96,6 +98,17 @@ def metres_of_step(step: float, unit: str, given: float | None, what: str) -> fl
             f"spacing must be that of {what}, {found:.6g} apart in some unit of length, got {in_unit(given, 'length')}"
         )
     return given
+
+
+def own_spacing(numbers: NumberTable, metre: float | None, given: Sequence[float | None]) -> tuple[float, ...]:
+    """The spacing that the file of an instrument has [m], in its own unit or the given one. Raises ValueError."""
+    if not numbers.unit and metre is None:
+        raise ValueError('unit is missing: the file names none, as: unit = "um"')
+    scale = 1.0 if numbers.unit else metre or 1.0
+    return tuple(
+        metres_of_step(step * scale, numbers.unit or "m", one, "the file")
+        for step, one in zip(numbers.spacing or (), given, strict=True)
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,8 @@ MOST_LINES, LONGEST_LINE = 2**23, 2**25
 """Of a file; characters of a line."""
 MOST_HEADER, SAMPLE, RUN = 2000, 2**20, 3
 """Lines in which the first row of numbers is looked for, and characters; rows on end that make a table."""
+MANY = 10
+"""Rows to a line of a header that looks like one, at the least."""
 CHUNK = 2**20
 """Bytes that are decoded at once, to see whether they can be."""
 CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
@@ -57,7 +59,7 @@ class Dialect:
 
     def cells(self, line: str) -> list[str]:
         """Those of one line."""
-        if '"' in line:
+        if '"' in line and len(line) < csv.field_size_limit():
             return next(csv.reader([line.strip()], delimiter=self.delimiter or " ", skipinitialspace=True))
         return line.split(self.delimiter) if self.delimiter else line.split()
 
@@ -74,9 +76,11 @@ class Dialect:
     def numbers(self, cells: Sequence[str]) -> list[float]:
         """Of a line. Raises ValueError for cells that are none."""
         with suppress(ValueError):
-            # most lines have neither holes nor commas; Python alone reads 1_000
+            # most cells are plain numbers; Python alone reads 1_000
             if self.decimal == "." and not any("_" in cell for cell in cells):
                 return list(map(float, cells))
+            if self.decimal == "," and not any("_" in cell or "." in cell for cell in cells):
+                return [float(cell.replace(",", ".")) for cell in cells]
         if self.numeric is None:
             return list(map(self.number, cells))
         found = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
@@ -118,6 +122,8 @@ def encoding_of(file: IO[bytes], given: str | None) -> str:
     file.seek(0)
     start = file.read(4)
     known = given or next((name for mark, name in MARKS if start.startswith(mark)), None)
+    if known and codecs.lookup(known).name == "utf-8":
+        known = "utf-8-sig"
     if known is None and start[1::2] == b"\x00\x00" and 0 not in start[::2]:
         known = "utf-16-le"
     for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
@@ -191,16 +197,21 @@ def recognised(
 
 
 def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int] | None:
-    """The index of the first of a few rows on end of equal length, and this length."""
+    """The index of the first of a few rows on end of equal length, and this length.
+
+    Where cells may be texts, lines of a header look like rows: then it is the first of those up to the end.
+    """
     run: list[int] = []
     columns = 0
     for i in range(skip, len(lines)):
         if dialect.says_nothing(lines[i]):
             continue
         width = dialect.row(lines[i])
-        run = [*run, i] if width == columns and width else [i] * bool(width)
+        if width != columns or not width:
+            run = []
+        run += [i] * bool(width)
         columns = width
-        if len(run) == RUN:
+        if len(run) == RUN and dialect.numeric is None:
             break
     return (run[0], columns) if run else None
 
@@ -215,7 +226,7 @@ def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Diale
     """Whether lines as 1,25 are one column and not two, by the header or by the digits. Raises ValueError."""
     header = next((line for line in reversed(above) if line.strip()), "")
     if header:
-        return header.count(",") != 1
+        return header.count(",") != 1 or any(map(STARTS, header.split(",")))
     last = [points.cells(row)[1].strip() for row in rows if points.row(row) == 2]
     if all(text.isdigit() for text in last) and not any(text.startswith("0") and len(text) > 1 for text in last):
         raise ValueError(
@@ -228,10 +239,10 @@ def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Diale
 def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, columns: int) -> None:
     """Raises ValueError where a line of the table seems to stand above its first row."""
     said = [i for i in range(skip, first) if not dialect.says_nothing(lines[i])]
-    for i in said:
-        if dialect.row(lines[i]) == columns and columns > 1:
-            bad = next(j for j in said if j > i and dialect.row(lines[j]) != columns)
-            raise ValueError(about_row(lines[bad], bad, dialect, columns))
+    alike = [i for i in said if dialect.row(lines[i]) == columns > 1]
+    if alike and (dialect.numeric is None or MANY * len(alike) > len(lines) - first):
+        bad = max(i for i in said if i not in alike)
+        raise ValueError(about_row(lines[bad], bad, dialect, columns))
     if not said:
         return
     cells, before = dialect.cells(lines[said[-1]]), lines[said[-2]] if len(said) > 1 else ""
