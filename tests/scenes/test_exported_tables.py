@@ -125,7 +125,11 @@ TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1
 @pytest.mark.parametrize(
     ("contents", "key", "said"),
     [
-        (rows(BANDS, " "), 'unit = "mm"', 'got column 1 and column 2: or, of two columns, as: unit = "mm"'),
+        (
+            rows(BANDS, " "),
+            'unit = "mm"',
+            'got column 1 and column 2: without such names, as: columns = \\[1, 2\\], unit = "mm"',
+        ),
         (TWO, 'columns = ["wavelength", "left"]', r"left \[dB\] and right \[dB\]: say which, as: columns = \[1, 3\]"),
         (TWO, "columns = [1, 2]", "columns"),
         (rows(((w, 2) for w, _ in BANDS[:3]), ","), 'decimal = ","', 'as: decimal = ","'),

@@ -247,7 +247,7 @@ def test_files_are_refused_by_key(tmp_path, old, new, said):
         ("wavelength [mm],level [dB re 1 nm]\n100,60\n", "levels must be in dB re 1 um, got dB re 1 nm"),
         ("wavelength [mm],level_um\n100,1\n", "columns must be named"),
         ("wavelength,level [dB]\n100,1\n", 'wavelengths must have a unit, .*: as: unit = "mm"'),
-        ("100,1.0\n80,2.0\n", 'columns must be named as .*, got column 1 and column 2: .*as: unit = "mm"'),
+        ("100,1.0\n80,2.0\n", 'columns must be named as .*, got column 1 and column 2: .*unit = "mm"'),
         ("100,1\n80,2\n", 'two columns or one with decimal commas, .*as: decimal = ","'),
         (f"{HEADER}\n100,-110\n80,-115\n", "levels must lie between .* got -110 dB at 100 mm: is the unit another"),
         (f"{HEADER}\n100,64.9\n80,62.9\n", "levels must lie between .* got 64.9 dB at 100 mm: is the unit another"),

@@ -126,7 +126,7 @@ def _of_one(numbers: NumberTable, metre: float | None, spacing: float | None) ->
 
 def _known(spacing: float | None) -> float:
     if spacing is None:
-        raise ValueError('spacing is missing: the file has no column of places, as: spacing = "1 mm"')
+        raise ValueError('spacing is missing: no column of the file runs evenly, as places do, as: spacing = "1 mm"')
     return spacing
 
 
