@@ -106,3 +106,10 @@ def test_power_of_records_of_a_spectrum():
 def test_numbers_and_names():
     assert nominal_wavelength(-15) == 31.5e-3
     assert band_number(0.0315) == -15
+
+
+def test_bands_have_names_together():
+    bands = NominalBands(-10, -16)
+    masks = ("1111111", "1110010", "0000001", "0110110", "0000000")
+    names = [bands.names([mark == "1" for mark in mask]) for mask in masks]
+    assert names == ["100 to 25 mm", "100 to 63, 31.5 mm", "25 mm", "80 to 63, 40 to 31.5 mm", "none"]

@@ -17,7 +17,7 @@ from validation.theory.contact_filters import (
     spring_bed_filter,
 )
 from validation.theory.line_spectrum import LineSpectrum
-from validation.theory.transverse_structure import IsotropicGround, Ridges, WaveBand
+from validation.theory.transverse_structure import IsotropicGround, Ridges, WaveBand, has_isotropic_surface
 
 AXES = (5.7e-3, 4.3e-3)
 RAIL = LineSpectrum((10.0, 100.0, 1e3, 4e3), (1e-12, 3e-14, 2e-16, 3e-17))
@@ -69,6 +69,20 @@ def test_a_line_over_its_surface_is_that_line(q):
 def test_a_spectrum_that_rises_too_steeply_has_no_isotropic_surface():
     with pytest.raises(ValueError, match="no isotropic surface has this line"):
         IsotropicGround(LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0)))
+
+
+def test_a_steeper_line_has_larger_exponents_and_longer_waves_do_not_fall():
+    q = np.array([3.0, 20.0, 300.0, 9e3])
+    np.testing.assert_allclose(RAIL.steeper(0.3)(q) / RAIL(q), (q / RAIL.wavenumbers[0]) ** -0.3, rtol=1e-12)
+    np.testing.assert_allclose(RAIL.from_wavenumber(0.5)([0.5, 2.0, 50.0]), RAIL([0.5, 2.0, 50.0]), rtol=1e-12)
+    assert RAIL.from_wavenumber(20.0) is RAIL
+    rising = LineSpectrum((1.0, 2.0, 4.0), (1.0, 1.1, 0.2))
+    assert float(rising(0.1)) < 1.0 == float(rising.from_wavenumber(0.1)(0.1))
+
+
+def test_lines_of_isotropic_surfaces_are_those_that_nowhere_rise_too_steeply():
+    assert has_isotropic_surface(RAIL) and has_isotropic_surface(LineSpectrum((1.0, 2.0), (1.0, 1.0)))
+    assert not has_isotropic_surface(LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0)))
 
 
 @pytest.mark.slow

@@ -77,9 +77,11 @@ class NominalBands:
         return f"{1000 * self.nominal[0]:g} to {1000 * self.nominal[-1]:g} mm"
 
     def names(self, of: ArrayLike) -> str:
-        """Of the bands where a mask is true, neighbours together: "2000 to 800, 31.5 mm"."""
+        """Of the bands where a mask is true, neighbours together: "2000 to 800, 31.5 mm", or "none"."""
         inside = np.flatnonzero(np.asarray(of, dtype=bool))
-        runs = np.split(inside, np.flatnonzero(np.diff(inside) > 1) + 1) if inside.size else []
+        if not inside.size:
+            return "none"
+        runs = np.split(inside, np.flatnonzero(np.diff(inside) > 1) + 1)
         ends = [[f"{1000 * self.nominal[i]:g}" for i in dict.fromkeys((run[0], run[-1]))] for run in runs]
         return f"{', '.join(' to '.join(each) for each in ends)} mm"
 
