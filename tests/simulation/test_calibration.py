@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -89,7 +90,10 @@ def test_beyond_the_table_there_is_no_claim(kind, name, inside, outside):
     assert table.estimate({**middle, name: inside}).error > 0
     beyond = table.estimate({**middle, name: outside})
     assert not beyond.in_range
-    assert beyond.reason.startswith(f"{name} = {outside:.3g}; the error of the model is measured from")
+    low, high = (conditions(end, kind)[name] for end in (LOW, HIGH))
+    assert beyond.reason == (
+        f"{name} = {outside:.3g}; the error of the model is measured from {low:.3g} to {high:.3g} only"
+    )
 
 
 @pytest.mark.parametrize(
@@ -108,6 +112,9 @@ def test_equal_errors_are_claimed_as_they_are():
     table = one_of_each(error=0.1)
     assert table.factor == pytest.approx(1.0)
     assert table.estimate(PUNCH).error == pytest.approx(0.1)
+    assert table.estimate(PUNCH).reason == (
+        "errors reach so far on the nearest of 32 measured scenes, at F / (E* h L) = 1, longest waves on a side = 1"
+    )
     # measured heights have no Hurst exponent
     assert table.estimate({name: value for name, value in PUNCH.items() if name != HURST}).error == pytest.approx(0.1)
 
@@ -214,9 +221,19 @@ def test_the_table_says_when_how_and_with_which_code_it_was_measured():
     assert calibration_lines()[0].startswith(f"errors of models: calibrated {about['measured']}, ")
 
 
+def test_lines_about_a_table_are_names_and_the_rest_and_its_rows_have_none_of_them(tmp_path):
+    path = tmp_path / "mine.csv"
+    path.write_text("# measured: 2026-01-01\n# command: a: b: c\nkind,error\npunch,0.1\n")
+    assert calibration.provenance(path) == {"measured": "2026-01-01", "command": "a: b: c"}
+    assert calibration.rows_of(path) == [{"kind": "punch", "error": "0.1"}]
+    assert calibration.provenance(tmp_path / "none") == {} and calibration.rows_of(tmp_path / "none") == []
+
+
 @pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
+    codes = [calibration.code_behind(cheap(name, asked), asked) for name in ("springs", "linear filter, 1D")]
+    assert all(re.fullmatch("[0-9a-f]{12}", code) for code in codes) and codes[0] != codes[1]
     write_table(calibration.provenance(), calibration.rows_of(calibration.TABLE), path)
     assert not check_calibration(1, MeasuredAgain(1.0), path)
     assert calibration_age(path, asked).endswith("by today's code")
