@@ -128,6 +128,13 @@ def test_an_error_that_grows_with_the_height_is_followed():
         assert table.estimate(at).error == pytest.approx(0.2 * height)
 
 
+@pytest.mark.parametrize(("power", "found"), [(0.5, 0.5), (-1.0, 0.0), (2.0, 1.0)])
+def test_an_error_grows_with_the_height_by_a_power_from_zero_to_one(power, found):
+    points, _ = population(60, 5)
+    assert measured("sphere", points, 0.2 * 10 ** (power * points[:, 0])).trend == pytest.approx(found)
+    assert measured("punch", points, 0.2 * 10 ** (power * points[:, 0])).trend == 0.0
+
+
 def left_out_by_loops(table, scene):
     """Root mean square of the errors of the nearest others, a tenth of the weight for the farthest of them.
 
