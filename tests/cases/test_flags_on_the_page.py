@@ -121,7 +121,9 @@ def of_a_number_that_is_lost(result):
 def test_a_lost_solve_is_told_whatever_its_case_makes_of_it(evidence):
     """A case that drops the flag, or whose evidence cannot be made of what is left, has not converged either."""
     part, result = Part("geike"), Future()
-    Engine(progress=part).map(lost_if_odd, range(4))
+    part.begin("lost if odd", total=4)
+    for failed in (False, True, False, True):
+        part.step(failed)
     result.set_result(Evidence(title="t", method="m", numbers=(), tables=(), conclusions=(), captions={}))
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(CASES, "geike", replace(CASES["geike"], evidence=evidence))

@@ -18,6 +18,7 @@ from validation.cases.wheel.half_space_levels import GEIKE
 from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space_numbers import OVER_BEM
 from validation.report.answers import questions, sources
+from validation.report.answers.alternatives import rolled
 from validation.report.answers.cells import Enough, RangeCell, span
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.answers.words import from_to, in_decibels, per_cent, times
@@ -155,7 +156,9 @@ def test_an_alternative_is_offered_where_its_own_numbers_agree():
     assert bem.startswith("boundary elements (15 applications of the operator to 128² cells a surface and load")
     for row in (row_of("mean-stiffness", failing, fit(0.2, 0.4)), row_of("mean-stiffness", failing)):
         assert [(model.text, model.case) for model in row.instead] == [(bem, "fractal_punch")]
-    assert row_of("mean-stiffness", punch(at((1.0, 10.0), 0.1)), fit(0.2)).instead == ()
+    agreeing = at((0.1, 1.0), 0.1)
+    assert row_of("mean-stiffness", punch(agreeing), fit(0.2)).instead == ()
+    assert len(row_of("mean-stiffness", punch(agreeing, at((1.0, 10.0), -1.2)), fit(0.2)).instead) == 2
 
 
 def test_an_alternative_on_an_axis_of_its_own_says_which():
@@ -283,6 +286,26 @@ def test_the_scatter_has_numbers_of_its_own():
     found = punch(at((0.1, 1.0), 0.0), at((0.1, 1.0), -30.0, quantity=DEVIATION))
     assert words_of(row_of("scatter", found))[1:-1] == ["no"]
     assert words_of(row_of("mean-stiffness", found))[1:-1] == ["yes"]
+
+
+@pytest.mark.parametrize(("rolled", "kept"), [(True, [4.0]), (False, [1.0, 4.0])])
+def test_roughness_without_a_roll_off_is_no_roughness_with_one(rolled, kept):
+    places = [{"Fbar": (1.0, 10.0), rolled_off.ROLL_OFF: at_one} for at_one in (1.0, 4.0)]
+    numbers = [at((1.0, 10.0), 0.0, quantity=rolled_off.STIFFNESS, where=where) for where in places]
+    found = sources.not_modelled(rolled_off.STIFFNESS, rolled=rolled).numbers(
+        section_of("mdr_limits", numbers).evidence
+    )
+    assert [one.where[rolled_off.ROLL_OFF] for one in found] == kept
+
+
+@pytest.mark.parametrize(
+    ("times", "said"),
+    [((3.04, 3.0, 99.0), "3"), ((12000.0, 300.4, 99.0), "300 to 12,000")],
+)
+def test_a_reduced_model_costs_its_counted_work_over_springs(times, said):
+    table = Table("reduced_models", {"model": ["mine", "mine", "other"], "work over springs on a line": list(times)})
+    evidence = section_of("reduced_models", [], table).evidence
+    assert rolled("mine").text(evidence) == f"{said} times the counted work of springs on a line"
 
 
 # --- the page ---

@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from dataclasses import replace
 from datetime import date, timedelta
 
@@ -91,7 +92,10 @@ def test_beyond_the_table_there_is_no_claim(kind, name, inside, outside):
     assert table.estimate({**middle, name: inside}).error > 0
     beyond = table.estimate({**middle, name: outside})
     assert not beyond.in_range
-    assert beyond.reason.startswith(f"{name} = {outside:.3g}; the error of the model is measured from")
+    low, high = (conditions(end, kind)[name] for end in (LOW, HIGH))
+    assert beyond.reason == (
+        f"{name} = {outside:.3g}; the error of the model is measured from {low:.3g} to {high:.3g} only"
+    )
 
 
 @pytest.mark.parametrize(
@@ -110,6 +114,9 @@ def test_equal_errors_are_claimed_as_they_are():
     table = one_of_each(error=0.1)
     assert table.factor == pytest.approx(1.0)
     assert table.estimate(PUNCH).error == pytest.approx(0.1)
+    assert table.estimate(PUNCH).reason == (
+        "errors reach so far on the nearest of 32 measured scenes, at F / (E* h L) = 1, longest waves on a side = 1"
+    )
     # measured heights have no Hurst exponent
     assert table.estimate({name: value for name, value in PUNCH.items() if name != HURST}).error == pytest.approx(0.1)
 
@@ -121,6 +128,13 @@ def test_an_error_that_grows_with_the_height_is_followed():
     for height in (0.02, 0.3, 5.0):
         at = {**conditions((LOW + HIGH) / 2, "sphere"), HEIGHT: height}
         assert table.estimate(at).error == pytest.approx(0.2 * height)
+
+
+@pytest.mark.parametrize(("power", "found"), [(0.5, 0.5), (-1.0, 0.0), (2.0, 1.0)])
+def test_an_error_grows_with_the_height_by_a_power_from_zero_to_one(power, found):
+    points, _ = population(60, 5)
+    assert measured("sphere", points, 0.2 * 10 ** (power * points[:, 0])).trend == pytest.approx(found)
+    assert measured("punch", points, 0.2 * 10 ** (power * points[:, 0])).trend == 0.0
 
 
 def left_out_by_loops(table, scene):
@@ -216,9 +230,19 @@ def test_the_table_says_when_how_and_with_which_code_it_was_measured():
     assert calibration_lines()[0].startswith(f"errors of models: calibrated {about['measured']}, ")
 
 
+def test_lines_about_a_table_are_names_and_the_rest_and_its_rows_have_none_of_them(tmp_path):
+    path = tmp_path / "mine.csv"
+    path.write_text("# measured: 2026-01-01\n# command: a: b: c\nkind,error\npunch,0.1\n")
+    assert calibration.provenance(path) == {"measured": "2026-01-01", "command": "a: b: c"}
+    assert calibration.rows_of(path) == [{"kind": "punch", "error": "0.1"}]
+    assert calibration.provenance(tmp_path / "none") == {} and calibration.rows_of(tmp_path / "none") == []
+
+
 @pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
+    codes = [calibration.code_behind(cheap(name, asked), asked) for name in ("springs", "linear filter, 1D")]
+    assert all(re.fullmatch("[0-9a-f]{12}", code) for code in codes) and codes[0] != codes[1]
     written(path, calibration.rows_of(calibration.TABLE))
     assert check_calibration(1, MeasuredAgain(1.0), path, stamp=True)[0] == []
     for age in (calibration_age(path, asked), calibration_age(path)):

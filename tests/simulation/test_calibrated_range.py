@@ -1,0 +1,86 @@
+"""What decides how far cheap models are off: conditions of scenes by hand, and what lies beyond them in words."""
+
+import math
+
+import pytest
+
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.simulation.calibrated_range import (
+    HEIGHT,
+    HURST,
+    LOAD,
+    LONG,
+    MOVING_LONG,
+    RATIO,
+    SHORT,
+    WAVES,
+    conditions_of,
+    counted,
+    lost_contact,
+    outside,
+    rolling_conditions,
+    sphere_shape,
+)
+from validation.simulation.rolling_quantity import RollingQuantity
+
+ROUGH = Roughness(rms=1e-7, hurst=0.7, longest=2e-3, shortest=1e-4)
+SPHERE = IndentationScene(name="s", shape="sphere", size=0.5, load=4905.0, modulus=1e11, ground=ROUGH)
+APPROACH = (4905.0 / (4 / 3 * 1e11 * math.sqrt(0.5))) ** (2 / 3)
+RADIUS = math.sqrt(0.5 * APPROACH)
+"""Of the smooth sphere, by Hertz."""
+PUNCH = IndentationScene(
+    name="p",
+    shape="punch",
+    size=4.0,
+    load=3.0,
+    modulus=2.0,
+    ground=Roughness(rms=0.5, hurst=0.4, longest=2.0, shortest=0.4),
+)
+
+
+def test_conditions_of_a_punch_are_its_load_and_its_waves():
+    assert conditions_of(PUNCH) == pytest.approx({LOAD: 3.0 / (2.0 * 0.5 * 4.0), WAVES: 2.0, RATIO: 5.0, HURST: 0.4})
+    assert sphere_shape(PUNCH) == 1.0
+
+
+def test_conditions_of_a_sphere_are_its_height_and_its_waves_over_the_contact():
+    found = conditions_of(SPHERE)
+    q = 2 * math.pi / 2e-3
+    expected = {HEIGHT: 1e-7 / APPROACH, LONG: q * RADIUS, SHORT: 20 * q * RADIUS, RATIO: 20.0, HURST: 0.7}
+    assert found == pytest.approx(expected)
+    lost = lost_contact(SPHERE)
+    assert 0 < lost < 1
+    assert sphere_shape(SPHERE) == pytest.approx(lost + 0.05 * 1e-7 / APPROACH * q * RADIUS + 0.005)
+
+
+def test_conditions_of_a_wheel_are_those_of_its_contact_and_a_moving_one_counts_its_waves_alone():
+    ground = Roughness(rms=0.01, hurst=0.7, longest=2 * math.pi, shortest=2 * math.pi / 4)
+    settings = {"name": "w", "radius": 1.0, "load": 4 / 3, "modulus": 1.0, "ground": ground}
+    still = RollingQuantity(RollingScene(**settings), "force-spectrum")
+    expected = {HEIGHT: 0.01, LONG: 1.0, SHORT: 4.0, RATIO: 4.0, HURST: 0.7}
+    assert rolling_conditions(still) == pytest.approx(expected)
+    moving = RollingQuantity(RollingScene(**settings, mass=1.0, speed=10.0), "acceleration")
+    found = rolling_conditions(moving)
+    assert set(found) == {HEIGHT, MOVING_LONG, SHORT, RATIO, HURST}
+    assert found[HEIGHT] == pytest.approx(0.01 * moving.amplification) and found[HEIGHT] > 0.01
+    assert found[MOVING_LONG] == pytest.approx(moving.longest_moving)
+
+
+@pytest.mark.parametrize(
+    ("value", "ranges", "said"),
+    [
+        (2.0, {LOAD: (1.0, 2.0)}, ""),
+        (1.0, {LOAD: (1.0, 2.0)}, ""),
+        (2.1, {LOAD: (1.0, 2.0)}, "F / (E* h L) = 2.1; the error of the model is known from 1 to 2 only"),
+        (0.9, {LOAD: (1.0, math.inf)}, "F / (E* h L) = 0.9; the error of the model is known from 1 on only"),
+        (5.0, {HURST: (0.2, 1.0)}, ""),
+    ],
+)
+def test_the_first_condition_beyond_its_range_is_named(value, ranges, said):
+    assert outside({LOAD: value, WAVES: 3.0}, ranges) == said
+
+
+def test_conditions_are_counted_with_three_digits():
+    assert counted({LOAD: 0.12345, WAVES: 2.0}) == "F / (E* h L) = 0.123, longest waves on a side = 2"
