@@ -23,7 +23,6 @@ from validation.simulation.rolling_levels import FINE, LEAST, by_linear_theory, 
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
 
-
 WIDE = 4000.0
 """q a beyond which a quadrature across takes longer: its panels go with q a."""
 
