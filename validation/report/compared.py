@@ -12,21 +12,22 @@ from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
 from validation.report.style import SETTINGS, graded, pdf, plain_figure, svg, tick
-from validation.selection.compare import Comparison
 from validation.selection.exported import levels_of_models
+from validation.selection.one_or_several import OneOrSeveral, listed
+from validation.selection.several import same_quantity, selected_of_several, table_of_several
 
 FORMATS = ("svg", "png", "pdf")
 TICKS = 12
 """Wavelengths on the axis, at the most."""
 
 
-def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
+def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     """Picture of a comparison: the models that were solved, the selected one with its error.
 
     Parameters
     ----------
-    comparison : Comparison
-        What `compare` returns.
+    comparison : Comparison or list of Comparison
+        What `compare` returns; of a list, the selected model of each scene.
     form : str, optional
         "svg", "png" or "pdf".
 
@@ -38,7 +39,7 @@ def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
     Raises
     ------
     ValueError
-        For another form.
+        For another form, and for a list of several quantities.
 
     Examples
     --------
@@ -48,8 +49,14 @@ def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
     """
     if form not in FORMATS:
         raise ValueError(f"form must be one of {', '.join(FORMATS)}, got {form!r}")
-    table = levels_of_models(comparison)
-    return figure_of_models(f"{comparison.scene.name}: {table.name}", table, form)
+    found = listed(comparison)
+    if not same_quantity(found):
+        raise ValueError(f"comparison must be of one quantity, got {', '.join(one.quantity for one in found)}")
+    if len(found) > 1:
+        table = selected_of_several(table_of_several(found))
+        return figure_of_models(table.name, table, form)
+    table = levels_of_models(found[0])
+    return figure_of_models(f"{found[0].scene.name}: {table.name}", table, form)
 
 
 def figure_of_models(title: str, table: Table, form: str) -> bytes:

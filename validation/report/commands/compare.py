@@ -22,7 +22,7 @@ from validation.selection.exported import levels_of_models, to_json_of
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import ContactModel
 from validation.selection.model_names import models_named, names_in
-from validation.selection.several import help_with, overview, selected_of_several, table_of_several
+from validation.selection.several import help_with, overview, table_of_several
 from validation.selection.several_scenes import SceneProblem, compare_scenes
 from validation.selection.summary import findings, format_seconds, heading
 from validation.selection.tolerance import tolerance_of
@@ -191,14 +191,9 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
-        from validation.report.compared import figure_of_models, to_figure  # which takes half a second to import
+        from validation.report.compared import to_figure  # which takes half a second to import
 
-        form = arguments.figure.suffix[1:]
-        if several:
-            table = selected_of_several(table_of_several(found))
-            write_given(arguments.figure, figure_of_models(table.name, table, form))
-        else:
-            write_given(arguments.figure, to_figure(found[0], form=form))
+        write_given(arguments.figure, to_figure(found, form=arguments.figure.suffix[1:]))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:
