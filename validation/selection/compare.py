@@ -13,7 +13,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
-from validation.selection.candidates import Candidates
+from validation.selection.compared_models import ComparedModels
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
 from validation.selection.model_names import models_named
 from validation.selection.rail_model import rail_models
@@ -78,7 +78,7 @@ class Comparison:
         Name of the model that gives ``value``; empty where none has an answer.
     met : bool
         Whether the tolerance is met.
-    models : Candidates
+    models : ComparedModels
         All models, the cheapest first: ``models[0]``, or by name, ``models["springs"]``. Each has ``name``,
         ``status``, ``error`` (relative), ``cost`` (seconds on one core) and ``reason``.
 
@@ -188,9 +188,9 @@ class Comparison:
         return self.selection.met
 
     @property
-    def models(self) -> Candidates:
+    def models(self) -> ComparedModels:
         """All models, the cheapest first, each with name, status, error, cost and reason."""
-        return Candidates(self.selection.candidates)
+        return ComparedModels(self.selection.candidates)
 
     @property
     def _answer(self) -> Answer | None:

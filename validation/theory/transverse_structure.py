@@ -179,7 +179,7 @@ def _along(first: float, last: float, semi_axis: float) -> tuple[FloatArray, Flo
     """Wavenumbers along in a band, and their weights."""
     if first * semi_axis > FAR_ALONG:
         panels = 1 + math.ceil(math.log(last / first) / GROWTH)
-        return periods(np.geomspace(first, last, panels + 1), math.pi / semi_axis)
+        return _periods(np.geomspace(first, last, panels + 1), math.pi / semi_axis)
     return gauss(np.linspace(first, last, 2 + math.floor((last - first) * semi_axis / math.pi)))
 
 
@@ -188,7 +188,7 @@ def _far_across(q: float, end: float, period: FloatArray) -> tuple[FloatArray, F
     least = float(period.min())
     near = FAR / math.pi * least
     k, dk = gauss(_panels_across(q, near, least))
-    far, weight = periods(_panels_across(q, end, math.inf, near), period)
+    far, weight = _periods(_panels_across(q, end, math.inf, near), period)
     return np.concatenate([np.broadcast_to(k, (*far.shape[:-1], k.size)), far], axis=-1), np.concatenate([dk, weight])
 
 
@@ -217,7 +217,7 @@ def gauss(ends: Sequence[float] | FloatArray) -> tuple[FloatArray, FloatArray]:
     return (middle + half * node).ravel(), (half * weight).ravel()
 
 
-def periods(ends: Sequence[float] | FloatArray, period: ArrayLike) -> tuple[FloatArray, FloatArray]:
+def _periods(ends: Sequence[float] | FloatArray, period: ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights of `gauss` on wide panels, each the mean over one period of an oscillation around it.
 
     period: short beside the panels; of an array each has its own nodes, (..., nodes).

@@ -6,7 +6,7 @@ from validation.scenes.printable import quoted
 from validation.selection.hierarchy import Candidate
 
 
-class Candidates(tuple[Candidate, ...]):
+class ComparedModels(tuple[Candidate, ...]):
     """All models, the cheapest first; a text stands for the one of that name, or whose name begins so."""
 
     __slots__ = ()
