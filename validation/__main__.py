@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 
 from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLostError, terminable
+from validation.engine.warning_lines import one_line_warnings
 from validation.report.commands.exit_status import Exit
 from validation.scenes.input_files import SceneError
 from validation.scenes.printable import printable
@@ -36,7 +37,7 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run one command, return its exit status."""
     arguments = _parser().parse_args(words)
     try:
-        with terminable():
+        with terminable(), one_line_warnings():
             status = int(arguments.command(arguments))
             sys.stdout.flush()
             return status

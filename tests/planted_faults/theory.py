@@ -85,6 +85,17 @@ FAULTS = {
         (LineSpectrum, "isotropic", scaled(LineSpectrum.isotropic, 0.5)),
         functools.partial(test_transverse_structure.test_a_line_over_its_surface_is_that_line, 50.0),
     ),
+    "a place for its period, where a contact is many waves wide": (
+        (transverse_structure, "_periods", lambda ends, period: transverse_structure.gauss(ends)),
+        functools.partial(test_transverse_structure.test_some_periods_stand_for_all, transverse_structure.Ridges()),
+    ),
+    "a work that grows with a contact that is many waves wide": (
+        (transverse_structure, "FAR", math.inf),
+        functools.partial(
+            test_transverse_structure.test_work_ends_where_the_contact_is_many_waves_wide,
+            transverse_structure.WaveBand(1.0),
+        ),
+    ),
     "ridges for isotropic ground": (
         (transverse_structure.IsotropicGround, "mean_square", transverse_structure.Ridges.mean_square),
         functools.partial(test_transverse_structure.test_the_mean_over_isotropic_ground, 150.0),

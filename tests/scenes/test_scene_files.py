@@ -264,7 +264,7 @@ def test_broken_files_are_refused_by_name(tmp_path):
     with pytest.raises(ValueError, match="must be valid TOML"):
         load_wheel_scene(path)
     path.write_bytes(b'name = "\xff"')
-    with pytest.raises(ValueError, match="must be valid TOML, got: 'utf-8'"):
+    with pytest.raises(ValueError, match="must be valid TOML, got: no text in UTF-8"):
         load_wheel_scene(path)
 
 

@@ -242,3 +242,16 @@ def test_springs_and_boundary_elements_agree_with_linear_theory_within_their_cla
         claim = rail_models.linear_error(quantity) + answer.band_errors["grid"] + answer.band_errors["sample"]
         assert (np.abs(20 * np.log10(answer.value) - expected) <= claim)[counted].all()
         assert name in ONE_SIDED
+
+
+def test_the_cost_of_a_closed_filter_goes_with_its_evaluations():
+    """Of a soft wheel, whose contact is hundreds of waves wide: so many as are counted, and no more memory for them."""
+    counted = {}
+    for modulus in (115e9, 100e6, 1e6):
+        scene = replace(load_scene("rail"), modulus=modulus, material=None, across=None)
+        target = Target(scene, "contact-filter")
+        model = next(m for m in models_serving(scene, "contact-filter") if m.name == "linear, ellipse")
+        counted[modulus] = rail_models.evaluations(rail_models.rail_quantity(target))
+        told = model.cost(target, model.resolutions(target)[0]).seconds
+        assert told == max(2 * rail_models.CLOSED, rail_models.EVALUATION * counted[modulus])
+    assert counted[115e9] < 0.2e6 < 1e6 < counted[100e6] < counted[1e6] < 4e6

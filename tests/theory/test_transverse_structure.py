@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import integrate
 
+from validation.theory import transverse_structure
 from validation.theory.contact_filters import (
     half_space_filter,
     remington_filter,
@@ -169,3 +170,70 @@ def test_remingtons_integral_is_the_mean_of_the_bed_of_springs_to_rounding():
     for kb, alpha in ((0.3, 1.0), (2.0, 0.5), (5.0, 2.0)):
         mean = integrate.quad(lambda t, kb=kb: bed(kb * math.hypot(1, t)) ** 2, 0, alpha, epsabs=1e-14)[0] / alpha
         assert float(remington_filter(kb, radius=1.0, alpha=alpha)) == pytest.approx(mean, rel=1e-9)
+
+
+# --- contacts that are wide beside the waves ---
+
+WIDE = (0.08, 0.06)
+"""Semi-axes at which waves of 1 mm have q a_x of 500."""
+
+
+def filters_of(axes):
+    """The ellipse, the bed, a line, and the mean across, each with its own oscillation."""
+    a, b = axes
+    return {
+        "ellipse": partial(half_space_filter, semi_axes=axes),
+        "bed": partial(spring_bed_filter, semi_axes=axes),
+        "line": lambda x, y: np.sinc((x + 0 * y) * a / np.pi),
+        "mean": lambda x, y: np.sinc(x * a / np.pi) * np.sinc(y * b / np.pi),
+    }
+
+
+def differences_from_all_periods(structure, axes, wavelength):
+    """Of each filter in one band [dB]."""
+    edges = 2 * np.pi / wavelength * np.array([10**-0.05, 10**0.05])
+    found = []
+    for far in ((transverse_structure.FAR, transverse_structure.FAR_ALONG), (math.inf, math.inf)):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(transverse_structure, "FAR", far[0])
+            patch.setattr(transverse_structure, "FAR_ALONG", far[1])
+            powers = [
+                structure.band_power(RAIL, transfer, edges=edges, semi_axes=axes)
+                for transfer in filters_of(axes).values()
+            ]
+        found.append(10 * np.log10(np.ravel(powers)))
+    return np.subtract(*found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("structure", [Ridges(), WaveBand(1.0), WaveBand(0.2), IsotropicGround(RAIL)])
+def test_some_periods_stand_for_all(structure):
+    """What is left of the oscillation between them falls with their number; all bands are below -40 dB here."""
+    assert np.abs(differences_from_all_periods(structure, WIDE, 1e-3)).max() < 0.1
+
+
+def test_contacts_of_steel_are_integrated_over_all_periods():
+    edges = 2 * np.pi / 0.8e-3 * np.array([10**-0.05, 10**0.05])
+    assert edges[-1] * 7.2e-3 < transverse_structure.FAR
+
+
+@pytest.mark.parametrize("structure", [Ridges(), WaveBand(1.0), WaveBand(20.0), IsotropicGround(RAIL)])
+def test_work_ends_where_the_contact_is_many_waves_wide(structure):
+    """It is counted: a filter tells how often it is evaluated. From there on a band costs the same."""
+    counted = []
+    for scale in (1, 10, 100, 1000):
+        axes, evaluated = (scale * 1e-3, scale * 1e-3), []
+
+        def transfer(x, y, evaluated=evaluated):
+            evaluated.append(np.broadcast(x, y).size)
+            return np.ones(np.broadcast(x, y).shape)
+
+        edges = 2 * np.pi / 1e-3 * np.array([10**-0.05, 10**0.05])
+        structure.band_power(RAIL, transfer, edges=edges, semi_axes=axes)
+        expected = structure.evaluations(edges=edges, semi_axes=axes)
+        # the end of the last panel apart
+        assert 0 <= sum(evaluated) - expected <= 1000
+        counted.append(expected)
+    # but for a panel across more a factor 1.4
+    assert counted[3] < 1.5 * counted[2]
+    assert max(counted) < 400_000

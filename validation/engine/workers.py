@@ -8,6 +8,7 @@ from types import TracebackType
 from typing import ParamSpec, TypeVar
 
 from validation.engine.termination import RESUME_NOTE, WorkerLostError
+from validation.engine.warning_lines import in_a_worker
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -94,7 +95,9 @@ class Workers:
         with STARTING:
             from joblib.externals import loky  # where processes are needed: it takes a tenth of a second
 
-            pool: Executor = loky.get_reusable_executor(max_workers=self.count, timeout=IDLE, env=ONE_THREAD)
+            pool: Executor = loky.get_reusable_executor(
+                max_workers=self.count, timeout=IDLE, env=ONE_THREAD, initializer=in_a_worker
+            )
         return pool
 
 

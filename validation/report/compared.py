@@ -16,6 +16,7 @@ from validation.report.compared_sweep import draw_sweep
 from validation.report.style import MARKERS, SETTINGS, Style, curve, pdf, plain_figure, svg, tick
 from validation.selection.compare import Comparison
 from validation.selection.exported import levels_of_models
+from validation.selection.one_or_several import OneOrSeveral, listed
 from validation.selection.several import by_quantity, selected_of_several, table_of_several
 from validation.selection.side_by_side import shown_models
 
@@ -26,15 +27,15 @@ MOST = 5
 """Curves in one panel: of more, none is told from the others."""
 
 
-def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
+def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     """Picture of a comparison: the models that were solved, the selected one with its error.
 
     Of spectra at most five: the selected model, the reference, springs of MDR, and what is nearest to the selected.
 
     Parameters
     ----------
-    comparison : Comparison
-        What `compare` returns.
+    comparison : Comparison or list of Comparison
+        What `compare` returns; of a list a panel a quantity, with the selected model of each scene.
     form : str, optional
         "svg", "png" or "pdf".
 
@@ -54,7 +55,7 @@ def to_figure(comparison: Comparison, *, form: str = "svg") -> bytes:
     >>> picture[1:4]
     b'PNG'
     """
-    return figure_of([comparison], form)
+    return figure_of(listed(comparison), form)
 
 
 def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:

@@ -16,6 +16,9 @@ from validation.theory import closed_forms
 
 Shape = Literal["sphere", "punch"]
 
+MOST_PRESSURE, SOFTEST = 0.1, 1e3
+"""Of E*, that a half-space bears without large strains; E* [Pa] below which its unit is asked for. 1 is no pressure."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class IndentationScene:
@@ -72,6 +75,11 @@ class IndentationScene:
             self._check_measured(self.ground)
 
     @property
+    def pressure(self) -> float:
+        """Mean pressure F / L^2 under a punch [Pa]."""
+        return self.load / self.size**2
+
+    @property
     def approach(self) -> float:
         """By Hertz, of a smooth sphere [m]."""
         return closed_forms.hertz_approach(radius=self.size, modulus=self.modulus, force=self.load)
@@ -101,6 +109,14 @@ class IndentationScene:
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
         found = self.ground.notes() if self.ground else ()
+        if self.shape == "punch" and self.modulus != 1 and self.pressure > MOST_PRESSURE * self.modulus:
+            return (
+                *found,
+                f"the mean pressure on the punch is {self.pressure / self.modulus:.3g} of E*, more than a tenth: no "
+                "half-space; are the units of punch.load, punch.side and E* right?",
+            )
+        if 1 != self.modulus < SOFTEST:
+            found = *found, f"E* is {self.modulus:.3g} Pa, softer than a gel: is its unit Pa?"
         if self.shape == "sphere" and self.contact_radius > self.size / 10:
             return (
                 *found,

@@ -79,8 +79,8 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
         )
     if not waves or not levels:
         raise ValueError(
-            f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}: without "
-            'such names, as: columns = [1, 2], unit = "mm"'
+            f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}: "
+            'without such names, as: columns = [1, 2], unit = "mm"'
         )
     of_wave, of_level = waves[0], levels[0]
     if unit is None and not units[of_wave]:

@@ -125,7 +125,8 @@ def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
         return rail_of(tables, folder)
     wheel, rail = tables["wheel"], tables.get("rail")
     moving = isinstance(wheel, dict) and "mass" in wheel
-    if moving and not (isinstance(rail, dict) and "heights" in rail):
+    # which checks the simulation against the scene; `compare` has no need of one
+    if moving and "simulation" in tables and not (isinstance(rail, dict) and "heights" in rail):
         return RollingScene.of_wheel(wheel_of(tables))
     return _rolling(tables, moving, folder)
 

@@ -33,7 +33,9 @@ def tables_of(path: Path) -> dict[str, Any]:
         # with or without the mark that some editors put in front
         return tomllib.loads(contents.decode("utf-8-sig"))
     except (ValueError, RecursionError) as problem:
-        got = "values nested too deep" if isinstance(problem, RecursionError) else printable(problem)
+        got = printable(problem)
+        if isinstance(problem, RecursionError | UnicodeDecodeError):
+            got = "values nested too deep" if isinstance(problem, RecursionError) else "no text in UTF-8"
         raise ValueError(f"scene {printable(path)} must be valid TOML, got: {got}") from None
 
 

@@ -12,6 +12,7 @@ from validation.analysis.nominal_bands import MANTISSAS
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
+from validation.selection.compared_models import ComparedModels
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
 from validation.selection.model_names import models_named
 from validation.selection.quantities import LEVELS, REFERENCES, UNITS, models_of, quantities_of
@@ -63,9 +64,9 @@ class Comparison:
         Name of the model that gives ``value``; empty where none has an answer.
     met : bool
         Whether the tolerance is met.
-    models : tuple of Candidate
-        All models, the cheapest first. Each has ``name``, ``status``, ``error`` (relative), ``cost`` (seconds on one
-        core) and ``reason``.
+    models : ComparedModels
+        All models, the cheapest first: ``models[0]``, or by name, ``models["springs"]``. Each has ``name``,
+        ``status``, ``error`` (relative), ``cost`` (seconds on one core) and ``reason``.
 
     Examples
     --------
@@ -189,9 +190,9 @@ class Comparison:
         return self.selection.met
 
     @property
-    def models(self) -> tuple[Candidate, ...]:
+    def models(self) -> ComparedModels:
         """All models, the cheapest first, each with name, status, error, cost and reason."""
-        return self.selection.candidates
+        return ComparedModels(self.selection.candidates)
 
     @property
     def _answer(self) -> Answer | None:
@@ -224,8 +225,8 @@ def compare(
     solve_all : bool, optional
         Whether all models are solved and timed, to see them side by side. The selected one stays. Out of its range a
         model is solved where that takes a minute at the most; the error of what it finds is unknown.
-    models : sequence of str, optional
-        Solve these models and no others: "mdr", "bem", or names of models of this scene.
+    models : str or sequence of str, optional
+        Solve these models and no others: "mdr", "bem", or names of models of this scene, in one text with commas too.
     callback : callable, optional
         Called with each model before its solve, as for a note that it takes a while.
 

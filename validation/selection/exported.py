@@ -15,17 +15,18 @@ from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import ContactForce, contact_force
 from validation.selection.hierarchy import Candidate
+from validation.selection.one_or_several import OneOrSeveral, listed
 
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 
 
-def to_json(comparison: Comparison) -> str:
+def to_json(comparison: OneOrSeveral) -> str:
     """Result of a comparison as strict JSON, for other programs.
 
     Parameters
     ----------
-    comparison : Comparison
-        What `compare` returns.
+    comparison : Comparison or list of Comparison
+        What `compare` returns; of a list, a list.
 
     Returns
     -------
@@ -39,7 +40,8 @@ def to_json(comparison: Comparison) -> str:
     >>> found["quantity"], found["unit"], found["model"], found["met"]
     ('stiffness', 'N/m', 'closed form', True)
     """
-    return as_json(_found(comparison)).decode()
+    found = [_found(one) for one in listed(comparison)]
+    return as_json(found[0] if isinstance(comparison, Comparison) else found).decode()
 
 
 def to_json_of(comparisons: Sequence[Comparison]) -> str:
@@ -76,13 +78,13 @@ def _found(comparison: Comparison) -> dict[str, object]:
     }
 
 
-def to_csv(comparison: Comparison) -> str:
+def to_csv(comparison: OneOrSeveral) -> str:
     """Result of a comparison as CSV: a row a number or a band, of each model that was solved.
 
     Parameters
     ----------
-    comparison : Comparison
-        What `compare` returns.
+    comparison : Comparison or list of Comparison
+        What `compare` returns; of a list, one under another, with the name of the scene in a first column.
 
     Returns
     -------
@@ -97,7 +99,11 @@ def to_csv(comparison: Comparison) -> str:
     >>> print(text.splitlines()[0])
     wavelength_mm,frequency_hz,value,low,high,unit,model,selected
     """
-    return as_csv(levels_of_models(comparison)).decode()
+    from validation.selection.several import table_of_several  # which is made of this module's tables
+
+    if isinstance(comparison, Comparison):
+        return as_csv(levels_of_models(comparison)).decode()
+    return as_csv(table_of_several(listed(comparison))).decode()
 
 
 def levels_of_models(comparison: Comparison) -> Table:

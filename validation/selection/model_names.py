@@ -11,11 +11,13 @@ SHORT = ("mdr", "bem")
 
 
 def models_named(models: Sequence[SceneModel], names: Sequence[str], tolerance: float) -> list[SceneModel]:
-    """The models of these names, in their order.
+    """The models of these names, in their order; a text may have several, with commas.
 
     Of boundary elements without a grid, the cheapest grid that claims the tolerance, or else the last. Raises
     ValueError for a name that no model of the scene has, or that several have.
     """
+    if isinstance(names, str):
+        names = names_in(names, [model.name for model in models])
     found = [model for name in names for model in _of_name(models, name, tolerance)]
     return [model for model in models if any(model is one for one in found)]
 
@@ -33,6 +35,8 @@ def names_in(text: str, known: Sequence[str]) -> list[str]:
 
 
 def _of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[SceneModel]:
+    if not isinstance(name, str):
+        raise TypeError(f"models must be names, got {quoted(name)}")
     asked = name.strip().lower()
     if asked == "mdr":
         found = [model for model in models if model.is_mdr]

@@ -18,6 +18,7 @@ from validation.selection.calibrate import calibration_age
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import Answer, Candidate, Status
+from validation.selection.one_or_several import OneOrSeveral, listed
 from validation.selection.quantities import MOVING, UNITS
 from validation.selection.rail_model import what_would_state_the_ground
 from validation.selection.reasons import grouped
@@ -43,13 +44,13 @@ BECAME: dict[Status, str] = {
 """What became of a model, in words."""
 
 
-def summary(comparison: Comparison) -> str:
+def summary(comparison: OneOrSeveral) -> str:
     """Text of a comparison: the scene, what became of each model, the result with its error, a sentence on MDR.
 
     Parameters
     ----------
-    comparison : Comparison
-        What `compare` returns.
+    comparison : Comparison or list of Comparison
+        What `compare` returns; of a list, a line a scene, and what would help those whose tolerance is not met.
 
     Returns
     -------
@@ -62,6 +63,11 @@ def summary(comparison: Comparison) -> str:
     >>> print(text.splitlines()[0])
     Smooth sphere: stiffness within 10 %
     """
+    if not isinstance(comparison, Comparison):
+        from validation.selection.several import help_with, overview  # which are made of this module's words
+
+        found = listed(comparison)
+        return "\n".join([*overview(found), *help_with(found)])
     understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
     return f"{understood}\n{findings([comparison])}"
 

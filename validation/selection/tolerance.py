@@ -3,7 +3,11 @@
 import math
 from dataclasses import dataclass
 
+from mdr.checks import positive
+
 FORMS = '"5%", "0.05" or "0.4 dB"'
+LARGEST = 2.0
+"""Of a number: a larger one is a percentage, or decibels, without its unit."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +38,13 @@ class Tolerance:
 
 
 def tolerance_of(given: float | str) -> Tolerance:
-    """A ratio, or a text: in per cent, a ratio, or decibels of an amplitude. Raises ValueError for any other text."""
+    """A ratio, or a text: in per cent, a ratio, or decibels of an amplitude.
+
+    Raises ValueError for any other text and a number that is no ratio, TypeError for what is neither.
+    """
     if not isinstance(given, str):
+        if positive("tolerance", given) > LARGEST:
+            raise ValueError(f"tolerance must be as {FORMS}, got {given:g}: {_meant(given)}?")
         return Tolerance(given)
     text, scale = given.strip(), 1.0
     decibels = text.lower().endswith("db")
@@ -47,10 +56,16 @@ def tolerance_of(given: float | str) -> Tolerance:
         value = scale * float(text)
     except ValueError:
         raise ValueError(f"tolerance must be as {FORMS}, got {given!r}") from None
+    if text == given.strip() and LARGEST < value < math.inf:
+        raise ValueError(f"tolerance must be as {FORMS}, got {given!r}: {_meant(value)}?")
     relative = 10 ** (value / 20) - 1 if decibels else value
     if not 0 < relative <= 1:
         raise ValueError(f"tolerance must be as {FORMS}, above zero and no more than 100 %, or 6 dB, got {given!r}")
     return Tolerance(relative, decibels)
+
+
+def _meant(number: float) -> str:
+    return f'{number / 100:g} or "{number:g}%"'
 
 
 def short(value: float) -> str:

@@ -55,8 +55,9 @@ FINE, COARSE = 12, 8
 """Cells to the smaller semi-axis."""
 OF_FINE = 0.8
 """Error of the fine grid over its difference from the coarse one, of second order."""
-CLOSED, POSITION, ITEM = 2e-2, 4e-3, 1e-4
-"""Seconds of a closed filter on one ground, of a position of boundary elements, and of one of springs, about."""
+CLOSED, EVALUATION, POSITION, ITEM = 2e-2, 5e-8, 4e-3, 1e-4
+"""Seconds of a closed filter on one ground at the least, and of a wave of it; of a position of boundary elements, and
+of one of springs, about."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,8 +122,10 @@ class RailModel(Model):
         return ""
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
-        ends = len(rail_quantity(target).ends)
-        return Cost(work=ends, unit="closed filters", seconds=CLOSED * ends)
+        quantity = rail_quantity(target)
+        ends = len(quantity.ends)
+        seconds = max(CLOSED * ends, EVALUATION * evaluations(quantity))
+        return Cost(work=ends, unit="closed filters", seconds=seconds)
 
     def prepare(self, target: Target, resolution: Resolution) -> Prepared:
         quantity = rail_quantity(target)
@@ -203,6 +206,17 @@ def rail_quantity(target: Target) -> RailQuantity:
 @lru_cache(maxsize=8)
 def _rail_quantity(scene: RailScene, name: Any) -> RailQuantity:
     return RailQuantity(scene, name)
+
+
+@lru_cache(maxsize=8)
+def evaluations(quantity: RailQuantity) -> int:
+    """Waves of a closed filter, over all bands and grounds; zero where no ground is as stated."""
+    axes = quantity.scene.contact.along, quantity.scene.contact.across
+    try:
+        grounds = quantity.structures
+    except ValueError:
+        return 0
+    return sum(ground.evaluations(edges=quantity.bands.edges, semi_axes=axes) for ground in grounds)
 
 
 def linear_error(quantity: RailQuantity) -> FloatArray:

@@ -5,6 +5,7 @@ that go together; semi-axes in metres.
 """
 
 import math
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,7 @@ from scipy import special
 
 from validation.theory.closed_forms import positive
 from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.transverse_structure import FAR, WaveBand
 
 FloatArray = NDArray[np.float64]
 
@@ -53,6 +55,9 @@ def remington_filter(wavenumber: ArrayLike, *, radius: float, alpha: float) -> F
     """
     positive(radius=radius, alpha=alpha)
     kb = np.asarray(wavenumber, dtype=np.float64) * radius
+    if kb.min(initial=np.inf) > FAR:
+        # the same mean over k_y / k_x, of which not all periods are needed
+        return WaveBand(alpha).mean_square(kb, partial(spring_bed_filter, semi_axes=(1.0, 1.0)), semi_axis=1.0)
     largest = float(kb.max(initial=0.0)) * math.hypot(1, alpha)
     node, weight = gauss_legendre(NODES)
     ends = np.linspace(0, math.atan(alpha), 2 + math.ceil(largest / math.pi) + math.ceil(math.atan(alpha) * 4))

@@ -23,6 +23,9 @@ from validation.simulation.rolling_levels import FINE, LEAST, by_linear_theory, 
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
 
+WIDE = 4000.0
+"""q a beyond which a quadrature across takes longer: its panels go with q a."""
+
 
 class LinearFilter3D(CheapRollingModel):
     """On the half-space; of measured heights, on themselves. In one dimension the rms of the force is the same."""
@@ -50,8 +53,8 @@ class LinearFilter3D(CheapRollingModel):
         return replace(expected, model=expected.model + gradient, reason=reason)
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
-        nodes = target.rolling.nodes
-        return Cost(work=nodes, unit="quadratures", seconds=NODE * nodes)
+        nodes, wide = target.rolling.nodes, target.rolling.q_max * target.scene.contact_radius
+        return Cost(work=nodes, unit="quadratures", seconds=NODE * nodes * max(1.0, wide / WIDE))
 
     def left_out(self, target: Target, value: NDArray[np.float64]) -> float:
         """Of measured heights also what cells twice as long change; of drawn ones what fills their quiet bands."""

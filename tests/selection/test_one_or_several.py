@@ -1,0 +1,115 @@
+"""What functions of the face take: one comparison or a list; names of models in one text, or as an index."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import validation
+from tests.selection.test_model_hierarchy import Fake, Finding, punch
+from validation.report.compared import figure_of_models
+from validation.selection.compare import Comparison
+from validation.selection.hierarchy import select_model
+from validation.selection.several import help_with, overview, selected_of_several, table_of_several
+from validation.selection.tolerance import tolerance_of
+
+
+def of(name="it", value=1.0, quantity="stiffness", parts=(0.0, 0.0, 0.0)):
+    models = [Finding(name="springs", value=(value,), parts=parts), Fake(name="boundary elements 64²")]
+    return Comparison(punch(load=1.0, name=name), quantity, select_model(models, 0.2))
+
+
+TWO = [of("one", 1.0), of("two", 2.0)]
+
+
+def test_a_list_becomes_a_list_of_objects():
+    assert json.loads(validation.to_json(TWO)) == [json.loads(validation.to_json(one)) for one in TWO]
+    assert json.loads(validation.to_json(TWO[:1])) == [json.loads(validation.to_json(TWO[0]))]
+
+
+def test_a_list_becomes_one_table_with_its_scenes():
+    rows = list(csv.DictReader(validation.to_csv(tuple(TWO)).splitlines()))
+    assert [(row["scene"], row["value"], row["model"]) for row in rows] == [
+        ("one", "1", "springs"),
+        ("two", "2", "springs"),
+    ]
+    assert "scene" not in validation.to_csv(TWO[0]).splitlines()[0]
+
+
+def test_a_list_becomes_a_line_a_scene_and_what_would_help():
+    alone = [Finding(name="springs", parts=(0.9, 0.0, 0.0))]
+    found = [*TWO, Comparison(punch(load=1.0, name="far"), "stiffness", select_model(alone, 0.2))]
+    assert validation.summary(found).splitlines() == [*overview(found), *help_with(found)]
+    assert "far: " in validation.summary(found)
+
+
+@pytest.mark.slow
+def test_a_list_becomes_one_figure_of_one_quantity():
+    table = selected_of_several(table_of_several(TWO))
+    assert validation.to_figure(TWO, form="png") == figure_of_models(table.name, table, "png")
+    assert validation.to_figure(TWO[:1], form="png") == validation.to_figure(TWO[0], form="png")
+
+
+@pytest.mark.parametrize("write", [validation.to_json, validation.to_csv, validation.to_figure, validation.summary])
+@pytest.mark.parametrize(
+    ("given", "error"), [([], ValueError), ([TWO[0], 1], TypeError), ("text", TypeError), (None, TypeError)]
+)
+def test_what_is_no_comparison_is_refused(write, given, error):
+    with pytest.raises(error, match="comparison must be "):
+        write(given)
+
+
+def test_quantities_that_differ_have_no_figure():
+    with pytest.raises(ValueError, match="of one quantity, got stiffness, force-rms"):
+        validation.to_figure([TWO[0], of(quantity="force-rms")])
+
+
+def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
+    models = TWO[0].models
+    assert models["springs"] is models[0] is models["Spr"] and models["boundary"] is models[1] is models[-1]
+    assert models[:1] == (models[0],) and len(models) == 2
+    for name in ("nothing", "", " "):
+        with pytest.raises(KeyError, match="models must be named by one of "):
+            models[name]
+    twins = Comparison(punch(load=1.0), "stiffness", select_model([Fake(name="fit a"), Fake(name="fit b")], 0.2)).models
+    with pytest.raises(KeyError, match='"fit a"'):
+        twins["fit"]
+
+
+@pytest.mark.parametrize("names", ["mdr", "springs", " MDR ", ["mdr"], ("springs",)])
+def test_one_text_names_models(names):
+    found = validation.compare(validation.load_scene("rough_punch"), tolerance=0.3, models=names)
+    assert [one.name for one in found.models if one.status != "not asked"] == ["springs"]
+
+
+def test_one_text_may_name_several_models():
+    found = validation.compare(validation.load_scene("rough_punch"), tolerance=0.3, models="mdr, fit")
+    assert {one.name for one in found.models if one.status != "not asked"} == {"springs", "fit"}
+
+
+@pytest.mark.parametrize("names", [["mdr", 3], [None]])
+def test_names_that_are_no_texts_are_refused(names):
+    with pytest.raises(TypeError, match="models must be names, got "):
+        validation.compare(validation.load_scene("rough_punch"), models=names)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (20, '0.2 or "20%"'),
+        (2.5, '0.025 or "2.5%"'),
+        (np.float64(5), '0.05 or "5%"'),
+        ("20", '0.2 or "20%"'),
+        (" 3 ", '"3%"'),
+    ],
+)
+def test_a_percentage_without_its_sign_is_asked_for(given, said):
+    with pytest.raises(ValueError, match="tolerance must be as ") as refused:
+        validation.compare(validation.load_scene("sphere"), tolerance=given)
+    assert said in str(refused.value)
+
+
+@pytest.mark.parametrize("given", [2, 1.5, 0.2, "20%", "0.5"])
+def test_ratios_up_to_two_are_as_they_are(given):
+    assert tolerance_of(given).relative == (0.2 if given == "20%" else float(given))
