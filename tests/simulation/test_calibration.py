@@ -275,7 +275,7 @@ def test_the_age_follows_from_what_is_there(tmp_path, monkeypatch):
     nothing = calibration_age(path, still)
     assert nothing.startswith("errors of models: not in the table of the calibration: ") and "ago" not in nothing
     whole = calibration_lines(path)[0]
-    assert "; not in the table of the calibration: " in whole and "rolling force-rms, springs" in whole
+    assert "; not in the table of the calibration: " in whole and "; rolling force-rms; " in whole
 
 
 class MeasuredAgain:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ from validation.scenes.roughness import Roughness
 from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
 from validation.simulation.calibrated_range import CONDITIONS
-from validation.simulation.calibration import TABLE, code_behind, conditions_by_kind, kind_of, provenance, table
+from validation.simulation.calibration import TABLE, Key, code_behind, conditions_by_kind, kind_of, provenance, table
 from validation.simulation.model import GridModel, Model, Target, models_serving
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import hertz_force
@@ -225,23 +226,35 @@ def calibration_age(path: Path = TABLE, target: Target | None = None) -> str:
     about = provenance(path)
     if not about:
         return "errors of models: no calibration"
-    known, without, other, own = table(path), [], [], 0
-    for one in _one_of_each() if target is None else [target]:
-        for model in cheap_models(one):
-            key = kind_of(one), one.quantity, model.name
-            name = model.name if target else f"{key[0]} {key[1]}, {key[2]}"
-            if key not in known:
-                without.append(name)
-            elif known[key].codes == {code_behind(model, one)}:
-                own += 1
-            else:
-                other.append(name)
-    missing = f"not in the table of the calibration: {'; '.join(without)}" if without else ""
-    if not (own or other):
+    known, asked = table(path), _one_of_each() if target is None else [target]
+    models = {
+        (kind_of(one), one.quantity, model.name): code_behind(model, one)
+        for one in asked
+        for model in cheap_models(one)
+    }
+    without = [key for key in models if key not in known]
+    other = [key for key, code in models.items() if key in known and known[key].codes != {code}]
+    names = partial(_names, every=list(models), whole=target is None)
+    missing = f"not in the table of the calibration: {names(without)}" if without else ""
+    if len(without) == len(models):
         return f"errors of models: {missing}"
     days = (today() - date.fromisoformat(about["measured"])).days
-    age = f"calibrated {about['measured']}, {days} day{'s' * (days != 1)} ago, {_code(about, other)}"
+    code = f"by other code than today's: {names(other)}" if other else _code(about)
+    age = f"calibrated {about['measured']}, {days} day{'s' * (days != 1)} ago, {code}"
     return f"errors of models: {'; '.join(filter(None, (age, missing)))}"
+
+
+def _names(some: Sequence[Key], every: Sequence[Key], *, whole: bool) -> str:
+    """Of models; whole: with the scene in front, or that alone where it is all of its models."""
+    if not whole:
+        return "; ".join(model for _, _, model in some)
+    places = dict.fromkeys(key[:2] for key in some)
+    alone = {place for place in places if all(key in some for key in every if key[:2] == place)}
+    return "; ".join(
+        " ".join(place) + ("" if place in alone else f", {model}")
+        for place in places
+        for model in ([""] if place in alone else [key[2] for key in some if key[:2] == place])
+    )
 
 
 def _one_of_each() -> list[Target]:
@@ -250,10 +263,8 @@ def _one_of_each() -> list[Target]:
     return [point.target(MODEL_TOLERANCE) for point in points]
 
 
-def _code(about: Mapping[str, str], other: Sequence[str]) -> str:
-    """By which code, of all of the table; what was checked was measured by another, and then taken for today's."""
-    if other:
-        return f"by other code than today's: {'; '.join(other)}"
+def _code(about: Mapping[str, str]) -> str:
+    """What was checked was measured by another code, and then taken for today's."""
     if "checked" in about:
         day, _, solves = about["checked"].partition(", ")
         return f"by code that gives the same as today's, checked {day} on {solves}"
