@@ -8,10 +8,10 @@ import pytest
 
 import validation
 from tests.selection.test_model_hierarchy import Fake, Finding, punch
-from validation.report.compared import figure_of_models
+from validation.report import compared
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
-from validation.selection.several import help_with, overview, selected_of_several, table_of_several
+from validation.selection.several import help_with, overview
 from validation.selection.tolerance import tolerance_of
 
 
@@ -45,10 +45,13 @@ def test_a_list_becomes_a_line_a_scene_and_what_would_help():
 
 
 @pytest.mark.slow
-def test_a_list_becomes_one_figure_of_one_quantity():
-    table = selected_of_several(table_of_several(TWO))
-    assert validation.to_figure(TWO, form="png") == figure_of_models(table.name, table, "png")
+def test_a_list_becomes_one_figure_with_a_panel_a_quantity(monkeypatch):
     assert validation.to_figure(TWO[:1], form="png") == validation.to_figure(TWO[0], form="png")
+    drawn = []
+    monkeypatch.setattr(compared, "_png", lambda figure: drawn.append(figure) or b"")
+    validation.to_figure([*TWO, of(quantity="force-rms")], form="png")
+    names = [[label.get_text() for label in axes.get_yticklabels()] for axes in drawn[0].axes]
+    assert names == [["one", "two"], ["springs,\nselected"]]
 
 
 @pytest.mark.parametrize("write", [validation.to_json, validation.to_csv, validation.to_figure, validation.summary])
@@ -58,11 +61,6 @@ def test_a_list_becomes_one_figure_of_one_quantity():
 def test_what_is_no_comparison_is_refused(write, given, error):
     with pytest.raises(error, match="comparison must be "):
         write(given)
-
-
-def test_quantities_that_differ_have_no_figure():
-    with pytest.raises(ValueError, match="of one quantity, got stiffness, force-rms"):
-        validation.to_figure([TWO[0], of(quantity="force-rms")])
 
 
 def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
