@@ -17,7 +17,7 @@ from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
 from validation.cases.wheel.half_space_levels import GEIKE
 from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space_numbers import OVER_BEM
-from validation.report.answers import questions, sources
+from validation.report.answers import alternatives, questions, sources
 from validation.report.answers.alternatives import rolled
 from validation.report.answers.cells import Enough, RangeCell, span
 from validation.report.answers.first_screen import answered_questions, plain
@@ -306,6 +306,18 @@ def test_a_reduced_model_costs_its_counted_work_over_springs(times, said):
     table = Table("reduced_models", {"model": ["mine", "mine", "other"], "work over springs on a line": list(times)})
     evidence = section_of("reduced_models", [], table).evidence
     assert rolled("mine").text(evidence) == f"{said} times the counted work of springs on a line"
+
+
+def test_costs_without_a_count_are_said_in_words():
+    nothing = section_of("rolling", []).evidence
+    said = {cost(nothing) for cost in (alternatives.as_springs, alternatives.formula, alternatives.integral)}
+    assert said == {"the work of springs", "a formula", "an integral over the spectrum"}
+
+
+@pytest.mark.parametrize(("values", "said"), [((9.0,), "(it differs: "), ((9.0, 0.0), "(1 of 2 numbers differ: ")])
+def test_it_is_counted_how_many_of_the_numbers_differ(values, said):
+    numbers = [at((0.1, 1.0), value, hurst=hurst) for value, hurst in zip(values, (0.4, 0.7), strict=False)]
+    assert said in mean_stiffness(*numbers).answer
 
 
 # --- the page ---
