@@ -47,6 +47,14 @@ def test_models_have_their_names_and_beginnings(names, expected):
     assert [model.name for model in models_named(models, names, 0.4)] == expected
 
 
+def test_bem_are_the_boundary_elements_of_a_rail_too():
+    models = models_of(validation.load_scene("rail"), "contact-filter", 0.1, 0)
+    assert [model.name for model in models_named(models, "linear, ellipse, bem", 0.1)] == [
+        "linear, ellipse",
+        "boundary elements",
+    ]
+
+
 @pytest.mark.parametrize("names", ["boundary elements 12²", "", "mdr,,bem"])
 def test_other_names_are_refused_with_those_that_there_are(names, capsys):
     assert main(["compare", "rolling_wheel", "--quantity", "force-spectrum", "--models", names]) == 2

@@ -4,10 +4,9 @@ from collections.abc import Sequence
 
 from validation.scenes.printable import quoted
 from validation.selection.scene_model import SceneModel
-from validation.simulation.model import GridModel
 
-SHORT = ("mdr", "bem")
-"""All springs by the method of dimensionality reduction; boundary elements."""
+BEM = "boundary elements"
+"""What bem is short for; mdr are all springs by the method of dimensionality reduction."""
 
 
 def models_named(models: Sequence[SceneModel], names: Sequence[str], tolerance: float) -> list[SceneModel]:
@@ -38,10 +37,9 @@ def _of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[
     if not isinstance(name, str):
         raise TypeError(f"models must be names, got {quoted(name)}")
     asked = name.strip().lower()
+    asked = BEM if asked == "bem" else asked
     if asked == "mdr":
         found = [model for model in models if model.is_mdr]
-    elif asked == "bem":
-        found = _cheapest_grid([model for model in models if isinstance(model.model, GridModel)], tolerance)
     elif exact := [model for model in models if model.name.lower() == asked]:
         found = exact
     elif kind := [model for model in models if model.kind.lower() == asked]:
