@@ -12,10 +12,10 @@ from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
-from validation.selection.exported import SCHEMA_OF_JSON, to_json_of
+from validation.selection.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of
 from validation.selection.hierarchy import Candidate
 from validation.selection.quantities import MOVING
-from validation.selection.several import by_quantity, overview_of, table_of_several
+from validation.selection.several import overview_of
 from validation.selection.side_by_side import (
     TOGETHER,
     differences,
