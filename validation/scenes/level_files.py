@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import nominal_wavelength
-from validation.scenes.column_names import WAVENUMBERS
+from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.measured_surface import metres_of
 from validation.scenes.number_table import NumberTable, TableForm
 from validation.scenes.printable import printable, quoted
@@ -66,7 +66,7 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
     """The columns of wavelength and level. Raises ValueError."""
     units = [column.unit for column in table.columns]
     lengths = [i for i, one in enumerate(units) if one in UNITS["length"]]
-    waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS or one == "rad/m"]
+    waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS]
     levels = [i for i, one in enumerate(units) if one == "dB"]
     if len(units) == 2 and (waves or unit or levels):
         # the other of two is the other, unless it is another quantity
@@ -100,25 +100,23 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
 def _wavelengths(values: NDArray[np.float64], unit: str) -> tuple[list[float], tuple[str, ...]]:
     """In metres, those of wavenumbers by the nominal band."""
     numbers = values.tolist()
-    if unit not in WAVENUMBERS and unit != "rad/m":
+    if unit not in WAVENUMBERS:
         return [value * metres_of("unit", unit) for value in numbers], ()
     if any(value <= 0 for value in numbers):
         raise ValueError(f"wavenumbers must be positive, got {min(numbers):g} {unit}")
-    cycles = 1 / (2 * math.pi) if unit == "rad/m" else WAVENUMBERS[unit]
     found = []
     for value in numbers:
-        length = 1 / (value * cycles)
+        length = 1 / (value * WAVENUMBERS[unit])
         band = nominal_wavelength(round(10 * math.log10(length)))
         if abs(length / band - 1) > NEAR:
             raise ValueError(f"wavenumbers must be those of one-third octaves, got {value:g} {unit}")
         found.append(band)
-    words = "k = 2 pi / wavelength" if unit == "rad/m" else "cycles: wavelength = 1 / k"
+    words = "k = 2 pi / wavelength" if unit == RADIANS else "cycles: wavelength = 1 / k"
     return found, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
 
 
 def unit_of_wavelengths(name: str, given: object) -> str:
     """A length, or cycles over one. Raises ValueError."""
-    if given in WAVENUMBERS or given == "rad/m":
-        return str(given)
-    metres_of(name, given)
+    if given not in WAVENUMBERS:
+        metres_of(name, given)
     return str(given)

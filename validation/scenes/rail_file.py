@@ -5,18 +5,30 @@ from pathlib import Path
 from typing import Any
 
 from mdr.checks import positive
-from validation.scenes.height_files import heights_of, unit_of, yes_or_no
+from validation.scenes.height_files import heights_of, unit_of
 from validation.scenes.level_files import curve, read_levels, unit_of_wavelengths
-from validation.scenes.line_files import key_in_errors, lines_in
+from validation.scenes.line_files import lines_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.number_table import KEYS, form_of
+from validation.scenes.number_table import FORM, file_of
 from validation.scenes.printable import quoted, shortened
 from validation.scenes.profile_files import read_profile
 from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import Across, RailScene
-from validation.scenes.reader import FORCE, LENGTH, MASS, NUMBER, SPEED, WHOLE, Reader, nonblank_text, table
+from validation.scenes.reader import (
+    FORCE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    SPEED,
+    WHOLE,
+    Reader,
+    key_in_errors,
+    nonblank_text,
+    table,
+    yes_or_no,
+)
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.table_files import sentence_about
 from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
@@ -163,12 +175,12 @@ def _levels(name: str, given: object, *, folder: Path, told: list[str]) -> Rough
         "longest": LENGTH,
         "shortest": LENGTH,
         "unit": unit_of_wavelengths,
-        **KEYS,
+        **FORM,
     }
     found = table(readers, tuple(readers), name, given)
     _one(found, name, ("curve", "file"))
     if "file" in found:
-        path, form = folder / found["file"], form_of(found)
+        path, form = file_of(found, folder)
         levels, notes = read_levels(f"{name}.file", path, form, unit=found.get("unit"))
         told += sentence_about(path, notes)
     elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
@@ -181,9 +193,9 @@ def _levels(name: str, given: object, *, folder: Path, told: list[str]) -> Rough
 
 def _profile(name: str, given: object, *, folder: Path, told: list[str]) -> TransverseProfile:
     """Of a file beside the scene: its name, or a table that has it and says how to read it."""
-    readers: dict[str, Reader] = {"file": nonblank_text, "unit": unit_of, "flip": yes_or_no, **KEYS}
+    readers: dict[str, Reader] = {"file": nonblank_text, "unit": unit_of, "flip": yes_or_no, **FORM}
     found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
-    path, form = folder / found["file"], form_of(found)
+    path, form = file_of(found, folder)
     wishes = {"metre": found.get("unit"), "flip": found.get("flip", False)}
     profile, notes = read_profile(name if isinstance(given, str) else f"{name}.file", path, form, **wishes)
     told += sentence_about(path, notes)
