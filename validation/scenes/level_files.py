@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 from validation.analysis.nominal_bands import nominal_wavelength
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.measured_surface import metres_of
-from validation.scenes.number_table import NumberTable, TableForm
+from validation.scenes.number_table import FORM, NumberTable, TableForm, file_of
 from validation.scenes.printable import printable, quoted
+from validation.scenes.reader import LENGTH, NUMBER, Reader, key_in_errors, nonblank_text, one_of, table
 from validation.scenes.roughness_levels import RoughnessLevels
-from validation.scenes.table_files import PLAIN, read_table
-from validation.scenes.units import UNITS
+from validation.scenes.table_files import PLAIN, read_table, sentence_about
+from validation.scenes.units import UNITS, quantity
 
 CURVES = Path(__file__).parent / "levels"
 COLUMNS = "wavelength [mm],level [dB re 1 um]"
@@ -33,6 +34,31 @@ def curve(name: str) -> RoughnessLevels:
     if name not in curve_names():
         raise ValueError(f"curve must be one of {', '.join(curve_names())}, got {quoted(name)}")
     return read_levels("curve", CURVES / f"{name}.csv", source=name)[0]
+
+
+def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
+    """Of a bundled curve or of a file, so many decibels more, between two wavelengths. told: takes what was assumed."""
+    readers: dict[str, Reader] = {
+        "curve": nonblank_text,
+        "file": nonblank_text,
+        "offset": _decibels,
+        "longest": LENGTH,
+        "shortest": LENGTH,
+        "unit": unit_of_wavelengths,
+        **FORM,
+    }
+    found = table(readers, tuple(readers), name, given)
+    one_of(found, name, ("curve", "file"))
+    if "file" in found:
+        path, form = file_of(found, folder)
+        levels, notes = read_levels(f"{name}.file", path, form, unit=found.get("unit"))
+        told += sentence_about(path, notes)
+    elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
+        raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
+    with key_in_errors(name):
+        levels = curve(found["curve"]) if "curve" in found else levels
+        levels = levels.within(found.get("longest"), found.get("shortest"))
+        return levels.raised(found["offset"]) if "offset" in found else levels
 
 
 def read_levels(
@@ -113,6 +139,11 @@ def _wavelengths(values: NDArray[np.float64], unit: str) -> tuple[list[float], t
         found.append(band)
     words = "k = 2 pi / wavelength" if unit == RADIANS else "cycles: wavelength = 1 / k"
     return found, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
+
+
+def _decibels(name: str, given: object) -> float:
+    """A number, or a text with its unit."""
+    return quantity(name, given, "level") if isinstance(given, str) else NUMBER(name, given)
 
 
 def unit_of_wavelengths(name: str, given: object) -> str:

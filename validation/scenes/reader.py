@@ -74,6 +74,14 @@ def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, g
     return {key: read(full[key], given[key]) for key, read in readers.items() if key in given}
 
 
+def one_of(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
+    """The value of one of these keys. ValueError for more of them, or fewer than the least."""
+    found = [key for key in keys if key in given]
+    if not least <= len(found) <= 1:
+        raise ValueError(f"{name} must have one of {', '.join(keys)}, got {' and '.join(found) or 'none'}")
+    return given[found[0]] if found else None
+
+
 def _as_line(key: str) -> str:
     """A line that would be right."""
     line = line_for(key)
