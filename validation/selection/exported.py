@@ -102,9 +102,9 @@ def to_csv(comparison: OneOrSeveral) -> str:
 
 def table_of_several(comparisons: Sequence[Comparison]) -> Table:
     """The tables of all, one under another, behind the name of the scene, and of the quantity where these differ."""
-    if len(comparisons) == 1:
-        return levels_of_models(comparisons[0])
     tables = [levels_of_models(one) for one in comparisons]
+    if len(tables) == 1:
+        return tables[0]
     counts = [len(table["value"]) for table in tables]
     front = {"scene": [one.scene.name for one in comparisons]}
     if len(by_quantity(comparisons)) > 1:
