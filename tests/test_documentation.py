@@ -24,6 +24,7 @@ THEORY = Path(validation.__file__).parent / "theory"
 HELPERS = {
     "validation.theory.closed_forms.positive",
     "validation.theory.gauss_legendre.gauss_legendre",
+    "validation.theory.gauss_legendre.on_panels",
     "validation.theory.transverse_structure.gauss",
 }
 METHODS = {

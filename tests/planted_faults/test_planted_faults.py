@@ -1,46 +1,18 @@
 """Negative controls: each fault is planted on purpose, and the named test must catch it."""
 
 import functools
+import importlib
 import inspect
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import Phase, settings
 
-from tests.planted_faults import (
-    analysis,
-    bem3d,
-    benchmarks,
-    cases,
-    engine,
-    house,
-    mdr,
-    rail,
-    report,
-    scenes,
-    selection,
-    simulation,
-    slopes,
-    theory,
-)
-
-ROOMS = (
-    analysis,
-    bem3d,
-    benchmarks,
-    cases,
-    engine,
-    house,
-    mdr,
-    rail,
-    report,
-    scenes,
-    selection,
-    simulation,
-    slopes,
-    theory,
-)
+HELPERS = {"__init__", "test_planted_faults", "wrong"}
+NAMES = sorted({path.stem for path in Path(__file__).parent.glob("*.py")} - HELPERS)
+ROOMS = [importlib.import_module(f"tests.planted_faults.{name}") for name in NAMES]
 FAULTS = {fault: planted for room in ROOMS for fault, planted in room.FAULTS.items()}
 
 

@@ -11,13 +11,13 @@ import bem3d
 import mdr
 from tests.scenes.test_scene_files import written
 from validation.__main__ import main
-from validation.report.commands import compare as command_compare
 from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
+from validation.selection import several_scenes
 
 N, DX = 256, 1e-6
 BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)
@@ -188,13 +188,13 @@ def test_what_cannot_be_reached_is_no_success(capsys, tmp_path):
 
 
 def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
-    seeds, real = [], command_compare.compare_quantities
+    seeds, real = [], several_scenes.compare_quantities
 
     def seen(scene, quantities, tolerance, seed, **settings):
         seeds.append(seed)
         return real(scene, quantities, tolerance, seed, **settings)
 
-    monkeypatch.setattr(command_compare, "compare_quantities", seen)
+    monkeypatch.setattr(several_scenes, "compare_quantities", seen)
     for words in ([], ["--seed", "0"], ["--seed", "7"]):
         assert main(["compare", "sphere", *words]) == 0
     assert seeds == [0, 0, 7]

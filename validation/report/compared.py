@@ -14,10 +14,9 @@ from numpy.typing import ArrayLike
 from validation.analysis.evidence import Table
 from validation.report.compared_sweep import draw_sweep
 from validation.report.style import MARKERS, SETTINGS, Style, curve, pdf, plain_figure, svg, tick
-from validation.selection.compare import Comparison
-from validation.selection.exported import levels_of_models
-from validation.selection.one_or_several import OneOrSeveral, listed
-from validation.selection.several import by_quantity, selected_of_several, table_of_several
+from validation.selection.compare import Comparison, OneOrSeveral, listed
+from validation.selection.exported import by_quantity, table_of_several
+from validation.selection.several import selected_of_several
 from validation.selection.side_by_side import shown_models
 
 FORMATS = ("svg", "png", "pdf")
@@ -101,10 +100,10 @@ def _height(found: Sequence[Comparison]) -> float:
 
 def _shown(found: Sequence[Comparison]) -> tuple[str, Table]:
     """Title and rows, of spectra in the order in which curves are drawn."""
+    one, table = found[0], table_of_several(found)
     if len(found) > 1:
-        return found[0].quantity, selected_of_several(table_of_several(found))
-    (one,) = found
-    title, table = f"{one.scene.name}: {one.quantity}", levels_of_models(one)
+        return one.quantity, selected_of_several(table)
+    title = f"{one.scene.name}: {one.quantity}"
     if not one.is_level or not one.selection.solved:
         return title, table
     order = shown_models(one)

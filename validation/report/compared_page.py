@@ -12,10 +12,10 @@ from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
-from validation.selection.exported import SCHEMA_OF_JSON, to_json_of
+from validation.selection.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of
 from validation.selection.hierarchy import Candidate
 from validation.selection.quantities import MOVING
-from validation.selection.several import by_quantity, overview_of, table_of_several
+from validation.selection.several import overview_of
 from validation.selection.side_by_side import (
     TOGETHER,
     differences,
@@ -55,8 +55,8 @@ def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -
         SCHEMA: SCHEMA_OF_JSON.read_bytes(),
         "provenance.json": as_json(about),
     }
-    drawn = {f"scene-{i}": [one] for i, one in enumerate(found, 1) if _solved(one)}
-    if len(found) > len(by_quantity(found)) and any(map(_solved, found)):
+    drawn = {f"scene-{i}": [one] for i, one in enumerate(found, 1) if one.selection.solved}
+    if len(found) > len(by_quantity(found)) and drawn:
         drawn["all"] = list(found)
     for name, of in drawn.items():
         for form in ("svg", "pdf"):
@@ -163,7 +163,3 @@ def _notes(found: Comparison) -> list[str]:
     scene = found.scene
     reason = scene.no_steady_answer() if isinstance(scene, RollingScene) and found.quantity in MOVING else ""
     return [*([f"no steady answer: {reason}"] if reason else []), *scene.diagnose()]
-
-
-def _solved(found: Comparison) -> bool:
-    return bool(found.selection.solved)

@@ -1,5 +1,6 @@
 """Names of columns with their units, as tables of others have them: `x [mm]`, `height (um)`, `z/µm`, `level_dB`."""
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,9 +11,10 @@ MICRO = re.compile("[\N{GREEK SMALL LETTER MU}\N{MICRO SIGN}]")
 OTHER_WORDS = {"Å": "Å", "pm": "pm", "db": "dB", "DB": "dB", "dB": "dB", "micron": "um", "microns": "um"}
 OTHER_WORDS |= {"MM": "mm", "UM": "um", "CM": "cm"}
 OTHER_WORDS |= {f"{word}met{end}": unit for word, unit in (("micro", "um"), ("milli", "mm")) for end in ("er", "re")}
-WAVENUMBERS = {"1/m": 1.0, "m^-1": 1.0, "m-1": 1.0, "m⁻¹": 1.0, "1/cm": 1e2, "1/mm": 1e3}
+RADIANS = "rad/m"
+WAVENUMBERS = {"1/m": 1.0, "m^-1": 1.0, "m-1": 1.0, "m⁻¹": 1.0, "1/cm": 1e2, "1/mm": 1e3, RADIANS: 1 / (2 * math.pi)}
 """Cycles over a length, in cycles over a metre."""
-KNOWN = {unit: unit for unit in (*UNITS["length"], *WAVENUMBERS, "rad/m") if unit != "µm"} | OTHER_WORDS
+KNOWN = {unit: unit for unit in (*UNITS["length"], *WAVENUMBERS) if unit != "µm"} | OTHER_WORDS
 AT_THE_END = re.compile(
     rf"(?:^|[\s_/,])({'|'.join(map(re.escape, sorted(KNOWN, key=len, reverse=True)))})(?:,?\s+\(?(?:re|ref|rel)\b.*)?$"
 )

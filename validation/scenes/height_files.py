@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from validation.scenes.measured import FEWEST, MeasuredHeights
 from validation.scenes.measured_surface import as_asked, metres_of
-from validation.scenes.number_table import KEYS, NumberTable, form_of
+from validation.scenes.number_table import FORM, NumberTable, file_of
 from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.printable import shortened
-from validation.scenes.reader import LENGTH, Reader, nonblank_text, table
+from validation.scenes.reader import LENGTH, Reader, nonblank_text, table, yes_or_no
 from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
 from validation.scenes.units import in_unit
 
@@ -27,18 +27,11 @@ def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
     """
     if isinstance(given, MeasuredHeights):
         return given
-    readers: dict[str, Reader] = {
-        "file": nonblank_text,
-        "spacing": _spacing,
-        "unit": unit_of,
-        **KEYS,
-        "key": nonblank_text,
-        "crop": yes_or_no,
-        "fill": yes_or_no,
-    }
-    found = table(readers, tuple(key for key in readers if key != "file"), name, given)
-    path, spacing = folder / found.pop("file"), found.pop("spacing", None)
-    numbers = read_table(f"{name}.file", path, form_of(found))
+    readers: dict[str, Reader] = {"file": nonblank_text, "spacing": _spacing, "unit": unit_of, **FORM}
+    readers |= {"crop": yes_or_no, "fill": yes_or_no}
+    found = table(readers, tuple(readers)[1:], name, given)
+    (path, form), spacing = file_of(found, folder), found.pop("spacing", None)
+    numbers = read_table(f"{name}.file", path, form)
     wishes = {key: found.get(key, False) for key in ("crop", "fill")}
     try:
         height, known, notes = _face(numbers, found.get("unit"), spacing)
@@ -94,15 +87,14 @@ def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None
     named = [column.name.lower() for column in numbers.columns]
     x, y = (named.index("x"), named.index("y")) if {"x", "y"} <= set(named) else (0, 1)
     z = 3 - x - y
-    grid = grid_of(numbers.values[:, x], numbers.values[:, y], heights_of_columns(numbers, [z], metre)[:, 0])
+    height, steps = grid_of(numbers.values[:, x], numbers.values[:, y], heights_of_columns(numbers, [z], metre)[:, 0])
     units = [numbers.columns[i].unit for i in (x, y)]
     dx, dy = (
-        metres_of_step(*one, numbers.names([x, y]))
-        for one in zip(grid.steps, units, spacing or (None, None), strict=True)
+        metres_of_step(*one, numbers.names([x, y])) for one in zip(steps, units, spacing or (None, None), strict=True)
     )
-    size = " x ".join(map(str, grid.height.shape))
+    size = " x ".join(map(str, height.shape))
     shown = f"{in_unit(dx, 'length')} and {in_unit(dy, 'length')}"
-    return grid.height, (dx, dy), (f"its columns are x, y and height of {size} points, {shown} apart",)
+    return height, (dx, dy), (f"its columns are x, y and height of {size} points, {shown} apart",)
 
 
 def unit_of(name: str, given: object) -> float:
@@ -121,9 +113,3 @@ def _spacing(name: str, given: object) -> Spacing:
     if len(given) != 2:
         raise ValueError(f'{name} must be a length or two, as ["1 um", "2 um"] along x and y, got {shortened(given)}')
     return LENGTH(f"{name}[0]", given[0]), LENGTH(f"{name}[1]", given[1])
-
-
-def yes_or_no(name: str, given: object) -> bool:
-    if not isinstance(given, bool):
-        raise ValueError(f"{name} must be true or false, got {shortened(given)}, as: {name.rpartition('.')[2]} = true")
-    return given

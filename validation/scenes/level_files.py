@@ -7,13 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import nominal_wavelength
-from validation.scenes.column_names import WAVENUMBERS
+from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.measured_surface import metres_of
-from validation.scenes.number_table import NumberTable, TableForm
+from validation.scenes.number_table import FORM, NumberTable, TableForm, file_of
 from validation.scenes.printable import printable, quoted
+from validation.scenes.reader import LENGTH, NUMBER, Reader, key_in_errors, nonblank_text, one_of, table
 from validation.scenes.roughness_levels import RoughnessLevels
-from validation.scenes.table_files import PLAIN, read_table
-from validation.scenes.units import UNITS
+from validation.scenes.table_files import PLAIN, read_table, sentence_about
+from validation.scenes.units import UNITS, quantity
 
 CURVES = Path(__file__).parent / "levels"
 COLUMNS = "wavelength [mm],level [dB re 1 um]"
@@ -33,6 +34,31 @@ def curve(name: str) -> RoughnessLevels:
     if name not in curve_names():
         raise ValueError(f"curve must be one of {', '.join(curve_names())}, got {quoted(name)}")
     return read_levels("curve", CURVES / f"{name}.csv", source=name)[0]
+
+
+def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
+    """Of a bundled curve or of a file, so many decibels more, between two wavelengths. told: takes what was assumed."""
+    readers: dict[str, Reader] = {
+        "curve": nonblank_text,
+        "file": nonblank_text,
+        "offset": _decibels,
+        "longest": LENGTH,
+        "shortest": LENGTH,
+        "unit": unit_of_wavelengths,
+        **FORM,
+    }
+    found = table(readers, tuple(readers), name, given)
+    one_of(found, name, ("curve", "file"))
+    if "file" in found:
+        path, form = file_of(found, folder)
+        levels, notes = read_levels(f"{name}.file", path, form, unit=found.get("unit"))
+        told += sentence_about(path, notes)
+    elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
+        raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
+    with key_in_errors(name):
+        levels = curve(found["curve"]) if "curve" in found else levels
+        levels = levels.within(found.get("longest"), found.get("shortest"))
+        return levels.raised(found["offset"]) if "offset" in found else levels
 
 
 def read_levels(
@@ -66,7 +92,7 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
     """The columns of wavelength and level. Raises ValueError."""
     units = [column.unit for column in table.columns]
     lengths = [i for i, one in enumerate(units) if one in UNITS["length"]]
-    waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS or one == "rad/m"]
+    waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS]
     levels = [i for i, one in enumerate(units) if one == "dB"]
     if len(units) == 2 and (waves or unit or levels):
         # the other of two is the other, unless it is another quantity
@@ -100,25 +126,28 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
 def _wavelengths(values: NDArray[np.float64], unit: str) -> tuple[list[float], tuple[str, ...]]:
     """In metres, those of wavenumbers by the nominal band."""
     numbers = values.tolist()
-    if unit not in WAVENUMBERS and unit != "rad/m":
+    if unit not in WAVENUMBERS:
         return [value * metres_of("unit", unit) for value in numbers], ()
     if any(value <= 0 for value in numbers):
         raise ValueError(f"wavenumbers must be positive, got {min(numbers):g} {unit}")
-    cycles = 1 / (2 * math.pi) if unit == "rad/m" else WAVENUMBERS[unit]
     found = []
     for value in numbers:
-        length = 1 / (value * cycles)
+        length = 1 / (value * WAVENUMBERS[unit])
         band = nominal_wavelength(round(10 * math.log10(length)))
         if abs(length / band - 1) > NEAR:
             raise ValueError(f"wavenumbers must be those of one-third octaves, got {value:g} {unit}")
         found.append(band)
-    words = "k = 2 pi / wavelength" if unit == "rad/m" else "cycles: wavelength = 1 / k"
+    words = "k = 2 pi / wavelength" if unit == RADIANS else "cycles: wavelength = 1 / k"
     return found, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
+
+
+def _decibels(name: str, given: object) -> float:
+    """A number, or a text with its unit."""
+    return quantity(name, given, "level") if isinstance(given, str) else NUMBER(name, given)
 
 
 def unit_of_wavelengths(name: str, given: object) -> str:
     """A length, or cycles over one. Raises ValueError."""
-    if given in WAVENUMBERS or given == "rad/m":
-        return str(given)
-    metres_of(name, given)
+    if given not in WAVENUMBERS:
+        metres_of(name, given)
     return str(given)

@@ -1,21 +1,19 @@
 """Files of measured lines along a rail: columns of heights, beside one of their places along the track."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.scenes.height_edits import edited_lines
-from validation.scenes.height_files import unit_of, yes_or_no
+from validation.scenes.height_files import unit_of
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.measured_surface import LENGTHS
-from validation.scenes.number_table import KEYS, NumberTable, form_of
+from validation.scenes.number_table import FORM, NumberTable, file_of
 from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
 from validation.scenes.printable import shortened
-from validation.scenes.reader import LENGTH, Reader, nonblank_text, table
+from validation.scenes.reader import LENGTH, Reader, key_in_errors, nonblank_text, table, yes_or_no
 from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
 from validation.scenes.units import in_unit, quantity
 
@@ -35,40 +33,28 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
         "longest": LENGTH,
         "shortest": LENGTH,
         "fill": yes_or_no,
-        **KEYS,
-        "key": nonblank_text,
+        **FORM,
     }
-    found = table(readers, tuple(key for key in readers if key != "file"), name, given)
-    path, form = folder / found.pop("file"), form_of(found)
+    found = table(readers, tuple(readers)[1:], name, given)
+    path, form = file_of(found, folder)
     numbers = read_table(f"{name}.file", path, form)
     with key_in_errors(name):
         count = len(found["positions"]) if "positions" in found else None
-        lines = _along_the_track(
-            numbers, metre=found.pop("unit", None), spacing=found.pop("spacing", None), count=count
-        )
-        height, edits = edited_lines(lines.height, fill=found.pop("fill", False), asked_by="fill = true")
-        measured = MeasuredLines(height=height, spacing=lines.spacing, **found)
+        given_as = {"metre": found.pop("unit", None), "spacing": found.pop("spacing", None)}
+        height, spacing, notes = _along_the_track(numbers, **given_as, count=count)
+        height, edits = edited_lines(height, fill=found.pop("fill", False), asked_by="fill = true")
+        measured = MeasuredLines(height=height, spacing=spacing, **found)
         if not measured.height.any():
             raise ValueError("file must have heights, got zeros alone")
         try:
             _ = measured.levels  # heights in a wrong unit are refused here, by their levels
         except ValueError as problem:
             raise ValueError(f'{problem} As: unit = "um"') from None
-    told += [*sentence_about(path, (*numbers.notes, *lines.notes)), *edits.notes]
+    told += [*sentence_about(path, (*numbers.notes, *notes)), *edits.notes]
     return measured
 
 
-@contextmanager
-def key_in_errors(name: str) -> Iterator[None]:
-    """Put the key of a scene file in front of the sentence of a ValueError."""
-    try:
-        yield
-    except ValueError as problem:
-        raise ValueError(f"{name}.{problem}") from None
-
-
-@dataclass(frozen=True, eq=False)
-class _Lines:
+class _Lines(NamedTuple):
     """Heights of shape (points, lines) [m], their spacing [m], and what was assumed."""
 
     height: FloatArray

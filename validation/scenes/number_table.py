@@ -9,6 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, islice
+from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
@@ -210,9 +211,9 @@ def _how(dialect: Dialect, width: int, above: int, encoding: str) -> tuple[str, 
 # Keys of a scene
 
 
-def form_of(found: dict[str, Any]) -> TableForm:
-    """The form in the values of a table of a scene, which are taken out of it."""
-    return TableForm(**{key: found.pop(key) for key in (*KEYS, "key") if key in found})
+def file_of(found: dict[str, Any], folder: Path) -> tuple[Path, TableForm]:
+    """The file in the values of a table of a scene, and its form, which are taken out of it. folder: of the scene."""
+    return folder / found.pop("file"), TableForm(**{key: found.pop(key) for key in FORM if key in found})
 
 
 def _columns(name: str, given: object) -> tuple[str | int, ...]:
@@ -249,3 +250,5 @@ KEYS: dict[str, Reader] = {
     "nodata": _nodata,
 }
 """How each value about a table is read."""
+FORM = KEYS | {"key": nonblank_text}
+"""The same with the name of an array."""

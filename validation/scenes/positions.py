@@ -64,10 +64,9 @@ def places_of(values: FloatArray) -> Places | None:
 
 def _last_digit(values: FloatArray) -> float:
     """The decimal place to which all values are rounded; zero where there is none."""
-    for digits in range(10):
-        if np.allclose(np.round(values, digits), values, rtol=1e-15, atol=1e-12 * max(1.0, np.abs(values).max())):
-            return 10.0**-digits
-    return 0.0
+    off = 1e-12 * max(1.0, np.abs(values).max())
+    found = (n for n in range(10) if np.allclose(np.round(values, n), values, rtol=1e-15, atol=off))
+    return next((10.0**-n for n in found), 0.0)
 
 
 def runs_one_way(values: FloatArray) -> bool:
@@ -111,16 +110,11 @@ def own_spacing(numbers: NumberTable, metre: float | None, given: Sequence[float
     )
 
 
-@dataclass(frozen=True, eq=False)
-class GriddedHeights:
-    """Heights of shape (nx, ny), NaN where no row has the point, and the steps along both axes."""
+def grid_of(x: FloatArray, y: FloatArray, z: FloatArray) -> tuple[FloatArray, tuple[float, float]]:
+    """Heights of shape (nx, ny), NaN where no row has the point, and the steps along both axes, from rows in any order.
 
-    height: FloatArray
-    steps: tuple[float, float]
-
-
-def grid_of(x: FloatArray, y: FloatArray, z: FloatArray) -> GriddedHeights:
-    """Heights over a regular grid from rows of x, y and z in any order. Raises ValueError where there is no grid."""
+    Raises ValueError where there is no regular grid.
+    """
     if not (np.isfinite(x).all() and np.isfinite(y).all()):
         raise ValueError("x and y must be known in each row, got some without data")
     axes = []
@@ -143,4 +137,4 @@ def grid_of(x: FloatArray, y: FloatArray, z: FloatArray) -> GriddedHeights:
             f"{height.shape[0]} x {height.shape[1]} places, with some twice or most missing"
         )
     height.flat[flat] = z
-    return GriddedHeights(height, (of_x.step, of_y.step))
+    return height, (of_x.step, of_y.step)

@@ -6,9 +6,11 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from validation.scenes.number_table import NumberTable, TableForm
+from validation.scenes.height_files import unit_of
+from validation.scenes.number_table import FORM, NumberTable, file_of
 from validation.scenes.printable import printable
-from validation.scenes.table_files import PLAIN, heights_of_columns, read_table
+from validation.scenes.reader import Reader, nonblank_text, table, yes_or_no
+from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.units import in_unit
 
@@ -24,26 +26,27 @@ KNOTS, DENSE = 1e-3, 6
 """Distance of the knots of the spline that smooths a profile [m], with so many points to each or more."""
 
 
-def read_profile(
-    name: str, path: Path, form: TableForm = PLAIN, *, metre: float | None = None, flip: bool = False
-) -> tuple[TransverseProfile, tuple[str, ...]]:
-    """Profile of a file, y in either order, and what was assumed of it, in sentences.
+def profile_in(name: str, given: object, *, folder: Path, told: list[str]) -> TransverseProfile:
+    """Of a file beside a scene: its name, or a table that has it and says how to read it. y runs in either order.
 
-    metre: the unit of both columns [m], where they do not name it; flip: whether heights of the file point away from
-    the other body. Raises OSError for a file that cannot be read, ValueError for one that holds no profile.
+    told: takes what was assumed. Raises OSError for a file that cannot be read, ValueError for one that holds none.
     """
-    table = read_table(name, path, form)
+    readers: dict[str, Reader] = {"file": nonblank_text, "unit": unit_of, "flip": yes_or_no, **FORM}
+    found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
+    key, (path, form) = name if isinstance(given, str) else f"{name}.file", file_of(found, folder)
+    numbers = read_table(key, path, form)
     try:
-        y, height = _in_metres(table, metre)
+        y, height = _in_metres(numbers, found.get("unit"))
         known = np.isfinite(y) & np.isfinite(height)
-        y, height, of_ends = _ascending(y[known], height[known] * (-1 if flip else 1))
+        y, height, of_ends = _ascending(y[known], height[known] * (-1 if found.get("flip") else 1))
         smooth, of_noise = _smoothed(y, height)
         profile = TransverseProfile(y=tuple(y.tolist()), height=tuple(smooth.tolist()), source=path.name)
     except ValueError as problem:
-        raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
+        raise ValueError(f"{key} {printable(path)}: {printable(problem)}") from None
     missing = int((~known).sum())
     notes = (f"{missing} of its points have no data and are left out",) if missing else ()
-    return profile, (*table.notes, *notes, *of_ends, *of_noise)
+    told += sentence_about(path, (*numbers.notes, *notes, *of_ends, *of_noise))
+    return profile
 
 
 def _in_metres(table: NumberTable, metre: float | None) -> tuple[FloatArray, FloatArray]:

@@ -5,20 +5,29 @@ from pathlib import Path
 from typing import Any
 
 from mdr.checks import positive
-from validation.scenes.height_files import heights_of, unit_of, yes_or_no
-from validation.scenes.level_files import curve, read_levels, unit_of_wavelengths
-from validation.scenes.line_files import key_in_errors, lines_in
+from validation.scenes.height_files import heights_of
+from validation.scenes.level_files import levels_in
+from validation.scenes.line_files import lines_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.number_table import KEYS, form_of
-from validation.scenes.printable import quoted, shortened
-from validation.scenes.profile_files import read_profile
+from validation.scenes.printable import shortened
+from validation.scenes.profile_files import profile_in
 from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import Across, RailScene
-from validation.scenes.reader import FORCE, LENGTH, MASS, NUMBER, SPEED, WHOLE, Reader, nonblank_text, table
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.scenes.table_files import sentence_about
+from validation.scenes.reader import (
+    FORCE,
+    LENGTH,
+    MASS,
+    NUMBER,
+    SPEED,
+    WHOLE,
+    Reader,
+    key_in_errors,
+    nonblank_text,
+    one_of,
+    table,
+)
 from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 from validation.scenes.units import in_unit, quantity
 
@@ -46,11 +55,11 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     """The scene in the tables of a file, other files beside it. Raises ValueError that names the key."""
     told: list[str] = []
     ground: dict[str, Reader] = {
-        "levels": partial(_levels, folder=folder, told=told),
+        "levels": partial(levels_in, folder=folder, told=told),
         "lines": partial(lines_in, folder=folder, told=told),
         "heights": partial(heights_of, folder=folder),
     }
-    shape: dict[str, Reader] = {"profile": partial(_profile, folder=folder, told=told)}
+    shape: dict[str, Reader] = {"profile": partial(profile_in, folder=folder, told=told)}
     on_wheel = shape | {key: ground[key] for key in ("levels", "lines")}
     on_rail = shape | ground
     readers: dict[str, Reader] = {
@@ -61,7 +70,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     }
     found = table(readers, (), "", tables)
     wheel, rail, material = found["wheel"], found["rail"], found["material"]
-    roughness, of_roughness = _both(_one(rail, "rail", GROUNDS), _one(wheel, "wheel", GROUNDS, least=0))
+    roughness, of_roughness = _both(one_of(rail, "rail", GROUNDS), one_of(wheel, "wheel", GROUNDS, least=0))
     load, of_load = _load(wheel)
     given: dict[str, Any] = {
         "name": found["name"],
@@ -70,12 +79,12 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "modulus": material.modulus,
         "material": material,
         "roughness": roughness,
-        "across": _one(rail, "rail", ("across", "alpha"), least=0),
+        "across": one_of(rail, "rail", ("across", "alpha"), least=0),
         "notes": (*of_load, *of_roughness, *told),
         **{key: wheel[key] for key in ("speed", "mass") if key in wheel},
     }
-    of_rail = _one(rail, "rail", SHAPES_OF_RAIL, least=0)
-    of_wheel = _one(wheel, "wheel", SHAPES_OF_WHEEL, least=0)
+    of_rail = one_of(rail, "rail", SHAPES_OF_RAIL, least=0)
+    of_wheel = one_of(wheel, "wheel", SHAPES_OF_WHEEL, least=0)
     if not any(isinstance(body, TransverseProfile) for body in (of_rail, of_wheel)):
         if "offset" in wheel:
             raise ValueError("wheel.offset must be left out where neither wheel nor rail has a profile, got it")
@@ -89,16 +98,8 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     return ProfiledRail(**given, profile=profile, offset=wheel.get("offset", 0.0))
 
 
-def _one(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
-    """The value of one of these keys. ValueError for more of them, or fewer than the least."""
-    found = [key for key in keys if key in given]
-    if not least <= len(found) <= 1:
-        raise ValueError(f"{name} must have one of {', '.join(keys)}, got {' and '.join(found) or 'none'}")
-    return given[found[0]] if found else None
-
-
 def _radius(wheel: dict[str, Any]) -> float:
-    one: float = _one(wheel, "wheel", ("radius", "diameter"))
+    one: float = one_of(wheel, "wheel", ("radius", "diameter"))
     return one / 2 if "diameter" in wheel else one
 
 
@@ -126,7 +127,7 @@ def _check_flange(wheel: TransverseProfile, at: float) -> None:
 
 def _load(wheel: dict[str, Any]) -> tuple[float, tuple[str, ...]]:
     """Of one wheel, and what was assumed of an axle."""
-    one: float = _one(wheel, "wheel", ("load", "axle_load"))
+    one: float = one_of(wheel, "wheel", ("load", "axle_load"))
     wheels = wheel.get("wheels_per_axle")
     if "load" in wheel:
         if wheels is not None:
@@ -152,47 +153,6 @@ def _both(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
     missing = [f"{1000 * w:g}" for w in levels.bands.nominal if w not in more.bands.nominal]
     note = f"the roughness of the wheel is not known at {', '.join(missing)} mm: that of the rail stands alone there."
     return levels + more, (note,) if missing else ()
-
-
-def _levels(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
-    """Of a bundled curve or of a file, so many decibels more, between two wavelengths. told: takes what was assumed."""
-    readers: dict[str, Reader] = {
-        "curve": nonblank_text,
-        "file": nonblank_text,
-        "offset": _decibels,
-        "longest": LENGTH,
-        "shortest": LENGTH,
-        "unit": unit_of_wavelengths,
-        **KEYS,
-    }
-    found = table(readers, tuple(readers), name, given)
-    _one(found, name, ("curve", "file"))
-    if "file" in found:
-        path, form = folder / found["file"], form_of(found)
-        levels, notes = read_levels(f"{name}.file", path, form, unit=found.get("unit"))
-        told += sentence_about(path, notes)
-    elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
-        raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
-    with key_in_errors(name):
-        levels = curve(found["curve"]) if "curve" in found else levels
-        levels = levels.within(found.get("longest"), found.get("shortest"))
-        return levels.raised(found["offset"]) if "offset" in found else levels
-
-
-def _profile(name: str, given: object, *, folder: Path, told: list[str]) -> TransverseProfile:
-    """Of a file beside the scene: its name, or a table that has it and says how to read it."""
-    readers: dict[str, Reader] = {"file": nonblank_text, "unit": unit_of, "flip": yes_or_no, **KEYS}
-    found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
-    path, form = folder / found["file"], form_of(found)
-    wishes = {"metre": found.get("unit"), "flip": found.get("flip", False)}
-    profile, notes = read_profile(name if isinstance(given, str) else f"{name}.file", path, form, **wishes)
-    told += sentence_about(path, notes)
-    return profile
-
-
-def _decibels(name: str, given: object) -> float:
-    """A number, or a text with its unit."""
-    return quantity(name, given, "level") if isinstance(given, str) else NUMBER(name, given)
 
 
 def _across(name: str, given: object) -> Across:

@@ -48,6 +48,15 @@ def file_named_in_errors(path: Path) -> Iterator[None]:
         raise SceneError(f"scene {printable(path)}: {problem}") from None
 
 
+@contextmanager
+def key_in_errors(name: str) -> Iterator[None]:
+    """Put the key of a scene file in front of the sentence of a ValueError."""
+    try:
+        yield
+    except ValueError as problem:
+        raise ValueError(f"{name}.{problem}") from None
+
+
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
     """Read each value of a table by its own reader. ValueError for an unknown key, or a missing one that is needed."""
     if not isinstance(given, dict):
@@ -63,6 +72,14 @@ def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, g
         if key not in given and key not in optional:
             raise ValueError(f"{full[key]} is missing, {name or 'a scene'} must have it{_as_line(full[key])}")
     return {key: read(full[key], given[key]) for key, read in readers.items() if key in given}
+
+
+def one_of(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
+    """The value of one of these keys. ValueError for more of them, or fewer than the least."""
+    found = [key for key in keys if key in given]
+    if not least <= len(found) <= 1:
+        raise ValueError(f"{name} must have one of {', '.join(keys)}, got {' and '.join(found) or 'none'}")
+    return given[found[0]] if found else None
 
 
 def _as_line(key: str) -> str:
@@ -89,6 +106,12 @@ def nonblank_text(name: str, given: object) -> str:
         raise ValueError(f"{name} must be a text that is not blank, got {shortened(given)}")
     if not is_printable(given):
         raise ValueError(f"{name} must be one line without control characters, got {shortened(given)}")
+    return given
+
+
+def yes_or_no(name: str, given: object) -> bool:
+    if not isinstance(given, bool):
+        raise ValueError(f"{name} must be true or false, got {shortened(given)}, as: {name.rpartition('.')[2]} = true")
     return given
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.wheel_body import Wheel
-from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
 
 FloatArray = NDArray[np.float64]
@@ -111,9 +111,5 @@ def _nodes(resonance: float, ground: RoughSurface, period: float) -> tuple[Float
     powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(RATIO)))
     waves = np.linspace(low, high, 2 + math.floor((high - low) / period))
     inner = [abs(q - resonance) for q in ground.edges]
-    ends = np.union1d(np.union1d(powers, waves), np.clip(inner, low, high))
-    node, weight = gauss_legendre(NODES)
-    half = np.diff(ends)[:, np.newaxis] / 2
-    away = (ends[:-1, np.newaxis] + half * (1 + node)).ravel()
-    sign = 1 if resonance < ground.q_min else -1
-    return resonance + sign * away, (half * weight).ravel()
+    away, weight = on_panels(np.union1d(np.union1d(powers, waves), np.clip(inner, low, high)), NODES)
+    return resonance + (1 if resonance < ground.q_min else -1) * away, weight

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mdr.checks import count
 from validation.analysis.nominal_bands import MANTISSAS
 from validation.scenes.load import Scene
+from validation.scenes.printable import shortened
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.compared_models import ComparedModels
@@ -197,6 +198,21 @@ class Comparison:
     @property
     def _answer(self) -> Answer | None:
         return self.selection.best.answer if self.selection.best is not None else None
+
+
+OneOrSeveral = Comparison | Sequence[Comparison]
+"""What functions of the face take."""
+
+
+def listed(comparison: OneOrSeveral) -> list[Comparison]:
+    """All of them. Raises TypeError for anything else, ValueError for none."""
+    if isinstance(comparison, Comparison):
+        return [comparison]
+    if not isinstance(comparison, Sequence) or not all(isinstance(one, Comparison) for one in comparison):
+        raise TypeError(f"comparison must be what compare returns, or a list of that, got {shortened(comparison)}")
+    if not comparison:
+        raise ValueError("comparison must be one or several, got an empty list")
+    return list(comparison)
 
 
 def compare(

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from validation.analysis.sound import a_weighting, energy_sum
 from validation.scenes.rail import RailScene
+from validation.scenes.roughness_levels import MICROMETRE
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
 from validation.selection.rail_model import RailSceneModel
 from validation.selection.side_by_side import NAMES, Columns, half_width, signed
 from validation.simulation.rail_models import RolledRailModel
-from validation.simulation.rail_quantity import MICROMETRE
 
 FloatArray = NDArray[np.float64]
 

@@ -12,10 +12,9 @@ from validation.analysis.evidence import Table, table_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
-from validation.selection.compare import Comparison
+from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.contact_force import ContactForce, contact_force
 from validation.selection.hierarchy import Candidate
-from validation.selection.one_or_several import OneOrSeveral, listed
 
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 
@@ -46,8 +45,7 @@ def to_json(comparison: OneOrSeveral) -> str:
 
 def to_json_of(comparisons: Sequence[Comparison]) -> str:
     """The object of one comparison, or the list of several."""
-    found = [_found(one) for one in comparisons]
-    return as_json(found if len(found) > 1 else found[0]).decode()
+    return to_json(comparisons if len(comparisons) > 1 else comparisons[0])
 
 
 def _found(comparison: Comparison) -> dict[str, object]:
@@ -99,11 +97,29 @@ def to_csv(comparison: OneOrSeveral) -> str:
     >>> print(text.splitlines()[0])
     wavelength_mm,frequency_hz,value,low,high,unit,model,selected
     """
-    from validation.selection.several import table_of_several  # which is made of this module's tables
-
-    if isinstance(comparison, Comparison):
-        return as_csv(levels_of_models(comparison)).decode()
     return as_csv(table_of_several(listed(comparison))).decode()
+
+
+def table_of_several(comparisons: Sequence[Comparison]) -> Table:
+    """The tables of all, one under another, behind the name of the scene, and of the quantity where these differ."""
+    tables = [levels_of_models(one) for one in comparisons]
+    if len(tables) == 1:
+        return tables[0]
+    counts = [len(table["value"]) for table in tables]
+    front = {"scene": [one.scene.name for one in comparisons]}
+    if len(by_quantity(comparisons)) > 1:
+        front["quantity"] = [one.quantity for one in comparisons]
+    repeated = {name: [v for v, n in zip(of, counts, strict=True) for _ in range(n)] for name, of in front.items()}
+    columns = {
+        name: [v for table, n in zip(tables, counts, strict=True) for v in table.columns.get(name, [math.nan] * n)]
+        for name in dict.fromkeys(name for table in tables for name in table.columns)
+    }
+    return Table(comparisons[0].quantity, {**repeated, **columns})
+
+
+def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]]:
+    """In the order in which they were asked."""
+    return {name: [one for one in comparisons if one.quantity == name] for name in (o.quantity for o in comparisons)}
 
 
 def levels_of_models(comparison: Comparison) -> Table:

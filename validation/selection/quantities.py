@@ -3,9 +3,10 @@
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
+from validation.scenes.roughness_levels import MICROMETRE
 from validation.selection.rail_model import rail_models
 from validation.selection.scene_model import SceneModel, Shared, models_on
-from validation.simulation.rail_quantity import MICROMETRE, RAIL_QUANTITIES
+from validation.simulation.rail_quantity import RAIL_QUANTITIES
 
 PRESSED = ("stiffness",)
 ROLLING = ("force-rms", "force-spectrum")

@@ -1,12 +1,11 @@
 """Comparisons of several scenes in one table."""
 
-import math
 from collections.abc import Sequence
 
 from validation.analysis.evidence import Table
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import contact_force
-from validation.selection.exported import levels_of_models
+from validation.selection.exported import by_quantity
 from validation.selection.summary import WIDTH, label, scaled, what_would_help, wrapped
 
 
@@ -50,11 +49,6 @@ def overview_of(comparisons: Sequence[Comparison]) -> dict[str, list[str]]:
     return columns
 
 
-def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]]:
-    """In the order in which they were asked."""
-    return {name: [one for one in comparisons if one.quantity == name] for name in (o.quantity for o in comparisons)}
-
-
 def _result(comparison: Comparison) -> str:
     best = comparison.selection.best
     if best is None:
@@ -65,23 +59,6 @@ def _result(comparison: Comparison) -> str:
         return f"{comparison.value.size} bands"
     (value,), (half,) = comparison.value, comparison.errors_of(best)
     return f"{scaled(float(value), float(half))} {comparison.unit}"
-
-
-def table_of_several(comparisons: Sequence[Comparison]) -> Table:
-    """The tables of all, one under another, behind the name of the scene, and of the quantity where these differ."""
-    if len(comparisons) == 1:
-        return levels_of_models(comparisons[0])
-    tables = [levels_of_models(one) for one in comparisons]
-    counts = [len(table["value"]) for table in tables]
-    front = {"scene": [one.scene.name for one in comparisons]}
-    if len(by_quantity(comparisons)) > 1:
-        front["quantity"] = [one.quantity for one in comparisons]
-    repeated = {name: [v for v, n in zip(of, counts, strict=True) for _ in range(n)] for name, of in front.items()}
-    columns = {
-        name: [v for table, n in zip(tables, counts, strict=True) for v in table.columns.get(name, [math.nan] * n)]
-        for name in dict.fromkeys(name for table in tables for name in table.columns)
-    }
-    return Table(comparisons[0].quantity, {**repeated, **columns})
 
 
 def selected_of_several(table: Table) -> Table:

@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, is_dataclass
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.load import Scene
 from validation.selection.compare import Comparison, compare_quantities
-from validation.selection.hierarchy import Answer, Candidate, Selection
+from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection
 from validation.selection.quantities import models_of
 from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.model import Cost, ErrorEstimate
@@ -29,7 +29,7 @@ class SceneProblem:
     tolerance: float | str
     seed: int = 0
     solve_all: bool = False
-    models: tuple[str, ...] = ()
+    models: str | tuple[str, ...] = ()
     content: str = field(init=False)
 
     def __post_init__(self) -> None:
@@ -38,6 +38,18 @@ class SceneProblem:
     @property
     def wanted(self) -> Tolerance:
         return tolerance_of(self.tolerance)
+
+    def compared(self, callback: Callable[[ContactModel], None] = lambda _: None) -> dict[str, Comparison]:
+        """Each quantity by its name."""
+        return compare_quantities(
+            self.scene,
+            self.quantities,
+            self.tolerance,
+            self.seed,
+            solve_all=self.solve_all,
+            models=self.models,
+            callback=callback,
+        )
 
 
 def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Comparison]:
@@ -52,15 +64,8 @@ def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Com
 
 def compare_scene(problem: SceneProblem) -> Outcome:
     """What became of each model, as JSON in one array a quantity."""
-    found = compare_quantities(
-        problem.scene,
-        problem.quantities,
-        problem.tolerance,
-        problem.seed,
-        solve_all=problem.solve_all,
-        models=problem.models,
-    )
-    texts = {name: json.dumps([_plain(candidate) for candidate in one.models]) for name, one in found.items()}
+    found = problem.compared().items()
+    texts = {name: json.dumps([_plain(candidate) for candidate in one.models]) for name, one in found}
     return {name: np.frombuffer(text.encode(), dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
+from validation.selection.tolerance import short
 from validation.simulation.rail_quantity import COUNTED
 
 Columns = dict[str, list[str]]
@@ -53,9 +54,9 @@ def _parts(comparison: Comparison, one: Candidate) -> dict[str, np.ndarray]:
     return {name: part / scale for name, part in comparison.error_parts_of(one).items()}
 
 
-def half_width(error: float, digits: int = 2) -> str:
+def half_width(error: float) -> str:
     """As "± 1.2", or "± unknown"."""
-    return f"± {float(f'{error:.{digits}g}'):g}" if math.isfinite(error) else "± unknown"
+    return f"± {short(error)}" if math.isfinite(error) else "± unknown"
 
 
 def signed(value: float, digits: int) -> str:

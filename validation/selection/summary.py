@@ -15,10 +15,9 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
-from validation.selection.compare import Comparison
+from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import Answer, Candidate, Status
-from validation.selection.one_or_several import OneOrSeveral, listed
 from validation.selection.quantities import MOVING, UNITS
 from validation.selection.rail_model import what_would_state_the_ground
 from validation.selection.reasons import grouped

@@ -20,7 +20,7 @@ from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import Estimate, jackknifed
 from validation.engine.engine import Outcome
 from validation.simulation.rail_strip import RailStrip, Transfer
-from validation.theory.contact_filters import half_space_filter, spring_bed_filter
+from validation.theory.contact_filters import half_space_filter, row_of_means_filter, spring_bed_filter
 from validation.theory.elliptic_contact import EllipticContact
 
 FloatArray = NDArray[np.float64]
@@ -47,9 +47,7 @@ LINEAR_MODELS: Mapping[str, Callable[[EllipticContact], Transfer]] = {
     LINEAR: lambda contact: lambda along, across: half_space_filter(along, across, semi_axes=_axes(contact)),
     BED: lambda contact: lambda along, across: spring_bed_filter(along, across, semi_axes=_axes(contact)),
     LINEAR_ON_LINE: lambda contact: lambda along, across: np.sinc((along + 0 * across) * contact.along / np.pi),
-    LINEAR_ON_MEAN: lambda contact: (
-        lambda along, across: np.sinc(along * contact.along / np.pi) * np.sinc(across * contact.across / np.pi)
-    ),
+    LINEAR_ON_MEAN: lambda contact: lambda along, across: row_of_means_filter(along, across, semi_axes=_axes(contact)),
 }
 """From the smooth contact to H(k_x, k_y)."""
 
@@ -178,20 +176,6 @@ def roll_rail(problem: RolledRail) -> Outcome:
 def band_powers(outcomes: Sequence[Outcome], name: str, spacing: float, bands: Bands) -> FloatArray:
     """Of the tracks with a name, (strips, bands); NaN in strips that failed [m^2]."""
     return levels(waves(np.array([outcome[name] for outcome in outcomes]), spacing=spacing), bands)
-
-
-def log_filter(strip: RailStrip, model: str, outcomes: Sequence[Outcome], bands: Bands) -> list[Estimate]:
-    """ln of the contact filter, a ratio of powers, in each band: that of the linear twin in the mean of all
-    realisations of this kind of strip, and what the model is over it on the strips that were rolled."""
-    twin = ONE_SIDED[model].twin if model in ONE_SIDED else model
-    power = [strip.expected_power(LINEAR_MODELS[name](strip.contact), bands) for name in (twin, LINE)]
-    exact = np.log(power[0] / power[1])
-    if model == twin:
-        return [Estimate(float(value), 0.0, 2) for value in exact]
-    return [
-        Estimate(float(value) + over.value, over.error, over.samples)
-        for value, over in zip(exact, log_over(model, twin, outcomes, strip.spacing, bands), strict=True)
-    ]
 
 
 def log_over(model: str, other: str, outcomes: Sequence[Outcome], spacing: float, bands: Bands) -> list[Estimate]:

@@ -11,7 +11,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.surface import draw_surface
-from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import rms_gradient
 
 FloatArray = NDArray[np.float64]
@@ -167,8 +167,5 @@ def _whole(ground: RoughSurface, side: float) -> float:
 def _mean_square_above(ground: RoughSurface, first: float) -> float:
     """2 pi int C_2D q dq from a wavenumber to the last [m^2]."""
     low = max(first, ground.q_min)
-    node, weight = gauss_legendre(24)
-    ends = np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low)))
-    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
-    q = middle + half * node
-    return float(2 * np.pi * np.sum(half * weight * q * ground.c2d(q)))
+    q, weight = on_panels(np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low))), 24)
+    return float(2 * np.pi * np.sum(weight * q * ground.c2d(q)))

@@ -5,7 +5,6 @@ model is its difference from linear theory and that of linear theory. What is no
 """
 
 import math
-from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -19,24 +18,13 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.engine.engine import Outcome
 from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import (
-    LINEAR,
-    LINEAR_MODELS,
-    ONE_SIDED,
-    RolledRail,
-    log_over,
-    roll_rail,
-)
+from validation.simulation.equivalent_displacement import LINEAR, LINEAR_MODELS, RolledRail, log_over, roll_rail
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target
-from validation.simulation.rail_ground import (
-    StatedAcross,
-    positions_along,
-    strip_bands,
-    strip_of,
-)
+from validation.simulation.rail_ground import StatedAcross, positions_along, strip_bands, strip_of
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.simulation.rail_strip import RailStrip
+from validation.simulation.spectral_springs import twin_of
 
 FloatArray = NDArray[np.float64]
 
@@ -74,16 +62,21 @@ class FoundFilter:
 
 
 class RailModel(Model):
-    """A contact filter in bands. closed: A3 without a sample, (ends, bands); find: what a solve makes of it."""
+    """A contact filter in bands, by default a linear one whose mean over the stated ground is a quadrature."""
 
     charted: ClassVar = False
+
+    @property
+    def twin(self) -> str:
+        """The name of the linear model of a one-sided one, and of that one's track; of any other its own."""
+        return twin_of(self.name)
 
     def serves(self, scene: Any, quantity: str) -> bool:
         return isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
 
-    @abstractmethod
     def closed(self, quantity: RailQuantity) -> FloatArray:
         """A3 of the linear filter, of a one-sided model that of its linear twin, (ends, bands) [dB]."""
+        return quantity.filtered(LINEAR_MODELS[self.twin](quantity.scene.contact))
 
     def find(self, quantity: RailQuantity, seed: int) -> FoundFilter:
         """Without a sample."""
@@ -140,27 +133,12 @@ class RailModel(Model):
         return lambda _: Solve(lambda: self.find(quantity, target.seed), read)
 
 
-class LinearRailFilter(RailModel):
-    """A linear filter whose mean over the stated ground is a quadrature."""
-
-    def closed(self, quantity: RailQuantity) -> FloatArray:
-        return quantity.filtered(LINEAR_MODELS[self.name](quantity.scene.contact))
-
-
 class RolledRailModel(RailModel):
     """A one-sided model on strips: its linear twin on the stated ground, and what it is over the twin on strips."""
 
     setting: ClassVar = f"{STRIPS} strips, constant load"
     cells: ClassVar = (COARSE, FINE)
     seconds: ClassVar = ITEM
-
-    def closed(self, quantity: RailQuantity) -> FloatArray:
-        return quantity.filtered(LINEAR_MODELS[self.twin](quantity.scene.contact))
-
-    @property
-    def twin(self) -> str:
-        """The name of its linear twin, and of that one's track."""
-        return ONE_SIDED[self.name].twin
 
     def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
         """Tracks along a strip of this model and of its twin, by their names [m]; failed: positions without any."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.rail import RailScene
+from validation.scenes.roughness_levels import MICROMETRE
 from validation.simulation.equivalent_displacement import LINEAR, LINEAR_MODELS
 from validation.simulation.rail_ground import StatedAcross, line_of, lost_contact_number, structure_of
 from validation.theory.line_spectrum import LineSpectrum
@@ -24,7 +25,6 @@ RailQuantityName = Literal["contact-filter", "equivalent-roughness"]
 RAIL_QUANTITIES: tuple[RailQuantityName, ...] = ("contact-filter", "equivalent-roughness")
 COUNTED = -15.0
 """A3 [dB] above which the tolerance counts: below it nothing is left to hear, and models differ by decibels."""
-MICROMETRE = 1e-6
 TILT = 0.3
 """Of the exponent of a line, over which A3 changes in proportion."""
 
@@ -153,6 +153,6 @@ class RailQuantity:
 
     def amplitude(self, a3: FloatArray) -> FloatArray:
         """Of A3 in dB: the ratio of amplitudes, or the root mean square of the equivalent roughness [m]."""
-        levels = np.array(self.scene.levels.levels) if self.name == "equivalent-roughness" else 0.0
-        unit = MICROMETRE if self.name == "equivalent-roughness" else 1.0
-        return np.asarray(unit * 10 ** ((a3 + levels) / 20))
+        if self.name == "contact-filter":
+            return np.asarray(10 ** (a3 / 20))
+        return np.asarray(MICROMETRE * 10 ** ((a3 + self.scene.levels.levels) / 20))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import Bands
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
-from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 
 FloatArray = NDArray[np.float64]
@@ -155,9 +155,6 @@ def _nodes(low: float, high: float, contact_radius: float) -> tuple[FloatArray, 
 
     On panels no longer than half a wave of sin^2(q a), nor than what a power law bends in.
     """
-    node, weight = gauss_legendre(NODES)
     waves = np.linspace(low, high, 2 + math.floor((high - low) * contact_radius / math.pi))
     powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(PANEL)))
-    ends = np.union1d(waves, powers)
-    half = np.diff(ends)[:, np.newaxis] / 2
-    return (ends[:-1, np.newaxis] + half * (1 + node)).ravel(), (half * weight).ravel()
+    return on_panels(np.union1d(waves, powers), NODES)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from validation.theory.closed_forms import positive
-from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.gauss_legendre import on_panels
 from validation.theory.transverse_structure import FAR, WaveBand
 
 FloatArray = NDArray[np.float64]
@@ -59,10 +59,8 @@ def remington_filter(wavenumber: ArrayLike, *, radius: float, alpha: float) -> F
         # the same mean over k_y / k_x, of which not all periods are needed
         return WaveBand(alpha).mean_square(kb, partial(spring_bed_filter, semi_axes=(1.0, 1.0)), semi_axis=1.0)
     largest = float(kb.max(initial=0.0)) * math.hypot(1, alpha)
-    node, weight = gauss_legendre(NODES)
-    ends = np.linspace(0, math.atan(alpha), 2 + math.ceil(largest / math.pi) + math.ceil(math.atan(alpha) * 4))
-    half = np.diff(ends)[:, np.newaxis] / 2
-    x, dx = (ends[:-1, np.newaxis] + half * (1 + node)).ravel(), (half * weight).ravel()
+    panels = 1 + math.ceil(largest / math.pi) + math.ceil(math.atan(alpha) * 4)
+    x, dx = on_panels(np.linspace(0, math.atan(alpha), panels + 1), NODES)
     phase = kb[..., np.newaxis] / np.cos(x)
     # J_1(S) / (k b) = (J_1(S) / S) sec x, which is regular for long waves
     share = np.where(phase > 0, special.j1(phase) / np.where(phase > 0, phase, 1.0), 0.5) / np.cos(x)

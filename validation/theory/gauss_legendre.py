@@ -3,7 +3,7 @@
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 
 @cache
@@ -13,3 +13,10 @@ def gauss_legendre(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]
     for values in found:
         values.flags.writeable = False
     return found
+
+
+def on_panels(ends: ArrayLike, nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """So many nodes on each panel between ascending ends, and their weights, panel by panel."""
+    node, weight = gauss_legendre(nodes)
+    first, half = np.asarray(ends)[:-1, np.newaxis], np.diff(np.asarray(ends))[:, np.newaxis] / 2
+    return (first + half * (1 + node)).ravel(), (half * weight).ravel()

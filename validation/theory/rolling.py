@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from validation.theory.closed_forms import positive
-from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.gauss_legendre import on_panels
 
 FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
@@ -82,15 +82,8 @@ def _section(q: float, c2d: Spectrum, edges: Sequence[float], period: float) -> 
     ends = np.array(_panels(q, edges, period))
     if ends.size < 2:
         return 0.0
-    k, weight = _gauss(np.sqrt(np.maximum(ends**2 - q**2, 0.0)))
+    k, weight = on_panels(np.sqrt(np.maximum(ends**2 - q**2, 0.0)), NODES)
     return float(2 * np.sum(weight * c2d(np.hypot(q, k))))
-
-
-def _gauss(ends: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Nodes and weights of Gauss and Legendre on each panel between these ends."""
-    node, weight = gauss_legendre(NODES)
-    half, middle = np.diff(ends)[:, np.newaxis] / 2, (ends[1:] + ends[:-1])[:, np.newaxis] / 2
-    return middle + half * node, half * weight
 
 
 def _panels(q: float, edges: Sequence[float], period: float) -> list[float]:
@@ -108,7 +101,7 @@ def force_variance(c2d: Spectrum, *, edges: Sequence[float], contact_radius: flo
 
     With C_1D = pi q C_2D it is int (14.12) dq too: Geike's rule keeps the variance of the force exactly.
     """
-    s, weight = _gauss(np.array(_panels(edges[0], edges, math.pi / contact_radius)))
+    s, weight = on_panels(_panels(edges[0], edges, math.pi / contact_radius), NODES)
     power = response(s, contact_radius=contact_radius, modulus=modulus) ** 2 * c2d(s) * s
     return float(2 * math.pi * np.sum(weight * power))
 
@@ -119,7 +112,7 @@ def rms_gradient(c2d: Spectrum, *, edges: Sequence[float]) -> float:
     The profile that Geike's rule makes of the surface has the slope g; a line on it has `slope_in_one_direction`.
     c2d, edges: as of `force_spectrum_3d`.
     """
-    s, weight = _gauss(np.array(_panels(edges[0], edges, math.inf)))
+    s, weight = on_panels(_panels(edges[0], edges, math.inf), NODES)
     return math.sqrt(2 * math.pi * float(np.sum(weight * s**3 * c2d(s))))
 
 
@@ -142,7 +135,7 @@ def contact_lost(c2d: Spectrum, *, edges: Sequence[float], contact_radius: float
     positive(contact_radius=contact_radius, radius=radius)
     gradient = rms_gradient(c2d, edges=edges)
     peak = 2 * contact_radius / (math.pi * radius)
-    u, weight = _gauss(np.array([0.0, 1.0]))
+    u, weight = on_panels([0.0, 1.0], NODES)
     return float(2 * np.sum(weight * u * special.ndtr(-peak * u / (gradient / 2))))
 
 

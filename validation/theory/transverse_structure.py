@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from validation.theory.closed_forms import positive
-from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.gauss_legendre import gauss_legendre, on_panels
 from validation.theory.line_spectrum import LineSpectrum
 
 FloatArray = NDArray[np.float64]
@@ -216,10 +216,7 @@ def _tabulated(line: LineSpectrum) -> tuple[FloatArray, FloatArray]:
 
 def gauss(ends: Sequence[float] | FloatArray) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights of Gauss and Legendre on all panels between ascending ends."""
-    node, weight = gauss_legendre(NODES)
-    half = np.diff(np.asarray(ends))[:, np.newaxis] / 2
-    middle = np.asarray(ends)[:-1, np.newaxis] + half
-    return (middle + half * node).ravel(), (half * weight).ravel()
+    return on_panels(ends, NODES)
 
 
 def _periods(ends: Sequence[float] | FloatArray, period: ArrayLike) -> tuple[FloatArray, FloatArray]:

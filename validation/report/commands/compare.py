@@ -17,15 +17,14 @@ from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, load_scene, load_varied
 from validation.scenes.printable import printable
-from validation.selection.compare import Comparison, compare_quantities
-from validation.selection.exported import to_json_of
+from validation.selection.compare import Comparison
+from validation.selection.exported import table_of_several, to_json_of
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import ContactModel
-from validation.selection.model_names import models_named, names_in
+from validation.selection.model_names import models_named
 from validation.selection.quantities import QUANTITIES, models_of, quantities_of
-from validation.selection.several import help_with, overview, table_of_several
 from validation.selection.several_scenes import SceneProblem, compare_scenes
-from validation.selection.summary import findings, format_seconds, heading
+from validation.selection.summary import findings, format_seconds, heading, summary
 from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
 
@@ -121,14 +120,11 @@ def _scenes_of(name: str, arguments: argparse.Namespace) -> list[tuple[Scene, Sw
 def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
     """What is asked of a scene. Raises ValueError for a quantity or a model that it has not."""
     quantities, seed = arguments.quantity or quantities_of(scene)[:1], arguments.seed or 0
-    tolerance, names = tolerance_of(arguments.tolerance).relative, list[str]()
+    tolerance, names = tolerance_of(arguments.tolerance).relative, () if arguments.models is None else arguments.models
     for quantity in quantities:
-        models = models_of(scene, quantity, tolerance, seed)
-        if arguments.models is not None:
-            names = names_in(arguments.models, [model.name for model in models])
-        models_named(models, names, tolerance)
+        models_named(models_of(scene, quantity, tolerance, seed), names, tolerance)
     timed = arguments.all or arguments.over is not None
-    return SceneProblem(scene, tuple(quantities), arguments.tolerance, seed, timed, tuple(names))
+    return SceneProblem(scene, tuple(quantities), arguments.tolerance, seed, timed, names)
 
 
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
@@ -151,7 +147,7 @@ def _found(
     """Solve, print, and write the files that are asked for."""
     solved = _solved(problems, arguments)
     found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
-    print(findings(found) if len(problems) == 1 else "\n".join([*overview(found), *help_with(found)]))
+    print(findings(found) if len(problems) == 1 else summary(found))
     _write(found, arguments)
     return found
 
@@ -161,16 +157,7 @@ def _solved(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> 
     if len(problems) == 1:
         (problem,) = problems
         print(heading(problem.scene, problem.quantities, problem.wanted), flush=True)
-        found = compare_quantities(
-            problem.scene,
-            problem.quantities,
-            problem.tolerance,
-            problem.seed,
-            solve_all=problem.solve_all,
-            models=problem.models,
-            callback=_announce,
-        )
-        return list(found.values())
+        return list(problem.compared(_announce).values())
     # a run that ends before its time says that what is finished is kept
     arguments.out = arguments.store or arguments.report or STORE
     with progress_of("scenes", arguments.workers) as progress:

@@ -3,10 +3,10 @@
 from typing import ClassVar
 
 from validation.simulation.equivalent_displacement import LINEAR
-from validation.simulation.rail_models import LinearRailFilter
+from validation.simulation.rail_models import RailModel
 
 
-class LinearEllipseOnRail(LinearRailFilter):
+class LinearEllipseOnRail(RailModel):
     """The half-space under an ellipse that keeps its size; exact for low roughness, whatever lies across."""
 
     name: ClassVar = LINEAR

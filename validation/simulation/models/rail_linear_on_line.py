@@ -3,10 +3,10 @@
 from typing import ClassVar
 
 from validation.simulation.equivalent_displacement import LINEAR_ON_LINE
-from validation.simulation.rail_models import LinearRailFilter
+from validation.simulation.rail_models import RailModel
 
 
-class LinearOnLine(LinearRailFilter):
+class LinearOnLine(RailModel):
     """Exact over ridges for low roughness."""
 
     name: ClassVar = LINEAR_ON_LINE

@@ -3,10 +3,10 @@
 from typing import ClassVar
 
 from validation.simulation.equivalent_displacement import BED
-from validation.simulation.rail_models import LinearRailFilter
+from validation.simulation.rail_models import RailModel
 
 
-class LinearSpringBed(LinearRailFilter):
+class LinearSpringBed(RailModel):
     """Source: Remington and Webb, J. Sound Vib. 193 (1996) 83; Ford and Thompson, J. Sound Vib. 293 (2006) 769."""
 
     name: ClassVar = BED

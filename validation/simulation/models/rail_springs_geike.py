@@ -11,7 +11,6 @@ from validation.simulation.rail_models import RolledRailModel
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.rail_strip import RailStrip
 from validation.simulation.spectral_springs import (
-    LINEAR_GEIKE,
     SPRINGS_GEIKE,
     SpectralRail,
     geike_power,
@@ -31,10 +30,6 @@ class SpringsOfGeike(RolledRailModel):
     def serves(self, scene: Any, quantity: str) -> bool:
         """Where the ground is isotropic or not stated: on any other there is no C_2D of one wavenumber."""
         return super().serves(scene, quantity) and scene.across in (ISOTROPIC, None)
-
-    @property
-    def twin(self) -> str:
-        return LINEAR_GEIKE
 
     def closed(self, quantity: RailQuantity) -> NDArray[np.float64]:
         """The same for each end, of the isotropic ground that has the line. ValueError where none has."""

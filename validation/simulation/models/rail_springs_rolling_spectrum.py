@@ -11,7 +11,6 @@ from validation.simulation.rail_models import RolledRailModel
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.rail_strip import RailStrip
 from validation.simulation.spectral_springs import (
-    LINEAR_ROLLING,
     SPRINGS_ROLLING,
     SpectralRail,
     roll_spectral_springs,
@@ -25,10 +24,6 @@ class SpringsOnRollingSpectrum(RolledRailModel):
     name: ClassVar = SPRINGS_ROLLING
     is_mdr: ClassVar = True
     seconds: ClassVar = 3e-5
-
-    @property
-    def twin(self) -> str:
-        return LINEAR_ROLLING
 
     def closed(self, quantity: RailQuantity) -> NDArray[np.float64]:
         return quantity.filtered(rolling_transfer(quantity.scene.contact))
