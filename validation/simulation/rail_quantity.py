@@ -125,8 +125,9 @@ class RailQuantity:
     def smoothing_error(self) -> FloatArray:
         """95 % half-width of A3 over isotropic ground that levels leave which scatter [dB].
 
-        By the error of the slopes of the smooth line, and by twice what smoothing it again changes: bends of the levels
-        were smoothed before. Zero of levels that are smooth.
+        By the error of the slopes of the smooth line, and by thrice what smoothing it twice more changes: bends of the
+        levels were smoothed before, and what stands out of five bands together is in part taken for ground. Zero of
+        levels that are smooth.
         """
         isotropic = self.scene.isotropic
         if isotropic is None or isotropic.as_it_is:
@@ -134,7 +135,7 @@ class RailQuantity:
         lines = self.line, self.line.steeper(TILT), isotropic.smoother
         transfer = LINEAR_MODELS[LINEAR](self.scene.contact)
         own, tilted, smoother = (self._of_ground(IsotropicGround(line), line, transfer) for line in lines)
-        found = np.abs(tilted - own) / TILT * isotropic.slope_error + 2 * np.abs(smoother - own)
+        found = np.abs(tilted - own) / TILT * isotropic.slope_error + 3 * np.abs(smoother - own)
         return np.asarray(found)
 
     @cached_property
