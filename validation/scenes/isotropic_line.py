@@ -30,7 +30,7 @@ REACH = 5
 class IsotropicLine:
     """line: of isotropic ground; whole: the same with the levels that stand out above it.
 
-    smoother: the line smoothed once more; slope_error: 95 % half-width of the exponent of q in each band [-]; scatter:
+    smoother: the line smoothed twice more; slope_error: 95 % half-width of the exponent of q in each band [-]; scatter:
     of the levels about a smooth line [dB]; apart: of each level from the line [dB]; stands_out: bands in which no
     isotropic ground has the level.
     """
@@ -64,7 +64,7 @@ def isotropic_line(levels: RoughnessLevels, weights: ArrayLike) -> IsotropicLine
         return LineSpectrum.through(*nodes_of(bands, MICROMETRE**2 * 10 ** (some / 10)))
 
     smooth = graduated(given, weights, least=LEAST_SCATTER)
-    line, smoother = (_falling(of(some)) for some in (smooth.values, smooth.hat @ smooth.values))
+    line, smoother = (_falling(of(some)) for some in (smooth.values, smooth.hat @ smooth.hat @ smooth.values))
     ground = 10 * np.log10(bands.powers_of_spectrum(line) / MICROMETRE**2)
     apart, scatter = given - ground, smooth.scatter / np.sqrt(smooth.of_values)
     too_steep = np.abs(smooth.values - ground) > LEAST_SCATTER
