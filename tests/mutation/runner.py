@@ -72,7 +72,10 @@ VERDICTS = (
 CLAIMS = {
     "answers": "validation/report/answers/*.py",
     "calibration": "validation/simulation/calibrat*.py",
+    "contact_force": "validation/selection/contact_force.py",
     "exported": "validation/selection/exported.py",
+    "graduation": "validation/analysis/graduation.py",
+    "isotropic_line": "validation/scenes/isotropic_line.py",
     "multilevel": "validation/analysis/multilevel.py",
     "rail": "validation/simulation/rail_*.py",
     "sound": "validation/analysis/sound.py",
