@@ -137,6 +137,13 @@ def test_an_error_grows_with_the_height_by_a_power_from_zero_to_one(power, found
     assert measured("punch", points, 0.2 * 10 ** (power * points[:, 0])).trend == 0.0
 
 
+def test_the_trend_is_that_of_the_errors_over_their_shapes():
+    """Errors that grow as the height, of a shape that grows as its square root, are another square root."""
+    points, _ = population(60, 5)
+    shapes, errors = 10 ** (0.5 * points[:, 0]), 10 ** points[:, 0]
+    assert MeasuredErrors(NAMES["sphere"], points, errors, shapes).trend == pytest.approx(0.5)
+
+
 def left_out_by_loops(table, scene):
     """Root mean square of the errors of the nearest others, a tenth of the weight for the farthest of them.
 

@@ -14,10 +14,10 @@ from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import BED, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
+from validation.simulation.equivalent_displacement import BED, BEM, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
 from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_ground import strip_of
-from validation.simulation.rail_models import COARSE, FINE
+from validation.simulation.rail_models import COARSE, FINE, RolledRailModel
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.spectral_springs import (
     SPRINGS_GEIKE,
@@ -102,6 +102,35 @@ def test_springs_of_input_spectra_follow_their_linear_twin_on_a_smoother_rail(mo
     strip = strip_of(smoother, "isotropic", 12, 0, 3)
     line = strip.along_middle(LINEAR_MODELS[LINEAR_ON_LINE](strip.contact))
     assert np.abs(line - twin).max() > 0.05 * np.abs(twin).max()
+
+
+def test_models_on_strips_have_their_track_and_that_of_their_twin():
+    """On a rail so smooth that all touches, both are the same but for few cells to the contact."""
+    smoother = replace(RAIL, roughness=RAIL.levels.raised(-60.0))
+    on_strips = [model for model in models_serving(smoother, "contact-filter") if isinstance(model, RolledRailModel)]
+    assert len(on_strips) == 7
+    for model in on_strips:
+        if model.name == BEM:
+            continue
+        found = model.roll(smoother, strip_of(smoother, "isotropic", 4, 0, 3))
+        mine, twin = found[model.name], found[model.twin]
+        assert np.abs(mine - twin).max() < 0.3 * np.abs(twin).max(), model.name
+        assert found["failed"] == 0
+
+
+@pytest.mark.parametrize("across", ["isotropic", None])
+@pytest.mark.parametrize("band", [0, 20, 34])
+def test_a_level_that_stands_for_nothing_costs_its_own_band_alone(band, across):
+    """-99 dB, as files have it where nothing was measured: the spectrum falls by a hundred decibels in a band."""
+    levels = list(RAIL.levels.levels)
+    levels[band] = -99.0
+    empty = replace(RAIL, across=across, roughness=replace(RAIL.levels, levels=tuple(levels)))
+    found, own = (RailQuantity(one, "contact-filter") for one in (empty, replace(RAIL, across=across)))
+    others = (np.abs(np.arange(35) - band) > 1) & own.counted(own.linear.mean(axis=0))
+    # what falls steeply beyond the last wave is a spectrum that isotropic ground can have
+    assert found.no_answer == "" and found.stands_out[band] == (band < 34)
+    off = np.abs(found.linear.mean(axis=0) - own.linear.mean(axis=0))
+    assert (off <= found.left_by_ground + 0.1)[others].all()
 
 
 def test_geikes_rule_is_offered_on_isotropic_ground_alone():
