@@ -12,13 +12,14 @@ from validation.scenes.level_files import curve
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import RoughnessLevels
+from validation.selection.quantities import QUANTITIES
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation import rail_models
 from validation.simulation.equivalent_displacement import BED, BEM, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
 from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_ground import strip_of
-from validation.simulation.rail_models import COARSE, FINE, RolledRailModel
-from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.rail_models import COARSE, FINE, RailModel, RolledRailModel
+from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.simulation.spectral_springs import (
     SPRINGS_GEIKE,
     SPRINGS_ROLLING,
@@ -131,6 +132,13 @@ def test_a_level_that_stands_for_nothing_costs_its_own_band_alone(band, across):
     assert found.no_answer == "" and found.stands_out[band] == (band < 34)
     off = np.abs(found.linear.mean(axis=0) - own.linear.mean(axis=0))
     assert (off <= found.left_by_ground + 0.1)[others].all()
+
+
+@pytest.mark.parametrize("name", ["sphere", "rough_punch", "rolling_wheel", "table_14_1", "rail"])
+def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
+    for quantity in QUANTITIES:
+        found = [model for model in models_serving(load_scene(name), quantity) if isinstance(model, RailModel)]
+        assert len(found) == (11 if name == "rail" and quantity in RAIL_QUANTITIES else 0), quantity
 
 
 def test_geikes_rule_is_offered_on_isotropic_ground_alone():
