@@ -245,6 +245,16 @@ def test_lines_about_a_table_are_names_and_the_rest_and_its_rows_have_none_of_th
     assert calibration.provenance(tmp_path / "none") == {} and calibration.rows_of(tmp_path / "none") == []
 
 
+def test_a_table_of_one_scene_has_its_conditions_and_no_others(tmp_path):
+    (first, *_) = (row for row in calibration.rows_of(calibration.TABLE) if row["kind"] == "sphere")
+    written(tmp_path / "one.csv", [first])
+    ((key, found),) = calibration.table(tmp_path / "one.csv").items()
+    assert key == ("sphere", first["quantity"], first["model"]) and found.errors.tolist() == [float(first["error"])]
+    assert set(found.names) == {name for name in calibration.CONDITIONS if first[name]} and LOAD not in found.names
+    expected = {name: float(first[name]) if name == HURST else math.log10(float(first[name])) for name in found.names}
+    assert dict(zip(found.names, found.points[0], strict=True)) == pytest.approx(expected)
+
+
 @pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")

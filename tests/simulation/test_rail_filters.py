@@ -20,6 +20,7 @@ from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_ground import strip_of
 from validation.simulation.rail_models import COARSE, FINE, RailModel, RolledRailModel
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
+from validation.simulation.rail_strip import PowerLawGround
 from validation.simulation.spectral_springs import (
     SPRINGS_GEIKE,
     SPRINGS_ROLLING,
@@ -103,6 +104,27 @@ def test_springs_of_input_spectra_follow_their_linear_twin_on_a_smoother_rail(mo
     strip = strip_of(smoother, "isotropic", 12, 0, 3)
     line = strip.along_middle(LINEAR_MODELS[LINEAR_ON_LINE](strip.contact))
     assert np.abs(line - twin).max() > 0.05 * np.abs(twin).max()
+
+
+@pytest.mark.parametrize("across", ["ridges", "isotropic", 0.7])
+def test_lines_along_a_strip_have_the_spectrum_of_the_levels(across):
+    """Two-sided, on any grid: of each wave along the sum over all waves across, over the cell of its wavenumber."""
+    for cells, q in ((6, 150.0), (10, 400.0)):
+        strip = strip_of(RAIL, across, cells, 0, 3)
+        k = 2 * np.pi * np.fft.fftfreq(strip.shape[0], strip.spacing)
+        near = np.abs(k - q) < 30
+        found = strip.variance[near].sum(axis=1) * strip.length / (2 * np.pi) / RAIL.levels.c_line(k[near])
+        assert found.mean() == pytest.approx(1.0, rel=0.1), (cells, q)
+
+
+@pytest.mark.parametrize("across", ["ridges", "isotropic"])
+def test_a_power_law_has_the_waves_at_both_of_its_ends_and_none_beyond(across):
+    ground = PowerLawGround(rms=1e-6, exponent=2.0, first=2 * math.pi / 0.06, last=2 * math.pi / 0.004, across=across)
+    beyond = np.array([ground.first * 0.999, ground.first, ground.last, ground.last * 1.001])
+    found = ground.variance(beyond, np.zeros(4), (1.0, 1.0))
+    assert (found > 0).tolist() == [False, True, True, False]
+    law = 2 if across == "ridges" else 3
+    assert found[2] / found[1] == pytest.approx((ground.first / ground.last) ** law)
 
 
 def test_models_on_strips_have_their_track_and_that_of_their_twin():
