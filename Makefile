@@ -61,7 +61,7 @@ thorough: $(READY)  ## the property tests on many more examples
 # who looks at the methods; reports and cases execute them without looking
 METHODS := tests/mdr tests/bem3d tests/theory tests/test_bad_input.py tests/test_read_only_results.py
 # who looks at what makes verdicts and claims
-GUARDS := tests/analysis tests/theory tests/simulation tests/selection tests/benchmarks tests/cases tests/engine tests/report
+GUARDS := tests/analysis tests/theory tests/scenes tests/simulation tests/selection tests/benchmarks tests/cases tests/engine tests/report
 
 coverage: $(STRENGTH)  ## every branch of mdr and bem3d, by the tests of these alone; fails where one is missed
 	$(RUN) pytest -n auto --cov --cov-context=test --junitxml=$(RECORD) \
@@ -73,7 +73,7 @@ verdicts: $(STRENGTH)  ## which test of verdicts and claims has executed which l
 		$(GUARDS) $(ARGS)
 
 # small changes and who notices: in mdr, bem3d, closed forms; ARGS="--sample 300"; in what makes verdicts, and in what
-# claims rest on: ARGS="--of verdicts", "--of claims", or of it "--of rail", answers, calibration, multilevel, sound, exported
+# claims rest on: ARGS="--of verdicts", "--of claims"; --help names the parts of it
 mutation: $(RECORD) $(RECORD_OF_VERDICTS)
 	$(RUN) tests.mutation.runner $(ARGS)
 

@@ -47,6 +47,19 @@ def test_it_is_the_least_sum_of_deviations_and_bends():
         assert cost(found.values + 1e-3 * rng.standard_normal(35)) > least
 
 
+def test_a_value_weighs_by_tukeys_biweight_of_its_deviation():
+    """The graduation solves its own normal equations, W (y - z) = 10 B' B z, w = w0 (1 - (deviation / 3 s)^2)^2."""
+    rng = np.random.default_rng(2)
+    series, weights = LINE + rng.standard_normal(35), rng.uniform(0.5, 2, 35)
+    series[12] += 4.0
+    found = graduated(series, weights, least=0.1)
+    deviation = np.sqrt(weights) * (series - found.values) / found.scatter
+    biweight = weights * np.clip(1 - (deviation / 3) ** 2, 0, None) ** 2
+    bends = np.convolve(np.diff(found.values, 2), [1, -2, 1])
+    np.testing.assert_allclose(biweight * (series - found.values), 10 * bends, atol=1e-5)
+    assert np.abs(deviation).max() > 2 and (biweight < 0.5 * weights).sum() >= 2
+
+
 def test_errors_of_slopes_cover_those_of_a_line_with_known_scatter():
     """95 % of all slopes, within three standard errors of as many independent stretches of seven values."""
     rng, inside, widths = np.random.default_rng(4), [], []

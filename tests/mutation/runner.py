@@ -35,6 +35,8 @@ from tests.mutation.report import Outcome, Survey, Trial, table
 
 ROOT = Path(__file__).parents[2]
 PROJECT = ("mdr", "bem3d", "validation", "tests")
+BESIDE = ("pyproject.toml", "reports/README.md", "reports/docs/own_data.md")
+"""What the tests of rooms read beside it."""
 KILLERS = ROOT / ".mutation-killers.json"
 """Who has killed which mutant before: it is asked first the next time."""
 REASONS = ROOT / "tests" / "mutation" / "survivors.toml"
@@ -72,7 +74,10 @@ VERDICTS = (
 CLAIMS = {
     "answers": "validation/report/answers/*.py",
     "calibration": "validation/simulation/calibrat*.py",
+    "contact_force": "validation/selection/contact_force.py",
     "exported": "validation/selection/exported.py",
+    "graduation": "validation/analysis/graduation.py",
+    "isotropic_line": "validation/scenes/isotropic_line.py",
     "multilevel": "validation/analysis/multilevel.py",
     "rail": "validation/simulation/rail_*.py",
     "sound": "validation/analysis/sound.py",
@@ -176,7 +181,9 @@ class Bench:
         self.suite, self.folder = suite, folder
         for name in PROJECT:
             shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-        shutil.copy2(ROOT / "pyproject.toml", folder)
+        for file in BESIDE:
+            (folder / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / file, folder / file)
         self._fork = multiprocessing.get_context("fork")
         self._running = self._fork.RawArray(ctypes.c_char, 1000)
 

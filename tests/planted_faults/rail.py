@@ -87,6 +87,10 @@ FAULTS = {
         (graduation, "LONE", 1e3),
         functools.partial(test_graduation.test_lone_values_lose_their_weight, 10, 3),
     ),
+    "values that stand out weighed by Huber's rule": (
+        (graduation, "REDESCENDING", -1),
+        test_graduation.test_a_value_weighs_by_tukeys_biweight_of_its_deviation,
+    ),
     "few waves that weigh as much as many": (
         (isotropic_line, "graduated", with_equal_weights),
         test_isotropic_line.test_levels_that_scatter_leave_their_scatter_and_waves_that_are_many_weigh_more,

@@ -298,6 +298,16 @@ def test_roughness_without_a_roll_off_is_no_roughness_with_one(rolled, kept):
     assert [one.where[rolled_off.ROLL_OFF] for one in found] == kept
 
 
+def test_a_roll_off_is_judged_by_roughness_that_has_one():
+    places = ((1.0, 9.0), (4.0, 0.0))
+    numbers = [
+        at((1.0, 10.0), value, quantity=rolled_off.STIFFNESS, where={"Fbar": (1.0, 10.0), rolled_off.ROLL_OFF: place})
+        for place, value in places
+    ]
+    row = row_of("roll-off", section_of("mdr_limits", numbers, WORKED, hurst=0.7))
+    assert words_of(row)[1:-1] == ["yes"] and row.word == "Yes"
+
+
 @pytest.mark.parametrize(
     ("times", "said"),
     [((3.04, 3.0, 99.0), "3"), ((12000.0, 300.4, 99.0), "300 to 12,000")],

@@ -68,6 +68,7 @@ def test_another_filter_changes_the_sum_by_what_it_is_louder():
     assert [force.over_chosen(name) for name in force.levels] == pytest.approx([0.0, 0.8, -1.5])
     assert "another filter changes the sum by -1.5 to +0.8 dB(A)" in force.sentences[0]
     assert "another filter changes the sum by +0.8 dB(A)" in contact_force(filters(0.0, 0.8)).sentences[0]
+    assert contact_force(filters(0.0)).sentences[0].endswith("by by 0 dB; no other filter was solved")
     assert all(
         said in force.sentences[1]
         for said in ("3 F / (2 d) = 1.14 GN/m", "f = v / lambda", "IEC 61672-1", "2000 to 0.8 mm")

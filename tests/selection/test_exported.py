@@ -5,6 +5,7 @@ import io
 import json
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from tests.selection.test_model_hierarchy import Fake, Finding, punch
 from validation.__main__ import main
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
+from validation.selection.swept import Swept
 
 ROOT = Path(__file__).parents[2]
 
@@ -97,6 +99,20 @@ def test_the_error_of_a_number_is_in_its_unit():
     assert (found["value"], found["error"]) == ([5.0], pytest.approx([0.5]))
     assert found["error_parts"] == {"model": pytest.approx([0.5]), "grid": [0.0], "sample": [0.0]}
     assert found["models"][0]["error"] == pytest.approx(0.1)
+
+
+def test_a_tolerance_is_written_as_a_share_and_in_decibels():
+    found = read(Comparison(punch(load=1.0), "stiffness", select_model([Finding()], 0.2)))
+    assert (found["tolerance"], found["tolerance_dB"]) == (0.2, pytest.approx(20 * math.log10(1.2)))
+
+
+def test_a_row_has_the_value_of_its_sweep_and_none_without_one():
+    alone = Comparison(punch(load=1.0), "stiffness", select_model([Finding()], 0.2))
+    of_sweep = replace(alone, swept=Swept("punch.load", 5.0, "kN", "one"))
+    (row,), (other,) = rows_of(of_sweep), rows_of(alone)
+    assert (row["swept"], float(row["swept_value"]), row["swept_unit"]) == ("punch.load", 5.0, "kN")
+    assert {name: cell for name, cell in row.items() if not name.startswith("swept")} == other
+    assert [read(one)["swept_value"] for one in (of_sweep, alone)] == [5.0, None]
 
 
 @pytest.mark.parametrize("form", ["svg", "png", "pdf"])

@@ -45,6 +45,7 @@ def test_no_model_is_enough_where_no_band_counts(scene, span, across):
     text = " ".join(summary(found).split())
     assert "no band has A3 above -15 dB" in text and "levels of longer waves would count" in text
     assert span in text and ": enough" not in text
+    assert float(text.partition("the contact is ")[2].partition(" mm long")[0]) == pytest.approx(11, abs=0.5)
     assert json.loads(to_json(found))["met"] is False
 
 

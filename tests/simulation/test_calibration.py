@@ -137,6 +137,13 @@ def test_an_error_grows_with_the_height_by_a_power_from_zero_to_one(power, found
     assert measured("punch", points, 0.2 * 10 ** (power * points[:, 0])).trend == 0.0
 
 
+def test_the_trend_is_that_of_the_errors_over_their_shapes():
+    """Errors that grow as the height, of a shape that grows as its square root, are another square root."""
+    points, _ = population(60, 5)
+    shapes, errors = 10 ** (0.5 * points[:, 0]), 10 ** points[:, 0]
+    assert MeasuredErrors(NAMES["sphere"], points, errors, shapes).trend == pytest.approx(0.5)
+
+
 def left_out_by_loops(table, scene):
     """Root mean square of the errors of the nearest others, a tenth of the weight for the farthest of them.
 
@@ -236,6 +243,16 @@ def test_lines_about_a_table_are_names_and_the_rest_and_its_rows_have_none_of_th
     assert calibration.provenance(path) == {"measured": "2026-01-01", "command": "a: b: c"}
     assert calibration.rows_of(path) == [{"kind": "punch", "error": "0.1"}]
     assert calibration.provenance(tmp_path / "none") == {} and calibration.rows_of(tmp_path / "none") == []
+
+
+def test_a_table_of_one_scene_has_its_conditions_and_no_others(tmp_path):
+    (first, *_) = (row for row in calibration.rows_of(calibration.TABLE) if row["kind"] == "sphere")
+    written(tmp_path / "one.csv", [first])
+    ((key, found),) = calibration.table(tmp_path / "one.csv").items()
+    assert key == ("sphere", first["quantity"], first["model"]) and found.errors.tolist() == [float(first["error"])]
+    assert set(found.names) == {name for name in calibration.CONDITIONS if first[name]} and LOAD not in found.names
+    expected = {name: float(first[name]) if name == HURST else math.log10(float(first[name])) for name in found.names}
+    assert dict(zip(found.names, found.points[0], strict=True)) == pytest.approx(expected)
 
 
 @pytest.mark.slow

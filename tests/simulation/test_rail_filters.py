@@ -12,13 +12,15 @@ from validation.scenes.level_files import curve
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import RoughnessLevels
+from validation.selection.quantities import QUANTITIES
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import BED, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
+from validation.simulation.equivalent_displacement import BED, BEM, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
 from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_ground import strip_of
-from validation.simulation.rail_models import COARSE, FINE
-from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.rail_models import COARSE, FINE, RailModel, RolledRailModel
+from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
+from validation.simulation.rail_strip import PowerLawGround
 from validation.simulation.spectral_springs import (
     SPRINGS_GEIKE,
     SPRINGS_ROLLING,
@@ -102,6 +104,63 @@ def test_springs_of_input_spectra_follow_their_linear_twin_on_a_smoother_rail(mo
     strip = strip_of(smoother, "isotropic", 12, 0, 3)
     line = strip.along_middle(LINEAR_MODELS[LINEAR_ON_LINE](strip.contact))
     assert np.abs(line - twin).max() > 0.05 * np.abs(twin).max()
+
+
+@pytest.mark.parametrize("across", ["ridges", "isotropic", 0.7])
+def test_lines_along_a_strip_have_the_spectrum_of_the_levels(across):
+    """Two-sided, on any grid: of each wave along the sum over all waves across, over the cell of its wavenumber."""
+    for cells, q in ((6, 150.0), (10, 400.0)):
+        strip = strip_of(RAIL, across, cells, 0, 3)
+        k = 2 * np.pi * np.fft.fftfreq(strip.shape[0], strip.spacing)
+        near = np.abs(k - q) < 30
+        found = strip.variance[near].sum(axis=1) * strip.length / (2 * np.pi) / RAIL.levels.c_line(k[near])
+        assert found.mean() == pytest.approx(1.0, rel=0.1), (cells, q)
+
+
+@pytest.mark.parametrize("across", ["ridges", "isotropic"])
+def test_a_power_law_has_the_waves_at_both_of_its_ends_and_none_beyond(across):
+    ground = PowerLawGround(rms=1e-6, exponent=2.0, first=2 * math.pi / 0.06, last=2 * math.pi / 0.004, across=across)
+    beyond = np.array([ground.first * 0.999, ground.first, ground.last, ground.last * 1.001])
+    found = ground.variance(beyond, np.zeros(4), (1.0, 1.0))
+    assert (found > 0).tolist() == [False, True, True, False]
+    law = 2 if across == "ridges" else 3
+    assert found[2] / found[1] == pytest.approx((ground.first / ground.last) ** law)
+
+
+def test_models_on_strips_have_their_track_and_that_of_their_twin():
+    """On a rail so smooth that all touches, both are the same but for few cells to the contact."""
+    smoother = replace(RAIL, roughness=RAIL.levels.raised(-60.0))
+    on_strips = [model for model in models_serving(smoother, "contact-filter") if isinstance(model, RolledRailModel)]
+    assert len(on_strips) == 7
+    for model in on_strips:
+        if model.name == BEM:
+            continue
+        found = model.roll(smoother, strip_of(smoother, "isotropic", 4, 0, 3))
+        mine, twin = found[model.name], found[model.twin]
+        assert np.abs(mine - twin).max() < 0.3 * np.abs(twin).max(), model.name
+        assert found["failed"] == 0
+
+
+@pytest.mark.parametrize("across", ["isotropic", None])
+@pytest.mark.parametrize("band", [0, 20, 34])
+def test_a_level_that_stands_for_nothing_costs_its_own_band_alone(band, across):
+    """-99 dB, as files have it where nothing was measured: the spectrum falls by a hundred decibels in a band."""
+    levels = list(RAIL.levels.levels)
+    levels[band] = -99.0
+    empty = replace(RAIL, across=across, roughness=replace(RAIL.levels, levels=tuple(levels)))
+    found, own = (RailQuantity(one, "contact-filter") for one in (empty, replace(RAIL, across=across)))
+    others = (np.abs(np.arange(35) - band) > 1) & own.counted(own.linear.mean(axis=0))
+    # what falls steeply beyond the last wave is a spectrum that isotropic ground can have
+    assert found.no_answer == "" and found.stands_out[band] == (band < 34)
+    off = np.abs(found.linear.mean(axis=0) - own.linear.mean(axis=0))
+    assert (off <= found.left_by_ground + 0.1)[others].all()
+
+
+@pytest.mark.parametrize("name", ["sphere", "rough_punch", "rolling_wheel", "table_14_1", "rail"])
+def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
+    for quantity in QUANTITIES:
+        found = [model for model in models_serving(load_scene(name), quantity) if isinstance(model, RailModel)]
+        assert len(found) == (11 if name == "rail" and quantity in RAIL_QUANTITIES else 0), quantity
 
 
 def test_geikes_rule_is_offered_on_isotropic_ground_alone():

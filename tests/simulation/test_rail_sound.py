@@ -72,6 +72,16 @@ def test_springs_that_read_a_smoother_rail_are_linear_theory():
     assert np.abs(read - linear).max() < 0.03 * np.abs(linear).max()
 
 
+def test_samples_are_those_of_the_waves_of_a_force_less_its_mean():
+    """A force of two waves at any number of instants of its period."""
+
+    def waves(count):
+        phase = 2 * np.pi * np.arange(count) / count
+        return 300 * np.cos(3 * phase) - 40 * np.sin(7 * phase)
+
+    np.testing.assert_allclose(samples_of(5e4 + waves(50), 64), waves(64), atol=1e-6)
+
+
 @pytest.mark.slow
 def test_boundary_elements_are_the_same_in_parts():
     """To the residual, over the force."""

@@ -72,6 +72,16 @@ def test_a_spectrum_that_rises_too_steeply_has_no_isotropic_surface():
         IsotropicGround(LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0)))
 
 
+@pytest.mark.parametrize("last", [1e-19, 1e-27, 1e-35])
+def test_long_waves_of_a_surface_do_not_see_a_cliff_of_its_line(last):
+    """Of long waves all ends are alike that fall at once: beside one that falls by 20 dB in a third of an octave."""
+    q, c = RAIL.wavenumbers, RAIL.densities
+    cliff, slope = (LineSpectrum((*q, 1.26 * q[-1]), (*c, end)) for end in (last, 0.01 * c[-1]))
+    long = np.geomspace(1.0, 0.05 * q[-1], 30)
+    assert has_isotropic_surface(cliff)
+    np.testing.assert_allclose(cliff.isotropic(long), slope.isotropic(long), rtol=0.01)
+
+
 def test_a_steeper_line_has_larger_exponents_and_longer_waves_do_not_fall():
     q = np.array([3.0, 20.0, 300.0, 9e3])
     np.testing.assert_allclose(RAIL.steeper(0.3)(q) / RAIL(q), (q / RAIL.wavenumbers[0]) ** -0.3, rtol=1e-12)

@@ -188,13 +188,9 @@ def _rail_quantity(scene: RailScene, name: Any) -> RailQuantity:
 
 @lru_cache(maxsize=8)
 def evaluations(quantity: RailQuantity) -> int:
-    """Waves of a closed filter, over all bands and grounds; zero where no ground is as stated."""
+    """Waves of a closed filter, over all bands and grounds."""
     axes = quantity.scene.contact.along, quantity.scene.contact.across
-    try:
-        grounds = quantity.structures
-    except ValueError:
-        return 0
-    return sum(ground.evaluations(edges=quantity.bands.edges, semi_axes=axes) for ground in grounds)
+    return sum(ground.evaluations(edges=quantity.bands.edges, semi_axes=axes) for ground in quantity.structures)
 
 
 def linear_error(quantity: RailQuantity) -> FloatArray:

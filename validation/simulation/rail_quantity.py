@@ -75,7 +75,7 @@ class RailQuantity:
 
     @cached_property
     def structures(self) -> tuple[TransverseStructure, ...]:
-        """One an end; ValueError where no isotropic surface has such a line."""
+        """One an end."""
         return tuple(structure_of(across, self.line) for across in self.ends)
 
     @cached_property

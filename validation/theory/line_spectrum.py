@@ -15,8 +15,9 @@ from validation.theory.gauss_legendre import gauss_legendre
 
 FloatArray = NDArray[np.float64]
 
-LEAST_FALL = 1.0
-"""Exponent beyond the shortest wave at the least: C ~ 1/q has the same level in each one-third octave."""
+LEAST_FALL, MOST_FALL = 1.0, 20.0
+"""Exponents beyond the shortest wave at the least and at the most: C ~ 1/q has the same level in each one-third octave,
+and of a spectrum that falls by 19 dB a band nothing is left there."""
 NODES = 12
 """Of Gauss and Legendre, on a panel."""
 WIDEST = 1.3
@@ -27,8 +28,9 @@ WIDEST = 1.3
 class LineSpectrum:
     """C_line(q) = c_i (q / q_i)^(-p_i) between the wavenumbers q_i [rad/m] at which it has the densities c_i [m^3].
 
-    The first law continues to longer waves, the last to shorter ones, where it falls as 1/q at the least: all integrals
-    over short waves have an end. wavenumbers: two or more, ascending, positive; densities: positive.
+    The first law continues to longer waves, the last to shorter ones, where it falls as 1/q at the least and as q^-20
+    at the most: all integrals over short waves have an end. wavenumbers: two or more, ascending, positive; densities:
+    positive.
     """
 
     wavenumbers: tuple[float, ...]
@@ -62,7 +64,7 @@ class LineSpectrum:
     def exponents(self) -> FloatArray:
         """p_i, between the points and beyond the last."""
         between = -np.diff(np.log(self.densities)) / np.diff(np.log(self.wavenumbers))
-        return np.append(between, max(between[-1], LEAST_FALL))
+        return np.append(between, np.clip(between[-1], LEAST_FALL, MOST_FALL))
 
     def __call__(self, q: ArrayLike) -> FloatArray:
         """C_line of wavenumbers q of any sign [m^3]."""
@@ -93,9 +95,8 @@ class LineSpectrum:
         node, weight = gauss_legendre(NODES)
         half = np.diff(k, axis=0)[:, np.newaxis] / 2
         q = np.hypot(s[reached], k[:-1, np.newaxis] + half * (1 + node[:, np.newaxis]))
-        p = self.exponents[law]
         found = np.zeros_like(s)
-        found[reached] = np.sum(half * weight[:, np.newaxis] * self._falling(law, p) * q ** (-p - 2), axis=(0, 1))
+        found[reached] = np.sum(half * weight[:, np.newaxis] * self._falling(law, q) / q, axis=(0, 1))
         return found
 
     def _of_last(self, s: FloatArray) -> FloatArray:
@@ -104,8 +105,9 @@ class LineSpectrum:
         p = float(self.exponents[-1])
         u = np.minimum(s / self.wavenumbers[last], 1.0) ** 2
         beta = special.beta((p + 1) / 2, 0.5) * special.betainc((p + 1) / 2, 0.5, u)
-        return np.asarray(self._falling(last, p) * s ** (-p - 1) * beta / 2)
+        return np.asarray(self._falling(last, s) * beta / 2)
 
-    def _falling(self, law: int, p: float) -> float:
-        """p c_i q_i^p: -C_line' over q^(-p-1)."""
-        return float(p * self.densities[law] * self.wavenumbers[law] ** p)
+    def _falling(self, law: int, q: FloatArray) -> FloatArray:
+        """-C_line' = p c_i (q / q_i)^-p / q of one of the laws."""
+        p = self.exponents[law]
+        return np.asarray(p * self.densities[law] * (q / self.wavenumbers[law]) ** -p / q)
