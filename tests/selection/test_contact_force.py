@@ -94,6 +94,15 @@ def test_bands_without_an_answer_are_left_out_of_both_sums():
     assert contact_force(found) is None
 
 
+def test_a_filter_without_some_bands_is_beside_the_chosen_one_in_its_own_bands():
+    """Where it has no answer it is no quieter; its sum is that of the bands that it has."""
+    found = filters(0.0, 2.0)
+    found.models[1].answer.value[15:25] = np.nan
+    force = contact_force(found)
+    assert force.over_chosen("by 2 dB") == pytest.approx(2.0)
+    assert force.total("by 2 dB") < force.total("by 0 dB")
+
+
 def test_the_closed_filters_stand_beside_the_chosen_one_unasked():
     found = validation.compare(RAIL, "contact-filter", "1 dB")
     assert [one.name for one in found.selection.solved] == ["linear, ellipse"]
