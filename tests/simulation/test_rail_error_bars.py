@@ -146,6 +146,12 @@ def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
     counted = quantity.counted(filters.a3)
     worst = float((filters.model + random)[counted].max())
     assert 20 * math.log10(1 + answer.error) == pytest.approx(worst, rel=1e-6)
+    # its parts are those of that band, beside which one that does not count is worse
+    at = int(np.argmax(np.where(counted, filters.model + random, 0.0)))
+    assert (filters.model + random).max() > worst
+    assert [20 * math.log10(1 + part) for part in (answer.grid, answer.sample)] == pytest.approx(
+        [filters.grid[at], filters.sample[at]], rel=1e-6
+    )
 
 
 def test_errors_that_are_printed_are_those_of_the_bands():
