@@ -73,6 +73,17 @@ def test_errors_of_slopes_cover_those_of_a_line_with_known_scatter():
     assert np.median(widths) < 6
 
 
+def test_errors_of_slopes_are_those_of_series_that_scatter_by_their_weights():
+    """Of ten thousand series through the same hat, drawn with a hundred times the variance at one end."""
+    rng, weights = np.random.default_rng(7), np.geomspace(0.03, 3.0, 35)
+    found = graduated(LINE, weights, least=1.0)
+    drawn = (rng.standard_normal((10_000, 35)) / np.sqrt(weights)) @ found.hat.T
+    spread = slopes(drawn.T, 5).std(axis=1)
+    # a standard deviation of so many is known to 0.7 %
+    np.testing.assert_allclose(found.slope_error(5) / (found.quantile * found.scatter), spread, rtol=0.03)
+    assert spread[0] > 2 * spread[-6]
+
+
 def test_few_values_are_left_as_they_are():
     for count in range(1, FEWEST):
         series = np.array([3.0, -1.0, 4.0, 1.0, 5.0])[:count]

@@ -1,18 +1,20 @@
 """Faults planted in contact filters of a wheel on a rail, in whichever room: where, what is wrong, and the test."""
 
 import functools
+from dataclasses import replace
 
 import numpy as np
 
 from tests.analysis import test_graduation
 from tests.scenes import test_isotropic_line
-from tests.selection import test_filter_table, test_no_band_counts
-from tests.simulation import test_calibration, test_rail_error_bars, test_scattered_levels
+from tests.selection import test_contact_force, test_filter_table, test_no_band_counts, test_own_scene
+from tests.simulation import test_calibration, test_rail_error_bars, test_rail_filters, test_scattered_levels
 from validation.analysis import graduation
+from validation.analysis.nominal_bands import NominalBands
 from validation.scenes import isotropic_line
-from validation.selection import calibrate, rail_model
+from validation.selection import calibrate, contact_force, rail_model, speed_accuracy
 from validation.selection.hierarchy import Answer
-from validation.simulation import rail_ground, rail_models, rail_quantity
+from validation.simulation import equivalent_displacement, rail_ground, rail_models, rail_quantity
 from validation.simulation.models.rail_boundary_elements import BoundaryElementsOnRail
 from validation.simulation.rail_quantity import RailQuantity
 
@@ -45,6 +47,18 @@ def with_equal_weights(series, weights, *, least):
     return graduated(series, np.ones(len(series)), least=least)
 
 
+def with_forgotten_weights(series, weights, *, least):
+    return replace(graduated(series, weights, least=least), of_values=np.ones(len(series)))
+
+
+def slopes_of_equal_weights(found, reach):
+    return slope_error(replace(found, of_values=np.ones(len(found.values))), reach)
+
+
+def loaded_by_half_more(levels, wanted):
+    return borne_by(levels, 1.5 * wanted)
+
+
 def nothing(quantity):
     return 0 * quantity.wave
 
@@ -53,7 +67,9 @@ def smooth_line_alone(scene):
     return rail_ground.line_of(scene)
 
 
-BARS, SCATTERED = test_rail_error_bars, test_scattered_levels
+slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
+smoothing_error, stands_out = RailQuantity.smoothing_error.func, RailQuantity.stands_out.fget
+BARS, SCATTERED, FORCE = test_rail_error_bars, test_scattered_levels, test_contact_force
 FAULTS = {
     "boundary elements on a rail without their sample error": (
         (rail_models.RolledRailModel, "over_twin", without_sample_error),
@@ -77,7 +93,7 @@ FAULTS = {
     ),
     "a reference of the calibration with the surfaces of the models": (
         (calibrate, "OTHER_SEED", 0),
-        test_calibration.test_the_reference_has_surfaces_of_its_own,
+        test_calibration.test_the_reference_has_surfaces_of_its_own_on_its_finest_grid,
     ),
     "one standard error of a slope": (
         (graduation.Graduation, "quantile", 1.0),
@@ -90,6 +106,48 @@ FAULTS = {
     "values that stand out weighed by Huber's rule": (
         (graduation, "REDESCENDING", -1),
         test_graduation.test_a_value_weighs_by_tukeys_biweight_of_its_deviation,
+    ),
+    "slopes whose errors have equal weights": (
+        (graduation.Graduation, "slope_error", slopes_of_equal_weights),
+        test_graduation.test_errors_of_slopes_are_those_of_series_that_scatter_by_their_weights,
+    ),
+    "levels of few waves that stand out as those of many": (
+        (isotropic_line, "graduated", with_forgotten_weights),
+        test_isotropic_line.test_a_level_of_few_waves_may_be_off_by_as_much_as_few_waves_scatter,
+    ),
+    "half of what smoothing leaves": (
+        (RailQuantity, "smoothing_error", property(lambda quantity: smoothing_error(quantity) / 2)),
+        SCATTERED.test_what_smoothing_leaves_is_its_slope_error_and_twice_what_smoothing_again_changes,
+    ),
+    "a corrugation at other waves": (
+        (RailQuantity, "stands_out", property(lambda quantity: np.roll(stands_out(quantity), -3))),
+        SCATTERED.test_bands_that_stand_out_keep_their_names_under_longer_waves,
+    ),
+    "a_x / a_y in place of a_y / a_x": (
+        (rail_models, "ASPECTS", (1 / 1.9, 1 / 0.45)),
+        functools.partial(
+            BARS.test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error, over=0.48, known=True
+        ),
+    ),
+    "a bed of springs under another load": (
+        (equivalent_displacement, "borne_by", loaded_by_half_more),
+        test_rail_filters.test_a_one_sided_bed_follows_its_linear_twin_on_a_smoother_rail,
+    ),
+    "a force at nominal frequencies": (
+        (NominalBands, "wavelengths", property(lambda bands: bands.nominal)),
+        FORCE.test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency,
+    ),
+    "the mean error of bands as that of their sum": (
+        (contact_force.ContactForce, "error", property(lambda force: float(force.half_width.mean()))),
+        FORCE.test_the_error_of_the_sum_counts_loud_bands_most,
+    ),
+    "sums over unlike bands beside each other": (
+        (contact_force.ContactForce, "over_chosen", lambda force, model: force.total(model) - force.total("by 0 dB")),
+        FORCE.test_a_filter_without_some_bands_is_beside_the_chosen_one_in_its_own_bands,
+    ),
+    "decibels of a power as those of an amplitude": (
+        (speed_accuracy, "reference_error", lambda found, one: 10 * np.log10(1 + one.error)),
+        test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
     ),
     "few waves that weigh as much as many": (
         (isotropic_line, "graduated", with_equal_weights),

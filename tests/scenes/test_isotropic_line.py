@@ -48,6 +48,23 @@ def test_a_corrugation_stands_out_alone(waves):
     np.testing.assert_allclose(found.apart, 6.0 * found.stands_out, atol=0.02)
 
 
+STRAIGHT = levels(7 * np.log10(1000 * ISO.bands.wavelengths) - 10)
+
+
+def test_a_level_of_few_waves_may_be_off_by_as_much_as_few_waves_scatter():
+    """8 dB are eight deviations of a level of weight one, and less than two of one of weight 1/25."""
+    off = levels(np.array(STRAIGHT.levels) + 8.0 * np.isin(NOMINAL, [31.5, 200]))
+    found = isotropic_line(off, np.where(NOMINAL == 200, 1 / 25, 1.0))
+    assert NOMINAL[found.stands_out].tolist() == [31.5]
+
+
+def test_a_level_below_its_neighbours_is_named_and_the_ground_keeps_theirs():
+    """Ground without these waves would be smoother than its neighbours say; with a level above it has them."""
+    found = isotropic_line(levels(np.array(STRAIGHT.levels) - 9.0 * (NOMINAL == 31.5)), EVEN)
+    assert NOMINAL[found.stands_out].tolist() == [31.5]
+    np.testing.assert_allclose(level_of(found.whole), STRAIGHT.levels, atol=0.02)
+
+
 def test_lines_that_roll_off_cost_their_long_waves_alone():
     off = levels(np.array(ISO.levels) - 2.5 * np.clip(8 - np.arange(35), 0, None))
     found = isotropic_line(off, EVEN)

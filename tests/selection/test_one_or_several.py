@@ -73,6 +73,9 @@ def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
     twins = Comparison(punch(load=1.0), "stiffness", select_model([Fake(name="fit a"), Fake(name="fit b")], 0.2)).models
     with pytest.raises(KeyError, match='"fit a"'):
         twins["fit"]
+    longer = [Fake(name="springs"), Fake(name="springs that read the surface")]
+    found = Comparison(punch(load=1.0), "stiffness", select_model(longer, 0.2)).models
+    assert found["springs"] is found[0] and found["springs that"] is found[1]
 
 
 @pytest.mark.parametrize("names", ["mdr", "springs", " MDR ", ["mdr"], ("springs",)])

@@ -218,6 +218,24 @@ def test_accuracy_of_a_filter_is_the_largest_difference_that_counts():
         assert table.where(model=one.name)["error"][0] == pytest.approx(worst)
 
 
+def test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst():
+    """Closed filters have neither grid nor sample: both errors add, in the band in which the models are farthest."""
+    found = solved(RAIL)
+    table, (reference, *others) = speed_and_accuracy(found), found.selection.solved
+    counted = found.value_of(reference) > -15
+    own = table.where(model=reference.name)
+    assert (own["unit"][0], own["is_reference"][0]) == ("dB", True)
+    assert own["high"][0] == pytest.approx(found.errors_of(reference)[counted].max())
+    for one in others:
+        off = np.abs(found.value_of(one) - found.value_of(reference))
+        at = int(np.argmax(np.where(counted, off, -1)))
+        half = found.errors_of(one)[at] + found.errors_of(reference)[at]
+        row = table.where(model=one.name)
+        assert row["high"][0] == pytest.approx(off[at] + half) and row["low"][0] == pytest.approx(
+            max(off[at] - half, 0)
+        )
+
+
 def test_speed_and_accuracy_are_drawn_for_one_scene_whose_models_were_timed(tmp_path, capsys):
     out = tmp_path / "out.svg"
     words = ["compare", "rail", "--models", "linear, ellipse,Remington", "--over", "seconds"]

@@ -2,9 +2,11 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from validation.scenes.indentation import IndentationScene
+from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.calibrated_range import (
@@ -66,6 +68,16 @@ def test_conditions_of_a_wheel_are_those_of_its_contact_and_a_moving_one_counts_
     assert set(found) == {HEIGHT, MOVING_LONG, SHORT, RATIO, HURST}
     assert found[HEIGHT] == pytest.approx(0.01 * moving.amplification) and found[HEIGHT] > 0.01
     assert found[MOVING_LONG] == pytest.approx(moving.longest_moving)
+
+
+def test_of_measured_heights_waves_of_four_points_are_the_shortest():
+    """Steps of 0.1 under a contact of radius one: 2 pi / 0.4, not the pi / 0.1 of a wave of two points."""
+    height = 1e-3 * np.random.default_rng(0).standard_normal((128, 64))
+    settings = {"name": "w", "radius": 1.0, "load": 4 / 3, "modulus": 1.0}
+    ground = MeasuredHeights(height=height - height.mean(), spacing=(0.1, 0.1))
+    found = rolling_conditions(RollingQuantity(RollingScene(**settings, ground=ground), "force-rms"))
+    assert found[SHORT] == pytest.approx(2 * math.pi / 0.4)
+    assert found[RATIO] == pytest.approx(found[SHORT] / found[LONG]) and HURST not in found
 
 
 @pytest.mark.parametrize(

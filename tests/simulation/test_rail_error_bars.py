@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy import stats
+from scipy.optimize import brentq
 
 from validation import compare, load_scene
 from validation.selection.hierarchy import Answer
@@ -15,7 +16,7 @@ from validation.selection.rail_model import RailSceneModel
 from validation.simulation import rail_models
 from validation.simulation.equivalent_displacement import BEM, LINEAR
 from validation.simulation.method import Resolution
-from validation.simulation.model import Cost, Target
+from validation.simulation.model import Cost, Target, models_serving
 from validation.simulation.models.rail_boundary_elements import MODEL
 from validation.simulation.rail_ground import strip_bands
 from validation.simulation.rail_quantity import RailQuantity
@@ -30,22 +31,30 @@ GRID = 0.35
 
 @contextmanager
 def planted(powers, grid=0.0):
-    """Boundary elements that have so many times the power of linear theory on each strip, on the coarse grid more."""
+    """Boundary elements that have so many times the power of linear theory on each strip, on the coarse grid more.
+
+    powers: of all strips, or by what lies across them.
+    """
     white = np.random.default_rng(0).standard_normal(2048)
     length = 60 * max(RAIL.contact.along, RAIL.contact.across)
 
     def strip(scene, across, cells, realisation, seed):
-        return SimpleNamespace(spacing=length / white.size, cells=cells, realisation=realisation)
+        power = (powers[across] if isinstance(powers, dict) else powers)[realisation]
+        return SimpleNamespace(spacing=length / white.size, cells=cells, power=power)
 
     def roll(model, scene, strip):
         off = grid if strip.cells == rail_models.COARSE else 0.0
-        gain = math.sqrt(powers[strip.realisation]) * 10 ** (off / 20)
+        gain = math.sqrt(strip.power) * 10 ** (off / 20)
         return {LINEAR: white, BEM: gain * white, "failed": np.array(0.0)}
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rail_models, "strip_of", strip)
         patch.setattr(type(MODEL), "roll", roll)
         yield
+
+
+def aspect(scene):
+    return scene.contact.across / scene.contact.along
 
 
 def found(scene=RAIL):
@@ -61,6 +70,34 @@ def test_the_sample_leaves_students_interval_of_the_strips():
     assert expected > 0.5 and not filters.grid.any()
     np.testing.assert_allclose(filters.sample[inside], expected, rtol=0.02)
     assert not filters.sample[~inside].any()
+
+
+def test_of_both_ends_of_what_lies_across_the_larger_error_counts():
+    """Strips of one end alone scatter: a ground that may be that one is known no better."""
+    with planted(POWERS):
+        alone = found()[1].sample
+    for ends in ({"ridges": POWERS, "isotropic": np.ones(6)}, {"ridges": np.ones(6), "isotropic": POWERS}):
+        with planted(ends):
+            _, filters, inside = found(OPEN)
+        np.testing.assert_allclose(filters.sample[inside], alone[inside], rtol=1e-9)
+
+
+@pytest.mark.parametrize(("over", "known"), [(0.43, False), (0.48, True), (1.8, True), (2.0, False)])
+def test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error(over, known):
+    """Strips had a_y / a_x from 0.45 to 1.9, which is nearly (R_y / R_x)^(2/3)."""
+    quantity = RailQuantity(RAIL, "contact-filter")
+    (linear,) = (one for one in models_serving(RAIL, "contact-filter") if one.name == LINEAR)
+    radius = brentq(lambda r: aspect(replace(RAIL, crown_radius=r)) - over, 0.02, 20.0)
+    reason = linear.beyond(replace(quantity, scene=replace(RAIL, crown_radius=radius)))
+    assert reason == ("" if known else f"a_y / a_x is {over:.2g}: errors were measured from 0.45 to 1.9")
+
+
+def test_a_reason_names_the_worst_of_the_bands_that_count():
+    """The error is larger where nothing is left to hear, which decides nothing."""
+    quantity = RailQuantity(RAIL, "contact-filter")
+    a3, nominal = quantity.linear[0], 1000 * quantity.bands.nominal
+    error = np.select([nominal == 40, a3 <= -15], [2.0, 5.0], 0.5)
+    assert rail_models.reason_of(quantity, a3, error).startswith("its error is largest at 40 mm: ")
 
 
 @pytest.mark.slow
@@ -109,6 +146,12 @@ def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
     counted = quantity.counted(filters.a3)
     worst = float((filters.model + random)[counted].max())
     assert 20 * math.log10(1 + answer.error) == pytest.approx(worst, rel=1e-6)
+    # its parts are those of that band, beside which one that does not count is worse
+    at = int(np.argmax(np.where(counted, filters.model + random, 0.0)))
+    assert (filters.model + random).max() > worst
+    assert [20 * math.log10(1 + part) for part in (answer.grid, answer.sample)] == pytest.approx(
+        [filters.grid[at], filters.sample[at]], rel=1e-6
+    )
 
 
 def test_errors_that_are_printed_are_those_of_the_bands():

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,8 +15,19 @@ from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.quantities import QUANTITIES
 from validation.selection.rail_model import RailSceneModel
-from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import BED, BEM, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED
+from validation.simulation import equivalent_displacement, rail_models
+from validation.simulation.equivalent_displacement import (
+    AREA,
+    BED,
+    BEM,
+    LINEAR,
+    LINEAR_MODELS,
+    LINEAR_ON_LINE,
+    ONE_SIDED,
+    ONE_SIDED_BED,
+    RolledRail,
+    roll_rail,
+)
 from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_ground import strip_of
 from validation.simulation.rail_models import COARSE, FINE, RailModel, RolledRailModel
@@ -161,6 +173,25 @@ def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
     for quantity in QUANTITIES:
         found = [model for model in models_serving(load_scene(name), quantity) if isinstance(model, RailModel)]
         assert len(found) == (11 if name == "rail" and quantity in RAIL_QUANTITIES else 0), quantity
+
+
+def test_a_one_sided_bed_follows_its_linear_twin_on_a_smoother_rail():
+    """Where no spring lets go, springs that do not pull are those that do, under the same patch."""
+    smoother = replace(RAIL, roughness=RAIL.levels.raised(-60.0))
+    for cells, error in ((6, 0.1), (12, 0.05)):
+        found = roll_rail(RolledRail(strip=strip_of(smoother, "isotropic", cells, 0, 3), models=(ONE_SIDED_BED,)))
+        assert np.abs(found[ONE_SIDED_BED] - found[BED]).max() < error * np.abs(found[BED]).max()
+
+
+def test_the_area_in_contact_is_over_that_of_the_ellipse(monkeypatch):
+    """Of boundary elements that touch on pi a_x a_y everywhere: one; by Hertz's ellipse of the rail and its wheel."""
+    contact = elliptic_contact(RAIL.radii, modulus=RAIL.modulus, force=RAIL.load)
+    area = np.full(9, math.pi * contact.along * contact.across)
+    made_up = SimpleNamespace(approach=np.zeros(9), area=area, converged=np.ones(9, dtype=bool))
+    monkeypatch.setattr(equivalent_displacement, "roll_boundary_elements", lambda strip, tolerance: made_up)
+    found = roll_rail(RolledRail(strip=strip_of(RAIL, "ridges", 4, 0, 3), models=(BEM,)))
+    np.testing.assert_allclose(found[AREA], 1.0, rtol=1e-9)
+    assert abs(contact.along / contact.across - 1) > 0.1
 
 
 def test_geikes_rule_is_offered_on_isotropic_ground_alone():

@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 from validation import compare, load_scene, summary
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.nominal_bands import LONGEST, NominalBands
+from validation.scenes.isotropic_line import IsotropicLine
 from validation.scenes.level_files import curve
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.simulation.equivalent_displacement import LINEAR, LINEAR_ON_LINE
 from validation.simulation.model import models_serving
 from validation.simulation.rail_ground import lost_contact_number, strip_bands, strip_of, whole_line_of
 from validation.simulation.rail_quantity import RailQuantity
+from validation.theory.line_spectrum import LineSpectrum
 
 RAIL = load_scene("rail")
 ISO = curve("iso3095-2013")
@@ -133,6 +135,23 @@ def test_random_files_are_answered(quantity):
     assert sum(answered) >= 57 and inside >= 0.95 and half <= 1.5
 
 
+def test_what_smoothing_leaves_is_its_slope_error_and_twice_what_smoothing_again_changes():
+    """Of power laws, whose filters over isotropic ground are known: 10 dB a decade, 11.5 of the smoother line."""
+    bands, none = RAIL.levels.bands, np.zeros(35)
+    q = bands.edges[[0, -1]]
+    line, whole, smoother = (LineSpectrum.through(q, q ** -(1 + slope / 10)) for slope in (10.0, 10.0, 11.5))
+    isotropic = IsotropicLine(line, whole, smoother, none + 0.2, 0.5, none, none > 0)
+    scene = replace(RAIL, across="isotropic")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(type(scene), "isotropic", isotropic)
+        found = RailQuantity(scene, "contact-filter").smoothing_error
+    own, tilted, other = (filters_of_power_law(scene, slope, bands.edges)[1] for slope in (10.0, 13.0, 11.5))
+    seen = own > -10
+    expected = 0.2 * np.abs(tilted - own) / 0.3 + 2 * np.abs(other - own)
+    assert expected[seen].max() > 0.3
+    np.testing.assert_allclose(found[seen], expected[seen], rtol=0.03, atol=0.003)
+
+
 def corrugated(across="isotropic", by=6.0, waves=(31.5, 25)):
     raised = np.array(ISO.levels) + by * np.isin(1000 * ISO.bands.nominal, waves)
     scattered = raised + 0.4 * (-1.0) ** np.arange(35)
@@ -150,6 +169,13 @@ def test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and
         assert (np.abs(value - truth) <= half)[own].all()
     counted = ~own & (smooth.linear[0] > -15)
     assert (np.abs(value - smooth.linear[0]) <= half)[counted].all()
+
+
+def test_bands_that_stand_out_keep_their_names_under_longer_waves():
+    """As of a table from 2000 mm on, by levels that begin at 400 mm."""
+    levels = corrugated().levels.within(0.4, None)
+    asked = RailQuantity(replace(RAIL, across="isotropic", roughness=levels), "contact-filter", LONGEST)
+    assert (1000 * asked.bands.nominal)[asked.stands_out].tolist() == [31.5, 25.0]
 
 
 def test_strips_have_the_power_of_what_stands_out():
