@@ -6,6 +6,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from validation.scenes.measured_surface import LENGTHS
 from validation.scenes.number_table import NumberTable, TableForm
 from validation.scenes.printable import printable
 from validation.scenes.table_files import PLAIN, heights_of_columns, read_table
@@ -48,9 +49,15 @@ def read_profile(
 
 def _in_metres(table: NumberTable, metre: float | None) -> tuple[FloatArray, FloatArray]:
     """Places and heights [m]. Raises ValueError."""
+    lengths = [i for i, column in enumerate(table.columns) if column.unit in LENGTHS]
+    if len(lengths) == 2:
+        table = table.chosen([i + 1 for i in lengths])
     columns = table.columns
     if len(columns) != 2:
-        raise ValueError(f"a profile must have two columns, as {COLUMNS!r}, got {len(columns)}: as: columns = [1, 2]")
+        raise ValueError(
+            f"a profile must have two columns, as {COLUMNS!r}, got {table.names(range(len(columns)))}: say which to "
+            f"read, as: columns = [{len(columns) - 1}, {len(columns)}]"
+        )
     if metre is None and not (table.unit or all(column.unit for column in columns)):
         raise ValueError(
             f'the columns must be named as {COLUMNS!r}, with their units, got {table.names([0, 1])}: or as: unit = "mm"'
