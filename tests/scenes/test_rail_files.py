@@ -201,6 +201,13 @@ def test_one_line_needs_no_position(tmp_path):
     assert with_lines(tmp_path, line[:, np.newaxis], 'spacing = "1 mm"').levels == levels
 
 
+def test_heights_in_another_unit_are_refused_by_their_key(tmp_path):
+    np.save(tmp_path / "h.npy", np.random.default_rng(1).standard_normal((1000, 40)))
+    heights = [("[rail.levels]", "[rail.heights]"), (CURVE, 'file = "h.npy"\nspacing = "1 mm"')]
+    with pytest.raises(ValueError, match=r"^rail.heights.levels must lie between .* is the unit another"):
+        _ = loaded(tmp_path, *heights, ('across = "isotropic"', "")).levels
+
+
 def test_positions_may_descend_with_their_lines(tmp_path):
     up = with_lines(tmp_path, LINE, 'spacing = "1 mm"', PLACES).roughness
     down = with_lines(tmp_path, LINE[:, ::-1], 'spacing = "1 mm"', 'positions = ["5 mm", "0 mm"]').roughness
