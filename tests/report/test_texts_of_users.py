@@ -53,6 +53,16 @@ def test_no_text_of_a_figure_is_parsed():
         assert to_figure(found, form="png") == drawn
 
 
+@pytest.mark.filterwarnings("error")
+def test_names_of_any_length_stay_inside_a_figure():
+    """In the title, the legend and on the axis: no more than two lines, and no axes pushed out."""
+    for words in ("long name " * 50, "x" * 400):
+        assert [len(line) <= 48 for line in style.in_two_lines(words, 48).split("\n")] == [True, True]
+        for found in (of_name(words), [of_name(words), of_name("short")]):
+            assert len(to_figure(found, form="png")) > 1000
+    assert style.in_two_lines("springs, rolling spectrum (MDR)", 48) == "springs, rolling spectrum (MDR)"
+
+
 def test_curves_of_several_scenes_are_named_in_the_legend():
     table = Table(
         "contact-filter",

@@ -97,6 +97,10 @@ EXPORTS = {
         ("k [rad/m],L [dB]\n" + rows(((2000 * np.pi / w, level) for w, level in BANDS), ",")).encode(),
         "its wavenumbers in rad/m are k = 2 pi / wavelength",
     ),
+    "a last line": (
+        ("lambda [mm];L [dB]\n" + rows(BANDS) + "\nEnd of file\n").encode(),
+        "columns; 1 line below its num",
+    ),
     "a count and bands without levels": (
         ("no;L [dB];lambda [mm]\n" + rows((i, level, w) for i, (w, level) in enumerate(BANDS)) + "9;-;25\n").encode(),
         "1 of its rows have no level and are left out; without no.",
@@ -130,7 +134,7 @@ TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1
             'unit = "mm"',
             'got column 1 and column 2: without such names, as: columns = \\[1, 2\\], unit = "mm"',
         ),
-        (TWO, 'columns = ["wavelength", "left"]', r"left \[dB\] and right \[dB\]: say which, as: columns = \[1, 3\]"),
+        (TWO, 'columns = ["wavelength", "left"]', r"left \[dB\] and right \[dB\]: say which, as: columns = \[1, 2\]"),
         (TWO, "columns = [1, 2]", "columns"),
         (rows(((w, 2) for w, _ in BANDS[:3]), ","), 'decimal = ","', 'as: decimal = ","'),
         ("1\n2\n3\nwavelength [mm];L [dB]\n" + rows(BANDS), "skip = 3", "skip"),
@@ -315,6 +319,12 @@ def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
             (),
             r"columns must be lengths, got v \[m/s\]: .*columns = \[1\]",
         ),
+        (
+            "v [m/s],x [mm],z [um]\n" + rows(((z, i, z) for i, z in enumerate(Z)), ","),
+            (),
+            r"columns must be lengths, got v \[m/s\]: .*columns = \[2, 3\]",
+        ),
+        ("x [km],z [um]\n" + rows(((f"{12 + i / 1e6:.5f}", z) for i, z in enumerate(Z)), ","), (), "runs one way but"),
         ("z [um]\n" + rows((z,) for z in Z), (), 'spacing is missing: .*as: spacing = "1 mm"'),
         (rows((z,) for z in Z), ('spacing = "1 mm"',), 'is the unit another.*unit = "um"'),
     ],

@@ -165,7 +165,7 @@ def test_a_header_has_the_unit_of_all_heights(tmp_path, header):
     refused(tmp_path, "face.csv", 'unit = "nm"', said=r"heights\.unit must be that of the file, um, or be left out")
 
 
-@pytest.mark.parametrize("sentinel", ["-9999", "1e38", "-32768.0"])
+@pytest.mark.parametrize("sentinel", ["-9999", "1e38", "-32768.0", "32767"])
 def test_what_instruments_write_for_no_data_is_told_and_no_height(tmp_path, sentinel):
     rows = rows_of(1e6 * HEIGHT).splitlines()
     rows[4] = f"{sentinel}," + rows[4].partition(",")[2]

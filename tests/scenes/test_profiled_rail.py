@@ -220,6 +220,15 @@ def test_a_wheel_with_a_flange_runs_on_a_crown_of_one_radius(tmp_path):
     assert scene.radii[1] == pytest.approx(0.3, rel=1e-6)
 
 
+def test_a_wheel_in_coordinates_of_its_own_is_asked_for_its_offset(tmp_path):
+    for shift, offset in ((745.0, "-740 mm"), (-745.0, "750 mm")):
+        (tmp_path / "far.csv").write_text(table(tread(WHEEL_Y, 1 / 40), WHEEL_Y + shift))
+        with pytest.raises(ValueError, match=rf'wheel.profile must have points within 26 mm .*as: offset = "{offset}"'):
+            load_scene(written(tmp_path, ('load = "', 'profile = "far.csv"\nload = "')))
+    asked = ('load = "', 'profile = "far.csv"\noffset = "745 mm"\nload = "')
+    assert load_scene(written(tmp_path, asked)).profile.at == pytest.approx(-7.498e-3, abs=1e-5)
+
+
 @pytest.mark.parametrize("offset", [-8, 3, 8])
 def test_an_offset_moves_the_wheel_across_the_rail(tmp_path, offset):
     """The wheel's y = 0 stands at the offset; on one cone the contact stays on the rail."""
@@ -330,6 +339,13 @@ def test_a_profile_is_a_table_of_keys(tmp_path, contents, keys):
     text = f'[rail.profile]\nfile = "head.csv"\n{keys}\n[rail.levels]'
     scene = load_scene(written(tmp_path, (CROWN, ""), ("[rail.levels]", text)))
     assert scene.radii[1] == pytest.approx(0.3, rel=1e-6)
+
+
+def test_columns_beside_two_lengths_are_left_out(tmp_path):
+    text = "\n".join(f"{i},{y},{z:.9g}" for i, (y, z) in enumerate(zip(Y, parabola(300.0), strict=True)))
+    assert with_profile(tmp_path, f"no,y [mm],z [mm]\n{text}").radii[1] == pytest.approx(0.3, rel=1e-6)
+    with pytest.raises(ValueError, match=r"two columns, .* got no and y and z: .*columns = \[2, 3\]"):
+        with_profile(tmp_path, f"no,y,z\n{text}")
 
 
 def test_heights_in_the_first_column_are_told_by_their_name(tmp_path):

@@ -159,6 +159,14 @@ def test_levels_of_a_file(tmp_path, contents, unit):
     assert levels.source == "levels.csv"
 
 
+def test_exact_centres_name_bands_as_nominal_ones_do(tmp_path):
+    """Of 10^(-1.5) m and the like: the bands at both ends count, too."""
+    exact = "".join(f"{1e3 * 10 ** (-n / 10):.2f},{n}\n" for n in range(4, 26))
+    levels = with_levels(tmp_path, f"{HEADER}\n{exact}").levels
+    assert levels.levels == tuple(range(4, 26))
+    assert levels.within(0.04, None).bands.nominal[[0, -1]].tolist() == [0.04, 0.00315]
+
+
 def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     """Two lines, one of which carries a wave of 40 mm and 3 um: half of its power."""
     x = np.arange(4000)
@@ -191,6 +199,33 @@ def test_one_line_needs_no_position(tmp_path):
     levels = with_lines(tmp_path, line, 'spacing = "1 mm"').levels
     assert levels.bands.nominal[[0, -1]].tolist() == [0.25, 0.0025]
     assert with_lines(tmp_path, line[:, np.newaxis], 'spacing = "1 mm"').levels == levels
+
+
+def test_heights_in_another_unit_are_refused_by_their_key(tmp_path):
+    np.save(tmp_path / "h.npy", np.random.default_rng(1).standard_normal((1000, 40)))
+    heights = [("[rail.levels]", "[rail.heights]"), (CURVE, 'file = "h.npy"\nspacing = "1 mm"')]
+    with pytest.raises(ValueError, match=r"^rail.heights.levels must lie between .* is the unit another"):
+        _ = loaded(tmp_path, *heights, ('across = "isotropic"', "")).levels
+
+
+def test_positions_may_descend_with_their_lines(tmp_path):
+    up = with_lines(tmp_path, LINE, 'spacing = "1 mm"', PLACES).roughness
+    down = with_lines(tmp_path, LINE[:, ::-1], 'spacing = "1 mm"', 'positions = ["5 mm", "0 mm"]').roughness
+    assert down.positions == (0.0, 0.005)
+    assert (down.height == LINE).all() and up.levels == down.levels
+
+
+def test_a_band_without_waves_is_named_and_no_unit_is_blamed_for_it(tmp_path):
+    """Lines that a filter has cut off at 5 mm have no waves of 2.5 mm."""
+    x = 1e-3 * np.arange(2000)
+    line = sum(1e-6 * w**0.5 * np.sin(2 * np.pi * x / w + 1e5 * w) for w in 1 / np.arange(2.0, 200.0, 0.5))
+    with pytest.raises(
+        ValueError, match=r"rail.lines.levels must lie above -100 .* bands of .*2.5 mm: longest and sho"
+    ):
+        with_lines(tmp_path, line, 'spacing = "1 mm"')
+    assert with_lines(tmp_path, line, 'spacing = "1 mm"', 'shortest = "8 mm"').levels.rms > 1e-7
+    with pytest.raises(ValueError, match=r"lines.file must have heights that differ along a line"):
+        with_lines(tmp_path, 0 * line + 3e-6, 'spacing = "1 mm"')
 
 
 def test_heights_have_the_levels_of_their_lines(tmp_path):
@@ -287,9 +322,9 @@ PLACES = 'positions = ["0 mm", "5 mm"]'
         (LINE, (PLACES, 'shortest = "1 mm"'), "lines.shortest must be 2.5 points or more, 1 mm apart, got 1 mm"),
         (LINE, (PLACES, 'shortest = "100 mm"', 'longest = "50 mm"'), "lines.spacing must be .*no band lies between"),
         (LINE[:5], (PLACES,), "lines.spacing must be .*no band lies between .* got 5 points, 1 mm apart"),
-        (LINE, (), r"lines.positions must be one a line, got 1 for heights of shape \(1000, 2\)"),
+        (LINE, (), r"lines.positions is missing: the file has 2 lines.*as: positions = "),
         (LINE.T, (PLACES,), r"lines.positions must be one a line, got 2 for heights of shape \(2, 1000\)"),
-        (LINE, ('positions = ["5 mm", "0 mm"]',), "lines.positions must ascend"),
+        (LINE, ('positions = ["5 mm", "5 mm"]',), "lines.positions must ascend"),
         (LINE, ("positions = [0, 5]",), r"lines.positions\[0\] must be a length"),
         (LINE, ('positions = "0 mm"',), "lines.positions must be a list of lengths"),
         (
@@ -298,7 +333,7 @@ PLACES = 'positions = ["0 mm", "5 mm"]'
             "lines.heights must be known everywhere, got 1000 of",
         ),
         (1e6 * LINE, (PLACES,), "lines.levels must lie between .* is the unit another"),
-        (0 * LINE, (PLACES,), "lines.file must have heights, got zeros alone"),
+        (0 * LINE, (PLACES,), "lines.file must have heights that differ along a line, got zeros alone"),
     ],
 )
 def test_lines_are_refused_by_what_is_wrong(tmp_path, height, keys, said):

@@ -14,6 +14,7 @@ import pytest
 import validation
 from tests.selection.test_model_hierarchy import Fake, Finding, punch
 from validation.__main__ import main
+from validation.scenes.bundled import path_of
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
 from validation.selection.swept import Swept
@@ -135,6 +136,23 @@ def test_a_figure_of_numbers_has_a_row_a_model(tmp_path):
     out = tmp_path / "out.svg"
     assert main(["compare", "sphere", "--figure", str(out)]) == 0
     assert out.stat().st_size > 1000
+
+
+@pytest.mark.parametrize("place", ["rail.toml", "far/../levels.csv", "link.json"])
+def test_no_result_replaces_a_file_that_the_scene_reads(place, tmp_path, capsys):
+    """The scene itself, and what it names, by any path."""
+    (tmp_path / "far").mkdir()
+    (tmp_path / "link.json").symlink_to("levels.csv")
+    (tmp_path / "levels.csv").write_text("wavelength [mm],level [dB re 1 um]\n63,3\n50,2\n40,1\n", encoding="utf-8")
+    text = path_of("rail").read_text(encoding="utf-8").replace('curve = "iso3095-2013"', 'file = "levels.csv"')
+    (tmp_path / "rail.toml").write_text(text, encoding="utf-8")
+    words = ["compare", str(tmp_path / "rail.toml"), "--tolerance", "3 dB"]
+    assert main([*words, "--json", str(tmp_path / place)]) == 2
+    assert re.search(r"--json must be a file of its own, got .*, which the scene reads", capsys.readouterr().err)
+    assert main([*words, "--json", str(tmp_path / "one"), "--csv", str(tmp_path / "far/../one")]) == 2
+    assert "which --json writes" in capsys.readouterr().err
+    assert (tmp_path / "rail.toml").read_text(encoding="utf-8") == text and not (tmp_path / "one").exists()
+    assert main([*words, "--json", "/dev/null", "--csv", "/dev/null"]) == 0
 
 
 @pytest.mark.parametrize("name", ["out.jpg", "out"])

@@ -111,6 +111,12 @@ def test_a_tolerance_is_echoed_in_its_unit(given, relative, shown):
     assert tolerance.shown(math.inf) == "unknown"
 
 
+@pytest.mark.parametrize("given", ["1e9 dB", "-1e9 dB", "inf dB", "nan dB", "1e999%"])
+def test_a_tolerance_of_any_size_is_refused_in_a_sentence(given):
+    with pytest.raises(ValueError, match="no more than 100 %, or 6 dB, got"):
+        tolerance_of(given)
+
+
 def test_errors_are_in_decibels_where_the_tolerance_is():
     """20 lg 1.1202 = 0.986 dB."""
     text = summary(compared(Finding(value=(2e7,), parts=PARTS), tolerance="1 dB"))

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
 from validation.report.compared_sweep import draw_sweep
-from validation.report.style import MARKERS, SETTINGS, Style, curve, pdf, plain_figure, svg, tick
+from validation.report.style import MARKERS, SETTINGS, Style, curve, in_two_lines, pdf, plain_figure, svg, tick
 from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.exported import by_quantity, table_of_several
 from validation.selection.several import selected_of_several
@@ -22,6 +22,8 @@ from validation.selection.side_by_side import shown_models
 FORMATS = ("svg", "png", "pdf")
 TICKS = 12
 """Wavelengths on the axis, at the most."""
+NAME = 48
+"""Characters of a line of a name in a figure, at the most."""
 MOST = 5
 """Curves in one panel: of more, none is told from the others."""
 
@@ -75,7 +77,7 @@ def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
                 continue
             title, table = _shown(found)
             axes = part.subplots()
-            axes.set_title(title, loc="left")
+            axes.set_title(in_two_lines(title), loc="left")
             spectra = found[0].is_level and np.isfinite(table["wavelength_mm"]).all()
             (_spectra if spectra and len(table["model"]) else _numbers)(axes, table)
     return written(figure, form)
@@ -117,7 +119,7 @@ def _spectra(axes: Axes, table: Table) -> None:
     for i, model in enumerate(models[:MOST]):
         mine, style = table.where(model=model), curve(i)
         x, selected = mine["wavelength_mm"], bool(mine["selected"][0])
-        axes.plot(x, mine["value"], label=f"{model}, selected" if selected else model, **style)
+        axes.plot(x, mine["value"], label=in_two_lines(f"{model}, selected" if selected else model, NAME), **style)
         if selected:
             axes.fill_between(x, mine["low"], mine["high"], color=style["color"], alpha=0.2, linewidth=0)
     axes.set_xscale("log")
@@ -146,7 +148,7 @@ def _add_frequencies(axes: Axes, speed: float) -> None:
 
 def _numbers(axes: Axes, table: Table) -> None:
     """A row a model, or a scene."""
-    names = table["model"].tolist()
+    names = [in_two_lines(name, NAME) for name in table["model"].tolist()]
     for i, (value, low, selected) in enumerate(zip(table["value"], table["low"], table["selected"], strict=True)):
         style: Style = {"color": curve(not selected)["color"], "fmt": MARKERS[i % len(MARKERS)]}
         half: Any = value - low if np.isfinite(low) else 0.0

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Table
 from validation.report.compared import written
-from validation.report.style import GUIDE, SETTINGS, Style
+from validation.report.style import GUIDE, SETTINGS, Style, in_two_lines
 from validation.selection.compare import Comparison
 from validation.selection.speed_accuracy import speed_and_accuracy
 
@@ -34,7 +34,7 @@ def figure_over_seconds(comparison: Comparison, form: str) -> bytes:
         figure = Figure(figsize=(7.0, 5.0))
         # labels are placed by the size of the panel, which no layout may change afterwards
         axes = figure.subplots(gridspec_kw={"left": 0.1, "right": 0.98, "bottom": 0.18, "top": 0.93})
-        axes.set_title(f"{comparison.scene.name}: {comparison.quantity}", loc="left")
+        axes.set_title(in_two_lines(f"{comparison.scene.name}: {comparison.quantity}"), loc="left")
         axes.axhline(limit, label=f"tolerance, {comparison.tolerance}", **GUIDE)
         _draw(axes, table)
         figure.legend(loc="lower center", ncols=4)

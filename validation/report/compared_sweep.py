@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
-from validation.report.style import curve, tick
+from validation.report.style import curve, in_two_lines, tick
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import contact_force
 from validation.selection.side_by_side import counts, reference_of, shown_models
@@ -47,7 +47,7 @@ def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> Non
     """Of a spectrum a panel a band, and one of the force."""
     scenes = list(dict.fromkeys(one.swept.scene for one in found if one.swept))
     title = f"{scenes[0]}: {found[0].quantity}" if len(scenes) == 1 else found[0].quantity
-    figure.suptitle(title, x=0.01, ha="left", fontsize=9)
+    figure.suptitle(in_two_lines(title), x=0.01, ha="left", fontsize=9)
     lines, panels = list(_lines(found, scenes)), list(_panels(found))
     columns = 2 if len(panels) > 1 else 1
     axes = figure.subplots(max(1, math.ceil(len(panels) / columns)), columns, sharex=True, squeeze=False).flat
@@ -74,7 +74,7 @@ def _draw(axes: Axes, panel: Panel, lines: Sequence[Line]) -> None:
         x = np.array(values if numbers else [texts.index(str(value)) for value in values], dtype=np.float64)
         order = np.argsort(x, kind="stable")
         value, low, high = np.array([panel.interval(*point) for point in line.points])[order].T
-        axes.plot(x[order], value, label=line.name, **{"marker": ".", **curve(i)})
+        axes.plot(x[order], value, label=in_two_lines(line.name, 48), **{"marker": ".", **curve(i)})
         axes.fill_between(x[order], low, high, color=curve(i)["color"], alpha=0.12, linewidth=0)
         edges = {"color": curve(i)["color"], "linestyle": curve(i)["linestyle"], "linewidth": 0.5}
         axes.plot(x[order], np.column_stack([low, high]), **edges)

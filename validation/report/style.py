@@ -1,6 +1,7 @@
 """The style of figures: readable without colour, and the same bytes every time."""
 
 import io
+import textwrap
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any, Literal
@@ -55,6 +56,11 @@ CURVES: tuple[Style, ...] = (
 def curve(i: int) -> Style:
     """The i-th of up to five curves: apart in colour, and in grey by dash and marker."""
     return dict(CURVES[i % len(CURVES)])
+
+
+def in_two_lines(words: str, most: int = 90) -> str:
+    """A title or a name of any length, of so many characters a line: 90 are as wide as a figure."""
+    return "\n".join(textwrap.wrap(words, most, max_lines=2, placeholder=" ..."))
 
 
 SETTINGS: Any = {

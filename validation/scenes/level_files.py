@@ -101,12 +101,12 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
     if len(levels) > 1 or (levels and len(waves) > 1):
         raise ValueError(
             f"one column of wavelengths and one of levels must be read, got {table.names([*waves, *levels])}: say which"
-            f", as: columns = [{(waves or [0])[0] + 1}, {levels[-1] + 1}]"
+            f", as: columns = [{(waves or [0])[0] + 1}, {levels[0] + 1}]"
         )
     if not waves or not levels:
         raise ValueError(
-            f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}: "
-            'without such names, as: columns = [1, 2], unit = "mm"'
+            f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}"
+            + ("" if any(units) else ': without such names, as: columns = [1, 2], unit = "mm"')
         )
     of_wave, of_level = waves[0], levels[0]
     if unit is None and not units[of_wave]:

@@ -42,10 +42,18 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
         count = len(found["positions"]) if "positions" in found else None
         given_as = {"metre": found.pop("unit", None), "spacing": found.pop("spacing", None)}
         height, spacing, notes = _along_the_track(numbers, **given_as, count=count)
+        if count is None and height.shape[1] > 1:
+            raise ValueError(
+                f"positions is missing: the file has {height.shape[1]} lines, whose places across the rail are needed, "
+                'as: positions = ["-10 mm", "0 mm"]'
+            )
         height, edits = edited_lines(height, fill=found.pop("fill", False), asked_by="fill = true")
+        if count == height.shape[1]:
+            order = np.argsort(found["positions"], kind="stable")
+            found["positions"], height = np.array(found["positions"])[order].tolist(), height[:, order]
         measured = MeasuredLines(height=height, spacing=spacing, **found)
-        if not measured.height.any():
-            raise ValueError("file must have heights, got zeros alone")
+        if not np.ptp(measured.height, axis=0).any():
+            raise ValueError("file must have heights that differ along a line, got zeros alone, or one other number")
         try:
             _ = measured.levels  # heights in a wrong unit are refused here, by their levels
         except ValueError as problem:

@@ -1,5 +1,6 @@
 """The scene of a file: a sphere, a punch, a wheel on rough ground with or without a mass, or one on a rail."""
 
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -72,6 +73,28 @@ def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     ground = heights if isinstance(heights, MeasuredHeights | None) else measured(heights)
     with file_named_in_errors(path):
         return _scene_of(tables if ground is None else _with_heights(tables, ground), path.parent)
+
+
+def files_of(scene: str | Path) -> tuple[Path, ...]:
+    """The file of a scene, and the files beside it that its values name."""
+    path = path_of(scene)
+    named = (path.parent / text for text in _texts(tables_of(path)))
+    return path, *(one for one in named if _is_there(one))
+
+
+def _is_there(path: Path) -> bool:
+    with suppress(OSError, ValueError):
+        return path.is_file()
+    return False
+
+
+def _texts(value: object) -> Iterator[str]:
+    """All texts in the tables of a file."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict | list):
+        for one in value.values() if isinstance(value, dict) else value:
+            yield from _texts(one)
 
 
 def load_varied(scene: str | Path, key: str, value: str) -> Scene:

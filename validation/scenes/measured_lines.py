@@ -11,7 +11,7 @@ from mdr.checks import finite, positive
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.known_heights import known_heights
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.roughness_levels import RoughnessLevels
+from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
 from validation.scenes.units import in_unit
 
 FloatArray = NDArray[np.float64]
@@ -94,7 +94,15 @@ class MeasuredLines:
     def levels(self) -> RoughnessLevels:
         """Levels of the mean energy of all lines, which expects that of one and scatters less."""
         powers = self.bands.powers_of_records(self.height.T, spacing=self.spacing).mean(axis=0)
-        return RoughnessLevels.of_powers(self.bands, powers, source=f"{len(self.positions)} measured lines")
+        empty = powers < MICROMETRE**2 * 10 ** (LEAST / 10)
+        if empty.any() and not empty.all():
+            raise ValueError(
+                f"levels must lie above {LEAST:g} dB re 1 um, got less in bands of {self.bands.names(empty)}: longest "
+                "and shortest leave them out, or is the unit another?"
+            )
+        count = len(self.positions)
+        source = f"{count} measured {'line' if count == 1 else 'lines'}"
+        return RoughnessLevels.of_powers(self.bands, powers, source=source)
 
     def _check_bands(self) -> None:
         slack = 1 + 1e-9

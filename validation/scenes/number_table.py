@@ -21,6 +21,7 @@ from validation.scenes.printable import quoted, shortened
 from validation.scenes.reader import Reader, nonblank_text, without_unit
 from validation.scenes.text_dialect import (
     COMMENTS,
+    STARTS,
     Dialect,
     about_row,
     encoding_of,
@@ -34,7 +35,7 @@ FloatArray = NDArray[np.float64]
 
 MOST_VALUES = 2**24
 """Of a table: 4096 x 4096 heights."""
-SENTINELS = (-999.0, -9999.0, -99999.0, -32768.0, -32767.0, 9999.0, 99999.0, 999999.0)
+SENTINELS = (-999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 9999.0, 99999.0, 999999.0)
 """What instruments write where they have no data; beyond `HUGE` no number is a height."""
 HUGE, LONELY = 1e30, 3.0
 """LONELY: how many spans of all other numbers lie between them and such a value, at the least."""
@@ -128,33 +129,38 @@ def _as_written(file: IO[bytes], encoding: str, form: TableForm, *, numeric: int
         sample = sample_of(lines, skip)
         nodata = frozenset(str(one).strip().lower() for one in form.nodata)
         dialect, first, width = recognised(sample, skip, form.decimal, nodata, numeric)
-        values = _values(chain(islice(sample, first, None), lines), first, dialect, width)
+        values, below = _values(chain(islice(sample, first, None), lines), first, dialect, width)
     finally:
         text.detach()
     above = sample[skip:first]
     units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
     unit = units.pop() if len(units) == 1 and not any(column.unit for column in columns) else ""
     notes = _how(dialect, width, _left_out(sample[:first]), encoding)
+    notes += (f"{below} {'line' if below == 1 else 'lines'} below its numbers",) if below else ()
     notes += (f"its header has the unit {unit}",) if unit else ()
     table = NumberTable(values=values, columns=columns, unit=unit, notes=notes)
     return known_alone(_without_last(table), form.nodata).chosen(form.columns)
 
 
-def _values(lines: Any, first: int, dialect: Dialect, width: int) -> FloatArray:
-    found = array("d")
+def _values(lines: Any, first: int, dialect: Dialect, width: int) -> tuple[FloatArray, int]:
+    """Rows, up to the first line without a number; how many lines stand below, none of which has one."""
+    found, below, problem = array("d"), 0, ""
     for index, line in enumerate(lines, first):
         if dialect.says_nothing(line):
             continue
         cells = dialect.cells(line)
         try:
-            if len(cells) != width:
+            if len(cells) != width or below:
                 raise ValueError
             found.extend(dialect.numbers(cells))
         except ValueError:
-            raise ValueError(about_row(line, index, dialect, width)) from None
+            problem = problem or about_row(line, index, dialect, width)
+            if any(map(STARTS, cells)):
+                raise ValueError(problem) from None
+            below += 1
         if len(found) > MOST_VALUES * max(1, 3 * (width == 3)):
             raise ValueError(f"the table must hold at most {MOST_VALUES} heights, got more")
-    return np.frombuffer(found, dtype=np.float64).reshape(-1, width)
+    return np.frombuffer(found, dtype=np.float64).reshape(-1, width), below
 
 
 def _without_last(table: NumberTable) -> NumberTable:

@@ -70,9 +70,9 @@ def _last_digit(values: FloatArray) -> float:
 
 
 def runs_one_way(values: FloatArray) -> bool:
-    """Whether a column of some length ascends or descends all along, as no rough line does."""
+    """Whether a column of some length ascends or descends all along, as no rough line does; rounded places may stay."""
     steps = np.diff(values)
-    return values.size >= 2 * FEWEST and bool((steps > 0).all() or (steps < 0).all())
+    return values.size >= 2 * FEWEST and bool(steps.any()) and bool((steps >= 0).all() or (steps <= 0).all())
 
 
 def metres_of_step(step: float, unit: str, given: float | None, what: str) -> float:

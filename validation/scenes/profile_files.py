@@ -7,6 +7,7 @@ import scipy
 from numpy.typing import NDArray
 
 from validation.scenes.height_files import unit_of
+from validation.scenes.measured_surface import LENGTHS
 from validation.scenes.number_table import FORM, NumberTable, file_of
 from validation.scenes.printable import printable
 from validation.scenes.reader import Reader, nonblank_text, table, yes_or_no
@@ -51,9 +52,15 @@ def profile_in(name: str, given: object, *, folder: Path, told: list[str]) -> Tr
 
 def _in_metres(table: NumberTable, metre: float | None) -> tuple[FloatArray, FloatArray]:
     """Places and heights [m]. Raises ValueError."""
+    lengths = [i for i, column in enumerate(table.columns) if column.unit in LENGTHS]
+    if len(lengths) == 2:
+        table = table.chosen([i + 1 for i in lengths])
     columns = table.columns
     if len(columns) != 2:
-        raise ValueError(f"a profile must have two columns, as {COLUMNS!r}, got {len(columns)}: as: columns = [1, 2]")
+        raise ValueError(
+            f"a profile must have two columns, as {COLUMNS!r}, got {table.names(range(len(columns)))}: say which to "
+            f"read, as: columns = [{len(columns) - 1}, {len(columns)}]"
+        )
     if metre is None and not (table.unit or all(column.unit for column in columns)):
         raise ValueError(
             f'the columns must be named as {COLUMNS!r}, with their units, got {table.names([0, 1])}: or as: unit = "mm"'

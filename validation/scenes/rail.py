@@ -122,7 +122,10 @@ class RailScene:
             return self.roughness
         if isinstance(self.roughness, MeasuredLines):
             return self.roughness.levels
-        return MeasuredLines.of_heights(self.roughness).levels
+        try:
+            return MeasuredLines.of_heights(self.roughness).levels
+        except ValueError as problem:
+            raise ValueError(f"rail.heights.{problem}") from None
 
     @cached_property
     def isotropic(self) -> IsotropicLine | None:

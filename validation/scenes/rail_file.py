@@ -110,6 +110,12 @@ def _together(of_rail: Shape, of_wheel: Shape, offset: float) -> TransverseProfi
         if isinstance(of_rail, TransverseProfile):
             return both_together([of_rail, wheel], 0.0)
         # the rail has no corners, which a flange would meet
+        if wheel.y[0] > CROWN or wheel.y[-1] < -CROWN:
+            middle = in_unit(offset - (wheel.y[0] + wheel.y[-1]) / 2, "length", digits=3)
+            raise ValueError(
+                f"profile must have points within {1e3 * CROWN:g} mm of the middle of the rail, got y from "
+                f'{1e3 * wheel.y[0]:.4g} to {1e3 * wheel.y[-1]:.4g} mm: wheel.offset moves it, as: offset = "{middle}"'
+            )
         return both_together([wheel.within(CROWN)], 0.0 if of_rail is None else 1 / of_rail)
     assert isinstance(of_rail, TransverseProfile)
     return both_together([of_rail], 0.0 if of_wheel is None else 1 / of_wheel, offset)

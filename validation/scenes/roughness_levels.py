@@ -74,7 +74,7 @@ class RoughnessLevels:
 
     def within(self, longest: float | None, shortest: float | None) -> "RoughnessLevels":
         """Bands between two nominal wavelengths [m] alone, None for the end that there is. ValueError for none."""
-        first, last = self.wavelengths[0], self.wavelengths[-1]
+        first, last = self.bands.nominal[[0, -1]]
         kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
         start = self.bands.longest - kept.longest
         inside = slice(start, start + len(kept))

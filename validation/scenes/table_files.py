@@ -79,7 +79,10 @@ def heights_of_columns(table: NumberTable, places: Sequence[int], metre: float |
     for i in places:
         unit = table.columns[i].unit or table.unit
         if unit and unit not in LENGTHS:
-            raise ValueError(f"columns must be lengths, got {table.names([i])}: say which to read, as: columns = [1]")
+            lengths = [j + 1 for j, column in enumerate(table.columns) if column.unit in ("", *LENGTHS)]
+            raise ValueError(
+                f"columns must be lengths, got {table.names([i])}: say which to read, as: columns = {lengths or [1]}"
+            )
         named = metres_of("unit", unit) if unit else None
         if named and metre and named != metre:
             raise ValueError(

@@ -76,7 +76,7 @@ def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
     """A quantity in SI units with so many digits, in the largest unit that leaves one or more before the point."""
     units = [unit for unit in PRINTED_UNITS[dimension] if abs(value) * (1 + 1e-9) >= UNITS[dimension][unit]]
     unit = units[-1] if units else PRINTED_UNITS[dimension][0]
-    return f"{float(value) / UNITS[dimension][unit]:.{digits}g} {unit}"
+    return f"{float(f'{float(value) / UNITS[dimension][unit]:.{digits}g}'):.{max(digits, 6)}g} {unit}"
 
 
 def _read(text: object, dimension: Dimension) -> float | None:

@@ -58,7 +58,7 @@ def tolerance_of(given: float | str) -> Tolerance:
         raise ValueError(f"tolerance must be as {FORMS}, got {given!r}") from None
     if text == given.strip() and LARGEST < value < math.inf:
         raise ValueError(f"tolerance must be as {FORMS}, got {given!r}: {_meant(value)}?")
-    relative = 10 ** (value / 20) - 1 if decibels else value
+    relative = math.expm1(min(value, 100.0) * math.log(10) / 20) if decibels else value
     if not 0 < relative <= 1:
         raise ValueError(f"tolerance must be as {FORMS}, above zero and no more than 100 %, or 6 dB, got {given!r}")
     return Tolerance(relative, decibels)

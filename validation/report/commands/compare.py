@@ -15,7 +15,7 @@ from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
-from validation.scenes.load import Scene, bundled_for_compare, load_scene, load_varied
+from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.selection.compare import Comparison
 from validation.selection.exported import table_of_several, to_json_of
@@ -129,6 +129,7 @@ def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
 
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
     """Raises ValueError before anything is solved."""
+    _check_places(arguments)
     quantities = list(dict.fromkeys(name for problem in problems for name in problem.quantities))
     figure = arguments.figure
     if figure is not None and figure.suffix not in FIGURES:
@@ -139,6 +140,18 @@ def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace
         raise ValueError(f"--over seconds is for one quantity of one scene, got {len(problems) * len(quantities)}")
     if arguments.cnossos is not None and "contact-filter" not in quantities:
         raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {', '.join(quantities)}")
+
+
+def _check_places(arguments: argparse.Namespace) -> None:
+    """Raises ValueError where a result would replace a file that is read, or another result."""
+    taken = {os.path.realpath(file): "the scene reads" for name in arguments.scene for file in files_of(name)}
+    for key in ("json", "csv", "cnossos", "figure"):
+        path = getattr(arguments, key)
+        if path is None or path.parent == Path("/dev"):
+            continue
+        if by := taken.get(os.path.realpath(path)):
+            raise ValueError(f"--{key} must be a file of its own, got {printable(path)}, which {by}")
+        taken[os.path.realpath(path)] = f"--{key} writes"
 
 
 def _found(
