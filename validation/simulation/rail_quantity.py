@@ -28,8 +28,8 @@ COUNTED = -15.0
 TILT = 0.3
 """Of the exponent of a line, over which A3 changes in proportion."""
 OF_SMOOTHING = 3.0
-"""Error of a smooth line over what smoothing it twice more changes: of files with a corrugation of 10 dB in five bands,
-96 % of the bands or more are inside."""
+"""Error of a smooth line over what smoothing it twice more changes. With a corrugation of 10 dB in five bands 96 to
+98 % of the bands of power laws are inside, by which it was chosen; over ground that bends, 91 % of the five bands."""
 
 
 @dataclass(frozen=True)
