@@ -117,7 +117,7 @@ FAULTS = {
     ),
     "half of what smoothing leaves": (
         (RailQuantity, "smoothing_error", property(lambda quantity: smoothing_error(quantity) / 2)),
-        SCATTERED.test_what_smoothing_leaves_is_its_slope_error_and_twice_what_smoothing_again_changes,
+        SCATTERED.test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoothing_changes,
     ),
     "a corrugation at other waves": (
         (RailQuantity, "stands_out", property(lambda quantity: np.roll(stands_out(quantity), -3))),

@@ -135,7 +135,7 @@ def test_random_files_are_answered(quantity):
     assert sum(answered) >= 57 and inside >= 0.95 and half <= 1.5
 
 
-def test_what_smoothing_leaves_is_its_slope_error_and_twice_what_smoothing_again_changes():
+def test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoothing_changes():
     """Of power laws, whose filters over isotropic ground are known: 10 dB a decade, 11.5 of the smoother line."""
     bands, none = RAIL.levels.bands, np.zeros(35)
     q = bands.edges[[0, -1]]
@@ -147,7 +147,7 @@ def test_what_smoothing_leaves_is_its_slope_error_and_twice_what_smoothing_again
         found = RailQuantity(scene, "contact-filter").smoothing_error
     own, tilted, other = (filters_of_power_law(scene, slope, bands.edges)[1] for slope in (10.0, 13.0, 11.5))
     seen = own > -10
-    expected = 0.2 * np.abs(tilted - own) / 0.3 + 2 * np.abs(other - own)
+    expected = 0.2 * np.abs(tilted - own) / 0.3 + 3 * np.abs(other - own)
     assert expected[seen].max() > 0.3
     np.testing.assert_allclose(found[seen], expected[seen], rtol=0.03, atol=0.003)
 
