@@ -231,7 +231,9 @@ def test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_tha
         at = int(np.argmax(np.where(counted, off, -1)))
         half = found.errors_of(one)[at] + found.errors_of(reference)[at]
         row = table.where(model=one.name)
-        assert row["high"][0] == pytest.approx(off[at] + half) and row["low"][0] == pytest.approx(max(off[at] - half, 0))
+        assert row["high"][0] == pytest.approx(off[at] + half) and row["low"][0] == pytest.approx(
+            max(off[at] - half, 0)
+        )
 
 
 def test_speed_and_accuracy_are_drawn_for_one_scene_whose_models_were_timed(tmp_path, capsys):
