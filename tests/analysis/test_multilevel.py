@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from validation.analysis.multilevel import Linearised, log, moments, multilevel_moments, weighted_sum
 from validation.analysis.statistics import student
@@ -151,3 +152,18 @@ def test_no_deviation_is_minus_infinity_and_a_negative_variance_is_none():
     equal = moments(np.full(9, 1 / 3), np.ones(9, dtype=bool)).log_relative_deviation
     assert equal.value == -math.inf and equal.half_width == 0
     assert math.isnan(log(Linearised(-1.0, np.ones(3))).value)
+
+
+@pytest.mark.parametrize("points", [1, 4, 25])
+def test_intervals_that_hold_together_share_their_five_per_cent(points):
+    """Bonferroni: each of so many misses in 0.05 / points, by Student's quantile of eight equal realisations."""
+    found = Linearised(1.0, np.array([0.1, -0.1] * 4))
+    expected = stats.t.ppf(1 - 0.05 / points / 2, 7) * 0.1 * math.sqrt(8)
+    assert found.half_width_among(points) == pytest.approx(expected, rel=1e-4)
+
+
+def test_what_a_realisation_contributes_to_a_variance_is_what_leaving_it_out_changes():
+    values = np.array([0.3, 1.0, 2.2, 0.9, 5.0])
+    found = moments(values, np.ones(5, dtype=bool)).variance
+    changes = [np.var(values, ddof=1) - np.var(np.delete(values, i), ddof=1) for i in range(5)]
+    np.testing.assert_allclose(found.influence / found.influence[4], np.array(changes) / changes[4], rtol=1e-9)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from validation.analysis.sound import Sound, Sounds, common_full_scale, filtered, powers_of_blocks
+from validation.analysis.sound import Sound, Sounds, a_weighting, common_full_scale, filtered, powers_of_blocks
 
 
 def test_what_is_left_over_is_in_no_piece():
@@ -33,3 +33,8 @@ def test_two_sounds_of_one_name_are_refused():
     tracks = tuple(Sound(name=name, label=name, column=name, says="") for name in ("bem", "springs", "bem"))
     with pytest.raises(ValueError, match=r"got twice: bem$"):
         Sounds(table="t", rate=8000, full_scale=1.0, repeats=1, heard="", tracks=tracks)
+
+
+def test_the_weighting_is_zero_at_one_kilohertz_to_what_two_decibels_are_rounded():
+    """A wrong digit of a corner, as 739.7 for 737.9 Hz, is 0.01 dB there, and no table to a tenth shows it."""
+    assert a_weighting(1e3) == pytest.approx(0.0, abs=1e-3)

@@ -20,6 +20,25 @@ def half_of_the_slope(pressure, *, gradient):
     return math.erf(pressure / gradient)
 
 
+def half_of_a_period(ends, period):
+    return periods(ends, np.asarray(period) / 2)
+
+
+def near_waves_among_the_far(q, end, period, begin=0.0):
+    return panels_across(q, end, period)
+
+
+def with_half_of_the_contact(q, c1d, *, contact_radius, radius, **settings):
+    """The prefactor goes with R / a."""
+    return rolling_theory.second_order_force_spectrum(
+        q, c1d, contact_radius=contact_radius / 2, radius=radius / 2, **settings
+    )
+
+
+FAR_WAVES = test_transverse_structure.test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean
+periods, panels_across = transverse_structure._periods, transverse_structure._panels_across
+
+
 def geike_for_rolling(q, c2d, edges, flat):
     return float(np.pi * q * c2d(np.array(q)))
 
@@ -103,5 +122,17 @@ FAULTS = {
     "a line that keeps the waves which its surface has lost": (
         (transverse_structure.IsotropicGround, "line_power", lambda ground, q: ground.line(q)),
         test_transverse_structure.test_ground_without_its_shortest_waves_has_the_line_that_is_left,
+    ),
+    "far waves over half of a period": (
+        (transverse_structure, "_periods", half_of_a_period),
+        functools.partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
+    ),
+    "near waves counted among the far, too": (
+        (transverse_structure, "_panels_across", near_waves_among_the_far),
+        functools.partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
+    ),
+    "the second order of springs with zeros of a contact half as long": (
+        (test_rolling_theory, "second_order_force_spectrum", with_half_of_the_contact),
+        test_rolling_theory.test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends,
     ),
 }

@@ -23,6 +23,7 @@ from validation.theory.rolling import (
     mean_force_spectrum_1d,
     oscillation,
     response,
+    second_order_force_spectrum,
     section,
 )
 
@@ -394,3 +395,12 @@ def test_a_rolling_spectrum_asks_for_24_wavenumbers_a_panel():
     assert (np.diff(s.ravel()) > 0).all()
     for panel, (first, last) in zip(s, pairwise(ends), strict=True):
         assert first < panel[0] < panel[-1] < last
+
+
+def test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends():
+    """C_1D = 3 on 1 < k < 2: two waves differ by q < 1 on 2 (1 - q) of k, so that int C C dk = 18 (1 - q)."""
+    q, a = np.array([0.1, 0.3, 0.5, 0.8]), 2.5
+    even = lambda k: np.where((k > 1) & (k < 2), 3.0, 0.0)  # noqa: E731
+    found = second_order_force_spectrum(q, even, q_max=2.0, contact_radius=a, radius=0.7, modulus=1.3)
+    expected = (1.3 * 0.7 / (2 * a) * np.cos(q * a)) ** 2 * 2 * 18 * (1 - q)
+    assert found == pytest.approx(expected, rel=1e-3)

@@ -247,3 +247,28 @@ def test_work_ends_where_the_contact_is_many_waves_wide(structure):
     # but for a panel across more a factor 1.4
     assert counted[3] < 1.5 * counted[2]
     assert max(counted) < 400_000
+
+
+def power_law_line(p):
+    q = np.geomspace(1.0, 1e4, 33)
+    return LineSpectrum.through(q, q**-p)
+
+
+@pytest.mark.parametrize("structure", [WaveBand(0.7), WaveBand(3.0), IsotropicGround(power_law_line(2.0))])
+def test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean(structure):
+    """Contacts of 300 and 2000 waves: a filter of one lets all pass, abs(sin k_y b)^2 one half."""
+    for semi_axis in (6.0, 40.0):
+        q = np.array([50.0, 53.0])
+        assert structure.mean_square(q, lambda x, y: 1 + 0 * (x + y), semi_axis=semi_axis) == pytest.approx(1, abs=5e-3)
+        half = structure.mean_square(q, lambda x, y, b=semi_axis: np.sin(y * b) + 0 * x, semi_axis=semi_axis)
+        assert half == pytest.approx(0.5, abs=5e-3)
+
+
+def test_waves_beyond_the_last_pass_as_the_most_oblique_ones():
+    """Of C_line ~ q^-1.2, whose oblique waves are many: the mean of exp(-t^2) with the weight (1 + t^2)^-1.1."""
+    ground = IsotropicGround(power_law_line(1.2))
+    found = ground.mean_square(np.array([10.0]), lambda x, y: np.exp(-((y / x) ** 2) / 2), semi_axis=0.01)
+    passed, every = (
+        integrate.quad(lambda t, on=on: (1 + t * t) ** -1.1 * math.exp(-on * t * t), 0, np.inf)[0] for on in (1, 0)
+    )
+    assert found[0] == pytest.approx(passed / every, rel=2e-3)
