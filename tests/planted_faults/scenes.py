@@ -46,10 +46,19 @@ def of_the_rail_alone(bodies, curvature, centre=0.0):
     return transverse_profile.both_together(bodies[:1], curvature, centre)
 
 
+def by_the_wavelengths_as_given(levels, longest, shortest):
+    ends = (
+        levels.wavelengths[0] if longest is None else longest,
+        levels.wavelengths[-1] if shortest is None else shortest,
+    )
+    return within(levels, *ends)
+
+
 def rigid_beside_the_contact(profile, half_width, approach, force):
     return check_alone(profile, half_width, approach, 0.0)
 
 
+within = roughness_levels.RoughnessLevels.within
 check_alone = transverse_profile._check_alone
 moved = transverse_profile.TransverseProfile.moved
 number = text_dialect.Dialect.number
@@ -99,6 +108,10 @@ FAULTS = {
     "wavenumbers in cycles taken for radians": (
         (level_files, "WAVENUMBERS", {"1/m": 1 / (2 * math.pi), "1/cm": 1e2 / (2 * math.pi)}),
         test_exported_tables.test_wavenumbers_are_cycles_over_a_metre,
+    ),
+    "levels of exact centres without their end bands": (
+        (roughness_levels.RoughnessLevels, "within", by_the_wavelengths_as_given),
+        test_rail.test_exact_centres_keep_their_bands,
     ),
     "a line filled in with its mean": (
         (height_edits, "_filled_line", lambda line: np.where(np.isnan(line), np.nanmean(line), line)),

@@ -81,6 +81,13 @@ def test_levels_of_a_power_law_are_its_power_law():
     np.testing.assert_allclose(density, 1e-9 * places**-3, rtol=1e-9)
 
 
+def test_exact_centres_keep_their_bands():
+    """Both ends lie off their nominal wavelengths, 10^-0.4 m below 400 mm and 10^-2.5 m above 3.15 mm."""
+    exact = tuple(10 ** (-n / 10) for n in range(4, 26))
+    levels = RoughnessLevels(wavelengths=exact, levels=tuple(map(float, range(4, 26))))
+    assert levels.within(None, None).levels == levels.levels
+
+
 def test_energies_add():
     both = curve("iso3095-2013") + curve("iso3095-2013")
     np.testing.assert_allclose(np.array(both.levels) - curve("iso3095-2013").levels, 10 * math.log10(2))

@@ -109,7 +109,7 @@ def both_together(bodies: Sequence[TransverseProfile], curvature: float, centre:
     if not first < last:
         raise ValueError(
             f"profile of wheel and rail must have places in common, got one from {1e3 * first:.4g} mm on and one up to "
-            f"{1e3 * last:.4g} mm"
+            f"{1e3 * last:.4g} mm: wheel.offset moves the wheel"
         )
 
     def height(at: FloatArray) -> FloatArray:
