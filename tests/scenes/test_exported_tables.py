@@ -538,3 +538,19 @@ def test_the_page_names_each_way_of_writing_that_is_recognised(tmp_path):
     for unit in re.findall(r"`(1/m|rad/m|dB|cm|mm|um|nm)`", PAGE):
         (tmp_path / "it.csv").write_text(f"a [{unit}],b\n1,2.5\n3,4\n5,6\n")
         assert read_table("it", tmp_path / "it.csv").columns[0].unit == unit
+
+
+@pytest.mark.parametrize(
+    ("word", "unit"), [("micrometer", "um"), ("micrometre", "um"), ("millimetre", "mm"), ("microns", "um")]
+)
+def test_units_may_be_written_out(word, unit):
+    assert column_of(f"height [{word}]") == Column("height", unit) == column_of(f"height {word}")
+
+
+def test_units_of_columns_go_before_one_of_the_whole_header():
+    """Which is that of the heights, and would make millimetres of places into nanometres."""
+    rows = "".join(f"{i},{i % 3}.5\n" for i in range(9))
+    both = table_of_text(io.BytesIO(f"Unit: nm\nx [mm],z [um]\n{rows}".encode()), TableForm())
+    alone = table_of_text(io.BytesIO(f"Unit: nm\nx,z\n{rows}".encode()), TableForm())
+    assert ([column.unit for column in both.columns], both.unit, alone.unit) == (["mm", "um"], "", "nm")
+    assert not any("nm" in note for note in both.notes) and any("nm" in note for note in alone.notes)

@@ -263,6 +263,19 @@ def test_a_flange_in_contact_is_refused(tmp_path, settings, changes, said):
         rolling(tmp_path, *changes, **settings)
 
 
+def test_a_wheel_upside_down_is_told_where_its_places_count_from_the_middle_of_the_track(tmp_path):
+    """y = 750 mm on the wheel stands above the middle of the head: the flange is judged beside the contact there."""
+    for flip in (1, -1):
+        (tmp_path / "tread.csv").write_text(table(flip * tread(WHEEL_Y, 1 / 40), WHEEL_Y + 750))
+        (tmp_path / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y))
+        wheel = ('load = "', 'profile = "tread.csv"\noffset = "-750 mm"\nload = "')
+        if flip == 1:
+            assert load_scene(written(tmp_path, (CROWN, PROFILE), wheel)).profile.at < 0
+        else:
+            with pytest.raises(ValueError, match="flip = true turns it"):
+                load_scene(written(tmp_path, (CROWN, PROFILE), wheel))
+
+
 def test_an_offset_without_a_profile_is_refused(tmp_path):
     with pytest.raises(ValueError, match=r"wheel\.offset must be left out where neither wheel nor rail has a profile"):
         load_scene(written(tmp_path, ('load = "', 'offset = "3 mm"\nload = "')))

@@ -64,7 +64,9 @@ def _reference(words: str) -> str:
 
 def columns_of(above: Sequence[str], count: int, delimiter: str) -> tuple[Column, ...]:
     """Of the nearest lines above so many columns: one with units, or one of names; without names where none has."""
-    lines = [text for line in above if (text := line.strip().lstrip("#%/; ").strip())][-3:]
+    stripped = (line.strip().lstrip("#%/; ").strip() for line in above)
+    # "Unit: nm" looks like two columns
+    lines = [text for text in stripped if text and not UNIT_OF_ALL.match(text)][-3:]
     found = [tuple(map(column_of, cells)) for line in reversed(lines) if (cells := _cells(line, count, delimiter))]
     with_units = [i for i, columns in enumerate(found) if any(column.unit for column in columns)]
     if not with_units:
