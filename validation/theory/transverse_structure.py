@@ -52,7 +52,7 @@ class TransverseStructure(ABC):
         """How many waves `mean_square` takes for each wavenumber."""
 
     def evaluations(self, *, edges: ArrayLike, semi_axes: tuple[float, float]) -> int:
-        """How often `band_power` evaluates a filter: it goes with q a_x and q a_y up to `FAR`, and no farther."""
+        """How often `band_power` evaluates a filter: it goes with q a_x and q a_y up to 100, and no farther."""
         ends = np.asarray(edges, dtype=np.float64)
         bands = [_along(a, b, semi_axes[0])[0] for a, b in pairwise(ends)]
         return sum(q.size * self.waves_across(q, semi_axis=semi_axes[1]) for q in bands)
@@ -189,7 +189,7 @@ def _along(first: float, last: float, semi_axis: float) -> tuple[FloatArray, Flo
 
 
 def _far_across(q: float, end: float, period: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Nodes and weights from zero on, of all periods of a filter up to `FAR`, and then of some of them."""
+    """Nodes and weights from zero on, of all periods of a filter up to ``FAR``, and then of some of them."""
     least = float(period.min())
     near = FAR / math.pi * least
     k, dk = gauss(_panels_across(q, near, least))
