@@ -151,6 +151,11 @@ TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1
             "got '12:30:5' in column 1 of line 7: .* a column by columns",
         ),
         ("text\n" * 3000 + "lambda [mm];L [dB]\n" + rows(BANDS), "skip = 3000", "skip leaves out more"),
+        (
+            "lambda [mm];left;right\n" + rows((w, level, level + 1) for w, level in BANDS),
+            "columns = [1, 2]",
+            "got lambda .* and left and right: the key columns has the two that are read",
+        ),
     ],
 )
 def test_keys_decide_where_recognition_cannot(tmp_path, contents, key, said):

@@ -104,9 +104,11 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
             f", as: columns = [{(waves or [0])[0] + 1}, {levels[0] + 1}]"
         )
     if not waves or not levels:
+        of_units = "" if any(units) else ': without such names, as: columns = [1, 2], unit = "mm"'
+        of_many = ": the key columns has the two that are read, as numbers from 1 or as names" if len(units) > 2 else ""
         raise ValueError(
             f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}"
-            + ("" if any(units) else ': without such names, as: columns = [1, 2], unit = "mm"')
+            + (of_units or of_many)
         )
     of_wave, of_level = waves[0], levels[0]
     if unit is None and not units[of_wave]:
