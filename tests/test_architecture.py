@@ -168,7 +168,7 @@ def test_matplotlib_is_imported_only_where_figures_are_drawn():
     assert places == {("validation", "report")}
 
 
-def test_every_case_has_its_figure_file():
+def test_every_case_has_its_figure():
     for name in {**contents.CASES, **contents.TIMED}:
         assert callable(drawing(name)), name
 

@@ -38,11 +38,11 @@ def test_a_force_that_is_off_by_two_per_cent_contradicts_hertz(model):
 
 
 def test_the_square_the_model_of_its_length_and_the_quoted_factor():
-    found = square_punch.evidence(SQUARE).claims
+    found = square_punch.CASE.evidence(SQUARE).claims
     assert [claim.status for claim in found] == [ClaimStatus.HOLDS, *2 * [ClaimStatus.CONTRADICTED]]
-    soft = replace(SQUARE, punches=times(SQUARE.punches, 0.99, "square"))
-    assert square_punch.evidence(soft).claims[0].status is ClaimStatus.CONTRADICTED
-    assert "13.2 % too soft" in found[1].answer
+    soft = replace(SQUARE, found={n: one | {"square": 0.99 * one["square"]} for n, one in SQUARE.found.items()})
+    assert square_punch.CASE.evidence(soft).claims[0].status is ClaimStatus.CONTRADICTED
+    assert "1 beside 1.1523" in found[1].answer
 
 
 def test_one_wrong_load_contradicts_westergaard():

@@ -7,7 +7,7 @@ from validation.analysis.answers import answered
 from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks.solvers import claims as solver_claims
 from validation.benchmarks.work_precision import claims as precision_claims
-from validation.cases.exact import geike, hertz, square_punch, westergaard
+from validation.cases.exact import geike, hertz, westergaard
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
@@ -317,22 +317,17 @@ def test_the_title_of_area_and_gap_has_their_ratios():
 
 
 @pytest.mark.parametrize(
-    ("verdict", "sphere", "wave", "square", "line"),
+    ("verdict", "sphere", "wave", "line"),
     [
-        (AGREE, "elements give the contact", "gives Westergaard's", "have the stiffness", "has Geike's spectrum"),
-        (DIFFER, "do not both give", "does not give", "do not have the stiffness", "has 3.00 of Geike's spectrum"),
-        (UNDECIDED, "of Hertz is open", "is open", "The stiffness of flat punches is open", "is open"),
+        (AGREE, "elements give the contact", "gives Westergaard's", "has Geike's spectrum"),
+        (DIFFER, "do not both give", "does not give", "has 3.00 of Geike's spectrum"),
+        (UNDECIDED, "of Hertz is open", "is open", "is open"),
     ],
 )
-def test_titles_of_closed_forms_have_the_status_of_their_claims(verdict, sphere, wave, square, line):
+def test_titles_of_closed_forms_have_the_status_of_their_claims(verdict, sphere, wave, line):
     claim = claim_with(verdict)
     assert sphere in hertz.headline(claim)
     assert wave in westergaard.headline(claim)
-    soft = answered("As stiff.", [point(0.87, quantity="k", reference=1.0, tolerance=0.01)], "so.")
-    assert square in square_punch.headline([claim, soft])
-    assert square_punch.headline([claim, soft]).endswith("is 13.0 % too soft")
-    stiff = answered("As stiff.", [point(1.2, quantity="k", reference=1.0, tolerance=0.01)], "so.")
-    assert square_punch.headline([claim, stiff]).endswith("is 20.0 % too stiff")
     other = answered("Not the same.", [number(verdict)], "so.", confirmed_by=DIFFER)
     assert line in geike.headline([claim, other])
     assert ("yes" in geike.finding([claim, other])) == (verdict is AGREE)

@@ -28,7 +28,6 @@ from validation.report.figures import (
     rolling_input,
     rolling_validity,
     roughness_from_force,
-    square_punch,
     track_stiffness,
     wheel,
     wheel_3d,
@@ -193,24 +192,6 @@ def test_lines_of_the_sphere():
     second_order = refinement["bem3d force error"][0] * np.array([1, 1 / 4, 1 / 16])
     expected = {"boundary elements": "bem3d force error", "MDR": "mdr force error", "second order": second_order}
     drawn(errors, expected, refinement)
-
-
-def test_lines_of_the_flat_punches():
-    level = {"extrapolated": 1.15, "capacitance": 1.16, "mdr L": 1.0, "mdr 1.1523 L": 1.17}
-    levels = Table("levels", {"level": list(level), "k / (E* L)": list(level.values())})
-    refinement = Made({"cells per side": np.array([8, 16, 32])})
-    pressure = Made({"x / L": np.arange(5.0)})
-    stiffness, along = square_punch.draw(made(levels=levels, refinement=refinement, pressure=pressure)).axes
-    expected = {
-        "boundary elements, square": "square k / (E* L)",
-        "boundary elements, circle": "circle k / (2 E* a)",
-        "first-order extrapolation": [1.15, refinement["square k / (E* L)"][-2]],
-        "square, numerical capacitance": [1.16] * 2,
-        "MDR, L_1D = L": [1.0] * 2,
-        "MDR, L_1D = 1.1523 L": [1.17] * 2,
-    }
-    drawn(stiffness, expected, refinement)
-    drawn(along, {"boundary elements": "p / mean p"}, pressure)
 
 
 def test_lines_of_geikes_rule():

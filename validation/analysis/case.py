@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from validation.analysis.evidence import Evidence
+    from validation.analysis.study import Study
 
 Profile = Literal["quick", "full"]
 
@@ -24,27 +25,37 @@ class Chapter(StrEnum):
     SELECTION = "The cheapest sufficient model"
 
 
+def none(_: Any) -> "Evidence":
+    raise NotImplementedError
+
+
 @dataclass(frozen=True, kw_only=True)
 class Case:
     """What the report says about one claim. A module of `validation` that holds one as `CASE` is found by it.
 
     name: on the command line, of its figures and of its data; chapter, place: where it stands, cases of a chapter in
-    the order of their places; claim: under test; answers: which figure or question; quick, full: its settings, frozen
-    dataclasses, in both sizes; run: result of settings and an engine; evidence: what the result shows; needs: which
-    model it takes, a text or a function of the settings; timed: whether it is run last and alone.
+    the order of their places; answers: which figure or question; quick, full: its settings, frozen dataclasses, in both
+    sizes; run: result of settings and an engine; study: what the result shows, whose first claim is that of the case;
+    needs: which model it takes, a text or a function of the settings; timed: whether it is run last and alone.
     """
 
     name: str
     chapter: Chapter
     place: int
-    claim: str
     answers: str
     quick: Any
     full: Any
     run: Callable[[Any, Any], Any]
-    evidence: "Callable[[Any], Evidence]"
     needs: Callable[[Any], str] | str
     timed: bool = False
+    study: "Study | None" = None
+    claim: str = ""
+    evidence: "Callable[[Any], Evidence]" = none
+
+    def __post_init__(self) -> None:
+        if self.study is not None:
+            object.__setattr__(self, "claim", self.study.claims[0].says)
+            object.__setattr__(self, "evidence", self.study.evidence)
 
     def settings(self, profile: Profile, seed: int | None, scene: Any = None) -> Any:
         """Of that size, with the seed where it draws anything, and the scene where it has one."""

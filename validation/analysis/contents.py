@@ -13,6 +13,8 @@ LEVELS = 4
 """Of a JSON file, that are written a line a part: results, cases, what a case has, its numbers."""
 BOOLEAN = {"True": True, "False": False}
 INTEGER = re.compile(r"-?\d+")
+NO_NAME = re.compile(r'[/\\:*?"<>|]+')
+"""What a file name cannot have everywhere."""
 
 
 def as_json(value: object) -> bytes:
@@ -28,6 +30,11 @@ def _nested(value: object, levels: int) -> str:
         parts = [f"{json.dumps(name, ensure_ascii=False)}: {_nested(part, levels - 1)}" for name, part in value.items()]
         return f"{{{','.join(f'{indent} {part}' for part in parts)}{indent}}}"
     return f"[{','.join(f'{indent} {_nested(part, levels - 1)}' for part in value)}{indent}]"
+
+
+def csv_name(case: str, table: str) -> str:
+    """Of the file of a table: a quantity may be named "k / (E* L)"."""
+    return f"{case}-{NO_NAME.sub('_', table)}.csv"
 
 
 def as_csv(table: Table) -> bytes:

@@ -11,7 +11,7 @@ from typing import Any
 import scipy.stats  # noqa: F401  # with most of scipy, before threads import its parts at once
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.contents import as_csv, as_json
+from validation.analysis.contents import as_csv, as_json, csv_name
 from validation.analysis.evidence import Evidence
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
@@ -175,4 +175,4 @@ def _files(
 def _data_files(name: str, evidence: Evidence) -> dict[str, bytes]:
     """CSV of all tables of a case but the one that is played, which its WAV files hold."""
     played = evidence.sounds.table if evidence.sounds else None
-    return {f"data/{name}-{table.name}.csv": as_csv(table) for table in evidence.tables if table.name != played}
+    return {f"data/{csv_name(name, table.name)}": as_csv(table) for table in evidence.tables if table.name != played}

@@ -27,7 +27,7 @@ SAME = 10**0.05
 
 
 @dataclass(frozen=True)
-class Panel:
+class SweepPanel:
     """What it shows of a comparison, by the name of a model."""
 
     title: str
@@ -65,7 +65,7 @@ def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> Non
     figure.legend(*named, loc="outside lower center", ncols=2, title=others, title_fontsize=8)
 
 
-def _draw(axes: Axes, panel: Panel, lines: Sequence[Line]) -> None:
+def _draw(axes: Axes, panel: SweepPanel, lines: Sequence[Line]) -> None:
     swept = [one.swept for one, _ in lines[0].points if one.swept]
     numbers = all(isinstance(of.value, float) for of in swept)
     texts = list(dict.fromkeys(str(of.value) for of in swept))
@@ -99,17 +99,17 @@ def _lines(found: Sequence[Comparison], scenes: Sequence[str]) -> Iterator[Line]
         yield Line(name, [(one, name) for one in found])
 
 
-def _panels(found: Sequence[Comparison]) -> Iterator[Panel]:
+def _panels(found: Sequence[Comparison]) -> Iterator[SweepPanel]:
     """None where a spectrum has no answer."""
     label = f"{found[0].quantity} [{found[0].unit}]"
     if not found[0].is_level:
-        yield Panel("", label, partial(_at, wave=None))
+        yield SweepPanel("", label, partial(_at, wave=None))
         return
     force = all(contact_force(one) for one in found)
     if force:
-        yield Panel("contact force at a constant height", "A-weighted [dB re 1 N]", _force)
+        yield SweepPanel("contact force at a constant height", "A-weighted [dB re 1 N]", _force)
     for wave in _changing(found, PANELS - force):
-        yield Panel(f"{wave:.4g} mm", label, partial(_at, wave=wave))
+        yield SweepPanel(f"{wave:.4g} mm", label, partial(_at, wave=wave))
 
 
 def _at(comparison: Comparison, name: str, wave: float | None) -> Interval:

@@ -5,11 +5,13 @@ import inspect
 from collections.abc import Iterator
 from types import ModuleType
 
-from validation.report.figures import drawing
+from validation.report.figures import declared, drawing
 
 
 def tables_of(name: str) -> tuple[str, ...]:
     """Names of the tables, in the order in which its functions ask for them. Raises ValueError for no figure."""
+    if chart := declared(name):
+        return chart.tables
     draw = drawing(name)
     module = inspect.getmodule(draw)
     assert module is not None  # found by its import

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from validation.analysis.case import Profile
-from validation.analysis.contents import from_csv
+from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell
 from validation.analysis.sound import Sound, Sounds
 from validation.report.contents import CASES, TIMED
@@ -74,9 +74,9 @@ def _files(folder: Path, name: str) -> list[Path]:
 def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     numbers = {number["label"]: _number(number) for number in case["numbers"]}
     tables = (
-        from_csv(file.stem.removeprefix(f"{name}-"), file.read_text(encoding="utf-8"))
-        for file in _files(folder, name)
-        if file.suffix == ".csv"
+        from_csv(table, path.read_text(encoding="utf-8"))
+        for table in case["tables"]
+        if (path := folder / DATA / csv_name(name, table)).exists()
     )
     figures = case["figures"]
     return Evidence(

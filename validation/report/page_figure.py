@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import quote
 
+from validation.analysis.contents import csv_name
 from validation.report.figure_tables import tables_of
 from validation.report.formats import first_sentence
 from validation.report.section import Section
@@ -34,7 +35,7 @@ class PageFigure:
     @property
     def data(self) -> tuple[str, ...]:
         """Addresses of its CSV files."""
-        return tuple(f"data/{self.case}-{table}.csv" for table in self.tables)
+        return tuple(f"data/{csv_name(self.case, table)}" for table in self.tables)
 
     @property
     def drawn_again_by(self) -> str:

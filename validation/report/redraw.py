@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from validation.analysis.contents import from_csv
+from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence
 from validation.report.figure_tables import tables_of
 from validation.report.figures import drawing
@@ -23,7 +23,7 @@ def redraw(folder: str | PathLike[str], name: str) -> Figure:
     draw, folder = drawing(name), Path(folder)
     case = name.partition("-")[0]
     profile = json.loads((folder / RESULTS).read_text(encoding="utf-8"))["profile"]
-    paths = {table: folder / "data" / f"{case}-{table}.csv" for table in tables_of(name)}
+    paths = {table: folder / "data" / csv_name(case, table) for table in tables_of(name)}
     there = {table: path for table, path in paths.items() if path.exists()}
     if not there:
         raise FileNotFoundError(f"data of figure {name!r} must be in {folder / 'data'}, got none of {list(paths)}")

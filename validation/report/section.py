@@ -106,6 +106,7 @@ def _words(evidence: Evidence | None) -> dict[str, object]:
     return {
         "title": evidence.title,
         "finding": evidence.finding,
+        "tables": [table.name for table in evidence.tables],
         "method": evidence.method,
         "figures": [
             {"name": name, "headline": evidence.headlines.get(name, ""), "caption": caption}

@@ -1,0 +1,102 @@
+"""Claims on planted numbers: their members, limits and words change sides with the verdicts."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from tests.analysis.test_judged_claims import point
+from validation.analysis.claims import Claim, Matrix, per_cent
+from validation.analysis.evidence import ClaimStatus, Verdict
+
+AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
+"""dB and half-width of a number with each verdict within 1 dB."""
+
+
+def number(verdict, quantity="level", model="m", **where):
+    value, half = VALUE[verdict]
+    return point(value, half, quantity=quantity, model=model, where=where)
+
+
+def by_height(*verdicts, **key):
+    return [number(verdict, **key, **{"h/d": 0.1 * 10**i}) for i, verdict in enumerate(verdicts)]
+
+
+CLAIM = Claim(says="It is so.", short="It", quantity="level", along="h/d")
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "status", "limits", "headline"),
+    [
+        ((AGREE, AGREE, AGREE), ClaimStatus.HOLDS, "", "It: agree within 1 dB"),
+        ((AGREE, AGREE, DIFFER), ClaimStatus.LIMITED, "h/d up to 1", "It: agree within 1 dB, h/d up to 1"),
+        ((AGREE, UNDECIDED, AGREE), ClaimStatus.LIMITED, "h/d up to 0.1", "It: agree within 1 dB, h/d up to 0.1"),
+        ((DIFFER, AGREE, AGREE), ClaimStatus.CONTRADICTED, "", "It: +3.00 ± 0.10 dB at h/d = 0.1"),
+        ((UNDECIDED, AGREE, AGREE), ClaimStatus.OPEN, "", "It: not decided within 1 dB"),
+    ],
+)
+def test_status_limits_and_headline_follow_from_verdicts(verdicts, status, limits, headline):
+    judged = CLAIM.judged(by_height(*verdicts))
+    assert (judged.status, judged.limits) == (status, limits)
+    assert CLAIM.headline(judged) == headline
+
+
+def test_limits_from_the_last_value_on():
+    judged = Claim(says="It is so.", along="-h/d").judged(by_height(DIFFER, AGREE, AGREE))
+    assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "h/d from 1 on")
+
+
+def test_limits_need_a_number_of_each_quantity():
+    numbers = [*by_height(AGREE, DIFFER), *by_height(DIFFER, DIFFER, quantity="rms of level")[1:]]
+    assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.CONTRADICTED
+
+
+def test_a_claim_that_things_differ_is_confirmed_by_that():
+    claim = Claim(says="They differ.", short="They", differ=True)
+    judged = claim.judged(by_height(DIFFER, DIFFER))
+    assert judged.status is ClaimStatus.HOLDS and claim.headline(judged) == "They: differ within 1 dB"
+    assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
+
+
+def test_members_are_chosen_by_quantity_model_and_conditions():
+    numbers = [number(AGREE, model=m, across=a) for m in "ab" for a in ("ridges", "ground")] + by_height(
+        AGREE, model="a"
+    )
+
+    def chosen(**choice):
+        return [(n.model, *n.where.values()) for n in Claim(says="", **choice).numbers(numbers)]
+
+    assert chosen(model="a", where={"across": ...}) == [("a", "ridges"), ("a", "ground")]
+    assert chosen(model=("a", "b"), where={"across": "ridges"}) == [("a", "ridges"), ("b", "ridges")]
+    both = ({"model": "b"}, {"where": {"h/d": 0.1}})
+    assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
+
+
+def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():
+    numbers = [*by_height(AGREE, DIFFER), *by_height(AGREE, AGREE, model="other")]
+    answer = Claim(says="It is so.").judged(numbers).answer
+    assert answer == (
+        "No: m: +3.00 ± 0.10 dB at h/d = 1 (1 of 2 agree); other: +0.20 ± 0.10 dB at h/d = 0.1 (2 of 2 agree)."
+    )
+
+
+def test_a_worst_point_is_said_to_be_at_its_place_and_not_at_a_range():
+    worst = point(3.0, 0.1, quantity="level", model="m", where={"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0})
+    assert Claim(says="It is so.").judged([worst]).answer == "No: +3.00 ± 0.10 dB at h/d = 1, q a = 2."
+
+
+def test_a_ratio_in_decibels_is_printed_in_per_cent():
+    six_decibels = point(20 * math.log10(2), 0.0, quantity="k", model="m")
+    assert per_cent(six_decibels) == "+100.0 % (+100.0 to +100.0)"
+    assert per_cent(replace(six_decibels, value=-40.0)) == "none left"
+
+
+def test_a_matrix_has_a_cell_for_each_number_with_its_verdict():
+    numbers = [number(v, model=m, across=a) for m, v in (("a", AGREE), ("b", DIFFER)) for a in ("ridges", "ground")][
+        :-1
+    ]
+    table = Matrix(name="t", quantity="level", rows=("across",), columns="model").table(numbers)
+    assert table.columns["across"] == ("ridges", "ground")
+    assert [str(cell) for cell in table.columns["a"]] == ["+0.20 ± 0.10 dB: agree"] * 2
+    assert [str(cell) for cell in table.columns["b"]] == ["+3.00 ± 0.10 dB: differ", "–"]

@@ -1,0 +1,91 @@
+"""Figures as data: what each panel draws, from the tables that `Series` make; `report` draws them."""
+
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass, field
+
+from validation.analysis.series import JUDGED
+
+Bounds = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Rows of a table as a curve.
+
+    quantity: the table; model: one or several, all where empty; style: a name of `STYLES`, "graded" from dark to light;
+    label: in the legend, by default the values, "_" for none; by: columns, a curve for each value of them; of: values
+    that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve.
+    """
+
+    quantity: str
+    model: str | tuple[str, ...] = ()
+    style: str = "graded"
+    label: str = ""
+    _: KW_ONLY
+    by: tuple[str, ...] = ()
+    of: Mapping[str, object] = field(default_factory=dict)
+    bars: bool = False
+    band: bool = False
+    down: float = 0.0
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves on one axis.
+
+    facet: a column, a panel for each of its values; log: the axes that are logarithmic; decades: of y below the largest
+    value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade, lines: of y; downward:
+    from the largest x on; legend: its place.
+    """
+
+    x: str
+    y: str
+    curves: tuple[Curve, ...]
+    title: str = ""
+    _: KW_ONLY
+    facet: str = ""
+    log: str = "x"
+    xlim: Bounds | None = None
+    ylim: Bounds | None = None
+    decades: float = 0.0
+    judged: str = ""
+    shade: Bounds | None = None
+    lines: tuple[float, ...] = ()
+    downward: bool = False
+    legend: str = ""
+
+
+@dataclass(frozen=True)
+class Map:
+    """A quantity over two parameters in colours, a panel for each value of `facet`; borders: where it passes them."""
+
+    quantity: str
+    x: str
+    y: str
+    facet: str
+    label: str
+    borders: tuple[float, float] = (1.0, 3.0)
+    largest: float = 12.0
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states."""
+
+    name: str
+    caption: str
+    panels: tuple[Panel, ...] | Map
+    _: KW_ONLY
+    claims: tuple[int, ...] = (0,)
+    columns: int = 0
+    width: float = 10.5
+    height: float = 4.0
+
+    @property
+    def tables(self) -> tuple[str, ...]:
+        """Names of those that it draws."""
+        if isinstance(self.panels, Map):
+            return (self.panels.quantity,)
+        curves = [curve.quantity for panel in self.panels for curve in panel.curves]
+        judged = [panel.judged + JUDGED for panel in self.panels if panel.judged]
+        return tuple(dict.fromkeys([*curves, *judged]))

@@ -1,0 +1,90 @@
+"""A case from its declaration: series in, evidence out."""
+
+import string
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from validation.analysis.chart import Chart
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.evidence import Evidence, Number, Table
+from validation.analysis.series import Series, numbers_of, tables_of
+
+
+class Settings(string.Formatter):
+    """Settings in a text: `{c.hurst:g}`; of several values, `{c.heights:g}` prints all."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if isinstance(value, tuple | list):
+            parts = [self.format_field(one, format_spec) for one in value]
+            return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else "".join(parts)
+        return str(super().format_field(value, format_spec))
+
+
+def nothing(*_: Any) -> tuple[()]:
+    return ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """What a case declares beside its settings and solves.
+
+    title, method: with settings in braces; series: of a result, all that it shows; claims: the first is that of the
+    case; charts; matrices: verdicts on the page; printed: names of tables on the page; tables: that are no series;
+    once_more: numbers that are judged by another margin too; notes: sentences that no pattern has.
+    """
+
+    title: str
+    method: str
+    series: Callable[[Any], Sequence[Series]]
+    claims: Sequence[Claim]
+    charts: Sequence[Chart] = ()
+    matrices: Sequence[Matrix] = ()
+    printed: Sequence[str] = ()
+    tables: Callable[[Any], Sequence[Table]] = nothing
+    once_more: Callable[[Any, Sequence[Number]], Sequence[Number]] = nothing
+    notes: Callable[[Any], Sequence[str]] = nothing
+
+    def evidence(self, result: Any) -> Evidence:
+        series = self.series(result)
+        numbers, tables, case = numbers_of(series), (*tables_of(series), *self.tables(result)), result.case
+        numbers = (*self.once_more(result, numbers), *numbers)
+        pairs = [(claim, claim.judged(numbers)) for claim in self.claims if claim.numbers(numbers)]
+        said = {claim.says: claim.headline(judged) for claim, judged in pairs if claim.short}
+        return Evidence(
+            title=self.title,
+            method=self._filled(self.method, case),
+            numbers=numbers,
+            tables=tables,
+            page_tables=(
+                *(matrix.table(numbers) for matrix in self.matrices),
+                *(table for table in tables if table.name in self.printed),
+            ),
+            claims=tuple(judged for _, judged in pairs),
+            conclusions=tuple(self.notes(result)),
+            captions={chart.name: self._filled(chart.caption, case) for chart in self.charts},
+            headlines={chart.name: self._headline(chart, said) for chart in self.charts},
+            finding=f"{'; '.join(list(said.values())[:2])}.",
+            unconverged=result.unconverged,
+        )
+
+    def _headline(self, chart: Chart, said: Mapping[str, str]) -> str:
+        """Of the claims that the chart shows."""
+        shown = [self.claims[i].says for i in chart.claims]
+        return "; ".join(said[one] for one in shown if one in said)
+
+    @staticmethod
+    def _filled(text: str, case: Any) -> str:
+        return Settings().format(text, c=case)
+
+
+@dataclass(frozen=True)
+class Outcomes:
+    """Outcomes by the keys that the case has given them."""
+
+    case: Any
+    found: Mapping[Any, Any]
+    unconverged: tuple[str, ...] = ()
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.found[key]

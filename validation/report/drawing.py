@@ -1,0 +1,196 @@
+"""Draws the figures that cases declare, from their tables alone."""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from validation.analysis.chart import Chart, Curve, Map, Panel
+from validation.analysis.evidence import Evidence, Table
+from validation.analysis.series import ENDS, JUDGED
+from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_LINE, MDR_OTHER, Style, graded, panels, tick, visible
+
+STYLES: dict[str, Style] = {
+    "exact": EXACT,
+    "thick": {"color": "#999999", "linewidth": 3.0},
+    "bem": BEM,
+    "bem, few cells": {**BEM, "markerfacecolor": "white"},
+    "mdr": MDR,
+    "mdr line": MDR_LINE,
+    "other": MDR_OTHER,
+    "guide": GUIDE,
+    "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
+    "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
+}
+GRADED: dict[str, Style] = {
+    "graded": {},
+    "marks": {"linestyle": "none"},
+    "lines": {"marker": "none"},
+    "dotted": {"marker": "none", "linestyle": ":"},
+    "open": {"markerfacecolor": "white", "linestyle": ":"},
+    "open marks": {"markerfacecolor": "white", "linestyle": "none"},
+}
+FIRST = "first"
+POINTS = 12
+SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
+
+
+def draw(chart: Chart, evidence: Evidence) -> Figure:
+    if isinstance(chart.panels, Map):
+        return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
+    facets = [(panel, *facet) for panel in chart.panels for facet in _facets(panel, evidence)]
+    columns = chart.columns or len(facets)
+    rows = -(-len(facets) // columns)
+    figure, axes = panels(rows, columns, width=chart.width, height=chart.height)
+    for axis, (panel, column, value) in zip(axes, facets, strict=False):
+        _panel(axis, panel, {column: value} if column else {}, evidence)
+    for axis in axes[len(facets) :]:
+        axis.set_visible(False)
+    shared = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
+    if shared and not any(panel.legend for panel in chart.panels):
+        figure.legend(shared.values(), shared.keys(), loc="outside lower center", ncols=4)
+    return figure
+
+
+def _facets(panel: Panel, evidence: Evidence) -> list[tuple[str, object]]:
+    if not panel.facet:
+        return [("", None)]
+    values = dict.fromkeys(v for c in panel.curves for v in _rows(evidence, c, {}).columns.get(panel.facet, ()))
+    return [(panel.facet, value) for value in values]
+
+
+def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
+    if panel.shade:
+        axis.axhspan(*panel.shade, color="#000000", alpha=0.07, linewidth=0)
+    for y in panel.lines:
+        axis.axhline(y, color="#000000", linewidth=0.8)
+    for curve in panel.curves:
+        families = list(_families(curve, _rows(evidence, curve, facet)))
+        for i, (values, mine) in enumerate(families):
+            _curve(axis, curve, panel, mine, values, i, len(families))
+    if panel.judged:
+        _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
+    axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
+    axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
+    _limits(axis, panel)
+    if panel.legend:
+        axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
+
+
+def _verdicts(axis: Axes, judged: Table) -> None:
+    """The worst point of each range with its interval, and a sign."""
+    for x, to, value, low, high, verdict in zip(
+        *(judged[name] for name in ("from", "to", *ENDS, "verdict")), strict=True
+    ):
+        axis.fill_between((x, to), [low] * 2, [high] * 2, facecolor="none", edgecolor="#000000", linewidth=0.8)
+        axis.plot((x, to), [value] * 2, color="#000000", linewidth=2)
+        axis.text(math.sqrt(x * to), 0.97, SIGN[verdict], transform=axis.get_xaxis_transform(), ha="center", va="top")
+
+
+def _limits(axis: Axes, panel: Panel) -> None:
+    if panel.decades:
+        top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
+        low = top * 10**-panel.decades if "y" in panel.log else top - panel.decades
+        axis.set_ylim(low, 6 * top if "y" in panel.log else top + 0.1 * panel.decades)
+    axis.set_xlim(panel.xlim)
+    if panel.ylim:
+        axis.set_ylim(panel.ylim)
+    if "x" in panel.log:
+        low, high = axis.get_xlim()
+        steps = (1, 2, 5) if high < 300 * low else (1,)
+        powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
+        tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
+    if panel.downward:
+        axis.invert_xaxis()
+
+
+def _said(name: str, value: object) -> str:
+    return str(value) if isinstance(value, str) else f"{name} = {value:g}"
+
+
+def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
+    return _chosen(evidence.table(curve.quantity), {"model": curve.model, **curve.of, **more})
+
+
+def _chosen(table: Table, of: Mapping[str, object]) -> Table:
+    """Rows that have these values; "first" is the first of a column."""
+    for name, wanted in of.items():
+        if name in table.columns and wanted != ():
+            column = table[name]
+            values = (column[0],) if wanted == FIRST else wanted if isinstance(wanted, tuple) else (wanted,)
+            keep = np.isin(column, np.asarray(values, dtype=column.dtype))
+            table = Table(table.name, {key: table[key][keep].tolist() for key in table.columns})
+    return table
+
+
+def _families(curve: Curve, table: Table) -> Iterator[tuple[dict[str, object], Table]]:
+    size = len(next(iter(table.columns.values())))
+    keys = list(zip(*(map(str, table.columns[name]) for name in curve.by), strict=True)) or [()] * size
+    for key in dict.fromkeys(keys):
+        keep = [i for i in range(size) if keys[i] == key]
+        mine = Table(table.name, {name: [column[i] for i in keep] for name, column in table.columns.items()})
+        yield {name: column[0] for name, column in mine.columns.items()}, mine
+
+
+def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
+    above, x = 0.0 if "y" in panel.log else -np.inf, panel.x
+    style = STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]}
+    y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
+    where = {name: value for name, value in values.items() if value == value}
+    label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
+    down = i * curve.down
+    if curve.bars:
+        bars = [np.nan_to_num(y - low), np.nan_to_num(high - y)]
+        axis.errorbar(mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
+    else:
+        axis.plot(mine[x], y - down, label=label, **style)
+    if curve.band:
+        axis.fill_between(mine[x], low, high, color=style["color"], alpha=0.15, linewidth=0)
+
+
+def _map(chart: Chart, what: Map, table: Table) -> Figure:
+    """Too low is hatched: too low and too high are alike without colour."""
+    facets = list(dict.fromkeys(table.columns[what.facet]))
+    rows = -(-len(facets) // 2)
+    place = {"left": 0.08, "right": 0.8, "bottom": 0.08, "top": 0.95, "wspace": 0.06, "hspace": 0.14}
+    figure, axes = panels(rows, 2, height=3.3 * rows, sharex=True, sharey="all", within=place)
+    across, up = (np.unique(table[name]) for name in (what.x, what.y))
+    edges_x, edges_y = _cell_edges(across), _cell_edges(up)
+    fine = _points_in_cells(edges_x), _points_in_cells(edges_y)
+    for axis, facet in zip(axes, facets, strict=False):
+        mine = table.where(**{what.facet: facet})
+        cells = np.full((up.size, across.size), np.nan)
+        cells[np.searchsorted(up, mine[what.y]), np.searchsorted(across, mine[what.x])] = mine["value"]
+        shown = np.clip(np.where(np.isfinite(cells), cells, -99.0), -what.largest, what.largest)
+        image = axis.pcolormesh(edges_x, edges_y, shown, cmap="PuOr", vmin=-what.largest, vmax=what.largest)
+        many = np.kron(shown, np.ones((POINTS, POINTS)))
+        for border, dash in zip(what.borders, ("solid", "dashed"), strict=True):
+            axis.contour(*fine, many, levels=[-border, border], colors="black", linestyles=dash, linewidths=1.1)
+        axis.contourf(*fine, many, levels=[-2 * what.largest, -what.borders[-1]], colors="none", hatches=["//"])
+        axis.set(xscale="log", yscale="log", title=str(facet))
+        axis.set_yticks(up, [f"{y:g}" for y in up])
+        axis.yaxis.minorticks_off()
+        axis.grid(visible=False)
+    for axis in axes[::2]:
+        axis.set_ylabel(what.y)
+    for axis in axes[-2:]:
+        axis.set_xlabel(what.x)
+    figure.colorbar(image, cax=figure.add_axes((0.9, 0.25, 0.02, 0.55)), label=what.label, extend="both")
+    return figure
+
+
+def _cell_edges(values: np.ndarray) -> np.ndarray:
+    """Edges of cells around values on a logarithmic axis."""
+    logs = np.log(values)
+    middles = (logs[1:] + logs[:-1]) / 2
+    first, last = logs[0] - (middles[0] - logs[0]), logs[-1] + (logs[-1] - middles[-1])
+    return np.asarray(np.exp(np.concatenate([[first], middles, [last]])))
+
+
+def _points_in_cells(borders: np.ndarray) -> np.ndarray:
+    """So many in each cell that contours run along cells and not across them."""
+    logs = np.log(borders)
+    part = (np.arange(POINTS) + 0.5) / POINTS
+    return np.asarray(np.exp((logs[:-1, np.newaxis] + np.diff(logs)[:, np.newaxis] * part).ravel()))
