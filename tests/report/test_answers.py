@@ -363,7 +363,7 @@ def test_cells_of_the_page_are_lettered_and_link_to_their_evidence():
     assert [kind for kind, _ in cells] == ["unmeasured", "yes", "no", "yes", "unmeasured"]
     assert all(text.endswith({"unmeasured": "not measured"}.get(kind, kind)) for kind, text in cells)
     row = page[page.index('id="answer-mean-stiffness"') : page.index('id="answer-scatter"')]
-    assert 'href="#fractal_punch"' in row
+    assert 'href="pressed.html#fractal_punch"' in row
     assert 'id="fractal_punch"' in page
     assert "is MDR enough?" in row
     missing = page[page.index('id="answer-contact-filter"') : page.index('id="answer-dynamic-wheel"')]
