@@ -7,7 +7,6 @@ from validation.analysis.answers import answered
 from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks.solvers import claims as solver_claims
 from validation.benchmarks.work_precision import claims as precision_claims
-from validation.cases.exact import geike, hertz, westergaard
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
@@ -314,23 +313,6 @@ def test_the_title_of_area_and_gap_has_their_ratios():
 
 
 # --- closed forms, limits, benchmarks ---
-
-
-@pytest.mark.parametrize(
-    ("verdict", "sphere", "wave", "line"),
-    [
-        (AGREE, "elements give the contact", "gives Westergaard's", "has Geike's spectrum"),
-        (DIFFER, "do not both give", "does not give", "has 3.00 of Geike's spectrum"),
-        (UNDECIDED, "of Hertz is open", "is open", "is open"),
-    ],
-)
-def test_titles_of_closed_forms_have_the_status_of_their_claims(verdict, sphere, wave, line):
-    claim = claim_with(verdict)
-    assert sphere in hertz.headline(claim)
-    assert wave in westergaard.headline(claim)
-    other = answered("Not the same.", [number(verdict)], "so.", confirmed_by=DIFFER)
-    assert line in geike.headline([claim, other])
-    assert ("yes" in geike.finding([claim, other])) == (verdict is AGREE)
 
 
 def test_limits_and_times_are_counted():

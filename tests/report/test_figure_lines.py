@@ -19,8 +19,6 @@ from validation.cases.rolling.roughness_from_force import FILTERS
 from validation.report.figures import (
     bandwidth,
     fractal_punch,
-    geike,
-    hertz,
     limits,
     normalisation,
     precision,
@@ -176,35 +174,6 @@ def test_boxes_of_fig_14_1_are_the_decibels_of_the_data_with_their_verdict(verdi
     assert found["3 dB"][0][0] == pytest.approx(10 ** (3 / 20))
     near = axis.patches[0].get_extents().transformed(axis.transData.inverted())
     assert near.y1 == pytest.approx(1.03) and near.y0 == pytest.approx(1 / 1.03)
-
-
-def test_lines_of_the_sphere():
-    tables = {name: Made({"x [m]": np.arange(4.0)}) for name in ("load", "pressure", "exact-pressure")}
-    refinement = Made({"cells per contact radius": np.array([4, 8, 16])})
-    load, pressure, errors = hertz.draw(
-        made(**{**tables, "exact_pressure": tables["exact-pressure"], "refinement": refinement})
-    ).axes
-    of = tables["load"]
-    drawn(load, {"Hertz": "hertz force [N]", "boundary elements": "bem3d force [N]", "MDR": "mdr force [N]"}, of)
-    np.testing.assert_allclose(load.get_lines()[0].get_xdata(), 1e6 * of["approach [m]"])
-    exact, found = tables["exact-pressure"]["hertz pressure [Pa]"], tables["pressure"]["bem3d pressure [Pa]"]
-    drawn(pressure, {"Hertz": 1e-6 * exact, "boundary elements": 1e-6 * found})
-    second_order = refinement["bem3d force error"][0] * np.array([1, 1 / 4, 1 / 16])
-    expected = {"boundary elements": "bem3d force error", "MDR": "mdr force error", "second order": second_order}
-    drawn(errors, expected, refinement)
-
-
-def test_lines_of_geikes_rule():
-    spectra, moments = Made({"q [rad/m]": np.arange(1.0, 6.0)}), Made({"n": np.arange(4)})
-    spectrum, moment = geike.draw(made(spectra=spectra, moments=moments)).axes
-    expected = {
-        "Geike, π q C_2D": "geike [m^3]",
-        "line trace": "line trace [m^3]",
-        "drawn profiles": "drawn profiles [m^3]",
-        "lines cut from drawn surfaces": "lines of drawn surfaces [m^3]",
-    }
-    drawn(spectrum, expected, spectra)
-    drawn(moment, {"Geike": "geike", "line trace": "line trace", "mean of |cos φ|ⁿ": "exact"}, moments)
 
 
 def test_lines_of_ways_to_draw():
