@@ -63,3 +63,7 @@ def test_the_line_is_not_geikes_spectrum_and_would_be_told_if_it_were():
     by_geike = {geike.SURFACES: [o | {"spectrum": spectrum} for o in DRAWN[geike.SURFACES]]}
     _, differs, line = of(geike, DRAWN, found=by_geike)
     assert differs.status is line.status is ClaimStatus.CONTRADICTED
+
+
+def test_a_study_hands_on_what_is_lost():
+    assert geike.CASE.evidence(replace(DRAWN, unconverged=("surface 3",))).unconverged == ("surface 3",)

@@ -20,7 +20,6 @@ from validation.report.figures import (
     bandwidth,
     fractal_punch,
     limits,
-    normalisation,
     precision,
     reduced_models,
     rolling_input,
@@ -174,16 +173,6 @@ def test_boxes_of_fig_14_1_are_the_decibels_of_the_data_with_their_verdict(verdi
     assert found["3 dB"][0][0] == pytest.approx(10 ** (3 / 20))
     near = axis.patches[0].get_extents().transformed(axis.transData.inverted())
     assert near.y1 == pytest.approx(1.03) and near.y0 == pytest.approx(1 / 1.03)
-
-
-def test_lines_of_ways_to_draw():
-    keys = {"H": [0.7] * 6, "drawn with": ["fixed"] * 6, "method": ["bem3d"] * 3 + ["mdr"] * 3}
-    table = Made({**keys, "Fbar": [0.1, 1.0, 10.0] * 2})
-    value = table["relative deviation"]
-    table.given["low"], table.given["high"] = 0.8 * value, 1.1 * value
-    (axis,) = normalisation.draw(made(curves=table)).axes
-    of_bem = value[:3], (0.2 * value[:3], 0.1 * value[:3])
-    drawn(axis, {"boundary elements": of_bem, "MDR, L_1D = L": value[3:]})
 
 
 def test_lines_of_where_mdr_must_fail():

@@ -49,6 +49,8 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     figure, axes = panels(rows, columns, width=chart.width, height=chart.height, sharey=shared)
     for axis, (panel, column, value) in zip(axes, facets, strict=False):
         _panel(axis, panel, {column: value} if column else {}, evidence)
+    for axis, (panel, *_) in zip(axes, facets, strict=False):
+        _limits(axis, panel)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
     labels = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
@@ -77,7 +79,6 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    _limits(axis, panel)
     if panel.legend:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
