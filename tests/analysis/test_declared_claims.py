@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix, off_by, per_cent
+from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times
 from validation.analysis.evidence import ClaimStatus, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
@@ -91,6 +91,13 @@ def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():
 def test_a_worst_point_is_said_to_be_at_its_place_and_not_at_a_range():
     worst = point(3.0, 0.1, quantity="level", model="m", where={"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0})
     assert Claim(says="It is so.").judged([worst]).answer == "No: +3.00 ± 0.10 dB at h/d = 1, q a = 2."
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "said"), [(51.0, 0.0, "350 times (350 to 350)"), (-6.0, 1.0, "0.5 times (0.45 to 0.56)")]
+)
+def test_large_ratios_have_no_exponent(value, half, said):
+    assert times(point(value, half)) == said
 
 
 def test_a_closed_form_leaves_a_difference():

@@ -8,8 +8,7 @@ from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks.solvers import claims as solver_claims
 from validation.benchmarks.work_precision import claims as precision_claims
 from validation.cases.limits import evidence as limits_evidence
-from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence
-from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
+from validation.cases.punch import bandwidth_evidence
 from validation.cases.rail import contact_filter, ellipse, line_convention, rail_dynamic_evidence, rough_rail
 from validation.cases.rolling import (
     input_spectrum_evidence,
@@ -294,16 +293,6 @@ def test_titles_of_punches_have_the_status_of_their_claims(verdict, effect):
     title = f"MDR over boundary elements: bandwidth {effect}, roll-off {effect}"
     assert bandwidth_evidence.headline(claims) == title
     assert bandwidth_evidence.finding(claims).endswith(f"size of the punch {effect}.")
-
-
-def test_the_title_of_area_and_gap_has_their_ratios():
-    """20 lg 10 is ten times."""
-    numbers = [point(20.0, quantity=AREA), point(40.0, quantity=AREA, at=2.0), point(-20.0, quantity=GAP)]
-    claim = answered("Neither.", numbers, "so.", confirmed_by=DIFFER)
-    words = "MDR has 10 to 100 times the contact area and 0.1 times the mean gap"
-    assert area_gap_rolloff_evidence.headline([claim]) == words
-    same = answered("Neither.", [*numbers, point(0.0, quantity=GAP, at=3.0)], "so.", confirmed_by=DIFFER)
-    assert area_gap_rolloff_evidence.headline([same]) == "MDR has the contact area or the mean gap at some forces"
 
 
 # --- closed forms, limits, benchmarks ---

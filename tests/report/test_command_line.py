@@ -21,8 +21,7 @@ from validation.analysis.evidence import Role
 from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
-from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import bandwidth, normalisation
+from validation.cases.punch import bandwidth, mdr_limits, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rail.line_convention import LineConvention
 from validation.cases.rail.rail_dynamic import RailDynamic

@@ -32,7 +32,6 @@ from validation.report.figures import (
     wheel_regions,
     wheel_stability,
 )
-from validation.report.figures import mdr_limits as mdr_limits_figure
 from validation.report.figures import rolling as rolling_figure
 
 
@@ -173,22 +172,6 @@ def test_boxes_of_fig_14_1_are_the_decibels_of_the_data_with_their_verdict(verdi
     assert found["3 dB"][0][0] == pytest.approx(10 ** (3 / 20))
     near = axis.patches[0].get_extents().transformed(axis.transData.inverted())
     assert near.y1 == pytest.approx(1.03) and near.y0 == pytest.approx(1 / 1.03)
-
-
-def test_lines_of_where_mdr_must_fail():
-    table = Made({"q_r L / 2π": [1.0] * 4 + [8.0] * 4, "Fbar": [*FORCE, *FORCE], "bem3d few cells": np.full(8, False)})
-    names = ("contact fraction", "mean gap", "interface", "relative deviation")
-    for name in (f"{method} {what}" for method in ("bem3d", "mdr") for what in names):
-        table.given[f"{name} low"], table.given[f"{name} high"] = 0.9 * table[name], 1.3 * table[name]
-    axes = mdr_limits_figure.draw(made(curves=table)).axes
-    for axis, name in zip(axes, names, strict=True):
-        unit = table["Fbar"] if name == "interface" else np.ones(8)
-        expected = {"Persson": table["Persson contact fraction"][:4]} if name == "contact fraction" else {}
-        for roll_off, rows in ((1, slice(4)), (8, slice(4, 8))):
-            value = (table[f"bem3d {name}"] / unit)[rows]
-            expected[f"boundary elements, q_r L / 2π = {roll_off}"] = value, (0.1 * value, 0.3 * value)
-            expected[f"MDR, q_r L / 2π = {roll_off}"] = (table[f"mdr {name}"] / unit)[rows]
-        drawn(axis, expected)
 
 
 def test_lines_of_bandwidths():
