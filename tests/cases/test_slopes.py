@@ -15,7 +15,7 @@ from scipy import integrate, special
 import validation
 from validation.analysis.statistics import Estimate
 from validation.cases.limits import linear_filter, pressed_springs
-from validation.cases.punch import area_gap_rolloff_numbers
+from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models_evidence, roughness_from_force_evidence, validity
 from validation.cases.rolling.force_spectrum import ForceSpectrum
@@ -283,8 +283,7 @@ def test_springs_are_right_where_persson_has_a_share_in_contact(name, share):
 
 def test_the_contact_fraction_of_persson_is_that_of_the_gradient():
     case = SimpleNamespace(height=1e-3, forces=(0.5, 2.0))
-    result = SimpleNamespace(case=case, bem={8: {"gradient": np.array([0.01, 0.03])}})
-    found = area_gap_rolloff_numbers.persson(result, 8, 1)
+    found = mdr_limits.persson_fractions(case, np.array([0.01, 0.03]))[1]
     assert found == pytest.approx(special.erf(math.sqrt(2) * 2e-3 / 0.02), rel=1e-9)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from tests.report.test_printed import html_of, number
 from validation.analysis.evidence import Evidence, Role, Table
-from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
+from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEAN
 from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail

@@ -193,7 +193,7 @@ def test_a_table_comes_back_from_its_file():
 
 
 def test_the_tables_of_a_figure_are_those_that_it_asks_for():
-    assert tables_of("geike") == ("spectra", "moments")
+    assert tables_of("geike") == ("C_1D [m³]", "moment over that of the surface")
     assert "contrast" in tables_of("wheel") and "contrast" not in tables_of("wheel-parameters")
 
 
@@ -204,7 +204,7 @@ def test_the_line_beside_a_figure_draws_it_again(tmp_path, monkeypatch):
     assert command.main(["report", "--only", "geike", "--out", str(tmp_path), "--workers", "1"]) == 0
     text = (tmp_path / "exact.html").read_text()
     linked = set(re.findall(r'href="(data/[^"]*\.csv)"', text))
-    assert linked == {"data/geike-spectra.csv", "data/geike-moments.csv", "data/geike-numbers.csv"}
+    assert linked == {"data/geike-C_1D_m³.csv", "data/geike-moment_over_that_of_the_surface.csv", "data/geike-numbers.csv"}
     assert all((tmp_path / path).exists() for path in linked)
     line = re.search(r"<code>(.*?)</code>", text)[1].replace("&#34;", '"')
     monkeypatch.chdir(tmp_path)

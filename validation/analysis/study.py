@@ -10,14 +10,19 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.series import Series, numbers_of, tables_of
 
+PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+
 
 class Settings(string.Formatter):
-    """Settings in a text: `{c.hurst:g}`; of several values, `{c.heights:g}` prints all."""
+    """Settings in a text: `{c.hurst:g}`; of several values, `{c.heights:g}` prints all; `{c.height:SI}m` has "2 µm"."""
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, tuple | list):
             parts = [self.format_field(one, format_spec) for one in value]
             return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else "".join(parts)
+        if format_spec == "SI":
+            power = int(f"{value:e}".partition("e")[2]) // 3 * 3
+            return f"{value / 10.0**power:.5g} {PREFIXES[power]}"
         return str(super().format_field(value, format_spec))
 
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +19,7 @@ STYLES: dict[str, Style] = {
     "bem": BEM,
     "bem, few cells": {**BEM, "markerfacecolor": "white"},
     "mdr": MDR,
+    "mdr around": {**MDR, "markersize": 8},
     "mdr line": MDR_LINE,
     "other": MDR_OTHER,
     "guide": GUIDE,
@@ -43,14 +45,17 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     facets = [(panel, *facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = chart.columns or len(facets)
     rows = -(-len(facets) // columns)
-    figure, axes = panels(rows, columns, width=chart.width, height=chart.height)
+    shared: Literal["all", "none"] = "all" if chart.sharey else "none"
+    figure, axes = panels(rows, columns, width=chart.width, height=chart.height, sharey=shared)
     for axis, (panel, column, value) in zip(axes, facets, strict=False):
         _panel(axis, panel, {column: value} if column else {}, evidence)
+    for axis, (panel, *_) in zip(axes, facets, strict=False):
+        _limits(axis, panel)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
-    shared = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
-    if shared and not any(panel.legend for panel in chart.panels):
-        figure.legend(shared.values(), shared.keys(), loc="outside lower center", ncols=4)
+    labels = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
+    if labels and not any(panel.legend for panel in chart.panels):
+        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -74,7 +79,6 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    _limits(axis, panel)
     if panel.legend:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
@@ -94,10 +98,13 @@ def _limits(axis: Axes, panel: Panel) -> None:
         top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
         low = top * 10**-panel.decades if "y" in panel.log else top - panel.decades
         axis.set_ylim(low, 6 * top if "y" in panel.log else top + 0.1 * panel.decades)
-    axis.set_xlim(panel.xlim)
+    if panel.xlim:
+        axis.set_xlim(*panel.xlim)
     if panel.ylim:
-        axis.set_ylim(panel.ylim)
-    if "x" in panel.log:
+        axis.set_ylim(*panel.ylim)
+    if panel.ticked:
+        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
+    elif "x" in panel.log:
         low, high = axis.get_xlim()
         steps = (1, 2, 5) if high < 300 * low else (1,)
         powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
@@ -136,7 +143,9 @@ def _families(curve: Curve, table: Table) -> Iterator[tuple[dict[str, object], T
 
 def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
     above, x = 0.0 if "y" in panel.log else -np.inf, panel.x
-    style = STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]}
+    style = {**(STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]})}
+    if curve.apart:
+        style["markevery"] = curve.apart
     y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)

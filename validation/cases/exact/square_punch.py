@@ -146,6 +146,7 @@ STUDY = Study(
                         Curve(SQUARE, "bem3d", "bem", "boundary elements, square"),
                         Curve(CIRCLE, "bem3d, on each grid", "crosses", "boundary elements, circle"),
                     ),
+                    ticked=True,
                 ),
                 Panel("x / L", PRESSURE, (Curve(PRESSURE, style="bem", label="_"),), log="y"),
             ),

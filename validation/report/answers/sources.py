@@ -1,8 +1,8 @@
 """Which numbers of which case answer a question, and where they stand on its axis."""
 
 from validation.analysis.evidence import Evidence, Number, Place
-from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth_numbers as bandwidth
+from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.rail import rail_dynamic_evidence, rough_rail
 from validation.cases.rolling import reduced_models_evidence
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
