@@ -15,15 +15,16 @@ from validation.benchmarks.solvers.rolling import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.limits import spheres
 from validation.cases.rail import ellipse
-from validation.cases.rolling import ridges, track_stiffness
+from validation.cases.rolling import track_stiffness
 from validation.cases.rolling.reduced_models import roll_by_all
+from validation.cases.rolling.ridges import RollingOverRidges
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
 from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
-from validation.simulation import rail_models, wheel_on_rail
+from validation.simulation import rail_models, ridges, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import BEM, RolledRail, roll_rail
 from validation.simulation.model import Resolution, Target
@@ -58,8 +59,8 @@ PROFILE = TransverseProfile(y=tuple(Y.tolist()), height=tuple((-(Y**2) / 0.6).to
 
 
 def over_ridges():
-    case = ridges.RollingOverRidges(length=8, shortest=4.0, cells=(4,))
-    return ridges.roll_over(ridges.RidgesTrack(case=case, method="bem3d", cells=4))
+    waves = RollingOverRidges(length=8, shortest=4.0).ridges
+    return ridges.roll_over(ridges.RidgesTrack(ridges=waves, method="bem3d", cells=4))
 
 
 def at_constant_load():
@@ -84,7 +85,7 @@ def by_a_model(target):
 
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
-    "validation.cases.rolling.ridges:_roll": over_ridges,
+    "validation.simulation.ridges:_roll": over_ridges,
     "validation.cases.rolling.track_stiffness:roll_loaded_strip": at_constant_load,
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),

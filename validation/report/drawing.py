@@ -136,7 +136,7 @@ def _families(curve: Curve, table: Table) -> Iterator[tuple[dict[str, object], T
 
 def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
     above, x = 0.0 if "y" in panel.log else -np.inf, panel.x
-    style = STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]}
+    style = {**(STYLES.get(curve.style) or graded(i, count) | GRADED[curve.style]), "markevery": curve.every}
     y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
