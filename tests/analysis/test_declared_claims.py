@@ -55,7 +55,7 @@ def test_limits_need_a_number_of_each_quantity():
 def test_a_claim_that_things_differ_is_confirmed_by_that():
     claim = Claim(says="They differ.", short="They", differ=True)
     judged = claim.judged(by_height(DIFFER, DIFFER))
-    assert judged.status is ClaimStatus.HOLDS and claim.headline(judged) == "They: differ within 1 dB"
+    assert judged.status is ClaimStatus.HOLDS and claim.headline(judged) == "They: differ by more than 1 dB"
     assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
 
 

@@ -42,7 +42,6 @@ from validation.cases.rail import line_convention, published, rail_sound_levels
 from validation.cases.rolling import (
     force_spectrum_headlines,
     roughness_from_force,
-    track_stiffness,
     validity,
     validity_reduced,
 )
@@ -50,7 +49,14 @@ from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
-from validation.simulation import equivalent_displacement, free_vibration, indentation, integrators, rough_punch
+from validation.simulation import (
+    equivalent_displacement,
+    free_vibration,
+    indentation,
+    integrators,
+    rough_punch,
+    track_stiffness,
+)
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.rail_strip import PowerLawGround

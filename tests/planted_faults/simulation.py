@@ -26,7 +26,6 @@ from tests.simulation import (
 from validation.analysis.over_range import worst
 from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
-from validation.cases.rolling import track_stiffness
 from validation.simulation import (
     band_limited,
     contact_laws,
@@ -40,6 +39,7 @@ from validation.simulation import (
     ridges,
     rough_punch,
     spectral_springs,
+    track_stiffness,
     wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
@@ -176,7 +176,7 @@ FLAGS = (
     (test_flags_of_rolling, "roll_and_move", "validation.simulation.wheel_on_rail:at_constant_load"),
     (test_flags_of_rolling, "roll_by_all", "validation.simulation.reduced_models:boundary_elements"),
     (ridges, "roll_over", "validation.simulation.ridges:_roll"),
-    (track_stiffness, "roll_loaded_strip", "validation.cases.rolling.track_stiffness:roll_loaded_strip"),
+    (track_stiffness, "roll_loaded_strip", "validation.simulation.track_stiffness:roll_loaded_strip"),
 )
 
 FAULTS = {

@@ -28,7 +28,6 @@ from validation.report.figures import (
     rolling_input,
     rolling_validity,
     roughness_from_force,
-    track_stiffness,
     wheel,
     wheel_3d,
     wheel_distance,
@@ -371,24 +370,6 @@ def test_lines_of_roughness_from_force():
             mine = table.where(**{"h/d": height, "filter": name})
             expected[name] = mine["found over true [dB]"], (mine["± [dB]"],) * 2
         drawn(axis, expected)
-
-
-def test_lines_of_stiffness_along_a_track():
-    models = ("wheel, bem3d", "punch, springs")
-    moments = Made({"Fbar": [1.0, 1.0, 3.0, 3.0], "model": models * 2})
-    bands = Made({"Fbar": np.repeat([1.0, 3.0], 3), "q a": [2.0, 4.0, 8.0] * 2})
-    mean, deviation, level = track_stiffness.draw(made(moments=moments, bands=bands)).axes
-    for axis, quantity in ((mean, "mean stiffness"), (deviation, "relative deviation of stiffness")):
-        expected = {}
-        for name in models:
-            mine = moments.where(model=name)
-            expected[name] = mine[quantity], (mine[f"± {quantity}"],) * 2
-        drawn(axis, expected)
-    expected = {}
-    for force in (1.0, 3.0):
-        mine = bands.where(Fbar=force)
-        expected[f"Fbar = {force:g}"] = mine["Geike's spectrum [dB]"], (mine["Geike's spectrum ± [dB]"],) * 2
-    drawn(level, expected)
 
 
 def test_lines_of_input_spectra():

@@ -15,16 +15,16 @@ from validation.benchmarks.solvers.rolling import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.limits import spheres
 from validation.cases.rail import ellipse
-from validation.cases.rolling import track_stiffness
 from validation.cases.rolling.reduced_models import roll_by_all
 from validation.cases.rolling.ridges import RollingOverRidges
+from validation.cases.rolling.track_stiffness import TrackStiffness
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
 from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
-from validation.simulation import rail_models, ridges, wheel_on_rail
+from validation.simulation import rail_models, ridges, track_stiffness, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import BEM, RolledRail, roll_rail
 from validation.simulation.model import Resolution, Target
@@ -64,8 +64,8 @@ def over_ridges():
 
 
 def at_constant_load():
-    case = track_stiffness.TrackStiffness()
-    return track_stiffness.roll_loaded_strip(track_stiffness.LoadedStrip(strip=STRIP, bands=case.bands))
+    loaded = track_stiffness.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
+    return track_stiffness.roll_loaded_strip(loaded)
 
 
 def on_the_chart():
@@ -86,7 +86,7 @@ def by_a_model(target):
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
     "validation.simulation.ridges:_roll": over_ridges,
-    "validation.cases.rolling.track_stiffness:roll_loaded_strip": at_constant_load,
+    "validation.simulation.track_stiffness:roll_loaded_strip": at_constant_load,
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
     "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,

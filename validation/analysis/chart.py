@@ -5,7 +5,7 @@ from dataclasses import KW_ONLY, dataclass, field
 
 from validation.analysis.series import JUDGED
 
-Bounds = tuple[float, float]
+Bounds = tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -15,7 +15,7 @@ class Curve:
     quantity: the table; model: one or several, all where empty; style: a name of `STYLES`, "graded" from dark to light;
     label: in the legend, by default the values, "_" for none; by: columns, a curve for each value of them; of: values
     that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve;
-    every: so many points a marker.
+    apart: from marker to marker, of the diagonal of the panel, all markers where zero.
     """
 
     quantity: str
@@ -28,7 +28,7 @@ class Curve:
     bars: bool = False
     band: bool = False
     down: float = 0.0
-    every: int = 1
+    apart: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Panel:
 
     facet: a column, a panel for each of its values; log: the axes that are logarithmic; decades: of y below the largest
     value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade, lines: of y; downward:
-    from the largest x on; legend: its place.
+    from the largest x on; ticked: at the values of x alone; legend: its place.
     """
 
     x: str
@@ -51,9 +51,10 @@ class Panel:
     ylim: Bounds | None = None
     decades: float = 0.0
     judged: str = ""
-    shade: Bounds | None = None
+    shade: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()
     downward: bool = False
+    ticked: bool = False
     legend: str = ""
 
 

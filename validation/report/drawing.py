@@ -94,10 +94,13 @@ def _limits(axis: Axes, panel: Panel) -> None:
         top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
         low = top * 10**-panel.decades if "y" in panel.log else top - panel.decades
         axis.set_ylim(low, 6 * top if "y" in panel.log else top + 0.1 * panel.decades)
-    axis.set_xlim(panel.xlim)
+    if panel.xlim:
+        axis.set_xlim(*panel.xlim)
     if panel.ylim:
-        axis.set_ylim(panel.ylim)
-    if "x" in panel.log:
+        axis.set_ylim(*panel.ylim)
+    if panel.ticked:
+        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
+    elif "x" in panel.log:
         low, high = axis.get_xlim()
         steps = (1, 2, 5) if high < 300 * low else (1,)
         powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
@@ -136,7 +139,9 @@ def _families(curve: Curve, table: Table) -> Iterator[tuple[dict[str, object], T
 
 def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
     above, x = 0.0 if "y" in panel.log else -np.inf, panel.x
-    style = {**(STYLES.get(curve.style) or graded(i, count) | GRADED[curve.style]), "markevery": curve.every}
+    style = {**(STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]})}
+    if curve.apart:
+        style["markevery"] = curve.apart
     y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)

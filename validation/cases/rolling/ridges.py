@@ -165,8 +165,8 @@ STUDY = Study(
                     RESPONSE,
                     (
                         Curve(RESPONSE, EXACT, "exact", by=("model",)),
-                        Curve(RESPONSE, BEM, "bem", "boundary elements", of=FINEST, every=4),
-                        Curve(RESPONSE, SPRINGS, "mdr", "springs", of=FINEST, every=4),
+                        Curve(RESPONSE, BEM, "bem", "boundary elements", of=FINEST, apart=0.03),
+                        Curve(RESPONSE, SPRINGS, "mdr", "springs", of=FINEST, apart=0.03),
                     ),
                     "amplitude and sign",
                     log="",
@@ -176,7 +176,7 @@ STUDY = Study(
                     Q,
                     ERROR,
                     (
-                        Curve(ERROR, BEM, "marks", by=BY_CELLS, every=4),
+                        Curve(ERROR, BEM, "marks", by=BY_CELLS, apart=0.03),
                         Curve(BOUND, BEM, "dotted", "_", by=BY_CELLS),
                         Curve(ERROR, SPRINGS, "lines", by=BY_CELLS),
                     ),
