@@ -16,10 +16,7 @@ from validation.cases.rolling import (
     input_spectrum_evidence,
     roughness_from_force_evidence,
 )
-from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.rolling import validity_headlines as validity
-from validation.cases.rolling.reduced_models import LAYER
-from validation.cases.rolling.reduced_models_map import map_headline
 from validation.cases.selection import model_selection_evidence
 from validation.cases.stability import evidence as stability_evidence
 from validation.cases.wheel import distance_evidence, half_space_evidence, regions_evidence, spectrum_evidence
@@ -54,63 +51,6 @@ def test_the_parameter_that_counts_is_named_by_its_claims(verdicts, words):
     claims = [claim_with(verdict) for verdict in (*verdicts, *verdicts)]
     assert validity.headline(claims) == f"Contact kept over all spectra: {words}"
     assert validity.finding(claims).count(words) == 2
-
-
-def of_models(layer, others, slope=0.8):
-    models = {LAYER: layer} | dict.fromkeys(reduced.USUAL, others)
-    return [
-        number(verdict, quantity=reduced.OFF, model=model, **{"h' a/d": at})
-        for model, verdict in models.items()
-        for at in (0.2, slope)
-    ]
-
-
-@pytest.mark.parametrize(
-    ("layer", "others", "title", "finding"),
-    [
-        (
-            AGREE,
-            DIFFER,
-            "h' a/d = 0.8: pressed layer",
-            "Pressed layer: within 1 dB of boundary elements up to h' a/d = 0.8",
-        ),
-        (DIFFER, DIFFER, "h' a/d = 0.8: no reduced model", "Pressed layer: not within 1 dB"),
-        (UNDECIDED, UNDECIDED, "no reduced model; 5 of 5 open", "Pressed layer: whether within 1 dB"),
-    ],
-)
-def test_reduced_models_that_follow_are_named(layer, others, title, finding):
-    numbers = of_models(layer, others)
-    claims = [
-        answered("It follows.", reduced.up_to(numbers, LAYER, 1.0), "so."),
-        answered("They follow.", reduced.up_to(numbers, reduced.READ, 0.3), "so."),
-    ]
-    assert reduced.headline(numbers).endswith(title)
-    assert reduced.finding(claims).startswith(finding)
-
-
-def test_a_reduced_model_is_said_to_follow_no_farther_than_it_was_rolled():
-    """Strips beyond the limit are not part of it."""
-    numbers = [*of_models(AGREE, AGREE, slope=0.6), number(DIFFER, reduced.OFF, LAYER, **{"h' a/d": 2.0})]
-    assert reduced.headline(numbers).startswith("Within 1 dB up to h' a/d = 0.6: pressed layer, ")
-
-
-@pytest.mark.parametrize(
-    ("verdicts", "title"),
-    [
-        ((AGREE, AGREE, DIFFER), "Within 1 dB of boundary elements: pressed layer to h' a/d = 0.3"),
-        ((AGREE, UNDECIDED, AGREE), "Within 1 dB of boundary elements: pressed layer to h' a/d = 0.1"),
-        ((DIFFER, AGREE, AGREE), "No reduced model is shown to be within 1 dB of boundary elements"),
-    ],
-)
-def test_the_map_ends_a_range_where_the_first_strip_leaves_it(verdicts, title):
-    strips = zip((0.1, 0.3, 1.0), verdicts, strict=True)
-    numbers = [number(verdict, reduced.OFF, LAYER, **{"h' a/d": slope}) for slope, verdict in strips]
-    assert map_headline(numbers[::-1]) == title
-
-
-def test_two_strips_of_one_slope_are_both_needed():
-    numbers = [number(verdict, reduced.OFF, LAYER, **{"h' a/d": 0.3}) for verdict in (AGREE, DIFFER)]
-    assert map_headline(numbers).startswith("No reduced model")
 
 
 # --- a wheel on a rail ---

@@ -15,7 +15,6 @@ from validation.benchmarks.solvers.rolling import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.limits import spheres
 from validation.cases.rail import ellipse
-from validation.cases.rolling.reduced_models import roll_by_all
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.cases.rolling.track_stiffness import TrackStiffness
 from validation.engine.convergence import NotConvergedError, as_not_converged
@@ -33,6 +32,7 @@ from validation.simulation.models.boundary_elements_rolling import MODEL as ROLL
 from validation.simulation.profiled_strip import roll_on_profile
 from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
 from validation.simulation.rail_strip import PowerLawGround, RailStrip
+from validation.simulation.reduced_strip import roll_by_all
 from validation.simulation.rolling_strip import RoughStrip, roll_strip
 from validation.simulation.track_spectrum import self_affine
 from validation.simulation.wheel_on_rail import WheelOnRail, roll_and_move
