@@ -26,7 +26,7 @@ def strip_of(across, rms=1e-9):
 
 
 def test_contact_of_the_program_contact_is_reproduced():
-    evidence = ellipse.evidence(ellipse.run(ellipse.Ellipse(cells=(16, 32), crowns=(0.3, 0.46)), SERIAL))
+    evidence = ellipse.STUDY.evidence(ellipse.run(ellipse.Ellipse(cells=(16, 32), crowns=(0.3, 0.46)), SERIAL))
     for quantity in ellipse.CONTACT:
         found = numbers_with(evidence.numbers, quantity)
         assert len(found) == 2

@@ -14,7 +14,6 @@ from tests.simulation.test_calibration import wheel
 from validation.benchmarks.solvers.rolling import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.limits import spheres
-from validation.cases.rail import ellipse
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.cases.rolling.track_stiffness import TrackStiffness
 from validation.engine.convergence import NotConvergedError, as_not_converged
@@ -30,6 +29,7 @@ from validation.simulation.model import Resolution, Target
 from validation.simulation.models import rail_boundary_elements
 from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.simulation.profiled_strip import roll_on_profile
+from validation.simulation.published_contact import PublishedContact, press_ellipse
 from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
 from validation.simulation.rail_strip import PowerLawGround, RailStrip
 from validation.simulation.reduced_strip import roll_by_all
@@ -52,7 +52,7 @@ RAIL = RailStrip(
     seed=3,
 )
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
-ONE_POSITION = ("validation.cases.rail.ellipse:press_ellipse",)
+ONE_POSITION = ("validation.simulation.published_contact:press_ellipse",)
 TOO_SHORT = bem3d.HalfSpace(shape=(12, 12), spacing=0.2, modulus=1.0), np.add.outer(*[np.linspace(-1, 1, 12) ** 2] * 2)
 Y = np.linspace(-0.03, 0.03, 61)
 PROFILE = TransverseProfile(y=tuple(Y.tolist()), height=tuple((-(Y**2) / 0.6).tolist()), source="head.csv")
@@ -103,8 +103,8 @@ PATHS = {
     ),
     "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
     "validation.benchmarks.solvers.rolling:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
-    "validation.cases.rail.ellipse:press_ellipse": lambda: ellipse.press_ellipse(
-        ellipse.PublishedContact(cells=6, tolerance=1e-6)
+    "validation.simulation.published_contact:press_ellipse": lambda: press_ellipse(
+        PublishedContact(cells=6, tolerance=1e-6)
     ),
     "validation.cases.limits.spheres:sweep_strip_width": lambda: spheres.sweep_strip_width(
         spheres.Spheres(finer=6, sides=(13, 18))
