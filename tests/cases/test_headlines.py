@@ -11,7 +11,7 @@ from validation.cases.exact import geike, hertz, westergaard
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
-from validation.cases.rail import contact_filter, line_convention, rail_dynamic_evidence, rough_rail
+from validation.cases.rail import contact_filter, rail_dynamic_evidence, rough_rail
 from validation.cases.rolling import (
     input_spectrum_evidence,
     roughness_from_force_evidence,
@@ -103,18 +103,16 @@ def test_the_title_of_rougher_rails_has_both_ranges_of_waves(long, short, words)
 
 
 @pytest.mark.parametrize(
-    ("verdict", "moving", "lines"),
+    ("verdict", "moving"),
     [
-        (AGREE, "holds within 1 dB rms", "heights is within 1 dB"),
-        (DIFFER, "is 3.0 dB rms off", "heights is +3.0 dB at worst"),
-        (UNDECIDED, "Not decided: in motion the filter changes by 1.0 ± 0.3", "heights is open"),
+        (AGREE, "holds within 1 dB rms"),
+        (DIFFER, "is 3.0 dB rms off"),
+        (UNDECIDED, "Not decided: in motion the filter changes by 1.0 ± 0.3"),
     ],
 )
-def test_titles_of_the_rail_have_the_status_of_their_claims(verdict, moving, lines):
+def test_titles_of_the_rail_have_the_status_of_their_claims(verdict, moving):
     claim = claim_with(verdict)
     assert moving in rail_dynamic_evidence.headline(claim)
-    assert lines in line_convention.headline([claim, claim_with(AGREE)])
-    assert line_convention.headline([claim, claim_with(AGREE)]).endswith("the energy mean within 1 dB")
 
 
 # --- the dynamic wheel ---
