@@ -7,7 +7,7 @@ import pytest
 
 from tests.analysis.test_judged_claims import point
 from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times
-from validation.analysis.evidence import ClaimStatus, Verdict
+from validation.analysis.evidence import ClaimStatus, Role, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
@@ -74,10 +74,18 @@ def test_members_are_chosen_by_quantity_model_and_conditions():
         return [(n.model, *n.where.values()) for n in Claim(says="", **choice).numbers(numbers)]
 
     assert chosen(model="a", where={"across": ...}) == [("a", "ridges"), ("a", "ground")]
+    assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     assert chosen(model=("a", "b"), where={"across": "ridges"}) == [("a", "ridges"), ("b", "ridges")]
     assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     both = ({"model": "b"}, {"where": {"h/d": 0.1}})
     assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
+
+
+def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
+    same = replace(number(AGREE, across="ridges"), role=Role.IDENTITY)
+    claim, matrix = Claim(says="It is so."), Matrix(name="t", quantity="level", rows=("across",), columns="model")
+    assert claim.judged([same, *by_height(DIFFER)]).numbers == tuple(by_height(DIFFER))
+    assert [str(cell) for cell in matrix.table([same]).columns["m"]] == ["+0.20 ± 0.10 dB: agree"]
 
 
 def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():

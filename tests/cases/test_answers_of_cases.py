@@ -1,13 +1,14 @@
 """Answers of cases on planted numbers: no strip or scene is chosen, no worst band stands without its interval."""
 
 import pytest
+from validation.cases.punch.area_gap_rolloff_numbers import DEVIATION
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.answers import answered
-from validation.analysis.evidence import ClaimStatus, Verdict
+from validation.analysis.evidence import ClaimStatus
 from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import fractal_punch_decades, fractal_punch_text
 from validation.cases.punch.mdr_limits import DEVIATION, STUDY
+from validation.cases.rolling import reduced_models as reduced
 from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.wheel import half_space_evidence, spectrum_evidence
 from validation.cases.wheel.half_space_levels import LINEAR_3D
@@ -15,21 +16,22 @@ from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 from validation.cases.wheel.spectrum_evidence import of_period
 
 
-def strip(slope, value, half, model=reduced.READ):
-    return point(value, half, quantity=reduced.OFF, model=model, where={"h' a/d": slope})
+def strip(slope, value, half):
+    return point(value, half, quantity=reduced.OFF, model=reduced.READ, where={"h' a/d": slope})
+
+
+AT_LIMIT = reduced.STUDY.claims[2]
 
 
 def test_strips_on_both_sides_of_a_limit_count():
     """0.687 is as near to 1 / sqrt(2) as 0.728: the strip that is open there keeps the claim open."""
-    strips = [strip(0.571, 1.5, 0.6), strip(0.728, 2.7, 0.6), strip(0.687, 1.6, 1.0), strip(1.9, 6.9, 2.0)]
-    found = reduced.at_limit(strips)
-    assert {number.where["h' a/d"] for number in found} == {0.687, 0.728}
-    judged = answered("They are off.", found, "see.", confirmed_by=Verdict.DIFFER)
+    judged = AT_LIMIT.judged([strip(0.571, 1.5, 0.6), strip(0.728, 2.7, 0.6), strip(0.687, 1.6, 1.0), strip(1.9, 6, 2)])
+    assert {number.where["h' a/d"] for number in judged.numbers} == {0.687, 0.728}
     assert judged.status is ClaimStatus.OPEN
 
 
 def test_where_no_strip_is_at_the_limit_the_roughest_below_it_counts():
-    (one,) = reduced.at_limit([strip(0.2, 3.0, 0.1), strip(0.8, 3.0, 0.1)])
+    (one,) = AT_LIMIT.numbers([strip(0.2, 3.0, 0.1), strip(0.8, 3.0, 0.1)])
     assert one.where["h' a/d"] == 0.8
 
 

@@ -9,12 +9,26 @@ import pytest
 import bem3d
 from validation.analysis.evidence import ClaimStatus, numbers_with
 from validation.analysis.statistics import Estimate
-from validation.cases.rolling import roughness_from_force, roughness_from_force_evidence, track_stiffness, validity
+from validation.analysis.study import Outcomes
+from validation.cases.rolling import roughness_from_force, roughness_from_force_evidence, validity
 from validation.cases.rolling.force_spectrum_levels import level_1d, level_3d
 from validation.cases.rolling.roughness_from_force import FILTER_1D, FILTER_3D, MEAN_FILTER, RoughnessFromForce
-from validation.cases.rolling.track_stiffness_evidence import DEVIATION, MEAN, evidence, of_punches, over, statistic
+from validation.cases.rolling.track_stiffness import (
+    DEVIATION,
+    MEAN,
+    OVER,
+    PROFILE,
+    PUNCH,
+    REFINED,
+    STUDY,
+    WHEEL,
+    TrackStiffness,
+    of_punches,
+    of_tracks,
+)
 from validation.cases.rolling.validity import HEIGHT, REFERENCE, SLOPE, SPECTRA, Validity, ValidityResult
 from validation.cases.rolling.validity_reduced import LAYER, MODELS, over_boundary_elements, roll_reduced
+from validation.simulation import track_stiffness
 from validation.simulation.rolling_strip import roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
@@ -139,7 +153,7 @@ def test_the_spectrum_of_reference_is_not_judged_beside_itself():
 
 # --- stiffness along a track ---
 
-SMALL = track_stiffness.TrackStiffness(forces=(1.0,), length=16, strips=3, refined=3, tracks=5, surfaces=4, profiles=10)
+SMALL = TrackStiffness(forces=(1.0,), length=16, strips=3, refined=3, tracks=5, surfaces=4, profiles=10)
 
 
 @pytest.mark.parametrize("height", [0.0, 0.3])
@@ -173,8 +187,8 @@ def along(mean=1.0, deviation=0.1, rows=8):
 
 @pytest.mark.slow
 def test_the_deviation_is_that_of_the_mean_variance():
-    assert math.exp(statistic(DEVIATION, along(2.0, 0.1)).value) == pytest.approx(0.1, rel=1e-3)
-    assert math.exp(statistic(MEAN, along(2.0, 0.1)).value) == pytest.approx(2.0, rel=1e-3)
+    assert math.exp(of_tracks(DEVIATION, along(2.0, 0.1)).value) == pytest.approx(0.1, rel=1e-3)
+    assert math.exp(of_tracks(MEAN, along(2.0, 0.1)).value) == pytest.approx(2.0, rel=1e-3)
     punches = 2 + 0.2 * RNG.standard_normal(4000)
     assert math.exp(of_punches(punches, DEVIATION).value) == pytest.approx(0.1, rel=0.05)
     assert of_punches(punches, DEVIATION).half_width == pytest.approx(1.96 / math.sqrt(2 * 4000), rel=0.1)
@@ -183,18 +197,15 @@ def test_the_deviation_is_that_of_the_mean_variance():
 @pytest.mark.slow
 @pytest.mark.parametrize(("springs", "status"), [(0.1, HOLDS), (0.15, CONTRADICTED)])
 def test_claims_of_the_stiffness_follow_their_numbers(springs, status):
-    bem = along()
-    result = track_stiffness.TrackStiffnessResult(
+    bem, scatter = along(), RNG.standard_normal(4000)
+    result = Outcomes(
         SMALL,
-        {1.0: bem},
-        {1.0: bem},
-        {(1.0, rule): along(deviation=springs) for rule in INPUT_SPECTRA},
-        {1.0: 1 + 0.1 * RNG.standard_normal(4000)},
-        {1.0: 1 + springs * RNG.standard_normal(4000)},
-        (),
+        {(grid, 1.0): bem for grid in (WHEEL, REFINED)}
+        | {(rule, 1.0): along(deviation=springs) for rule in INPUT_SPECTRA}
+        | {(PUNCH, 1.0): 1 + 0.1 * scatter, (PROFILE, 1.0): 1 + springs * scatter},
     )
-    found = evidence(result)
+    found = STUDY.evidence(result)
     fluctuation, mean, *_, punch = found.claims
     assert [fluctuation.status, mean.status, punch.status] == [status, HOLDS, HOLDS]
-    (number,) = numbers_with(found.numbers, DEVIATION, over("geike"))
+    (number,) = numbers_with(found.numbers, DEVIATION, OVER["geike"])
     assert number.value == pytest.approx(springs / 0.1 - 1, abs=0.01)

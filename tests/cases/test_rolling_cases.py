@@ -13,7 +13,7 @@ from validation.analysis.spectra import Bands
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import force_spectrum_headlines as headlines_of_rolling
 from validation.cases.rolling import input_spectrum as rolling_input
-from validation.cases.rolling import ridges, ridges_evidence
+from validation.cases.rolling import ridges
 from validation.cases.rolling.force_spectrum_evidence import CASE, evidence
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS, LevelsAtHeight, coherence, correlation
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE, regions
@@ -273,15 +273,14 @@ def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
 @pytest.mark.slow
 def test_ridges_agree_and_a_lost_factor_does_not(monkeypatch):
     case = ridges.RollingOverRidges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5))
-    result = ridges.run(case)
-    numbers = ridges_evidence.evidence(result).numbers
-    assert all(number.met for number in numbers)
-    halved = {key: response / 2 for key, response in result.responses.items()}
-    missed = [n for n in ridges_evidence.evidence(replace(result, responses=halved)).numbers if not n.met]
+    result, evidence = ridges.run(case), ridges.CASE.evidence
+    assert all(number.met for number in evidence(result).numbers)
+    halved = {key: response / 2 for key, response in result.found.items()}
+    missed = [n for n in evidence(replace(result, found=halved)).numbers if not n.met]
     assert {n.model for n in missed} == {ridges.BEM, ridges.FILTER, ridges.FULL, ridges.SPRINGS}
     # the phase counts as much as the amplitude
-    turned = {key: response * np.exp(0.3j) for key, response in result.responses.items()}
-    assert sum(not n.met for n in ridges_evidence.evidence(replace(result, responses=turned)).numbers) >= 5
+    turned = {key: response * np.exp(0.3j) for key, response in result.found.items()}
+    assert sum(not n.met for n in evidence(replace(result, found=turned)).numbers) >= 5
 
 
 def test_linear_force_of_a_lone_wave_on_a_strip():

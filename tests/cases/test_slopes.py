@@ -14,13 +14,14 @@ from scipy import integrate, special
 
 import validation
 from validation.analysis.statistics import Estimate
+from validation.analysis.study import Outcomes
 from validation.cases.limits import linear_filter, pressed_springs
 from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
-from validation.cases.rolling import reduced_models_evidence, roughness_from_force_evidence, validity
+from validation.cases.rolling import reduced_models as reduced_case
+from validation.cases.rolling import roughness_from_force_evidence, validity
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
-from validation.cases.rolling.reduced_models import MODELS, ReducedModels, ReducedResult, bands_of
 from validation.cases.rolling.roughness_from_force import RoughnessFromForce, RoughnessFromForceResult
 from validation.cases.wheel import half_space_tables
 from validation.report.answers.questions import QUESTIONS
@@ -33,6 +34,7 @@ from validation.simulation import indentation, rail_ground, reduced_models
 from validation.simulation.models import linear_filter_3d
 from validation.simulation.rail_models import linear_error
 from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.reduced_strip import MODELS, bands_of
 from validation.simulation.rolling_claims import CheapRollingModel
 from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.rough_punch import PunchRoughness
@@ -214,7 +216,7 @@ def test_cases_of_rolling_print_the_slope_along_the_track():
     assert np.unique(found.table("roughness")["h' a/d"]) == pytest.approx(slopes, rel=5e-3)
     assert all(f"dB at h' a/d = {slope:.2g}" in found.claims[0].answer for slope in slopes)
 
-    models = ReducedModels(strips=3)
+    models = reduced_case.ReducedModels(strips=3)
     (spectrum,) = models.spectra
     bands = len(bands_of(self_affine(*spectrum)).centres)
     rolled = {
@@ -225,9 +227,9 @@ def test_cases_of_rolling_print_the_slope_along_the_track():
     }
     strips = {(spectrum, height): [rolled] * 3 for height in models.heights}
     slopes = [height * power_law_slope(*spectrum) for height in models.heights]
-    assert [reduced_models_evidence.slope_of(key) for key in strips] == pytest.approx(slopes, rel=1e-6)
-    found = reduced_models_evidence.evidence(ReducedResult(models, strips, ()))
-    assert np.unique(found.table("reduced_models")["h' a/d"]) == pytest.approx(slopes, rel=5e-3)
+    assert [reduced_case.slope_of(key) for key in strips] == pytest.approx(slopes, rel=1e-6)
+    found = reduced_case.STUDY.evidence(Outcomes(models, strips))
+    assert np.unique(found.table(reduced_case.OFF)["h' a/d"]) == pytest.approx(slopes, rel=5e-3)
     assert sorted({number.where["h' a/d"] for number in found.numbers}) == pytest.approx(slopes, rel=5e-3)
 
 
@@ -251,7 +253,7 @@ def test_strips_at_equal_slopes_have_them(gradient):
 
 
 def test_limits_of_claims_are_where_the_gradient_is_1_and_0_3():
-    limits = reduced_models_evidence.LIMIT, reduced_models_evidence.LIMIT_OF_READ
+    limits = reduced_case.LIMIT, reduced_case.LIMIT_OF_READ
     assert limits == pytest.approx((math.sqrt(0.5), 0.3 * math.sqrt(0.5)))
 
 

@@ -36,13 +36,11 @@ from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
-from validation.cases.rail import ellipse as rail_ellipse
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound_levels
 from validation.cases.rolling import (
     force_spectrum_headlines,
     roughness_from_force,
-    track_stiffness,
     validity,
     validity_reduced,
 )
@@ -50,9 +48,17 @@ from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
-from validation.simulation import equivalent_displacement, free_vibration, indentation, integrators, rough_punch
+from validation.simulation import (
+    equivalent_displacement,
+    free_vibration,
+    indentation,
+    integrators,
+    rough_punch,
+    track_stiffness,
+)
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.published_contact import PublishedContact
 from validation.simulation.rail_strip import PowerLawGround
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
@@ -329,7 +335,7 @@ FAULTS = {
         test_whose_surfaces.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
     ),
     "one of two elastic bodies taken for rigid": (
-        (rail_ellipse.PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
+        (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
         test_rail_cases.test_contact_of_the_program_contact_is_reproduced,
     ),
     "the load of an axle for that of a wheel": (

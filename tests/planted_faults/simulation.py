@@ -26,7 +26,6 @@ from tests.simulation import (
 from validation.analysis import series
 from validation.analysis.over_range import worst
 from validation.cases.punch.rough_interface import Layer
-from validation.cases.rolling import ridges, track_stiffness
 from validation.simulation import (
     band_limited,
     contact_laws,
@@ -37,8 +36,10 @@ from validation.simulation import (
     profiled_strip,
     rail_models,
     rail_quantity,
+    ridges,
     rough_punch,
     spectral_springs,
+    track_stiffness,
     wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
@@ -174,8 +175,8 @@ FLAGS = (
     (test_flags_of_rolling, "roll_held_wheel", "validation.simulation.rail_sound:_boundary_elements"),
     (test_flags_of_rolling, "roll_and_move", "validation.simulation.wheel_on_rail:at_constant_load"),
     (test_flags_of_rolling, "roll_by_all", "validation.simulation.reduced_models:boundary_elements"),
-    (ridges, "roll_over", "validation.cases.rolling.ridges:_roll"),
-    (track_stiffness, "roll_loaded_strip", "validation.cases.rolling.track_stiffness:roll_loaded_strip"),
+    (ridges, "roll_over", "validation.simulation.ridges:_roll"),
+    (track_stiffness, "roll_loaded_strip", "validation.simulation.track_stiffness:roll_loaded_strip"),
 )
 
 FAULTS = {

@@ -11,7 +11,8 @@ from validation.analysis.nominal_bands import NominalBands
 from validation.cases.limits import pressed_springs
 from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
-from validation.cases.rolling import reduced_models_evidence, validity
+from validation.cases.rolling import reduced_models as reduced_case
+from validation.cases.rolling import validity
 from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
 from validation.cases.wheel import half_space_tables
 from validation.scenes import description, roughness
@@ -102,12 +103,12 @@ PLACES = {
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "h' a/d of reduced models": (
-        (reduced_models_evidence, "slope_of"),
+        (reduced_case, "slope_of"),
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "heights at an h' a/d": ((validity, "height_at"), STRIPS_AT_A_SLOPE),
     "h' a/d up to which a layer follows": (
-        (reduced_models_evidence, "LIMIT"),
+        (reduced_case, "LIMIT"),
         test_slopes.test_limits_of_claims_are_where_the_gradient_is_1_and_0_3,
     ),
     "the gradient of the linear filter's limit": (

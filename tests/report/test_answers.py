@@ -313,7 +313,7 @@ def test_a_roll_off_is_judged_by_roughness_that_has_one():
     [((3.04, 3.0, 99.0), "3"), ((12000.0, 300.4, 99.0), "300 to 12,000")],
 )
 def test_a_reduced_model_costs_its_counted_work_over_springs(times, said):
-    table = Table("reduced_models", {"model": ["mine", "mine", "other"], "work over springs on a line": list(times)})
+    table = Table("work over springs on a line", {"model": ["mine", "mine", "other"], "value": list(times)})
     evidence = section_of("reduced_models", [], table).evidence
     assert rolled("mine").text(evidence) == f"{said} times the counted work of springs on a line"
 

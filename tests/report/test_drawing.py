@@ -1,5 +1,7 @@
 """Curves of a declared figure belong to their rows: labels, bars, shifts, facets."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -41,6 +43,15 @@ def test_bars_end_where_the_interval_ends():
     np.testing.assert_allclose(ends, [[0.9, 1.3], [1.9, 2.3], [2.9, 3.3]])
 
 
+def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
+    columns = {name: column[:3] for name, column in TABLE.columns.items()} | {"low": [-1.0, 1.9, 2.9]}
+    evidence = replace(EVIDENCE, tables=(Table("level", columns),))
+    panel = Panel("q a", "y", (Curve("level", style="bem", label="b", bars=True),), log="xy")
+    (axis,) = draw(Chart("c", "", (panel,)), evidence).axes
+    ends = [segment[:, 1] for segment in axis.containers[0].lines[2][0].get_segments()]
+    np.testing.assert_allclose(ends, [[0.1, 1.3], [1.9, 2.3], [2.9, 3.3]])
+
+
 def test_facets_have_an_axis_each_with_their_rows_alone():
     axes = drawn(Curve("level", "bem", "exact", "b"), facet="h/d")
     assert [axis.get_title() for axis in axes] == ["h/d = 0.1", "h/d = 1"]
@@ -70,6 +81,12 @@ def test_verdicts_stand_over_their_ranges():
     first, second = draw(Chart("c", "", (panel,)), evidence).axes
     assert [text.get_text() for text in first.texts] == ["≠"] and first.texts[0].get_position()[0] == 2.0
     assert not second.texts
+
+
+def test_markers_are_apart_and_ticks_at_the_values():
+    (axis,) = drawn(Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True)
+    assert axis.lines[0].get_markevery() == 0.1
+    assert [label.get_text() for label in axis.get_xticklabels()] == ["1", "2", "4"]
 
 
 def test_the_cells_of_a_map_are_those_of_their_parameters():

@@ -21,11 +21,9 @@ from validation.report.figures import (
     fractal_punch,
     limits,
     precision,
-    reduced_models,
     rolling_input,
     rolling_validity,
     roughness_from_force,
-    track_stiffness,
     wheel,
     wheel_3d,
     wheel_distance,
@@ -251,41 +249,6 @@ def test_coherence_has_its_lines():
         )
 
 
-def test_lines_of_reduced_models():
-    """Over h' a/d in the order of that parameter; a point a model over its work, but for the reference."""
-    shown = reduced_models.SHOWN
-    names = ["boundary elements", *shown, "a trial"]
-    table = Made({"model": np.repeat(names, 2), "h' a/d": np.tile([0.8, 0.2], len(names))})
-    bands = Made({"model": np.repeat(names, 3), "h' a/d": np.full(3 * len(names), 0.8)})
-    over_slope, level, coherence, cost = reduced_models.draw(made(reduced_models=table, one_third_octaves=bands)).axes
-    drawn(
-        over_slope,
-        {n: (table.where(model=n)["rms [dB]"][::-1], (table.where(model=n)["± rms [dB]"][::-1],) * 2) for n in shown},
-    )
-    for axis, column in ((level, "over bem3d [dB]"), (coherence, "coherence")):
-        for name, line in zip(shown, axis.get_lines()[:: 3 if axis is level else 1], strict=False):
-            np.testing.assert_allclose(line.get_ydata(), bands.where(model=name)[column])
-    there = table.where(**{"h' a/d": 0.8})
-    for name, line in zip(names[1:], cost.get_lines(), strict=False):
-        mine = there.where(model=name)
-        assert line.get_xdata() == mine["work over springs on a line"]
-        assert line.get_ydata() == mine["rms [dB]"]
-
-
-def test_lines_of_the_map_of_reduced_models():
-    """Points in the order of h' a/d; the line and its label have the largest up to there."""
-    shown = reduced_models.SHOWN
-    table = Made({"model": np.repeat(shown, 3), "h' a/d": np.tile([0.8, 0.05, 0.2], len(shown))})
-    (axis,) = reduced_models.draw_map(made(reduced_models=table)).axes
-    lines = [line for line in axis.get_lines() if line.get_linestyle() == "-"]
-    for model, points, line, label in zip(shown, axis.containers, lines, axis.texts, strict=True):
-        rms = table.where(model=model)["rms [dB]"][[1, 2, 0]]
-        np.testing.assert_allclose(points.lines[0].get_ydata(), rms)
-        np.testing.assert_allclose(line.get_ydata(), [rms[0], rms[:2].max(), rms.max()])
-        assert label.get_text() == model
-        assert label.xy == (0.8, rms.max())
-
-
 def test_lines_of_where_linear_theory_ends():
     """Over h/d and over h' a/d, each spectrum in the order of that parameter."""
     table = Made({"spectrum": np.repeat(["one", "two"], 3)})
@@ -312,24 +275,6 @@ def test_lines_of_roughness_from_force():
             mine = table.where(**{"h/d": height, "filter": name})
             expected[name] = mine["found over true [dB]"], (mine["± [dB]"],) * 2
         drawn(axis, expected)
-
-
-def test_lines_of_stiffness_along_a_track():
-    models = ("wheel, bem3d", "punch, springs")
-    moments = Made({"Fbar": [1.0, 1.0, 3.0, 3.0], "model": models * 2})
-    bands = Made({"Fbar": np.repeat([1.0, 3.0], 3), "q a": [2.0, 4.0, 8.0] * 2})
-    mean, deviation, level = track_stiffness.draw(made(moments=moments, bands=bands)).axes
-    for axis, quantity in ((mean, "mean stiffness"), (deviation, "relative deviation of stiffness")):
-        expected = {}
-        for name in models:
-            mine = moments.where(model=name)
-            expected[name] = mine[quantity], (mine[f"± {quantity}"],) * 2
-        drawn(axis, expected)
-    expected = {}
-    for force in (1.0, 3.0):
-        mine = bands.where(Fbar=force)
-        expected[f"Fbar = {force:g}"] = mine["Geike's spectrum [dB]"], (mine["Geike's spectrum ± [dB]"],) * 2
-    drawn(level, expected)
 
 
 def test_lines_of_input_spectra():

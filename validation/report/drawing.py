@@ -151,7 +151,9 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
     if curve.bars:
-        bars = [np.nan_to_num(y - low), np.nan_to_num(high - y)]
+        # down to nothing: on a logarithmic axis a decade
+        down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
+        bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
         axis.errorbar(mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
     else:
         axis.plot(mine[x], y - down, label=label, **style)

@@ -4,7 +4,7 @@ from validation.analysis.evidence import Evidence, Number, Place
 from validation.cases.punch import bandwidth_numbers as bandwidth
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.rail import rail_dynamic_evidence, rough_rail
-from validation.cases.rolling import reduced_models_evidence
+from validation.cases.rolling import reduced_models
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 from validation.report.answers.cells import NumberSource
 
@@ -53,7 +53,7 @@ def of_rolling(quantity: str, model: str) -> NumberSource:
 def of_strips(model: str) -> NumberSource:
     return NumberSource(
         case="reduced_models",
-        quantities=(reduced_models_evidence.OFF,),
+        quantities=(reduced_models.OFF,),
         model=model,
         axis=SLOPE,
         series=("H", "q a"),
