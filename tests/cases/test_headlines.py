@@ -11,7 +11,7 @@ from validation.cases.exact import geike, hertz, westergaard
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
-from validation.cases.rail import contact_filter, ellipse, line_convention, rail_dynamic_evidence, rough_rail
+from validation.cases.rail import ellipse, line_convention, rail_dynamic_evidence
 from validation.cases.rolling import (
     input_spectrum_evidence,
     ridges_evidence,
@@ -116,52 +116,6 @@ def test_two_strips_of_one_slope_are_both_needed():
 
 
 # --- a wheel on a rail ---
-
-
-@pytest.mark.parametrize(
-    ("linear", "read", "others", "title", "finding"),
-    [
-        (AGREE, AGREE, DIFFER, "is within 1 dB; m is up to -3.0 dB off", "is within 1 dB; so are springs"),
-        (DIFFER, DIFFER, AGREE, "is -3.0 dB off; m is up to -3.0 dB off", "springs that read the surface are not"),
-        (UNDECIDED, UNDECIDED, AGREE, "is within 1 dB is open; no other model is", "the surface are is open"),
-    ],
-)
-def test_the_title_of_contact_filters_names_what_is_off(linear, read, others, title, finding):
-    claims = [claim_with(verdict, sign=-1) for verdict in (linear, read, others, AGREE)]
-    assert title in contact_filter.headline(claims)
-    assert finding in contact_filter.finding(claims)
-
-
-def test_the_table_of_the_field_is_no_model_of_the_title():
-    claims = [claim_with(verdict) for verdict in (AGREE, AGREE, AGREE, DIFFER)]
-    assert "no other model" in contact_filter.headline(claims)
-
-
-@pytest.mark.parametrize(
-    ("long", "short", "words"),
-    [
-        (
-            AGREE,
-            DIFFER,
-            "Linear theory of the ellipse: within 1 dB; beyond its first zero +3.0 dB off at +20 dB over ISO 3095",
-        ),
-        (
-            DIFFER,
-            AGREE,
-            "Linear theory of the ellipse: +3.0 dB off at +20 dB over ISO 3095; beyond its first zero within 1 dB",
-        ),
-        (
-            UNDECIDED,
-            UNDECIDED,
-            "Linear theory of the ellipse: open within 1 dB; beyond its first zero open within 1 dB",
-        ),
-    ],
-)
-def test_the_title_of_rougher_rails_has_both_ranges_of_waves(long, short, words):
-    where = {"offset [dB]": 20.0}
-    claims = [claim_with(verdict, **where) for verdict in (long, short, AGREE)]
-    assert words.startswith(rough_rail.headline(claims))
-    assert rough_rail.finding(claims) == f"{words}; springs that read the surface: within 1 dB."
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,8 @@ class Curve:
 
     quantity: the table; model: one or several, all where empty; style: a name of `STYLES`, "graded" from dark to light;
     label: in the legend, by default the values, "_" for none; by: columns, a curve for each value of them; of: values
-    that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve.
+    that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve;
+    upright: whether the values are places on the horizontal axis, drawn as lines across the panel.
     """
 
     quantity: str
@@ -27,6 +28,7 @@ class Curve:
     bars: bool = False
     band: bool = False
     down: float = 0.0
+    upright: bool = False
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ STYLES: dict[str, Style] = {
     "mdr line": MDR_LINE,
     "other": MDR_OTHER,
     "guide": GUIDE,
+    "dashed": {**GUIDE, "linestyle": "--"},
+    "interval": {"color": "#000000"},
     "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
     "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
 }
@@ -48,8 +50,9 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
         _panel(axis, panel, {column: value} if column else {}, evidence)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
-    shared = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
-    if shared and not any(panel.legend for panel in chart.panels):
+    without = [axis for axis, (panel, *_) in zip(axes, facets, strict=False) if not panel.legend]
+    shared = dict(pair for axis in without for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
+    if shared:
         figure.legend(shared.values(), shared.keys(), loc="outside lower center", ncols=4)
     return figure
 
@@ -67,9 +70,10 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
     for curve in panel.curves:
-        families = list(_families(curve, _rows(evidence, curve, facet)))
-        for i, (values, mine) in enumerate(families):
-            _curve(axis, curve, panel, mine, values, i, len(families))
+        # a family has one style in all facets
+        every = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
+        for key, values, mine in _families(curve, _rows(evidence, curve, facet)):
+            _curve(axis, curve, panel, mine, values, every.index(key), len(every))
     if panel.judged:
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
@@ -99,7 +103,7 @@ def _limits(axis: Axes, panel: Panel) -> None:
         axis.set_ylim(panel.ylim)
     if "x" in panel.log:
         low, high = axis.get_xlim()
-        steps = (1, 2, 5) if high < 300 * low else (1,)
+        steps = (1, 1.5, 2, 3, 4, 5, 7) if high < 10 * low else (1, 2, 5) if high < 300 * low else (1,)
         powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
         tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
     if panel.downward:
@@ -125,13 +129,13 @@ def _chosen(table: Table, of: Mapping[str, object]) -> Table:
     return table
 
 
-def _families(curve: Curve, table: Table) -> Iterator[tuple[dict[str, object], Table]]:
+def _families(curve: Curve, table: Table) -> Iterator[tuple[tuple[str, ...], dict[str, object], Table]]:
     size = len(next(iter(table.columns.values())))
     keys = list(zip(*(map(str, table.columns[name]) for name in curve.by), strict=True)) or [()] * size
     for key in dict.fromkeys(keys):
         keep = [i for i in range(size) if keys[i] == key]
         mine = Table(table.name, {name: [column[i] for i in keep] for name, column in table.columns.items()})
-        yield {name: column[0] for name, column in mine.columns.items()}, mine
+        yield key, {name: column[0] for name, column in mine.columns.items()}, mine
 
 
 def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
@@ -141,6 +145,13 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
+    if curve.style == "interval":
+        axis.fill_between(mine[x], low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
+        return
+    if curve.upright:
+        for at in mine["value"]:
+            axis.axvline(at, label=label, **style)
+        return
     if curve.bars:
         bars = [np.nan_to_num(y - low), np.nan_to_num(high - y)]
         axis.errorbar(mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)

@@ -3,7 +3,7 @@
 from validation.analysis.evidence import Evidence, Number, Place
 from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth_numbers as bandwidth
-from validation.cases.rail import rail_dynamic_evidence, rough_rail
+from validation.cases.rail import rail_dynamic_evidence, rolled_filters, rough_rail
 from validation.cases.rolling import reduced_models_evidence
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 from validation.report.answers.cells import NumberSource
@@ -74,7 +74,7 @@ def waves_of_slope(evidence: Evidence) -> str:
 def of_rail(model: str) -> NumberSource:
     return NumberSource(
         case="rough_rail",
-        quantities=(rough_rail.OVER_BEM,),
+        quantities=(rolled_filters.OVER_BEM,),
         model=model,
         axis="offset [dB]",
         place=_slope_of_offset,
