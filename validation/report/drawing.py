@@ -103,7 +103,7 @@ def _limits(axis: Axes, panel: Panel) -> None:
         axis.set_ylim(panel.ylim)
     if "x" in panel.log:
         low, high = axis.get_xlim()
-        steps = (1, 1.5, 2, 3, 4, 5, 7) if high < 10 * low else (1, 2, 5) if high < 300 * low else (1,)
+        steps = (1, 2, 5) if high < 300 * low else (1,)
         powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
         tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
     if panel.downward:

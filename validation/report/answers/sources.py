@@ -3,7 +3,7 @@
 from validation.analysis.evidence import Evidence, Number, Place
 from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth_numbers as bandwidth
-from validation.cases.rail import rail_dynamic_evidence, rolled_filters, rough_rail
+from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import reduced_models_evidence
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 from validation.report.answers.cells import NumberSource
@@ -102,7 +102,7 @@ def of_moving_wheel() -> NumberSource:
     """Springs that read the surface over boundary elements, both in motion."""
     return NumberSource(
         case="rail_dynamic",
-        quantities=(rail_dynamic_evidence.RMS + rail_dynamic_evidence.BESIDE,),
+        quantities=(rail_dynamic.RMS + rail_dynamic.BESIDE,),
         model="springs that read the surface over bem3d",
-        axis=rail_dynamic_evidence.OFFSET,
+        axis=rail_dynamic.OFFSET,
     )
