@@ -106,7 +106,7 @@ def _words(evidence: Evidence | None) -> dict[str, object]:
     return {
         "title": evidence.title,
         "finding": evidence.finding,
-        "tables": [table.name for table in evidence.tables],
+        "tables": [t.name for t in evidence.tables if not evidence.sounds or t.name != evidence.sounds.table],
         "method": evidence.method,
         "figures": [
             {"name": name, "headline": evidence.headlines.get(name, ""), "caption": caption}
