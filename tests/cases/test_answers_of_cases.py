@@ -1,7 +1,6 @@
 """Answers of cases on planted numbers: no strip or scene is chosen, no worst band stands without its interval."""
 
 import pytest
-from validation.cases.punch.area_gap_rolloff_numbers import DEVIATION
 
 from tests.analysis.test_judged_claims import point
 from validation.analysis.evidence import ClaimStatus
@@ -9,7 +8,6 @@ from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import fractal_punch_decades, fractal_punch_text
 from validation.cases.punch.mdr_limits import DEVIATION, STUDY
 from validation.cases.rolling import reduced_models as reduced
-from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.wheel import half_space_evidence, spectrum_evidence
 from validation.cases.wheel.half_space_levels import LINEAR_3D
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM

@@ -154,11 +154,7 @@ def test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands():
     assert RailQuantity(scene, "contact-filter").lost == pytest.approx(strips * over, rel=1e-3)
     reasons = [model.estimate().reason for model in models_of(scene, "contact-filter", 0.1, 0)]
     assert any(f"h' a_x / d = {strips * over:.2g} of waves of 50 to 3.15 mm" in reason for reason in reasons)
-    case = SimpleNamespace(scene=lambda key: scene)
-    area = SimpleNamespace(value=1.0, uncertainty=0.0)
-    table = rough_rail._roughness_table(
-        SimpleNamespace(case=SimpleNamespace(keys=[("", 0.0, "")], **vars(case))), [area]
-    )
+    table = rough_rail.roughness(SimpleNamespace(keys=[("", 0.0, "")], scene=lambda key: scene))
     assert table["h' a_x / d"][0] == pytest.approx(strips * over, rel=1e-3)
     assert table[rough_rail.WAVES][0] == "50 to 3.15 mm"
 

@@ -11,7 +11,7 @@ from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEAN
 from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail
-from validation.cases.rail.rail_dynamic_evidence import BESIDE, RMS
+from validation.cases.rail.rail_dynamic import BESIDE, RMS
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
 from validation.cases.wheel.half_space_levels import GEIKE

@@ -64,6 +64,26 @@ def test_markers_are_apart_and_ticks_at_the_values():
     assert [label.get_text() for label in axis.get_xticklabels()] == ["1", "2", "4"]
 
 
+def test_a_family_has_one_style_in_all_facets():
+    """Of models, each of which is in one facet alone."""
+    first, second = drawn(Curve("level", by=("model", "h/d")), facet="h/d")
+    colours = [line.get_color() for axis in (first, second) for line in axis.lines]
+    assert len(set(colours)) == 4
+
+
+def test_a_panel_with_a_legend_of_its_own_leaves_the_others_to_the_figure():
+    curves = (Curve("level", "bem", label="b"),)
+    figure = draw(Chart("c", "", (Panel("q a", "y", curves, legend="best"), Panel("q a", "y", curves))), EVIDENCE)
+    assert figure.axes[0].get_legend() and not figure.axes[1].get_legend() and len(figure.legends) == 1
+
+
+def test_values_may_be_places_on_the_horizontal_axis_and_intervals_stand_alone():
+    (axis,) = drawn(Curve("level", "bem", "guide", upright=True, of={"h/d": 0.1}))
+    assert [line.get_xdata()[0] for line in axis.lines] == [1, 2, 3]
+    (axis,) = drawn(Curve("level", "bem", "interval", of={"h/d": 0.1}))
+    assert not axis.lines and {*axis.collections[0].get_paths()[0].vertices[:, 1]} >= {0.9, 1.3, 3.3}
+
+
 def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
     zero = Table("level", {**{name: column[:3] for name, column in TABLE.columns.items()}, "value": [1.0, 0.0, 2.0]})
     (axis,) = draw(

@@ -204,7 +204,11 @@ def test_the_line_beside_a_figure_draws_it_again(tmp_path, monkeypatch):
     assert command.main(["report", "--only", "geike", "--out", str(tmp_path), "--workers", "1"]) == 0
     text = (tmp_path / "exact.html").read_text()
     linked = set(re.findall(r'href="(data/[^"]*\.csv)"', text))
-    assert linked == {"data/geike-C_1D_m³.csv", "data/geike-moment_over_that_of_the_surface.csv", "data/geike-numbers.csv"}
+    assert linked == {
+        "data/geike-C_1D_m³.csv",
+        "data/geike-moment_over_that_of_the_surface.csv",
+        "data/geike-numbers.csv",
+    }
     assert all((tmp_path / path).exists() for path in linked)
     line = re.search(r"<code>(.*?)</code>", text)[1].replace("&#34;", '"')
     monkeypatch.chdir(tmp_path)

@@ -9,6 +9,7 @@ from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.series import Series, numbers_of, tables_of
+from validation.analysis.sound import Sounds
 
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
@@ -36,7 +37,8 @@ class Study:
 
     title, method: with settings in braces; series: of a result, all that it shows; claims: the first is that of the
     case; charts; matrices: verdicts on the page; printed: names of tables on the page; tables: that are no series;
-    once_more: numbers that are judged by another margin too; notes: sentences that no pattern has.
+    once_more: numbers that are judged by another margin too; notes: sentences that no pattern has; sounds: played on
+    the page.
     """
 
     title: str
@@ -49,6 +51,7 @@ class Study:
     tables: Callable[[Any], Sequence[Table]] = nothing
     once_more: Callable[[Any, Sequence[Number]], Sequence[Number]] = nothing
     notes: Callable[[Any], Sequence[str]] = nothing
+    sounds: Callable[[Any], Sounds | None] = lambda result: None
 
     def evidence(self, result: Any) -> Evidence:
         series = self.series(result)
@@ -71,6 +74,7 @@ class Study:
             headlines={chart.name: self._headline(chart, said) for chart in self.charts},
             finding=f"{'; '.join(list(said.values())[:2])}.",
             unconverged=result.unconverged,
+            sounds=self.sounds(result),
         )
 
     def _headline(self, chart: Chart, said: Mapping[str, str]) -> str:
