@@ -103,12 +103,6 @@ def test_verdicts_stand_over_their_ranges():
     assert not second.texts
 
 
-def test_markers_are_apart_and_ticks_at_the_values():
-    (axis,) = drawn(Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True)
-    assert axis.lines[0].get_markevery() == 0.1
-    assert [label.get_text() for label in axis.get_xticklabels()] == ["1", "2", "4"]
-
-
 def test_the_cells_of_a_map_are_those_of_their_parameters():
     figure = draw(Chart("c", "", Map("level", "q a", "h/d", "model", "dB")), EVIDENCE)
     assert figure.axes[1].collections[0].get_array().reshape(2, 3).tolist() == [[4, 5, 6], [10, 11, 12]]
