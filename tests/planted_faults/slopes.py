@@ -11,8 +11,7 @@ from validation.analysis.nominal_bands import NominalBands
 from validation.cases.limits import pressed_springs
 from validation.cases.punch import area_gap_rolloff_numbers
 from validation.cases.rail import rough_rail
-from validation.cases.rolling import reduced_models_evidence, validity
-from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
+from validation.cases.rolling import reduced_models_evidence, settings, validity
 from validation.cases.wheel import half_space_tables
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
@@ -94,7 +93,7 @@ PLACES = {
         test_slopes.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands,
     ),
     "h' a/d of the force": (
-        (LevelsAtHeight, "slope"),
+        (settings.SelfAffineSettings, "slopes"),
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "h' a/d in the words of rolling": (

@@ -14,8 +14,6 @@ from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Table, table_of
-from validation.cases.rolling.input_spectrum_numbers import NAMES
-from validation.cases.rolling.roughness_from_force import FILTERS
 from validation.report.figures import (
     bandwidth,
     fractal_punch,
@@ -25,9 +23,6 @@ from validation.report.figures import (
     normalisation,
     precision,
     reduced_models,
-    rolling_input,
-    rolling_validity,
-    roughness_from_force,
     track_stiffness,
     wheel,
     wheel_3d,
@@ -36,7 +31,6 @@ from validation.report.figures import (
     wheel_stability,
 )
 from validation.report.figures import mdr_limits as mdr_limits_figure
-from validation.report.figures import rolling as rolling_figure
 
 
 class Made:
@@ -257,59 +251,6 @@ def test_lines_of_bandwidths():
         np.testing.assert_allclose(line.get_ydata(), table["mdr relative deviation"][of])
 
 
-def test_lines_of_fig_14_3():
-    table = Made({"q a": np.arange(1.0, 6.0)})
-    (axis,) = rolling_figure.draw_line(made(spectrum=table)).axes
-    columns = {"linear theory, 3D": "linear 3D", "springs": "springs", "(14.12)": "(14.12)", "(14.14)": "(14.14)"}
-    drawn(axis, columns, table)
-
-
-def rolled_levels():
-    """Of two heights and three bands."""
-    keys = {"h/d": np.repeat([0.01, 0.1], 3), "q a": [0.5, 1.0, 2.0] * 2, "from": [0.4, 0.8, 1.6] * 2}
-    return Made({**keys, "to": [0.8, 1.6, 3.2] * 2})
-
-
-def test_lines_of_rolling():
-    table = rolled_levels()
-    for axis, height in zip(rolling_figure.draw(made(levels=table)).axes, (0.01, 0.1), strict=True):
-        mine = table.where(**{"h/d": height})
-        bars = mine["± sample [dB]"] + mine["± grid [dB]"]
-        assert axis.get_title() == f"h/d = {height:g}"
-        expected = {
-            "linear theory, 3D": "linear 3D [dB]",
-            "linear theory, 1D (14.12)": "linear 1D [dB]",
-            "springs": "springs [dB]",
-            "boundary elements": ("bem3d [dB]", (bars, bars)),
-        }
-        drawn(axis, expected, mine)
-
-
-@pytest.mark.slow
-def test_panels_of_the_map_have_their_model():
-    table = rolled_levels()
-    axes = rolling_figure.draw_map(made(levels=table)).axes[:4]
-    models = ("linear 1D", "springs", "linear 3D", "rolling-equivalent springs")
-    assert tuple(axis.get_title() for axis in axes) == models
-    for axis, model in zip(axes, models, strict=True):
-        np.testing.assert_allclose(axis.collections[0].get_array().ravel(), table[f"{model} over bem3d [dB]"])
-
-
-def test_coherence_has_its_lines():
-    table = rolled_levels()
-    forces = Made({"h/d": np.repeat([0.01, 0.1], 4), "x / a": np.arange(8.0)})
-    coherence, departure, _ = rolling_figure.draw_coherence(made(levels=table, forces=forces)).axes
-    for i, height in enumerate((0.01, 0.1)):
-        mine = table.where(**{"h/d": height})
-        assert coherence.get_lines()[2 * i].get_label() == f"h/d = {height:g}"
-        np.testing.assert_allclose(coherence.get_lines()[2 * i].get_ydata(), mine["coherence of bem3d"])
-        np.testing.assert_allclose(coherence.get_lines()[2 * i + 1].get_ydata(), mine["coherence of springs"][2:])
-        np.testing.assert_allclose(departure.get_lines()[2 * i].get_ydata(), -mine["linear 3D over bem3d [dB]"])
-        np.testing.assert_allclose(
-            departure.get_lines()[2 * i + 1].get_ydata(), (mine["springs [dB]"] - mine["linear 1D [dB]"])[2:]
-        )
-
-
 def test_lines_of_reduced_models():
     """Over h' a/d in the order of that parameter; a point a model over its work, but for the reference."""
     shown = reduced_models.SHOWN
@@ -345,34 +286,6 @@ def test_lines_of_the_map_of_reduced_models():
         assert label.xy == (0.8, rms.max())
 
 
-def test_lines_of_where_linear_theory_ends():
-    """Over h/d and over h' a/d, each spectrum in the order of that parameter."""
-    table = Made({"spectrum": np.repeat(["one", "two"], 3)})
-    kept, kept_too, off, off_too, layer, layer_too = rolling_validity.draw(made(validity=table)).axes
-    for axes, value, bar in (
-        ((kept, kept_too), "contact kept", "± contact"),
-        ((off, off_too), "rms over linear [dB]", "± rms [dB]"),
-        ((layer, layer_too), "pressed layer over bem3d [dB]", "± pressed layer [dB]"),
-    ):
-        for axis, parameter in zip(axes, ("h/d", "h' a/d"), strict=True):
-            expected = {}
-            for name in ("one", "two"):
-                mine = table.where(spectrum=name)
-                order = np.argsort(mine[parameter])
-                expected[name] = mine[value][order], (mine[bar][order],) * 2
-            drawn(axis, expected)
-
-
-def test_lines_of_roughness_from_force():
-    table = Made({"h/d": np.repeat([0.1, 0.3], 6), "filter": np.tile(np.repeat(FILTERS, 2), 2), "q a": [1.0, 2.0] * 6})
-    for axis, height in zip(roughness_from_force.draw(made(roughness=table)).axes, (0.1, 0.3), strict=True):
-        expected = {}
-        for name in FILTERS:
-            mine = table.where(**{"h/d": height, "filter": name})
-            expected[name] = mine["found over true [dB]"], (mine["± [dB]"],) * 2
-        drawn(axis, expected)
-
-
 def test_lines_of_stiffness_along_a_track():
     models = ("wheel, bem3d", "punch, springs")
     moments = Made({"Fbar": [1.0, 1.0, 3.0, 3.0], "model": models * 2})
@@ -389,27 +302,6 @@ def test_lines_of_stiffness_along_a_track():
         mine = bands.where(Fbar=force)
         expected[f"Fbar = {force:g}"] = mine["Geike's spectrum [dB]"], (mine["Geike's spectrum ± [dB]"],) * 2
     drawn(level, expected)
-
-
-def test_lines_of_input_spectra():
-    names = ["one", "two", "three", "four", "five", "six"]
-    bands = Made({"spectrum": np.repeat(names, 3), "q a": [1.0, 2.0, 3.0] * 6})
-    for axis, name in zip(rolling_input.draw(made(bands=bands)).axes, names, strict=True):
-        mine = bands.where(spectrum=name)
-        drawn(axis, {label: f"{label} [dB]" for label in NAMES.values()}, mine)
-    rolled = Made({"spectrum": np.repeat(names[:2], 3), "h/d": np.full(6, 0.1), "q a": [1.0, 2.0, 3.0] * 2})
-    for axis, name in zip(rolling_input.draw_springs(made(rolled=rolled)).axes, names, strict=False):
-        mine = rolled.where(spectrum=name)
-        drawn(axis, {label: (f"{label} [dB]", (mine[f"{label} ± [dB]"],) * 2) for label in NAMES.values()}, mine)
-    punches = Made({"input": np.repeat(list(NAMES.values()), 2), "Fbar": [0.1, 1.0] * len(NAMES)})
-    value = punches["mdr over bem3d"]
-    punches.given["low"], punches.given["high"] = 0.8 * value, 1.1 * value
-    (axis,) = rolling_input.draw_punch(made(punches=punches)).axes
-    expected = {}
-    for label in NAMES.values():
-        mine = punches.where(input=label)["mdr over bem3d"]
-        expected[label] = mine, (0.2 * mine, 0.1 * mine)
-    drawn(axis, expected)
 
 
 def test_lines_of_fig_14_4():

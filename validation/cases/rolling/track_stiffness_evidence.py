@@ -18,19 +18,15 @@ from validation.analysis.statistics import (
     log_ratio_of_means,
 )
 from validation.analysis.wording import by_status, farthest_off, share
+from validation.cases.rolling import settings
 from validation.cases.rolling.claims import from_to
-from validation.cases.rolling.force_spectrum_numbers import (
-    FORD_THOMPSON,
-    ONE_DECIBEL,
-    REPEATABLE,
-    RMS,
-    THREE_DECIBELS,
-)
-from validation.cases.rolling.input_spectrum_numbers import NAMES
 from validation.cases.rolling.track_stiffness import FloatArray, TrackStiffness, TrackStiffnessResult, run
 from validation.engine.engine import Outcome
+from validation.simulation.track_spectrum import INPUT_NAMES as NAMES
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum
 
+THREE_DECIBELS, FORD_THOMPSON = settings.THREE_DECIBELS.tolerance, settings.THREE_DECIBELS.reason
+(ONE_DECIBEL, REPEATABLE), RMS = settings.ONE_DECIBEL, "rms of "
 MEAN, DEVIATION = "mean stiffness", "relative deviation of stiffness"
 LEVEL = "level of stiffness in a one-third octave"
 PUNCH, PROFILE, WHEEL = "punch, bem3d", "punch, springs", "wheel, bem3d"
