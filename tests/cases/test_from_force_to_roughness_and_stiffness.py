@@ -15,7 +15,7 @@ from validation.cases.rolling.roughness_from_force import FILTER_1D, FILTER_3D, 
 from validation.cases.rolling.track_stiffness_evidence import DEVIATION, MEAN, evidence, of_punches, over, statistic
 from validation.cases.rolling.validity import CORRELATION, HEIGHT, KEPT, OFF, REFERENCE, SLOPE, SPECTRA, Validity
 from validation.simulation.linear_levels import level_1d, level_3d
-from validation.simulation.reduced_strip import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
+from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
 from validation.simulation.rolling_strip import roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 

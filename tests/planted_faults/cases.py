@@ -48,7 +48,7 @@ from validation.simulation import (
     free_vibration,
     indentation,
     integrators,
-    reduced_strip,
+    reduced_pair,
     rough_punch,
 )
 from validation.simulation import spring_tracks as rough_springs
@@ -264,7 +264,7 @@ FAULTS = {
         test_from_force_to_roughness_and_stiffness.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
     ),
     "amplitudes of a reduced model twice as large": (
-        (reduced_strip, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
+        (reduced_pair, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
         test_from_force_to_roughness_and_stiffness.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
     ),
     "stiffness of the frame for that of the contact": (

@@ -1,8 +1,8 @@
-"""Words that cases of rolling share."""
+"""Words that the stiffness along a track and reduced models still read here."""
 
 from collections.abc import Sequence
 
-SLOPE_COUNTS = "h' is the rms slope along the track, in one direction, of all waves"
+from validation.cases.rolling.settings import SLOPE_COUNTS as SLOPE_COUNTS
 
 
 def from_to(values: Sequence[float], digits: int = 1, *, signed: bool = True) -> str:

@@ -4,7 +4,6 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Map, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.study import Study
-from validation.cases.rolling.claims import SLOPE_COUNTS
 from validation.cases.rolling.force_spectrum import (
     APPLICATIONS,
     BOTH,
@@ -26,7 +25,7 @@ from validation.cases.rolling.force_spectrum import (
     run,
     series,
 )
-from validation.cases.rolling.settings import HEIGHT, SLOPE, Q
+from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS, Q
 from validation.selection import model_needed
 
 LEVELS, CHANGES = (LEVEL, "rms of " + LEVEL), (NONLINEAR, "rms of " + NONLINEAR)

@@ -16,8 +16,15 @@ from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.claims import SLOPE_COUNTS
-from validation.cases.rolling.settings import HEIGHT, SLOPE, THREE_DECIBELS, Q, SelfAffineSettings, slopes_of
+from validation.cases.rolling.settings import (
+    HEIGHT,
+    SLOPE,
+    SLOPE_COUNTS,
+    THREE_DECIBELS,
+    Q,
+    SelfAffineSettings,
+    slopes_of,
+)
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.linear_levels import level_3d, over_bands
 from validation.simulation.rolling_strip import HERTZ, roll_strips, strip_levels

@@ -16,6 +16,7 @@ from validation.simulation.rolling_strip import RoughStrip, Tracks
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 
 HEIGHT, SLOPE, Q = "h/d", "h' a/d", "q a"
+SLOPE_COUNTS = "h' is the rms slope along the track, in one direction, of all waves"
 ONE_DECIBEL = 1.0, "1 dB: repeatability of measured one-third octave levels"
 THREE_DECIBELS = Margin(
     tolerance=3.0, reason="3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)", rms=ONE_DECIBEL

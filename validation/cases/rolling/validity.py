@@ -15,14 +15,13 @@ from validation.analysis.series import Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.claims import SLOPE_COUNTS
-from validation.cases.rolling.settings import HEIGHT, ONE_DECIBEL, SLOPE
+from validation.cases.rolling.settings import HEIGHT, ONE_DECIBEL, SLOPE, SLOPE_COUNTS
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation.linear_levels import correlation
-from validation.simulation.reduced_strip import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
+from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import slope_in_one_direction
