@@ -28,7 +28,13 @@ from validation.simulation.rough_punch import (
     require_converged,
     stacked,
 )
-from validation.simulation.track_spectrum import INPUT_NAMES, INPUT_SPECTRA, PiecewisePowerLaw, self_affine
+from validation.simulation.track_spectrum import (
+    INPUT_NAMES,
+    INPUT_SPECTRA,
+    InputSpectrum,
+    PiecewisePowerLaw,
+    self_affine,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,6 +201,11 @@ def punches_of(result: Outcomes) -> Iterator[Series]:
         yield Series(PROFILE_HEIGHT, "springs", (float(mine["height"]),), where=of)
 
 
+SPRINGS_ON: tuple[tuple[InputSpectrum, str, str], ...] = (
+    ("rolling", "Springs with the rolling-equivalent spectrum", ""),
+    ("line", "Springs on the trace of a line", " (Ford and Thompson 2006)"),
+    ("geike", "Springs with Geike's spectrum", ""),
+)
 STUDY = Study(
     title="The input spectrum of springs for rolling",
     method=(
@@ -210,25 +221,14 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="Springs with the rolling-equivalent spectrum are within 3 dB of 3D in each one-third octave.",
-            short="Springs beside 3D in one-third octaves",
-            quantity=LEVEL,
-            where={INPUT: INPUT_NAMES["rolling"]},
-        ),
-        Claim(
-            says=(
-                "Springs on the trace of a line are within 3 dB of 3D in each one-third octave (Ford and Thompson "
-                "2006)."
-            ),
-            short="on the trace of a line",
-            quantity=LEVEL,
-            where={INPUT: INPUT_NAMES["line"]},
-        ),
-        Claim(
-            says="Springs with Geike's spectrum are within 3 dB of 3D in each one-third octave.",
-            quantity=LEVEL,
-            where={INPUT: INPUT_NAMES["geike"]},
+        *(
+            Claim(
+                says=f"{what} are within 3 dB of 3D in each one-third octave{source}.",
+                short=f"{what}, beside 3D in one-third octaves",
+                quantity=LEVEL,
+                where={INPUT: INPUT_NAMES[rule]},
+            )
+            for rule, what, source in SPRINGS_ON
         ),
         Claim(
             says=(

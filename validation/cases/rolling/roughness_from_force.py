@@ -198,33 +198,26 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The roughness spectrum follows from the force spectrum by (14.14), read backwards.",
-            short="Roughness from force by (14.14), in one-third octaves",
-            quantity=LEVELS,
-            model=MEAN_FILTER,
-            along=HEIGHT,
+        *(
+            Claim(
+                says=f"The roughness spectrum follows from the force spectrum by {by}, read backwards.",
+                short=f"Roughness from force by {by}, in one-third octaves",
+                quantity=LEVELS,
+                model=by,
+                along=HEIGHT,
+            )
+            for by in (MEAN_FILTER, FILTER_1D)
         ),
-        Claim(
-            says="The roughness spectrum follows from the force spectrum by (14.12), read backwards.",
-            quantity=LEVELS,
-            model=FILTER_1D,
-            along=HEIGHT,
-        ),
-        Claim(
-            says="Between the zeros of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
-            short="by the filter in 3D between zeros of sin(q a)",
-            quantity=LEVELS,
-            model=FILTER_3D,
-            where={"bands": BETWEEN},
-            along=HEIGHT,
-        ),
-        Claim(
-            says="At the zeros of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
-            quantity=LEVELS,
-            model=FILTER_3D,
-            where={"bands": ZEROS},
-            along=HEIGHT,
+        *(
+            Claim(
+                says=f"{where} of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
+                short=f"Roughness from force by the filter in 3D, {bands}",
+                quantity=LEVELS,
+                model=FILTER_3D,
+                where={"bands": bands},
+                along=HEIGHT,
+            )
+            for where, bands in (("Between the zeros", BETWEEN), ("At the zeros", ZEROS))
         ),
         Claim(
             says="Filters that are read backwards find no roughness below the band, where there is none.",

@@ -200,33 +200,18 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="Contact is lost at the same h' a/d, whatever the band of the roughness and its Hurst exponent.",
-            short="Contact kept over all spectra at equal h' a/d",
-            quantity=KEPT,
-            where={SLOPE: ...},
-        ),
-        Claim(
-            says="Contact is lost at the same h/d, whatever the band of the roughness and its Hurst exponent.",
-            short="at equal h/d",
-            quantity=KEPT,
-            where={HEIGHT: ...},
-        ),
-        Claim(
-            says=(
-                "The level leaves linear theory at the same h' a/d, whatever the band of the roughness and its Hurst "
-                "exponent."
-            ),
-            quantity=OFF,
-            where={SLOPE: ...},
-        ),
-        Claim(
-            says=(
-                "The level leaves linear theory at the same h/d, whatever the band of the roughness and its Hurst "
-                "exponent."
-            ),
-            quantity=OFF,
-            where={HEIGHT: ...},
+        *(
+            Claim(
+                says=f"{what} at the same {parameter}, whatever the band of the roughness and its Hurst exponent.",
+                short=f"{short} over all spectra at equal {parameter}",
+                quantity=quantity,
+                where={parameter: ...},
+            )
+            for what, short, quantity in (
+                ("Contact is lost", "Contact kept", KEPT),
+                ("The level leaves linear theory", "Level off linear theory", OFF),
+            )
+            for parameter in (SLOPE, HEIGHT)
         ),
         *(
             Claim(
