@@ -22,14 +22,14 @@ from tests.analysis import (
 )
 from tests.analysis import test_spectra as test_wheel_spectra
 from validation.analysis import multilevel, nominal_bands, over_range, spectra, statistics, wording
+from validation.analysis import series as declared
 from validation.analysis import series as series_module
 from validation.analysis import spectral_features as regions
-from validation.analysis.difference import difference
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
 from validation.analysis.features import JudgedFeature
 from validation.analysis.over_range import signed_mean, worst
 from validation.cases.punch import fractal_punch_decades
-from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
+from validation.cases.rolling import force_spectrum
 
 COMBINED = fractal_punch_decades.combined
 
@@ -342,11 +342,11 @@ FAULTS = {
         test_error_bars_of_grids.test_the_grid_interval_of_fig_14_1,
     ),
     "the signed mean over bands for the worst of them, in rolling": (
-        (rolling_numbers, "worst", mean_of_the_range),
+        (declared, "worst", mean_of_the_range),
         test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
     ),
     "decibels of an amplitude for those of a power, in rolling": (
-        (rolling_numbers, "difference", functools.partial(difference, scale=statistics.DECIBEL)),
+        (force_spectrum, "POWER_DECIBEL", statistics.DECIBEL),
         test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
     ),
     "a line at the upper edge of a band counted in it": (

@@ -20,7 +20,6 @@ from tests.cases import (
     test_limits,
     test_rail_cases,
     test_rail_sound,
-    test_rolling_cases,
     test_wheel_cases,
     test_wheel_ensembles,
     test_wheel_regions,
@@ -39,10 +38,8 @@ from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fract
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound
 from validation.cases.rolling import (
-    force_spectrum_headlines,
     roughness_from_force,
     validity,
-    validity_reduced,
 )
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
@@ -53,6 +50,7 @@ from validation.simulation import (
     free_vibration,
     indentation,
     integrators,
+    reduced_pair,
     rough_punch,
     track_stiffness,
 )
@@ -156,12 +154,6 @@ linear_response = rough_springs.linear_response
 
 
 FAULTS = {
-    "a title that calls a quiet band loud": (
-        (force_spectrum_headlines, "too_loud", lambda decibels: f"{abs(decibels):.1f} dB too loud"),
-        functools.partial(
-            test_rolling_cases.test_the_title_of_springs_has_the_side_of_each_region, *test_rolling_cases.PLANTED[0]
-        ),
-    ),
     "a weighting of amplitudes taken twice": (
         (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
         functools.partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
@@ -276,7 +268,7 @@ FAULTS = {
         test_from_force_to_roughness_and_stiffness.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
     ),
     "amplitudes of a reduced model twice as large": (
-        (validity_reduced, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
+        (reduced_pair, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
         test_from_force_to_roughness_and_stiffness.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
     ),
     "stiffness of the frame for that of the contact": (

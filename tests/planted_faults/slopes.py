@@ -12,8 +12,7 @@ from validation.cases.limits import pressed_springs
 from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
-from validation.cases.rolling import validity
-from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
+from validation.cases.rolling import settings, validity
 from validation.cases.wheel import half_space_tables
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
@@ -95,7 +94,7 @@ PLACES = {
         test_slopes.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands,
     ),
     "h' a/d of the force": (
-        (LevelsAtHeight, "slope"),
+        (settings.SelfAffineSettings, "slopes"),
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "h' a/d in the words of rolling": (

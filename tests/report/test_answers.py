@@ -12,8 +12,7 @@ from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEA
 from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail
 from validation.cases.rail.rail_dynamic import BESIDE, RMS
-from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
-from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
+from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
 from validation.cases.wheel.half_space_levels import GEIKE
 from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space_numbers import OVER_BEM
@@ -203,8 +202,8 @@ def rolling(quantity, model, value, half=0.1):
     where = {"h/d": 0.1} | ({"q a": (1.0, 10.0)} if quantity == LEVEL else {})
     settings = {"reference": 0.0, "tolerance": 3.0, "sample": half, "role": Role.FINDING}
     planted = number(value, quantity=quantity, model=f"{model} over bem3d", where=where, **settings)
-    summary = Table("summary", {"h / d": [0.03, 0.1], "h' a / d": [0.081, 0.27]})
-    return section_of("rolling", [planted], summary, hurst=0.7)
+    slopes = Table(sources.SLOPE, {"h/d": [0.03, 0.1], "value": [0.081, 0.27]})
+    return section_of("rolling", [planted], slopes, hurst=0.7)
 
 
 @pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", LEVEL)])

@@ -123,3 +123,18 @@ def test_panels_share_an_axis_where_they_say_so():
 def test_settings_are_filled_into_a_text(text, found):
     case = type("C", (), {"x": 2.0, "many": (1.0, 2.0, 3.0), "one": (1,), "small": 2.5e-6})
     assert Settings().format(text, c=case) == found
+
+
+def test_several_columns_have_an_axis_for_each_of_their_values():
+    axes = drawn(Curve("level", label="b"), facet=("h/d", "model"), at=(2.0, 99.0))
+    assert [axis.get_title() for axis in axes] == [f"h/d = {h:g}, {model}" for h in H for model in MODELS]
+    np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
+    # a mark that the panel does not reach is not drawn
+    assert [list(line.get_xdata()) for line in axes[3].lines[1:]] == [[2.0, 2.0]]
+
+
+def test_panels_with_one_vertical_axis_are_labelled_at_the_left_alone():
+    panel = Panel("q a", "y", (Curve("level", "bem", label="b"),), facet="h/d")
+    left, right = draw(Chart("c", "", (panel,), sharey=True), EVIDENCE).axes
+    assert (left.get_ylabel(), right.get_ylabel()) == ("y", "")
+    assert left.get_ylim() == right.get_ylim()

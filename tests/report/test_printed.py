@@ -30,10 +30,6 @@ from validation.benchmarks.work_precision.pareto import format_error, format_sec
 from validation.cases.limits import evidence as limits_evidence
 from validation.cases.limits import numbers as limits_numbers
 from validation.cases.punch import fractal_punch_decades, fractal_punch_text
-from validation.cases.rolling import claims as rolling_claims
-from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
-from validation.cases.rolling import force_spectrum_tables as rolling_tables
-from validation.cases.rolling.force_spectrum_numbers import LEVEL, MEAN, VARIANCE
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
 from validation.cases.wheel import (
     distance_numbers,
@@ -321,46 +317,6 @@ def test_the_sample_that_would_decide():
     assert decided_by(replace(n, sample=5.1)) == "needs over 100 times the sample"
     assert decided_by(replace(n, grid=0.5)) == "grid error too large"
     assert str(fractal_punch_text.verdict(n)).endswith(f"undecided; {decided_by(n)}")
-
-
-def test_rolling_prints_the_numbers_it_is_given():
-    mine = [
-        number(v, quantity=VARIANCE, model=model, where={"h/d": 0.1}, sample=0.0123)
-        for v, model in ((0.7777, "bem3d"), (1.05, "springs"))
-    ]
-    assert rolling_evidence._variances([*mine, replace(mine[0], where={"h/d": 0.3}, value=0.9)]) == (
-        "farthest are bem3d 0.778 ± 0.012 at h/d = 0.1 (differ), springs 1.050 ± 0.012 at h/d = 0.1 (agree)"
-    )
-    means = [
-        number(0.5432, quantity=MEAN, where={"h/d": 0.3}, reference=0.9, tolerance=0.02),
-        number(1.001, quantity=MEAN, where={"h/d": 0.1}, tolerance=0.02),
-    ]
-    assert rolling_evidence._means(means) == (
-        "farthest, at h/d = 0.3, springs have 0.543 and boundary elements 0.900 of Hertz's (differ)"
-    )
-
-
-def test_a_claim_of_rolling_holds_up_to_the_last_height_that_agrees():
-    heights = (0.1, 0.3, 1.0)
-    found = [
-        number(v, reference=0.0, tolerance=1.0, quantity=LEVEL, where={"h/d": h})
-        for v, h in zip((0.5, 2.5, 0.1), heights, strict=True)
-    ]
-    claim = rolling_claims.answered_up_to("It is so.", found, "that much.", slope=2.7)
-    assert claim.answer == "Within limits (up to h/d = 0.1, h' a/d = 0.27): that much."
-    assert rolling_claims.answered_up_to("It is so.", found[1:], "that much.", slope=2.7).answer == "No: that much."
-    assert rolling_claims.answered_up_to("It is so.", found[:1], "that much.", slope=2.7).answer == "Yes: that much."
-
-
-def test_bands_within_1_and_3_db_are_counted():
-    case = SimpleNamespace(first=1.0, bands=SimpleNamespace(edges=(0.5, 0.9, 1.2, 1.6, 2.0)))
-    off = (0.5, -2.0, 3.5, -0.9)
-    mine = SimpleNamespace(
-        height=0.1, slope=0.3, single_bands=range(4), decibels_over_bem=lambda model, band: off[band]
-    )
-    table = rolling_tables.bands_within(case, [mine])
-    assert table.columns["springs, in the band"] == ["1 and 2 of 3"]
-    assert table.columns["springs, below the band"] == ["1 and 1 of 1"]
 
 
 def test_limits_print_the_numbers_they_are_given():

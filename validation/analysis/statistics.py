@@ -51,7 +51,7 @@ class Estimate:
         """Half of the 95 % interval: Student's quantile times the standard error."""
         return self.half_width_among(1)
 
-    def half_width_among(self, points: int) -> float:
+    def half_width_among(self, points: float) -> float:
         """Of an interval that holds at 95 % together with those of the other points of a range, by Bonferroni."""
         return student(self.samples - 1, 1 - 0.05 / points) * self.error
 

@@ -32,41 +32,48 @@ GRADED: dict[str, Style] = {
     "graded": {},
     "marks": {"linestyle": "none"},
     "lines": {"marker": "none"},
+    "graded dashed": {"linestyle": "--"},
     "dotted": {"marker": "none", "linestyle": ":"},
     "open": {"markerfacecolor": "white", "linestyle": ":"},
     "open marks": {"markerfacecolor": "white", "linestyle": "none"},
 }
 FIRST = "first"
 POINTS = 12
+FEW_DECADES = 300
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
 def draw(chart: Chart, evidence: Evidence) -> Figure:
     if isinstance(chart.panels, Map):
         return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
-    facets = [(panel, *facet) for panel in chart.panels for facet in _facets(panel, evidence)]
+    facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = chart.columns or len(facets)
     rows = -(-len(facets) // columns)
     shared: Literal["all", "none"] = "all" if chart.sharey else "none"
     figure, axes = panels(rows, columns, width=chart.width, height=chart.height, sharey=shared)
-    for axis, (panel, column, value) in zip(axes, facets, strict=False):
-        _panel(axis, panel, {column: value} if column else {}, evidence)
-    for axis, (panel, *_) in zip(axes, facets, strict=False):
+    for axis, (panel, facet) in zip(axes, facets, strict=False):
+        _panel(axis, panel, facet, evidence)
+    for axis, (panel, _) in zip(axes, facets, strict=False):
         _limits(axis, panel)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
-    without = [axis for axis, (panel, *_) in zip(axes, facets, strict=False) if not panel.legend]
+    for i, axis in enumerate(axes):
+        if chart.sharey and i % columns:
+            axis.set_ylabel("")
+    without = [axis for axis, (panel, _) in zip(axes, facets, strict=False) if not panel.legend]
     labels = dict(pair for axis in without for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
     if labels:
         figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
     return figure
 
 
-def _facets(panel: Panel, evidence: Evidence) -> list[tuple[str, object]]:
-    if not panel.facet:
-        return [("", None)]
-    values = dict.fromkeys(v for c in panel.curves for v in _rows(evidence, c, {}).columns.get(panel.facet, ()))
-    return [(panel.facet, value) for value in values]
+def _facets(panel: Panel, evidence: Evidence) -> list[dict[str, object]]:
+    names = (panel.facet,) if isinstance(panel.facet, str) else panel.facet
+    if not names:
+        return [{}]
+    tables = [_rows(evidence, curve, {}) for curve in panel.curves]
+    values = dict.fromkeys(key for one in tables for key in zip(*(one.columns.get(n, ()) for n in names), strict=True))
+    return [dict(zip(names, key, strict=True)) for key in values]
 
 
 def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
@@ -109,12 +116,19 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if panel.ticked:
         tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
     elif "x" in panel.log:
-        low, high = axis.get_xlim()
-        steps = (1, 2, 5) if high < 300 * low else (1,)
-        powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
-        tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
+        tick(axis, _round(*axis.get_xlim()))
+    for x in panel.at:
+        if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
+            axis.axvline(x, **GUIDE)
     if panel.downward:
         axis.invert_xaxis()
+
+
+def _round(low: float, high: float) -> list[float]:
+    """Powers of ten, of few decades two and five times them too."""
+    steps = (1, 2, 5) if high < FEW_DECADES * low else (1,)
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
+    return [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
 
 
 def _said(name: str, value: object) -> str:
@@ -165,7 +179,9 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         # down to nothing: on a logarithmic axis a decade
         down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
         bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
-        axis.errorbar(mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
+        # moved a little, so that intervals stand side by side
+        beside = curve.beside**i if "x" in panel.log else 1.0
+        axis.errorbar(beside * mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
     else:
         axis.plot(mine[x], y - down, label=label, **style)
     if curve.band:
@@ -194,6 +210,9 @@ def _map(chart: Chart, what: Map, table: Table) -> Figure:
         axis.set(xscale="log", yscale="log", title=str(facet))
         axis.set_yticks(up, [f"{y:g}" for y in up])
         axis.yaxis.minorticks_off()
+        tick(axis, _round(edges_x[0], edges_x[-1]))
+        for x in what.at:
+            axis.axvline(x, **GUIDE)
         axis.grid(visible=False)
     for axis in axes[::2]:
         axis.set_ylabel(what.y)

@@ -35,8 +35,7 @@ def not_modelled(*quantities: str, rolled: bool) -> NumberSource:
 
 
 def _slope_of_height(evidence: Evidence, number: Number) -> Place:
-    summary = evidence.table("summary")
-    return float(summary.where(**{"h / d": number.where["h/d"]})["h' a / d"][0])
+    return float(evidence.table(SLOPE).where(**{"h/d": number.where["h/d"]})["value"][0])
 
 
 def of_rolling(quantity: str, model: str) -> NumberSource:
