@@ -159,7 +159,7 @@ def test_intervals_of_where_mdr_must_fail():
     fine, coarse = fine[:4, 0], coarse[:4, 0]
     change = np.log([np.delete(fine, i).mean() / np.delete(coarse, i).mean() for i in range(4)])
     finer = Estimate(float(np.log(fine.mean() / coarse.mean())), float(jackknife_error(change)), 4)
-    bem, springs = (mine.of(method, "gap", at_level(0, log_mean)) for method in (BEM, MDR))
+    bem, springs = (mine.by_method[method, "gap"].by_level(log_mean)[0] for method in (BEM, MDR))
     assert number.grid == pytest.approx(DECIBEL * (abs(finer.value) + 2 * finer.half_width))
     assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width_among(2 * 2))
     assert number.value == pytest.approx(DECIBEL * (springs.value - bem.value - 2 * finer.value))

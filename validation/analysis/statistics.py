@@ -173,6 +173,10 @@ class Sample:
         error = whole * float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
         return Estimate(value, error, self.size)
 
+    def by_level(self, statistic: Statistic) -> list[Estimate]:
+        """A number at each level."""
+        return [self.estimate(at_level(level, statistic)) for level in range(self.moments.shape[1])]
+
 
 def sample(realisations: FloatArray, rng: np.random.Generator) -> Sample:
     """Bootstrap over realisations: what is drawn again is a realisation at all of its levels.
