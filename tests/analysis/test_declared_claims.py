@@ -112,6 +112,11 @@ def test_a_closed_form_leaves_a_difference():
     assert off_by(point(1.0, quantity="k", model="m")) == "off by +1.0e+00 dB"
 
 
+def test_places_with_a_name_follow_after_a_comma_and_large_values_have_no_power_of_ten():
+    found = point(3.0, 0.1, quantity="level", model="m", where={"band": "below it", "f [Hz]": (177.0, 1402.0)})
+    assert Claim(says="It is so.").judged([found]).answer == "No: +3.00 ± 0.10 dB, below it, f [Hz] = 177 to 1402."
+
+
 def test_a_ratio_in_decibels_is_printed_in_per_cent():
     six_decibels = point(20 * math.log10(2), 0.0, quantity="k", model="m")
     assert per_cent(six_decibels) == "+100.0 % (+100.0 to +100.0)"
