@@ -23,7 +23,6 @@ from validation.cases.rolling import validity_headlines as validity
 from validation.cases.rolling.reduced_models import LAYER
 from validation.cases.rolling.reduced_models_map import map_headline
 from validation.cases.selection import model_selection_evidence
-from validation.cases.stability import evidence as stability_evidence
 from validation.cases.wheel import distance_evidence, half_space_evidence, regions_evidence, spectrum_evidence
 from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY
 from validation.cases.wheel.features import PLATEAU
@@ -344,22 +343,6 @@ def test_limits_and_times_are_counted():
     assert found["precision-summary"].endswith("cheapest on 1 of 1 charts")
     assert found["precision"].endswith("cheapest on 0 of 1 charts")
     assert precision_claims.headlines([]) == {}
-
-
-@pytest.mark.parametrize(
-    ("verdict", "stable", "rough"),
-    [
-        (AGREE, "unstable where theory says, and steps", "Velocity Verlet keeps the energy; springs"),
-        (DIFFER, "does not become unstable", "Velocity Verlet does not keep the energy"),
-        (UNDECIDED, "says is open", "Whether velocity Verlet keeps the energy is open"),
-    ],
-)
-def test_titles_of_time_stepping_have_the_status_of_their_claims(verdict, stable, rough):
-    claims = [claim_with(verdict)] * 4
-    found = stability_evidence.headlines(claims)
-    assert stable in found["wheel_stability"] and stable in stability_evidence.finding(claims)
-    assert found["wheel_stability-rough"].startswith(rough)
-    assert "lift off" not in stability_evidence.headlines(claims[:3])["wheel_stability-rough"]
 
 
 def test_the_title_of_model_selection_has_its_coverage_and_what_it_saves_or_loses():

@@ -47,6 +47,11 @@ def test_facets_have_an_axis_each_with_their_rows_alone():
     np.testing.assert_array_equal(axes[1].lines[0].get_ydata(), [7, 8, 9])
 
 
+def test_places_along_x_are_marked():
+    (axis,) = drawn(Curve("level", "bem", label="b"), at=(1.5, 3.0))
+    assert [line.get_xdata()[0] for line in axis.lines[:2]] == [1.5, 3.0]
+
+
 def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
     zero = Table("level", {**{name: column[:3] for name, column in TABLE.columns.items()}, "value": [1.0, 0.0, 2.0]})
     (axis,) = draw(

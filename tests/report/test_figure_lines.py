@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.container import ErrorbarContainer
-from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Table, table_of
 from validation.cases.rolling.input_spectrum_numbers import NAMES
@@ -33,7 +32,6 @@ from validation.report.figures import (
     wheel_3d,
     wheel_distance,
     wheel_regions,
-    wheel_stability,
 )
 from validation.report.figures import mdr_limits as mdr_limits_figure
 from validation.report.figures import rolling as rolling_figure
@@ -513,35 +511,6 @@ def test_lines_of_region_2():
     a = spectra["A [(m/s2)2 s]"]
     drawn(by_speed, {"3": a[:2], "1": a[2:]})
     np.testing.assert_allclose(valley.get_lines()[0].get_ydata(), speeds["valley [dB]"])
-
-
-def test_lines_of_rounds_and_of_lift_off():
-    rounds = Made({"scheme": np.repeat(["velocity Verlet", "explicit Euler"], 3), "laps": [1.0, 2.0, 3.0] * 2})
-    axis = plain_axis()
-    wheel_stability._laps(axis, rounds)
-    expected = {}
-    for name in ("velocity Verlet", "explicit Euler"):
-        mine = rounds.where(scheme=name)
-        for what in ("free vibration", "mean square acceleration"):
-            value = np.exp(mine[f"{what}, log over first tenth"])
-            expected[f"{name}, {what}"] = value, (value * mine[f"{what}, half-width"],) * 2
-    drawn(axis, expected)
-    lift = Made({"sweep": np.repeat(["height", "load"], 3)})
-    airborne, highest = plain_axis(), plain_axis()
-    wheel_stability._lift(airborne, highest, lift)
-    of = {sweep: lift.where(sweep=sweep) for sweep in ("height", "load")}
-    in_the_air, forces = {}, {}
-    for sweep, mine in of.items():
-        in_the_air[f"{sweep} changed"] = mine["time airborne"]
-        in_the_air[f"linear force below zero, {sweep}"] = mine["time airborne, linear"]
-        forces[f"{sweep} changed"] = mine["highest force [F_N]"]
-        forces[f"1 + largest linear tension, {sweep}"] = 1 + mine["deepest linear pull [F_N]"]
-    drawn(airborne, in_the_air)
-    drawn(highest, forces)
-
-
-def plain_axis():
-    return Figure().subplots()
 
 
 def test_lines_of_iterations():

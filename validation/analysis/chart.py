@@ -35,7 +35,7 @@ class Panel:
 
     facet: a column, a panel for each of its values; log: the axes that are logarithmic; decades: of y below the largest
     value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade, lines: of y; downward:
-    from the largest x on; legend: its place.
+    from the largest x on; legend: its place; at: of x, dotted.
     """
 
     x: str
@@ -53,6 +53,7 @@ class Panel:
     lines: tuple[float, ...] = ()
     downward: bool = False
     legend: str = ""
+    at: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -66,6 +66,8 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         axis.axhspan(*panel.shade, color="#000000", alpha=0.07, linewidth=0)
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
+    for x in panel.at:
+        axis.axvline(x, **GUIDE)
     for curve in panel.curves:
         families = list(_families(curve, _rows(evidence, curve, facet)))
         for i, (values, mine) in enumerate(families):
