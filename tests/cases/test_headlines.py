@@ -8,7 +8,6 @@ from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks.solvers import claims as solver_claims
 from validation.benchmarks.work_precision import claims as precision_claims
 from validation.cases.exact import geike, hertz, westergaard
-from validation.cases.limits import evidence as limits_evidence
 from validation.cases.punch import area_gap_rolloff_evidence, bandwidth_evidence, normalisation
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, GAP
 from validation.cases.rail import contact_filter, ellipse, line_convention, rail_dynamic_evidence, rough_rail
@@ -332,10 +331,8 @@ def test_titles_of_closed_forms_have_the_status_of_their_claims(verdict, sphere,
     assert ("yes" in geike.finding([claim, other])) == (verdict is AGREE)
 
 
-def test_limits_and_times_are_counted():
+def test_times_are_counted():
     mixed = [number(verdict, at=i) for i, verdict in enumerate((AGREE, DIFFER, UNDECIDED, AGREE))]
-    assert limits_evidence.predicted(mixed).startswith("2 of 4 limits")
-    assert limits_evidence.warned_of(mixed).endswith("rightly at 2 of 4")
     assert solver_claims.headline(mixed) == "Our solver is the fastest on 2 of 4 problems, undecided on 1"
     assert solver_claims.headline(mixed[:2]) == "Our solver is the fastest on 1 of 2 problems"
     times = [number(AGREE, model=precision_claims.UP_TO), number(DIFFER, model=precision_claims.FROM)]

@@ -33,8 +33,7 @@ from validation.analysis.evidence import Verdict
 from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
-from validation.cases.limits import isotropy
-from validation.cases.limits import sweep as limits
+from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
 from validation.cases.rail import ellipse as rail_ellipse
 from validation.cases.rail import filters as rail_filters
@@ -50,7 +49,14 @@ from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
-from validation.simulation import equivalent_displacement, free_vibration, indentation, integrators, rough_punch
+from validation.simulation import (
+    equivalent_displacement,
+    free_vibration,
+    indentation,
+    integrators,
+    limits_of_springs,
+    rough_punch,
+)
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.rail_strip import PowerLawGround
@@ -313,7 +319,7 @@ FAULTS = {
         functools.partial(test_limits.test_crossings_of_a_power_law, "above"),
     ),
     "factor 4 lost over a stretched surface": (
-        (isotropy, "response", scaled(rolling_theory.response, 0.5)),
+        (limits_of_springs, "response", scaled(rolling_theory.response, 0.5)),
         test_limits.test_a_stretched_surface_by_another_quadrature,
     ),
     "factor 2 lost in the periodic symbol, seen by images": (

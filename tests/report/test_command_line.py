@@ -16,7 +16,7 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
-from validation.analysis.contents import as_csv, as_json
+from validation.analysis.contents import as_csv, as_json, csv_name
 from validation.analysis.evidence import Role
 from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
@@ -180,7 +180,7 @@ def files_of(name, evidence):
     """A CSV for each table that is not played, a figure for each caption, one of each at least, and a WAV a sound."""
     assert evidence.tables and name in evidence.captions
     played = evidence.sounds.table if evidence.sounds else None
-    data = {f"data/{name}-{table.name}.csv" for table in evidence.tables if table.name != played}
+    data = {f"data/{csv_name(name, table.name)}" for table in evidence.tables if table.name != played}
     sounds = {f"sounds/{name}-{sound.name}.wav" for sound in evidence.sounds.tracks} if evidence.sounds else set()
     pictures = {f"figures/{figure}.svg" for figure in evidence.captions}
     return {"results.json", *data, *pictures, *sounds}
@@ -200,7 +200,7 @@ def read_back_whole(folder):
     assert json.loads(as_json(results_of(kept, "quick"))) == {name: said[name] for name in ("profile", "cases")}
     (section,) = kept
     assert section.files == contents(folder, "data/*.csv", "sounds/*.wav")
-    tables = {f"data/{section.name}-{table.name}.csv": as_csv(table) for table in section.evidence.tables}
+    tables = {f"data/{csv_name(section.name, table.name)}": as_csv(table) for table in section.evidence.tables}
     assert tables == contents(folder, "data/*.csv")
 
 
@@ -432,7 +432,7 @@ def test_an_executor_that_is_none_is_exit_2(executor, tmp_path, capsys):
 @pytest.mark.parametrize("figure", ["hertz", "hertz-part"])
 def test_a_figure_that_nothing_draws_is_named(figure, monkeypatch):
     monkeypatch.delattr(hertz_figure, "draw")
-    with pytest.raises(ValueError, match=rf"figure '{figure}' .* validation/report/figures/hertz\.py"):
+    with pytest.raises(ValueError, match=rf"figure '{figure}' .* report/figures/hertz\.py"):
         drawing(figure)
 
 
@@ -442,7 +442,7 @@ def test_a_case_without_its_figure_file_ends_before_the_first_solve(tmp_path, mo
 
     monkeypatch.setitem(CASES, "moon", replace(CASES["hertz"], name="moon", run=solved))
     assert report("--only", "moon", "--out", str(tmp_path / "out")) == command.Exit.BAD_INPUT
-    assert "validation/report/figures/moon.py" in capsys.readouterr().err
+    assert "report/figures/moon.py" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 

@@ -20,7 +20,6 @@ from validation.report.figures import (
     fractal_punch,
     geike,
     hertz,
-    limits,
     normalisation,
     precision,
     reduced_models,
@@ -513,22 +512,6 @@ def test_lines_of_region_2():
     np.testing.assert_allclose(valley.get_lines()[0].get_ydata(), speeds["valley [dB]"])
 
 
-def test_lines_of_iterations():
-    keys = {"solver": np.repeat(["solve", "solve_polonsky_keer"], 4), "scene": np.tile(np.repeat(["a", "b"], 2), 2)}
-    table = Made({**keys, "cells": [32, 64] * 4})
-    residual = Made(keys)
-    axes = limits.draw_solver(made(iterations=table, residual=residual)).axes
-    pairs = [(solver, scene) for solver in ("solve", "solve_polonsky_keer") for scene in ("a", "b")]
-    drawn(axes[0], {f"{v}, {s}": table.where(solver=v, scene=s)["iterations"] for v, s in pairs})
-    for axis, measure in zip(axes[1:], ("load", "stiffness", "pressure"), strict=True):
-        assert axis.get_title() == f"true error: {measure}"
-        for line, (solver, scene) in zip(axis.get_lines(), pairs, strict=False):
-            mine = residual.where(solver=solver, scene=scene)
-            np.testing.assert_allclose(line.get_ydata(), mine[f"error of the {measure}"])
-            assert look(line)[:3] == look(axes[0].get_lines()[pairs.index((solver, scene))])[:3]
-
-
-@pytest.mark.slow
 def test_marks_of_methods_are_those_of_the_legend():
     """Each line of a chart looks as its name does, and no two names look alike."""
     methods = list(precision.STYLES)

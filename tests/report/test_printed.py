@@ -23,12 +23,9 @@ from validation.analysis.evidence import (
     columns,
     if_confirmed,
     plus_minus,
-    table_of,
     with_reference,
 )
 from validation.benchmarks.work_precision.pareto import format_error, format_seconds
-from validation.cases.limits import evidence as limits_evidence
-from validation.cases.limits import numbers as limits_numbers
 from validation.cases.punch import fractal_punch_decades, fractal_punch_text
 from validation.cases.rolling import claims as rolling_claims
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
@@ -389,22 +386,6 @@ def test_bands_within_1_and_3_db_are_counted():
     table = rolling_tables.bands_within(case, [mine])
     assert table.columns["springs, in the band"] == ["1 and 2 of 3"]
     assert table.columns["springs, below the band"] == ["1 and 1 of 1"]
-
-
-def test_limits_print_the_numbers_they_are_given():
-    n = number(0.123, quantity="exponent", model="solve", where={"scene": "sphere"}, sample=0.0456)
-    assert limits_evidence._on_iterations([n]).endswith("to the power of: solve, sphere 0.12 ± 0.05.")
-    residuals = table_of(
-        "residual",
-        [
-            {"solver": solver, "residual": 1e-3, **{f"error of the {m}": f * 1e-3 for m in limits_evidence.MEASURES}}
-            for solver, f in (("solve", 2.0), ("solve_polonsky_keer", 7.0))
-        ],
-    )
-    honest = [limits_numbers.residual_number(residuals, measure) for measure in limits_evidence.MEASURES]
-    assert [n.value for n in honest] == pytest.approx([7.0] * 3)
-    text = limits_evidence._on_residuals(residuals, honest)
-    assert "c = load 7, stiffness 7, pressure 7" in text and "alone load 2, stiffness 2, pressure 2." in text
 
 
 def test_the_plateau_is_printed_in_shares_of_its_power():

@@ -102,7 +102,8 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if "x" in panel.log:
         low, high = axis.get_xlim()
         steps = (1, 2, 5) if high < 300 * low else (1,)
-        powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
+        first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+        powers = range(first, last, max(1, (last - first) // 4))
         tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
     if panel.downward:
         axis.invert_xaxis()

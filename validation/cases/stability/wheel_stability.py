@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
-from validation.analysis.series import Estimates, Margin, Series, Where
+from validation.analysis.series import Estimates, Series, Where, single
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, mean_estimate
 from validation.analysis.study import Outcomes
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -130,24 +130,6 @@ REFUSED = (
 THEORY = "linear theory"
 
 
-def judged(
-    quantity: str,
-    model: str,
-    value: float | Estimate,
-    within: float,
-    of: str,
-    reason: str,
-    reference: float = 0.0,
-    where: Where | None = None,
-    *,
-    role: Role = Role.CRITERION,
-    unit: str = "-",
-) -> Series:
-    """A single number. within: the tolerance, with its reason; of: the source of the reference."""
-    margin = Margin(tolerance=within, reason=reason, source=of, role=role)
-    return Series(quantity, model, (value,), where=where or {}, reference=reference, unit=unit, margin=margin)
-
-
 def series(result: Outcomes) -> list[Series]:
     """Schemes against what is known of them, energy of long runs, springs too far apart, forces at lift-off."""
     case, refused = result.case, float(np.mean([bool(told) for told in result["refusals"].values()]))
@@ -159,7 +141,7 @@ def series(result: Outcomes) -> list[Series]:
         *laps_over_tracks(case, result["laps"]),
         *coarse_springs(result["spacing"]),
         *lift_off(case, result["lift"]),
-        judged(REFUSED, "", refused, 0.0, source, "exact: every call counts", 1.0),
+        single(REFUSED, "", refused, 0.0, source, "exact: every call counts", 1.0),
     ]
 
 
@@ -178,7 +160,7 @@ def linear_vibration(name: str, x: FloatArray, found: Outcome) -> Iterator[Serie
     ):
         yield Series(quantity, name, steps[kept], along=OMEGA_DT, at=x[kept])
         yield Series(quantity, f"theory of {name}", theory[kept], along=OMEGA_DT, at=x[kept])
-    one = partial(judged, model=name, where={"contact": LINEAR})
+    one = partial(single, model=name, where={"contact": LINEAR})
     growth = np.abs(np.log(found["growth"] / np.abs(exact))).max()
     for quantity, largest in ((GROWTH, growth), (ANGLE, turned[below].max())):
         source = "eigenvalue of one step of y'' = -omega^2 y"
@@ -196,7 +178,7 @@ def linear_vibration(name: str, x: FloatArray, found: Outcome) -> Iterator[Serie
         "the extremes may lie between steps, (omega dt)^2; for Runge-Kutta the change is so small that rounding shows"
     )
     over, where = found["change"][0] / by_theory[0], {"contact": LINEAR, OMEGA_DT: x[0]}
-    yield judged("change of the energy in one period, over theory", name, over, within, source, reason, 1.0, where)
+    yield single("change of the energy in one period, over theory", name, over, within, source, reason, 1.0, where)
 
 
 def hertz_vibration(case: WheelStability, found: Mapping[str, Sequence[Outcome]]) -> Iterator[Series]:
@@ -216,17 +198,17 @@ def hertz_vibration(case: WheelStability, found: Mapping[str, Sequence[Outcome]]
             if smooth and name in (VERLET, KUTTA):
                 order, (expected, _) = float(np.polyfit(np.log(x[:3]), np.log(error[:3]), 1)[0]), ORDERS[name]
                 source, quantity = "order of the scheme", f"order of the {PERIOD}"
-                yield judged(quantity, name, order, 2 * step, source, reason, expected, where=where)
+                yield single(quantity, name, order, 2 * step, source, reason, expected, where=where)
         (one, two), (first, second) = x[:2] ** 2, periods[VERLET][:2]
         limit, part = float((two * first - one * second) / (two - one)), 0.1 if smooth else 0.5
         within, source = float(part * abs(limit - first)), "integral of the energy between the turning points"
         after = f"terms after dt^2, less than {part:g} of the correction; that part is larger where the contact opens"
-        yield judged(LIMIT, VERLET, limit, within, source, after, exact, where)
+        yield single(LIMIT, VERLET, limit, within, source, after, exact, where)
         if smooth:
             late, early = (float(found[VERLET][0][half][i]) for half in ("late", "early"))
             source = "no drift: a symplectic scheme conserves a quantity close to the energy"
             shows = "extremes lie between steps; a drift by a twentieth of the oscillation of the energy would show"
-            yield judged(HALVES, VERLET, late / early, 0.05, source, shows, 1.0, where)
+            yield single(HALVES, VERLET, late / early, 0.05, source, shows, 1.0, where)
 
 
 def long_runs(case: WheelStability, found: Mapping[str, Outcome]) -> Iterator[Series]:
@@ -248,12 +230,12 @@ def long_runs(case: WheelStability, found: Mapping[str, Outcome]) -> Iterator[Se
             source = "H + (omega dt)^2 (v^2 V'' / 12 - V'^2 / 24)"
             reason = "four standard deviations of a random walk of rounding errors, and the terms of order (omega dt)^4"
             where: Where = {"contact": HERTZ, "steps": steps, RELEASE: highest}
-            yield judged(DRIFT, VERLET, free.fit_drift(kept), 4 * walk + x**4, source, reason, where=where)
+            yield single(DRIFT, VERLET, free.fit_drift(kept), 4 * walk + x**4, source, reason, where=where)
     highest, gained = case.long_highest[0], np.log1p(found[EULER]["energy"][:, 0] - 1)
     amplitude, source = (highest - 1) * math.exp(growth[-1] / 2), "|lambda|^2 = 1 + (omega dt)^2"
     reason = "square of the largest amplitude over d_N: to that order a Hertz contact is not linear"
     over, where = float((gained[-1] - gained[0]) / (growth[-1] - growth[0])), {"contact": HERTZ, RELEASE: highest}
-    yield judged(EULERS, EULER, over, amplitude**2, source, reason, 1.0, where)
+    yield single(EULERS, EULER, over, amplitude**2, source, reason, 1.0, where)
 
 
 def laps_over_tracks(case: WheelStability, found: Mapping[str, Outcome]) -> Iterator[Series]:
@@ -284,7 +266,7 @@ def laps_over_tracks(case: WheelStability, found: Mapping[str, Outcome]) -> Iter
             f"theory, and the second harmonic, which {turns:.3g} turns of a tenth mix with the first"
         )
         where: Where = {"contact": "springs", "laps": case.laps}
-        yield judged(LAPS.format(energy), name, last, within, source, reason, theory, where)
+        yield single(LAPS.format(energy), name, last, within, source, reason, theory, where)
 
 
 def coarse_springs(spacing: Mapping[float, Sequence[Outcome]]) -> Iterator[Series]:
@@ -316,10 +298,10 @@ def coarse_springs(spacing: Mapping[float, Sequence[Outcome]]) -> Iterator[Serie
             "five standard deviations of the part of the waves that the moving ends of the contact make on a track; "
             "each spring there has the weight phi(gap / h_rms)"
         )
-        yield judged(SUM, "springs", off[worst], 5 * left[worst], source, reason, where=there, unit="dB")
+        yield single(SUM, "springs", off[worst], 5 * left[worst], source, reason, where=there, unit="dB")
         last, source = left_open[QUARTER], "the condition dx < lambda / 4"
         reason = "1 dB: z / sin(z) with z = pi / 4 is 0.91 dB at the shortest wave alone"
-        yield judged(OCTAVE, "springs", last, 1.0, source, reason, where=at_a_quarter, role=Role.FINDING, unit="dB")
+        yield single(OCTAVE, "springs", last, 1.0, source, reason, where=at_a_quarter, role=Role.FINDING, unit="dB")
 
 
 def lift_off(case: WheelStability, found: Sequence[tuple[springs.LiftOff, Outcome]]) -> Iterator[Series]:
@@ -329,10 +311,10 @@ def lift_off(case: WheelStability, found: Sequence[tuple[springs.LiftOff, Outcom
     lowest = min(float(np.minimum(o["lowest"], 0.0).min()) for _, o in found)
     balance = max(float(np.abs(o["mean"] - 1 + o["momentum"]).max()) for _, o in found)
     source, reason = "springs carry no tension", "rounding of g - F / M"
-    yield judged(LOWEST, "springs", lowest, 4 * EPSILON, source, reason, role=Role.IDENTITY)
+    yield single(LOWEST, "springs", lowest, 4 * EPSILON, source, reason, role=Role.IDENTITY)
     source = "momentum: F T - F_N T = M (v_0 - v_end); Verlet counts the first and the last acceleration half"
     reason = "rounding: one unit in the last place of the highest force in each step"
-    yield judged(IMBALANCE, "springs", balance, EPSILON * highest * steps, source, reason, role=Role.IDENTITY)
+    yield single(IMBALANCE, "springs", balance, EPSILON * highest * steps, source, reason, role=Role.IDENTITY)
     pulled = replace(MARGINS["lift-off"], source="(14.11): the largest tension exceeds F_N, on the same tracks")
     for sweep in ("height", "load"):
         mine = [(p.track.rms / p.wheel.approach, o) for p, o in found if p.sweep == sweep]

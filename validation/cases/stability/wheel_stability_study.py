@@ -1,6 +1,7 @@
 """What the limits of time stepping and of springs show, as data."""
 
 import math
+from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
@@ -21,13 +22,13 @@ def of_all_schemes(quantity: str) -> tuple[Curve, ...]:
 
 def in_the_air(quantity: str, title: str) -> Panel:
     """Springs where the height or the load changes, each beside linear theory."""
-    styles = {"height": ("bem", "exact"), "load": ("mdr", "mdr line")}
+    styles = {("springs", "height"): "bem", ("springs", "load"): "mdr"}
+    styles |= {(shown.THEORY, "height"): "exact", (shown.THEORY, "load"): "mdr line"}
     curves = tuple(
         Curve(quantity, model, style, f"{model}, {sweep} changed", of={"sweep": sweep})
-        for i, model in enumerate(("springs", shown.THEORY))
-        for sweep, style in ((sweep, pair[i]) for sweep, pair in styles.items())
+        for (model, sweep), style in styles.items()
     )
-    return Panel(shown.HEIGHT, quantity, curves, title, log="xy", legend="lower right")
+    return LOG(shown.HEIGHT, quantity, curves, title)
 
 
 def refused(result: Outcomes) -> tuple[Table]:
@@ -35,123 +36,72 @@ def refused(result: Outcomes) -> tuple[Table]:
     return (Table("refusals", {"call": calls, "answer": [a or "none: the call succeeded" for a in answers]}),)
 
 
-SCHEMES = Chart(
-    "wheel_stability",
+LOG = partial(Panel, log="xy", legend="lower right")
+OF_EACH = partial(Curve, by=(shown.RELEASE,))
+OF_HEIGHTS = partial(Curve, by=(shown.HEIGHT,))
+WAVES = (math.pi / 2, math.pi)
+SCHEMES = (
+    LOG(shown.OMEGA_DT, "relative error", of_all_schemes(shown.PERIOD), "period, linear"),
+    LOG(shown.OMEGA_DT, "relative change", of_all_schemes(shown.CHANGE), "energy in one period"),
+    Panel(
+        shown.OMEGA_DT,
+        "growth in one step",
+        of_all_schemes(shown.STEP),
+        "near the limits",
+        log="y",
+        xlim=(0.4, 3.3),
+        ylim=(0.2, 10),
+        at=(2.0, math.sqrt(8)),
+        legend="upper left",
+    ),
+    LOG(
+        shown.OMEGA_DT,
+        "relative error",
+        (OF_EACH(shown.ON_HERTZ, shown.VERLET), OF_EACH(shown.ON_HERTZ, shown.KUTTA, "open", "_")),
+        "period, Hertz contact",
+    ),
+)
+ENERGY = (
+    Curve(shown.LONG, shown.THEORY, "thick", shown.THEORY),
+    OF_EACH(shown.LONG, shown.VERLET),
+    OF_EACH(shown.LONG, shown.EULER, "open", "_"),
+)
+LAST_OCTAVE = (
+    OF_HEIGHTS(shown.OCTAVE + " [dB]", "springs"),
+    OF_HEIGHTS(shown.OCTAVE + " [dB]", shown.THEORY, "dotted", "_"),
+)
+GROWTH = (
+    Curve(shown.GROWN, shown.THEORY, "exact", shown.THEORY),
+    *(
+        Curve(shown.GROWN, scheme, style, f"{scheme}, {energy}", of={"of": energy}, bars=True)
+        for scheme, energy, style in (
+            (shown.VERLET, shown.FREE, "bem"),
+            (shown.VERLET, shown.SQUARE, "bem, few cells"),
+            (shown.EULER, shown.FREE, "crosses"),
+            (shown.EULER, shown.SQUARE, "mdr"),
+        )
+    ),
+)
+LONGER = (
+    Panel("steps", "|change of energy|", ENERGY, "very long runs", log="y", ylim=(1e-15, 1e4), legend="center right"),
+    Panel(shown.WIDTH, "error [dB]", LAST_OCTAVE, "last one-third octave", at=WAVES, legend="upper left"),
+    LOG(shown.WIDTH, "error over fluctuation", (OF_HEIGHTS(shown.SPACED),), "force against spacing", at=WAVES),
+    in_the_air(shown.AIRBORNE, "in the air"),
+    in_the_air(shown.HIGHEST, "impacts"),
+    Panel("laps", "over the first tenth", GROWTH, "springs, rough track", log="", legend="upper left"),
+)
+OF_SCHEMES = (
     "Free vibration; thin lines: theory. (a) Error of the period, each scheme up to its limit. (b) Largest change of "
     "the energy within one period. (c) Growth in one step near the limits, dotted. (d) Error of the period on a Hertz "
-    "contact: full, velocity Verlet; dotted, Runge-Kutta; contact is lost above a release of " + f"{LIFT_OFF:.3g} d_N.",
-    (
-        Panel(
-            shown.OMEGA_DT,
-            "relative error",
-            of_all_schemes(shown.PERIOD),
-            "period, linear",
-            log="xy",
-            legend="lower right",
-        ),
-        Panel(
-            shown.OMEGA_DT,
-            "relative change",
-            of_all_schemes(shown.CHANGE),
-            "energy in one period",
-            log="xy",
-            legend="lower right",
-        ),
-        Panel(
-            shown.OMEGA_DT,
-            "growth in one step",
-            of_all_schemes(shown.STEP),
-            "near the limits",
-            log="y",
-            xlim=(0.4, 3.3),
-            ylim=(0.2, 10),
-            at=(2.0, math.sqrt(8)),
-            legend="upper left",
-        ),
-        Panel(
-            shown.OMEGA_DT,
-            "relative error",
-            (
-                Curve(shown.ON_HERTZ, shown.VERLET, by=(shown.RELEASE,)),
-                Curve(shown.ON_HERTZ, shown.KUTTA, "open", "_", by=(shown.RELEASE,)),
-            ),
-            "period, Hertz contact",
-            log="xy",
-            legend="lower right",
-        ),
-    ),
-    columns=2,
-    width=9.0,
-    height=6.6,
+    "contact: full, velocity Verlet; dotted, Runge-Kutta; contact is lost above a release of " + f"{LIFT_OFF:.3g} d_N."
 )
-LONGER = Chart(
-    "wheel_stability-rough",
+OF_LONGER = (
     "(a) Change of the energy over {c.long_steps} steps: full, velocity Verlet; dotted, explicit Euler. (b) Error of "
     "the last one-third octave by the spacing of springs; upright: a quarter of the shortest wave, and the largest "
     "spacing that represents it. (c) Error of the force on the same tracks. (d) Time airborne, where it is not zero, "
     "and (e) highest force, by height and by load; lines: (14.11). (f) Laps over rough tracks: energy of the free "
     "vibration and, open, mean square acceleration, 95 % of {c.wheels} wheels. Grey in (a), dotted in (b), line in "
-    "(f): linear theory.",
-    (
-        Panel(
-            "steps",
-            "|change of energy|",
-            (
-                Curve(shown.LONG, shown.THEORY, "thick", shown.THEORY),
-                Curve(shown.LONG, shown.VERLET, by=(shown.RELEASE,)),
-                Curve(shown.LONG, shown.EULER, "open", "_", by=(shown.RELEASE,)),
-            ),
-            "very long runs",
-            log="y",
-            ylim=(1e-15, 1e4),
-            legend="center right",
-        ),
-        Panel(
-            shown.WIDTH,
-            "error [dB]",
-            (
-                Curve(shown.OCTAVE + " [dB]", "springs", by=(shown.HEIGHT,)),
-                Curve(shown.OCTAVE + " [dB]", shown.THEORY, "dotted", "_", by=(shown.HEIGHT,)),
-            ),
-            "last one-third octave",
-            at=(math.pi / 2, math.pi),
-            legend="upper left",
-        ),
-        Panel(
-            shown.WIDTH,
-            "error over fluctuation",
-            (Curve(shown.SPACED, by=(shown.HEIGHT,)),),
-            "force against spacing",
-            log="xy",
-            at=(math.pi / 2, math.pi),
-            legend="lower right",
-        ),
-        in_the_air(shown.AIRBORNE, "in the air"),
-        in_the_air(shown.HIGHEST, "impacts"),
-        Panel(
-            "laps",
-            "over the first tenth",
-            (
-                Curve(shown.GROWN, shown.THEORY, "exact", shown.THEORY),
-                *(
-                    Curve(shown.GROWN, scheme, style, f"{scheme}, {energy}", of={"of": energy}, bars=True)
-                    for scheme, energy, style in (
-                        (shown.VERLET, shown.FREE, "bem"),
-                        (shown.VERLET, shown.SQUARE, "bem, few cells"),
-                        (shown.EULER, shown.FREE, "crosses"),
-                        (shown.EULER, shown.SQUARE, "mdr"),
-                    )
-                ),
-            ),
-            "springs, rough track",
-            log="",
-            legend="upper left",
-        ),
-    ),
-    claims=(1, 2, 3),
-    columns=2,
-    width=9.0,
-    height=9.2,
+    "(f): linear theory."
 )
 STUDY = Study(
     title="Where time stepping and springs fail",
@@ -188,7 +138,10 @@ STUDY = Study(
             quantity=shown.LIFTED,
         ),
     ),
-    charts=(SCHEMES, LONGER),
+    charts=(
+        Chart("wheel_stability", OF_SCHEMES, SCHEMES, columns=2, width=9.0, height=6.6),
+        Chart("wheel_stability-rough", OF_LONGER, LONGER, claims=(1, 2, 3), columns=2, width=9.0, height=9.2),
+    ),
     tables=refused,
     printed=("refusals",),
 )
