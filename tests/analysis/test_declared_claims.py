@@ -96,6 +96,13 @@ def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():
     )
 
 
+def test_of_many_models_at_once_it_is_counted_how_many_agree():
+    claim = replace(CLAIM, along="", counted=True)
+    judged = claim.judged([*by_height(AGREE, DIFFER), *by_height(AGREE, UNDECIDED, model="other")])
+    assert judged.answer == "No: +3.00 ± 0.10 dB at h/d = 1 (2 of 4 agree)."
+    assert claim.headline(judged) == "It: 2 of 4"
+
+
 def test_a_worst_point_is_said_to_be_at_its_place_and_not_at_a_range():
     worst = point(3.0, 0.1, quantity="level", model="m", where={"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0})
     assert Claim(says="It is so.").judged([worst]).answer == "No: +3.00 ± 0.10 dB at h/d = 1, q a = 2."

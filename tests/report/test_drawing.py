@@ -84,6 +84,11 @@ def test_values_may_be_places_on_the_horizontal_axis_and_intervals_stand_alone()
     assert not axis.lines and {*axis.collections[0].get_paths()[0].vertices[:, 1]} >= {0.9, 1.3, 3.3}
 
 
+def test_places_along_x_are_marked():
+    (axis,) = drawn(Curve("level", "bem", label="b"), at=(1.5, 3.0))
+    assert [line.get_xdata()[0] for line in axis.lines[:2]] == [1.5, 3.0]
+
+
 def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
     zero = Table("level", {**{name: column[:3] for name, column in TABLE.columns.items()}, "value": [1.0, 0.0, 2.0]})
     (axis,) = draw(

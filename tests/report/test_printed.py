@@ -23,12 +23,9 @@ from validation.analysis.evidence import (
     columns,
     if_confirmed,
     plus_minus,
-    table_of,
     with_reference,
 )
 from validation.benchmarks.work_precision.pareto import format_error, format_seconds
-from validation.cases.limits import evidence as limits_evidence
-from validation.cases.limits import numbers as limits_numbers
 from validation.cases.punch import fractal_punch_decades, fractal_punch_text
 from validation.cases.wheel import distance_evidence as wheel_distance_evidence
 from validation.cases.wheel import (
@@ -317,22 +314,6 @@ def test_the_sample_that_would_decide():
     assert decided_by(replace(n, sample=5.1)) == "needs over 100 times the sample"
     assert decided_by(replace(n, grid=0.5)) == "grid error too large"
     assert str(fractal_punch_text.verdict(n)).endswith(f"undecided; {decided_by(n)}")
-
-
-def test_limits_print_the_numbers_they_are_given():
-    n = number(0.123, quantity="exponent", model="solve", where={"scene": "sphere"}, sample=0.0456)
-    assert limits_evidence._on_iterations([n]).endswith("to the power of: solve, sphere 0.12 ± 0.05.")
-    residuals = table_of(
-        "residual",
-        [
-            {"solver": solver, "residual": 1e-3, **{f"error of the {m}": f * 1e-3 for m in limits_evidence.MEASURES}}
-            for solver, f in (("solve", 2.0), ("solve_polonsky_keer", 7.0))
-        ],
-    )
-    honest = [limits_numbers.residual_number(residuals, measure) for measure in limits_evidence.MEASURES]
-    assert [n.value for n in honest] == pytest.approx([7.0] * 3)
-    text = limits_evidence._on_residuals(residuals, honest)
-    assert "c = load 7, stiffness 7, pressure 7" in text and "alone load 2, stiffness 2, pressure 2." in text
 
 
 def test_the_plateau_is_printed_in_shares_of_its_power():
