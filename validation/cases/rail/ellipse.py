@@ -13,6 +13,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, Where, only
 from validation.analysis.study import Outcomes, Study
+from validation.analysis.wording import decibels
 from validation.cases.rail.filters import (
     ACROSS,
     COUNTED,
@@ -142,6 +143,7 @@ STUDY = Study(
             says="A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB.",
             short="A circle of the same area for the ellipse",
             quantity=EXCESS,
+            printed=decibels,
         ),
     ),
     charts=(
@@ -181,7 +183,10 @@ STUDY = Study(
             claims=(1,),
         ),
     ),
-    matrices=tuple(Matrix(name=one, quantity=one, rows=(CROWN,), columns=GROUND) for one in (EXCESS, WEIGHTED)),
+    matrices=(
+        Matrix(name=EXCESS, quantity=EXCESS, rows=(CROWN,), columns=GROUND, printed=decibels),
+        Matrix(name=WEIGHTED, quantity=WEIGHTED, rows=(CROWN,), columns=GROUND),
+    ),
 )
 CASE = Case(
     name="ellipse",

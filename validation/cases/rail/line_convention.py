@@ -15,6 +15,7 @@ from validation.analysis.series import Margin, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
 from validation.analysis.study import Outcomes, Study
+from validation.analysis.wording import decibels
 from validation.cases.rail.filters import counted, decibel, linear_filter, scene_of
 from validation.cases.rail.published import RailWheel
 from validation.engine.engine import SERIAL, Engine
@@ -162,12 +163,14 @@ STUDY = Study(
             short="Mean of heights over one line",
             quantity=HEIGHTS,
             along=GROUND,
+            printed=decibels,
         ),
         Claim(
             says="The energy mean of the spectra of parallel lines has the levels of one line within 1 dB.",
             short="energy mean over one line",
             quantity=ENERGY,
             along=GROUND,
+            printed=decibels,
         ),
         Claim(says="Levels from the energy mean of three lines scatter as those of one line do.", quantity=SCATTER),
     ),

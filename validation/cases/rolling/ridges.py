@@ -67,7 +67,7 @@ def run(case: RollingOverRidges, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, dict(zip(keys, responses, strict=True)), unconverged)
 
 
-RESPONSE, IMAGINARY = "response times q a, over 2 E* a", "imaginary part of the response times q a, over 2 E* a"
+RESPONSE, IMAGINARY = "response of the force times q a", "imaginary part of the response times q a"
 ERROR, BOUND, LARGEST = "error over the envelope", "bound of the error", "largest error over the envelope"
 NEAREST, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF at a prescribed force"
 CELLS, Q, EXACT = "to a radius", "q a", "sin(q a), (14.11)"
@@ -152,6 +152,7 @@ STUDY = Study(
             short="Over ridges, springs and boundary elements beside (14.11), through its zeros, within their grids",
             quantity=NEAREST,
             model=(BEM, FULL, SPRINGS),
+            printed=lambda error: f"{error.value:.2g} of {error.tolerance:.2g} that the grid leaves",
         ),
     ),
     charts=(
@@ -162,7 +163,7 @@ STUDY = Study(
             (
                 Panel(
                     Q,
-                    RESPONSE,
+                    f"{RESPONSE}, over 2 E* a",
                     (
                         Curve(RESPONSE, EXACT, "exact", by=("model",)),
                         Curve(RESPONSE, BEM, "bem", "boundary elements", of=FINEST, apart=0.03),
