@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix, per_cent
+from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
@@ -47,6 +47,12 @@ def test_limits_from_the_last_value_on():
     assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "h/d from 1 on")
 
 
+def test_limits_along_quantities_name_those_that_agree():
+    numbers = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradient", AGREE), ("curvature", AGREE))]
+    judged = Claim(says="It is so.", along="-quantity").judged(numbers)
+    assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "in curvature, gradient")
+
+
 def test_limits_need_a_number_of_each_quantity():
     numbers = [*by_height(AGREE, DIFFER), *by_height(DIFFER, DIFFER, quantity="rms of level")[1:]]
     assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.CONTRADICTED
@@ -70,6 +76,7 @@ def test_members_are_chosen_by_quantity_model_and_conditions():
     assert chosen(model="a", where={"across": ...}) == [("a", "ridges"), ("a", "ground")]
     assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     assert chosen(model=("a", "b"), where={"across": "ridges"}) == [("a", "ridges"), ("b", "ridges")]
+    assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     both = ({"model": "b"}, {"where": {"h/d": 0.1}})
     assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
 
@@ -92,6 +99,17 @@ def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():
 def test_a_worst_point_is_said_to_be_at_its_place_and_not_at_a_range():
     worst = point(3.0, 0.1, quantity="level", model="m", where={"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0})
     assert Claim(says="It is so.").judged([worst]).answer == "No: +3.00 ± 0.10 dB at h/d = 1, q a = 2."
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "said"), [(51.0, 0.0, "350 times (350 to 350)"), (-6.0, 1.0, "0.5 times (0.45 to 0.56)")]
+)
+def test_large_ratios_have_no_exponent(value, half, said):
+    assert times(point(value, half)) == said
+
+
+def test_a_closed_form_leaves_a_difference():
+    assert off_by(point(1.0, quantity="k", model="m")) == "off by +1.0e+00 dB"
 
 
 def test_a_ratio_in_decibels_is_printed_in_per_cent():

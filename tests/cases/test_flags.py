@@ -14,8 +14,7 @@ from validation.benchmarks.work_precision import evidence as precision_evidence
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
 from validation.cases.limits.solver import Grid
-from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import bandwidth, fractal_punch, normalisation
+from validation.cases.punch import bandwidth, fractal_punch, mdr_limits, normalisation
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges

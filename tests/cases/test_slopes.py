@@ -16,7 +16,7 @@ import validation
 from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.limits import linear_filter, pressed_springs
-from validation.cases.punch import area_gap_rolloff_numbers
+from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.rolling import roughness_from_force_evidence, validity
@@ -154,11 +154,7 @@ def test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands():
     assert RailQuantity(scene, "contact-filter").lost == pytest.approx(strips * over, rel=1e-3)
     reasons = [model.estimate().reason for model in models_of(scene, "contact-filter", 0.1, 0)]
     assert any(f"h' a_x / d = {strips * over:.2g} of waves of 50 to 3.15 mm" in reason for reason in reasons)
-    case = SimpleNamespace(scene=lambda key: scene)
-    area = SimpleNamespace(value=1.0, uncertainty=0.0)
-    table = rough_rail._roughness_table(
-        SimpleNamespace(case=SimpleNamespace(keys=[("", 0.0, "")], **vars(case))), [area]
-    )
+    table = rough_rail.roughness(SimpleNamespace(keys=[("", 0.0, "")], scene=lambda key: scene))
     assert table["h' a_x / d"][0] == pytest.approx(strips * over, rel=1e-3)
     assert table[rough_rail.WAVES][0] == "50 to 3.15 mm"
 
@@ -285,8 +281,7 @@ def test_springs_are_right_where_persson_has_a_share_in_contact(name, share):
 
 def test_the_contact_fraction_of_persson_is_that_of_the_gradient():
     case = SimpleNamespace(height=1e-3, forces=(0.5, 2.0))
-    result = SimpleNamespace(case=case, bem={8: {"gradient": np.array([0.01, 0.03])}})
-    found = area_gap_rolloff_numbers.persson(result, 8, 1)
+    found = mdr_limits.persson_fractions(case, np.array([0.01, 0.03]))[1]
     assert found == pytest.approx(special.erf(math.sqrt(2) * 2e-3 / 0.02), rel=1e-9)
 
 

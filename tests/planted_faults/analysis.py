@@ -21,8 +21,8 @@ from tests.analysis import (
     test_wording,
 )
 from tests.analysis import test_spectra as test_wheel_spectra
-from validation.analysis import difference as difference_module
 from validation.analysis import multilevel, nominal_bands, over_range, spectra, statistics, wording
+from validation.analysis import series as series_module
 from validation.analysis import spectral_features as regions
 from validation.analysis.difference import difference
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
@@ -334,7 +334,7 @@ FAULTS = {
         test_error_bars_of_grids.test_the_sample_interval_of_fig_14_1,
     ),
     "sample and grid exchanged": (
-        (difference_module, "Number", sample_for_grid),
+        (series_module, "Number", sample_for_grid),
         test_error_bars_of_grids.test_intervals_of_where_mdr_must_fail,
     ),
     "sample and grid of Fig. 14.1 exchanged": (

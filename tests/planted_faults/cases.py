@@ -37,7 +37,7 @@ from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
 from validation.cases.rail import filters as rail_filters
-from validation.cases.rail import line_convention, published, rail_sound_levels
+from validation.cases.rail import line_convention, published, rail_sound
 from validation.cases.rolling import (
     force_spectrum_headlines,
     roughness_from_force,
@@ -163,11 +163,11 @@ FAULTS = {
         ),
     ),
     "a weighting of amplitudes taken twice": (
-        (rail_sound_levels, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
+        (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
         functools.partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
     ),
     "levels of all frequencies in each range": (
-        (rail_sound_levels, "filtered", lambda signal, gain: signal),
+        (rail_sound, "filtered", lambda signal, gain: signal),
         test_rail_sound.test_each_range_is_compared_alone,
     ),
     "a window of a measured sphere that ends at its contact": (

@@ -172,7 +172,7 @@ FAULTS = {
     ),
     "two signs of verdicts exchanged": (
         (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
-        test_printed.test_rows_of_the_page_are_their_numbers,
+        test_printed.test_every_verdict_has_its_word_and_sign,
     ),
     "undecided read as agree": (
         (test_printed, "if_confirmed", unless_it_differs),

@@ -9,7 +9,7 @@ from tests.scenes import test_materials
 from tests.theory import test_rolling_theory
 from validation.analysis.nominal_bands import NominalBands
 from validation.cases.limits import pressed_springs
-from validation.cases.punch import area_gap_rolloff_numbers
+from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.rolling import validity
@@ -122,7 +122,7 @@ PLACES = {
     "p over E* g of nine tenths in contact": ((pressed_springs, "FULL"), AREA),
     "p over E* g of one half in contact": ((pressed_springs, "HALF"), GAP),
     "Persson's fraction of a case": (
-        (area_gap_rolloff_numbers, "persson"),
+        (mdr_limits, "persson_fractions"),
         test_slopes.test_the_contact_fraction_of_persson_is_that_of_the_gradient,
     ),
     "the gradient of two scales": (

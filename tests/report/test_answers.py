@@ -7,11 +7,11 @@ import pytest
 
 from tests.report.test_printed import html_of, number
 from validation.analysis.evidence import Evidence, Role, Table
-from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
+from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEAN
 from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail
-from validation.cases.rail.rail_dynamic_evidence import BESIDE, RMS
+from validation.cases.rail.rail_dynamic import BESIDE, RMS
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
 from validation.cases.wheel.half_space_levels import GEIKE
@@ -363,7 +363,7 @@ def test_cells_of_the_page_are_lettered_and_link_to_their_evidence():
     assert [kind for kind, _ in cells] == ["unmeasured", "yes", "no", "yes", "unmeasured"]
     assert all(text.endswith({"unmeasured": "not measured"}.get(kind, kind)) for kind, text in cells)
     row = page[page.index('id="answer-mean-stiffness"') : page.index('id="answer-scatter"')]
-    assert 'href="#fractal_punch"' in row
+    assert 'href="pressed.html#fractal_punch"' in row
     assert 'id="fractal_punch"' in page
     assert "is MDR enough?" in row
     missing = page[page.index('id="answer-contact-filter"') : page.index('id="answer-dynamic-wheel"')]

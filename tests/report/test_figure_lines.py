@@ -19,10 +19,7 @@ from validation.cases.rolling.roughness_from_force import FILTERS
 from validation.report.figures import (
     bandwidth,
     fractal_punch,
-    geike,
-    hertz,
     limits,
-    normalisation,
     precision,
     rolling_input,
     rolling_validity,
@@ -33,7 +30,6 @@ from validation.report.figures import (
     wheel_regions,
     wheel_stability,
 )
-from validation.report.figures import mdr_limits as mdr_limits_figure
 from validation.report.figures import rolling as rolling_figure
 
 
@@ -174,61 +170,6 @@ def test_boxes_of_fig_14_1_are_the_decibels_of_the_data_with_their_verdict(verdi
     assert found["3 dB"][0][0] == pytest.approx(10 ** (3 / 20))
     near = axis.patches[0].get_extents().transformed(axis.transData.inverted())
     assert near.y1 == pytest.approx(1.03) and near.y0 == pytest.approx(1 / 1.03)
-
-
-def test_lines_of_the_sphere():
-    tables = {name: Made({"x [m]": np.arange(4.0)}) for name in ("load", "pressure", "exact-pressure")}
-    refinement = Made({"cells per contact radius": np.array([4, 8, 16])})
-    load, pressure, errors = hertz.draw(
-        made(**{**tables, "exact_pressure": tables["exact-pressure"], "refinement": refinement})
-    ).axes
-    of = tables["load"]
-    drawn(load, {"Hertz": "hertz force [N]", "boundary elements": "bem3d force [N]", "MDR": "mdr force [N]"}, of)
-    np.testing.assert_allclose(load.get_lines()[0].get_xdata(), 1e6 * of["approach [m]"])
-    exact, found = tables["exact-pressure"]["hertz pressure [Pa]"], tables["pressure"]["bem3d pressure [Pa]"]
-    drawn(pressure, {"Hertz": 1e-6 * exact, "boundary elements": 1e-6 * found})
-    second_order = refinement["bem3d force error"][0] * np.array([1, 1 / 4, 1 / 16])
-    expected = {"boundary elements": "bem3d force error", "MDR": "mdr force error", "second order": second_order}
-    drawn(errors, expected, refinement)
-
-
-def test_lines_of_geikes_rule():
-    spectra, moments = Made({"q [rad/m]": np.arange(1.0, 6.0)}), Made({"n": np.arange(4)})
-    spectrum, moment = geike.draw(made(spectra=spectra, moments=moments)).axes
-    expected = {
-        "Geike, π q C_2D": "geike [m^3]",
-        "line trace": "line trace [m^3]",
-        "drawn profiles": "drawn profiles [m^3]",
-        "lines cut from drawn surfaces": "lines of drawn surfaces [m^3]",
-    }
-    drawn(spectrum, expected, spectra)
-    drawn(moment, {"Geike": "geike", "line trace": "line trace", "mean of |cos φ|ⁿ": "exact"}, moments)
-
-
-def test_lines_of_ways_to_draw():
-    keys = {"H": [0.7] * 6, "drawn with": ["fixed"] * 6, "method": ["bem3d"] * 3 + ["mdr"] * 3}
-    table = Made({**keys, "Fbar": [0.1, 1.0, 10.0] * 2})
-    value = table["relative deviation"]
-    table.given["low"], table.given["high"] = 0.8 * value, 1.1 * value
-    (axis,) = normalisation.draw(made(curves=table)).axes
-    of_bem = value[:3], (0.2 * value[:3], 0.1 * value[:3])
-    drawn(axis, {"boundary elements": of_bem, "MDR, L_1D = L": value[3:]})
-
-
-def test_lines_of_where_mdr_must_fail():
-    table = Made({"q_r L / 2π": [1.0] * 4 + [8.0] * 4, "Fbar": [*FORCE, *FORCE], "bem3d few cells": np.full(8, False)})
-    names = ("contact fraction", "mean gap", "interface", "relative deviation")
-    for name in (f"{method} {what}" for method in ("bem3d", "mdr") for what in names):
-        table.given[f"{name} low"], table.given[f"{name} high"] = 0.9 * table[name], 1.3 * table[name]
-    axes = mdr_limits_figure.draw(made(curves=table)).axes
-    for axis, name in zip(axes, names, strict=True):
-        unit = table["Fbar"] if name == "interface" else np.ones(8)
-        expected = {"Persson": table["Persson contact fraction"][:4]} if name == "contact fraction" else {}
-        for roll_off, rows in ((1, slice(4)), (8, slice(4, 8))):
-            value = (table[f"bem3d {name}"] / unit)[rows]
-            expected[f"boundary elements, q_r L / 2π = {roll_off}"] = value, (0.1 * value, 0.3 * value)
-            expected[f"MDR, q_r L / 2π = {roll_off}"] = (table[f"mdr {name}"] / unit)[rows]
-        drawn(axis, expected)
 
 
 def test_lines_of_bandwidths():

@@ -16,6 +16,7 @@ class Curve:
     label: in the legend, by default the values, "_" for none; by: columns, a curve for each value of them; of: values
     that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve;
     apart: from marker to marker, of the diagonal of the panel, all markers where zero.
+    upright: whether the values are places on the horizontal axis, drawn as lines across the panel.
     """
 
     quantity: str
@@ -29,6 +30,7 @@ class Curve:
     band: bool = False
     down: float = 0.0
     apart: float = 0.0
+    upright: bool = False
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ class Map:
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states."""
+    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states; sharey: one for all."""
 
     name: str
     caption: str
@@ -81,6 +83,7 @@ class Chart:
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
     columns: int = 0
+    sharey: bool = False
     width: float = 10.5
     height: float = 4.0
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,9 +19,12 @@ STYLES: dict[str, Style] = {
     "bem": BEM,
     "bem, few cells": {**BEM, "markerfacecolor": "white"},
     "mdr": MDR,
+    "mdr around": {**MDR, "markersize": 8},
     "mdr line": MDR_LINE,
     "other": MDR_OTHER,
     "guide": GUIDE,
+    "dashed": {**GUIDE, "linestyle": "--"},
+    "interval": {"color": "#000000"},
     "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
     "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
 }
@@ -43,14 +47,18 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     facets = [(panel, *facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = chart.columns or len(facets)
     rows = -(-len(facets) // columns)
-    figure, axes = panels(rows, columns, width=chart.width, height=chart.height)
+    shared: Literal["all", "none"] = "all" if chart.sharey else "none"
+    figure, axes = panels(rows, columns, width=chart.width, height=chart.height, sharey=shared)
     for axis, (panel, column, value) in zip(axes, facets, strict=False):
         _panel(axis, panel, {column: value} if column else {}, evidence)
+    for axis, (panel, *_) in zip(axes, facets, strict=False):
+        _limits(axis, panel)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
-    shared = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
-    if shared and not any(panel.legend for panel in chart.panels):
-        figure.legend(shared.values(), shared.keys(), loc="outside lower center", ncols=4)
+    without = [axis for axis, (panel, *_) in zip(axes, facets, strict=False) if not panel.legend]
+    labels = dict(pair for axis in without for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
+    if labels:
+        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -67,14 +75,14 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
     for curve in panel.curves:
-        families = list(_families(curve, _rows(evidence, curve, facet)))
-        for i, (values, mine) in enumerate(families):
-            _curve(axis, curve, panel, mine, values, i, len(families))
+        # a family has one style in all facets
+        every = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
+        for key, values, mine in _families(curve, _rows(evidence, curve, facet)):
+            _curve(axis, curve, panel, mine, values, every.index(key), len(every))
     if panel.judged:
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    _limits(axis, panel)
     if panel.legend:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
@@ -128,13 +136,13 @@ def _chosen(table: Table, of: Mapping[str, object]) -> Table:
     return table
 
 
-def _families(curve: Curve, table: Table) -> Iterator[tuple[dict[str, object], Table]]:
+def _families(curve: Curve, table: Table) -> Iterator[tuple[tuple[str, ...], dict[str, object], Table]]:
     size = len(next(iter(table.columns.values())))
     keys = list(zip(*(map(str, table.columns[name]) for name in curve.by), strict=True)) or [()] * size
     for key in dict.fromkeys(keys):
         keep = [i for i in range(size) if keys[i] == key]
         mine = Table(table.name, {name: [column[i] for i in keep] for name, column in table.columns.items()})
-        yield {name: column[0] for name, column in mine.columns.items()}, mine
+        yield key, {name: column[0] for name, column in mine.columns.items()}, mine
 
 
 def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
@@ -146,6 +154,13 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
+    if curve.style == "interval":
+        axis.fill_between(mine[x], low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
+        return
+    if curve.upright:
+        for at in mine["value"]:
+            axis.axvline(at, label=label, **style)
+        return
     if curve.bars:
         # down to nothing: on a logarithmic axis a decade
         down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)

@@ -1,9 +1,9 @@
 """Which numbers of which case answer a question, and where they stand on its axis."""
 
 from validation.analysis.evidence import Evidence, Number, Place
-from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth_numbers as bandwidth
-from validation.cases.rail import rail_dynamic_evidence, rough_rail
+from validation.cases.punch import mdr_limits as rolled_off
+from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import reduced_models
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 from validation.report.answers.cells import NumberSource
@@ -74,7 +74,7 @@ def waves_of_slope(evidence: Evidence) -> str:
 def of_rail(model: str) -> NumberSource:
     return NumberSource(
         case="rough_rail",
-        quantities=(rough_rail.OVER_BEM,),
+        quantities=(rolled_filters.OVER_BEM,),
         model=model,
         axis="offset [dB]",
         place=_slope_of_offset,
@@ -102,7 +102,7 @@ def of_moving_wheel() -> NumberSource:
     """Springs that read the surface over boundary elements, both in motion."""
     return NumberSource(
         case="rail_dynamic",
-        quantities=(rail_dynamic_evidence.RMS + rail_dynamic_evidence.BESIDE,),
+        quantities=(rail_dynamic.RMS + rail_dynamic.BESIDE,),
         model="springs that read the surface over bem3d",
-        axis=rail_dynamic_evidence.OFFSET,
+        axis=rail_dynamic.OFFSET,
     )
