@@ -14,15 +14,7 @@ from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, Where, only
 from validation.analysis.study import Outcomes, Study
 from validation.analysis.wording import decibels
-from validation.cases.rail.filters import (
-    ACROSS,
-    COUNTED,
-    SPEEDS,
-    counted,
-    linear_filter,
-    scene_of,
-    weighted_difference,
-)
+from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, scene_of, weighted_difference
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
@@ -71,7 +63,7 @@ DIGITS = Margin(
     source="CONTACT, published example output, four digits",
     role=Role.CRITERION,
 )
-FIELD = Margin(tolerance=1.0, reason="1 dB: a tolerance of the field", source="filter of the ellipse")
+FIELD = Margin(1.0, "1 dB: a tolerance of the field", source="filter of the ellipse")
 
 
 def series(result: Outcomes) -> list[Series]:

@@ -79,10 +79,10 @@ def run(case: LineConvention, engine: Engine = SERIAL) -> Outcomes:
 ENERGY, HEIGHTS, SCATTER = "energy mean of lines over one line", "mean of heights over one line", "scatter of a level"
 SPREAD, ELLIPSE = "deviation of a level from strip to strip", "A3 of the ellipse over that of a line"
 GROUND, SPACING, WAVE = "across", "spacing [mm]", "wavelength [mm]"
-NEAR = Margin(tolerance=1.0, reason="1 dB: a tolerance of the field", source="one line, mean of all realisations")
+NEAR = Margin(1.0, "1 dB: a tolerance of the field", source="one line, mean of all realisations")
 AS_ONE = Margin(
-    tolerance=0.15,
-    reason="15 %: a third less would be that of three independent lines, 1 / sqrt(3) = 0.58",
+    0.15,
+    "15 %: a third less would be that of three independent lines, 1 / sqrt(3) = 0.58",
     source="one line on the same strips",
 )
 
@@ -203,6 +203,7 @@ STUDY = Study(
                     ylim=(0, None),
                     downward=True,
                     ticked=True,
+                    legend="upper right",
                 ),
             ),
             claims=(0, 1),

@@ -110,9 +110,7 @@ SLACK = 1.15
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
 ONE_DECIBEL = Margin(
-    tolerance=1.0,
-    reason="1 dB: repeatability of measured one-third octave levels",
-    source="boundary elements on the same strips",
+    1.0, "1 dB: repeatability of measured one-third octave levels", source="boundary elements on the same strips"
 )
 
 

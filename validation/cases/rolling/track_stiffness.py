@@ -160,10 +160,10 @@ SHOWN = {MEAN: "mean stiffness of each model", DEVIATION: "relative deviation of
 ROWS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
 """Weights of ln of the mean variance and of ln of the mean."""
 SOURCE = "bem3d along the track, extrapolated"
-TEN_PER_CENT = Margin(tolerance=0.1, reason="10 %: the margin of Fig. 14.1", source=SOURCE)
+TEN_PER_CENT = Margin(0.1, "10 %: the margin of Fig. 14.1", source=SOURCE)
 IN_BANDS = Margin(
-    tolerance=3.0,
-    reason="3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
+    3.0,
+    "3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
     source=SOURCE,
     rms=(1.0, "1 dB: repeatability of measured one-third octave levels"),
 )
