@@ -9,6 +9,7 @@ from typing import get_type_hints
 import numpy as np
 import pytest
 
+from validation.analysis.study import Outcomes, Study
 from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
 from validation.benchmarks.work_precision import evidence as precision_evidence
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
@@ -225,6 +226,11 @@ def test_every_case_hands_on_what_is_lost(name):
         handed = [ast.unparse(keyword.value) for keyword in call.keywords if keyword.arg == "unconverged"]
         knows = "unconverged" in {field.name for field in fields(result)}
         assert (handed == ["result.unconverged"]) if knows else (handed != ["()"])
+
+
+def test_a_declared_case_hands_on_what_is_lost():
+    study = Study(title="t", method="", series=lambda result: [], claims=())
+    assert study.evidence(Outcomes(None, {}, ("strip 3",))).unconverged == ("strip 3",)
 
 
 def points(**statuses):
