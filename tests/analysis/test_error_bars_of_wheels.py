@@ -2,18 +2,18 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from tests.analysis.intervals import covered, ends, holds
-from validation.analysis.statistics import POWER_DECIBEL, student
+from validation.analysis.series import Estimates
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means, student
 from validation.cases.wheel import distance as wheel_distance
-from validation.cases.wheel import distance_numbers, spectrum_numbers
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_levels as wheel_3d_levels
+from validation.cases.wheel import spectrum_numbers
 from validation.cases.wheel.features import FLOOR, Spectrum, measured
 
 
@@ -59,45 +59,31 @@ def test_shared_tracks_leave_no_error_of_a_ratio():
 
 def test_the_law_of_the_break_covers_its_truth():
     """Breaks that scatter as their standard errors say, of ten groups each."""
-    rng, case = np.random.default_rng(0), wheel_distance.WheelDistance()
+    rng, groups = np.random.default_rng(0), 10
     duration = 2.0 ** np.arange(5)
 
     def drawn():
         own = 0.05 * np.array([1.0, 1.0, 1.0, 2.0, 2.0])
         breaks = 1e4 * duration**0.4 * np.exp(own * rng.standard_normal(5))
-        seen = own * breaks * np.sqrt(rng.chisquare(case.groups - 1, 5) / (case.groups - 1))
-        columns = {"duration [s]": duration, "break [rad/s]": breaks, "standard error [rad/s]": seen}
-        number = distance_numbers.break_law(case, columns)
-        return number.value, number.sample
+        seen = own * breaks * np.sqrt(rng.chisquare(groups - 1, 5) / (groups - 1))
+        found = Estimates(Estimate(*one, groups) for one in zip(breaks, seen, strict=True))
+        law = wheel_distance.law_of_break(duration, found)
+        return law.value, law.half_width_among(3)
 
     assert holds(covered(drawn, 0.4), short=0.02, wide=0.03)
 
 
 def test_the_rms_jump_covers_its_truth():
-    """A mean square of Gaussian jumps at one of five distances."""
+    """A mean square of Gaussian jumps."""
     rng = np.random.default_rng(1)
-    wheels = np.array([60, 40, 20, 20, 20])
-
-    def drawn():
-        rms = np.array([math.sqrt(np.mean(rng.standard_normal(n) ** 2)) for n in wheels])
-        breaks = {"rms jump [m/s2]": rms, "of linear theory [m/s2]": np.ones(5), "wheels": wheels}
-        number, *others = distance_numbers.jumps({**breaks, "distance [m]": np.arange(5.0)})
-        # of one distance alone, whose interval holds together with those of the others
-        return number.value, number.sample * student(59) / student(59, 1 - 0.05 / (1 + len(others)))
-
-    assert holds(covered(drawn, 1.0), wide=0.01)
+    assert holds(covered(lambda: ends(wheel_distance.rms_over(rng.standard_normal(60), 1.0)), 1.0), wide=0.01)
 
 
 def test_the_mean_square_over_that_of_the_steady_state_counts_the_scatter_of_both():
     rng = np.random.default_rng(2)
 
     def drawn():
-        squares = {
-            wheel_distance.OPEN: {"square": 1.5 * rng.gamma(50, 1 / 50, 8)},
-            wheel_distance.STEADY: {"square": rng.gamma(50, 1 / 50, 8)},
-        }
-        number = distance_numbers.mean_square(SimpleNamespace(ends=squares))
-        return number.value, number.sample
+        return ends(ratio_of_means(1.5 * rng.gamma(50, 1 / 50, 8), rng.gamma(50, 1 / 50, 8)))
 
     assert holds(covered(drawn, 1.5), short=0.01)
 

@@ -24,9 +24,7 @@ from validation.cases.rolling.reduced_models import LAYER
 from validation.cases.rolling.reduced_models_map import map_headline
 from validation.cases.selection import model_selection_evidence
 from validation.cases.stability import evidence as stability_evidence
-from validation.cases.wheel import distance_evidence, half_space_evidence, regions_evidence, spectrum_evidence
-from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY
-from validation.cases.wheel.features import PLATEAU
+from validation.cases.wheel import half_space_evidence, regions_evidence, spectrum_evidence
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
@@ -209,16 +207,6 @@ def test_a_level_that_rounds_to_nothing_has_no_sign():
     worst = point(-0.04, reference=22.0, where={"worst at": 19.0})
     zeros = answered(spectrum_evidence.DOWN_TO_ZEROS, [worst], "so.")
     assert spectrum_evidence._oscillation([zeros]) == ["at zero 19 the oscillation has 0.0 dB of 22"]
-
-
-def test_shares_of_a_plateau_are_printed_without_a_power_of_ten():
-    """-0.46 dB is 90 %, -10 dB is 10 %."""
-    of = {LINEAR_OPEN: -0.46, STEADY: -10.0}
-    numbers = [
-        point(value, quantity=distance_evidence.LEVEL, model=f"{kind}, over {OPEN}", where={"region": PLATEAU})
-        for kind, value in of.items()
-    ]
-    assert distance_evidence._plateau(numbers).endswith("90 % of the power of region 2 is leakage, 10 % nonlinearity")
 
 
 @pytest.mark.parametrize(

@@ -9,9 +9,9 @@ import pytest
 
 from tests.cases.wheel_scenes import COARSE, DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE
 from validation.analysis.evidence import ClaimStatus, Verdict, number_with
-from validation.cases.wheel import contrast, distance_numbers, half_space_numbers, spectrum_numbers
+from validation.cases.wheel import contrast, half_space_numbers, spectrum_numbers
 from validation.cases.wheel import distance as wheel_distance
-from validation.cases.wheel import distance_evidence as wheel_distance_evidence
+from validation.cases.wheel import distance_study as wheel_distance_study
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
@@ -33,10 +33,9 @@ def feature(evidence, name):
 
 
 def whole(evidence):
-    """All criteria met, all there, something follows; only lines that a band does not have are NaN."""
+    """All criteria met, all there; only lines that a band does not have are NaN."""
     assert all(number.met for number in evidence.numbers)
     assert all(math.isfinite(number.value) and math.isfinite(number.uncertainty) for number in evidence.numbers)
-    assert evidence.conclusions
     assert evidence.captions
     for sentence in (evidence.method, *evidence.conclusions, *evidence.captions.values()):
         assert not re.search(r"\b(nan|inf)\b", sentence)
@@ -192,34 +191,38 @@ def distances():
     return wheel_distance.run(DISTANCE)
 
 
+def of_distances(result, changed=None):
+    """Evidence, with some outcomes changed."""
+    return wheel_distance_study.STUDY.evidence(replace(result, found={**result.found, **(changed or {})}))
+
+
 def hann(evidence):
     """Region 4 with Hann's window over that without."""
-    model = f"{distance_numbers.HANN}, over {wheel_distance.OPEN}"
-    return number_with(evidence.numbers, distance_numbers.LEVEL, model)
+    model = f"{wheel_distance.HANN}, over {wheel_distance.OPEN}"
+    return number_with(evidence.numbers, wheel_distance.LEVEL, model)
 
 
 @pytest.mark.slow
 def test_distance_evidence_is_whole(distances):
-    found = wheel_distance_evidence.evidence(distances)
+    found = of_distances(distances)
     whole(found)
     number = hann(found)
     assert number.verdict is Verdict.DIFFER and number.value < -6
-    law = number_with(found.numbers, distance_numbers.BREAK_LAW)
+    law = number_with(found.numbers, wheel_distance.BREAK_LAW)
     assert law.reference == pytest.approx(1 / 2.4, rel=ROUNDING)
-    np.testing.assert_array_equal(found.table("law")["exponent"], law.reference)
     # the line has the slope of the law and goes through the middle of the breaks
-    line, breaks = found.table("law"), found.table("breaks")
-    slope = np.diff(np.log(line["break [rad/s]"])) / np.diff(np.log(line["duration [s]"]))
+    breaks = found.table(wheel_distance.BREAK_AT)
+    line, points = (breaks.where(model=model) for model in ("T^(1/(2H+1))", "found"))
+    slope = np.diff(np.log(line["value"])) / np.diff(np.log(line[wheel_distance.DURATION]))
     assert slope == pytest.approx(np.full(slope.size, 1 / 2.4), rel=1e-9)
-    middle = (np.mean(np.log(table["break [rad/s]"])) for table in (line, breaks))
-    assert next(middle) == pytest.approx(next(middle), rel=1e-12)
+    assert np.mean(np.log(line["value"])) == pytest.approx(np.mean(np.log(points["value"])), rel=1e-12)
     # to second order in the amplitude
-    hertz = found.table("hertz")
-    assert hertz["peak over omega_eigen"][0] == pytest.approx(1 - hertz["release / d"][0] ** 2 / 24, abs=1e-6)
+    hertz = found.table(wheel_distance.OVER_EIGEN).where(model="Hertz, quadrature")
+    assert hertz["value"][0] == pytest.approx(1 - hertz[wheel_distance.RELEASE][0] ** 2 / 24, abs=1e-6)
 
 
 def test_distances_take_whole_natural_periods_and_double():
-    length = [ride.steps * ride.scene.spacing for ride in DISTANCE.distances()]
+    length = [ride.steps * ride.scene.spacing for ride in reversed(DISTANCE.distances().values())]
     for i, one in enumerate(length):
         # to the next length that an FFT is fast at: a part in a hundred
         assert natural_periods(SMALL.body, one, SMALL.speed) == pytest.approx(2**i, rel=0.02)
@@ -228,29 +231,25 @@ def test_distances_take_whole_natural_periods_and_double():
 
 @pytest.mark.slow
 def test_a_rectangular_window_in_place_of_hann_drops_nothing(distances):
-    ends = {name: {**o, "hann": o["plain"]} for name, o in distances.ends.items()}
-    found = wheel_distance_evidence.evidence(replace(distances, ends=ends))
+    opened = distances[wheel_distance.OPEN]
+    found = of_distances(distances, {wheel_distance.OPEN: {**opened, "hann": opened["plain"]}})
     assert hann(found).value == pytest.approx(0, abs=1e-9)
 
 
 @pytest.mark.slow
 def test_floors_without_their_leak_are_not_predicted(distances):
     """Half of the floor, as if its jumps were lower by the root of two, at every distance."""
-    halved = {i: {**o, "jump": math.sqrt(2) * o["jump"]} for i, o in distances.distances.items()}
-    before, after = (
-        wheel_distance_evidence.evidence(replace(distances, distances=d)) for d in (distances.distances, halved)
-    )
-    floors = [evidence.table("breaks")["floor over predicted"] for evidence in (before, after)]
+    halved = {key: {**(o := distances[key]), "jump": math.sqrt(2) * o["jump"]} for key in DISTANCE.distances()}
+    floors = [of_distances(distances, one).table(wheel_distance.FLOORS)["value"] for one in (None, halved)]
     assert floors[0] == pytest.approx(np.ones(4), abs=0.1)
     assert floors[1] == pytest.approx(floors[0] / 2, rel=1e-9)
 
 
 @pytest.mark.slow
 def test_a_linear_contact_with_a_floor_misses_its_identity(distances):
-    leaking = {**distances.ends[wheel_distance.LINEAR_STEADY]}
-    leaking["plain"] = leaking["plain"] + 1e-12 * leaking["plain"].max()
-    ends = {**distances.ends, wheel_distance.LINEAR_STEADY: leaking}
-    found = wheel_distance_evidence.evidence(replace(distances, ends=ends))
+    steady = distances[wheel_distance.LINEAR_STEADY]
+    leaking = {**steady, "plain": steady["plain"] + 1e-12 * steady["plain"].max()}
+    found = of_distances(distances, {wheel_distance.LINEAR_STEADY: leaking})
     assert len([number for number in found.numbers if not number.met]) == 2
 
 

@@ -31,7 +31,6 @@ from validation.report.figures import (
     track_stiffness,
     wheel,
     wheel_3d,
-    wheel_distance,
     wheel_regions,
     wheel_stability,
 )
@@ -442,44 +441,6 @@ def test_lines_of_one_parameter_at_a_time():
     table = Made({"scene": np.repeat(names, 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 7})
     for axis, name in zip(wheel.draw_parameters(made(variations=table)).axes, names[1:], strict=True):
         drawn(axis, {name: "A [(m/s2)2 s]"}, table.where(scene=name))
-
-
-def test_lines_of_fig_14_5():
-    distances = Made({"distance [m]": np.repeat([0.1, 0.2], 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 2})
-    breaks = Made({"distance [m]": [0.1, 0.2], "duration [s]": np.array([1.0, 2.0]), "break [rad/s]": [1.5, 2.5]})
-    law = Made({"duration [s]": np.array([1.0, 2.0]), "exponent": [0.4, 0.4]})
-    spectra, found = wheel_distance.draw(made(distances=distances, breaks=breaks, law=law)).axes
-    for name in (0.1, 0.2):
-        mine = distances.where(**{"distance [m]": name})
-        np.testing.assert_allclose(series(spectra)[f"{name:.2g} m"][0], mine["A [(m/s2)2 s]"])
-    expected = {
-        "found": (np.array([1.5, 2.5]), (breaks["± break [rad/s]"],) * 2),
-        "by the jumps of the records": "break by its jumps [rad/s]",
-        "T^0.400": law["break [rad/s]"],
-    }
-    drawn(found, expected, breaks)
-
-
-def test_lines_of_the_causes():
-    ends, plateau = Made({"x": np.arange(5)}), Made({"h / d": np.array([0.1, 0.2, 0.4])})
-    vibrations = Made({"release / d": np.array([0.0, 0.4])})
-    hertz = Made({"release / d": np.array([0.1, 0.2, 0.3])})
-    tables = {"endings": ends, "plateau": plateau, "vibrations": vibrations, "hertz": hertz}
-    spectra, region, peak = wheel_distance.draw_cause(made(**tables)).axes
-    names = ("springs, steady-state", "springs, open", "springs, periodic", "springs, open, Hann", "linear, open")
-    drawn(spectra, {name: name for name in names}, ends)
-    kinds = {
-        "springs, open": "springs, open",
-        "linear, open: leakage": "linear, open",
-        "springs, steady-state: nonlinearity": "springs, steady-state",
-    }
-    expected = {label: (f"{kind} [dB]", (plateau[f"± {kind} [dB]"],) * 2) for label, kind in kinds.items()}
-    for label, kind, order in (("h^2", "linear, open", 2), ("h^4", "springs, steady-state", 4)):
-        expected[label] = plateau[f"{kind} [dB]"][0] + 10 * np.log10(np.array([1.0, 2.0, 4.0]) ** order)
-    drawn(region, expected, plateau)
-    bars = next(c for c in peak.containers if isinstance(c, ErrorbarContainer))
-    np.testing.assert_allclose(bars.lines[0].get_ydata(), vibrations["peak over omega_eigen"])
-    np.testing.assert_allclose(series(peak)["Hertz, quadrature"][0], hertz["peak over omega_eigen"])
 
 
 def test_lines_of_the_wheel_in_three_dimensions():

@@ -34,14 +34,9 @@ from validation.cases.rolling import claims as rolling_claims
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import force_spectrum_tables as rolling_tables
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, MEAN, VARIANCE
-from validation.cases.wheel import distance_evidence as wheel_distance_evidence
-from validation.cases.wheel import (
-    distance_numbers,
-    distance_tables,
-    spectrum_tables,
-)
 from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
 from validation.cases.wheel import spectrum_evidence as wheel_evidence
+from validation.cases.wheel import spectrum_tables
 from validation.cases.wheel.spectrum_numbers import FEATURES, OMEGA
 from validation.report import formats, page
 from validation.report.contents import CASES
@@ -407,39 +402,6 @@ def test_limits_print_the_numbers_they_are_given():
     assert "c = load 7, stiffness 7, pressure 7" in text and "alone load 2, stiffness 2, pressure 2." in text
 
 
-def test_the_plateau_is_printed_in_shares_of_its_power():
-    """10 lg: -10 dB is a tenth."""
-    names = (f"{kind} [dB]" for kind in ("springs, open", "linear, open", "springs, steady-state"))
-    plateau = Table(
-        "plateau", {"h / h0": [1.0], "h / d": [0.063], **dict(zip(names, ([-20.0], [-30.0], [-21.0]), strict=True))}
-    )
-    shown = distance_tables.shown_plateau(plateau)
-    assert shown.columns["leakage: linear, open"] == ["10 %"]
-    assert shown.columns["nonlinearity: springs, steady-state"] == ["79 %"]
-    assert shown.columns["springs, open [dB]"] == ["-20.0"]
-
-
-def test_the_table_of_breaks_prints_its_intervals():
-    columns = {
-        "distance [m]": [0.1],
-        "wheels": [20],
-        "break [rad/s]": [12640.4],
-        "± break [rad/s]": [110.0],
-        "standard error [rad/s]": [1.0],
-        "break by its jumps [rad/s]": [12345.6],
-        "floor over predicted": [0.9876],
-        "± sample": [0.0321],
-    }
-    shown = distance_tables.shown_breaks(Table("breaks", columns))
-    assert [column[0] for column in shown.columns.values()] == [
-        "0.1",
-        20,
-        "12640 ± 110",
-        "1.235e+04",
-        "0.988 ± 0.032",
-    ]
-
-
 def feature(value, scene="the scene", name="peak"):
     return number(
         value,
@@ -489,32 +451,3 @@ def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given():
     assert wheel_3d_evidence._geike(numbers) == "Springs of Fig. 14.4: up to 23.4 dB too quiet in region 2"
     (cost,) = wheel_3d_evidence.conclusions(11.5)
     assert "11.5 applications" in cost
-
-
-def spectrum_of(level):
-    omega = np.arange(1.0, 2e5, 500.0)
-    return {"omega": omega, "plain": np.full((2, omega.size), level), "duration": 0.1}
-
-
-def test_fig_14_5_prints_the_numbers_it_is_given():
-    at = distance_numbers
-
-    def ratio(kind, region, value):
-        key = {"quantity": at.LEVEL, "model": f"{kind}, over springs, open", "where": {"region": region}}
-        return number(value, **key, reference=0.0, tolerance=1.0, sample=0.1)
-
-    numbers = [
-        ratio("linear, open", "region 2", -10.0),
-        ratio("springs, steady-state", "region 2", -20.0),
-        number(1.05, quantity=at.JUMP, where={"worst at": 0.2}, reference=1.0, sample=0.02),
-        number(1.52, quantity=at.SQUARE, reference=1.5, sample=0.03),
-        number(3.87, quantity=at.ORDER, reference=4.0, tolerance=0.3, sample=0.05),
-    ]
-    text = wheel_distance_evidence.conclusions(numbers)
-    assert "1.050 ± 0.020" in text[0] and "1.52 ± 0.03 times" in text[1]
-    words = "10 % of the power of region 2 is leakage, 1 % nonlinearity"
-    law = {"quantity": at.BREAK_LAW, "reference": 0.417, "tolerance": 0.1, "sample": 0.01}
-    for value, said in ((0.4, "as leakage does"), (0.8, "not as leakage"), (0.51, "T^(0.51 ± 0.01)")):
-        titles = wheel_distance_evidence.headlines([*numbers, number(value, **law)])
-        assert said in titles["wheel_distance"] and titles["wheel_distance-cause"] == words
-    assert not any(sentence.startswith("Not confirmed") for sentence in text)
