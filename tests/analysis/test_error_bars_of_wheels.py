@@ -8,12 +8,12 @@ import pytest
 
 from tests.analysis.intervals import covered, ends, holds
 from validation.analysis.series import Estimates
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means, student
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means
+from validation.analysis.study import Outcomes
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel import half_space as wheel_3d
-from validation.cases.wheel import half_space_levels as wheel_3d_levels
-from validation.cases.wheel import spectrum_numbers
+from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel.features import FLOOR, Spectrum, measured
 
 
@@ -96,9 +96,10 @@ def test_the_level_over_linear_theory_covers_its_truth():
 
     def drawn():
         hann = 1.3 * linear * rng.gamma(100, 1 / 100, (6, 1))
-        numbers = spectrum_numbers.levels_over_linear(Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05))
+        spectrum = Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05)
         # all bands of a group share its factor
-        return numbers[0].value, numbers[0].sample * student(5) / student(5, 1 - 0.05 / len(numbers))
+        first = next(wheel.levels_over_linear(spectrum)[0].rows())
+        return first["value"], first["high"] - first["value"]
 
     assert holds(covered(drawn, 10 * math.log10(1.3), trials=300), trials=300, short=0.01)
 
@@ -128,45 +129,30 @@ def test_what_grid_and_solver_leave_open_in_three_dimensions():
     """To first order in the cells: from 9 to 12 of them to a radius three times the change; the solver, all of it."""
     case = wheel_3d.Wheel3D(strips=3, coarser=2)
     louder = 10 ** (1 / 20)
-    result = wheel_3d.Result3D(
-        case,
-        {
-            wheel_3d.FINEST: strips_of(1.0),
-            wheel_3d.COARSER: strips_of(louder, count=2),
-            wheel_3d.LOOSE: strips_of(1.0, 7, 1),
-            wheel_3d.TIGHT: strips_of(louder**0.1, 7, 1),
-        },
-        {},
-        (),
-    )
-    levels = wheel_3d_levels.WheelLevels(result)
+    strips = {
+        wheel_3d.FINEST: strips_of(1.0),
+        wheel_3d.COARSER: strips_of(louder, count=2),
+        wheel_3d.LOOSE: strips_of(1.0, 7, 1),
+        wheel_3d.TIGHT: strips_of(louder**0.1, 7, 1),
+    }
+    levels = wheel_3d.WheelLevels(Outcomes(case, strips))
     np.testing.assert_allclose(POWER_DECIBEL * levels.grid, 3.0, rtol=1e-9)
     np.testing.assert_allclose(POWER_DECIBEL * levels.solver, 0.1, rtol=1e-9)
-    finer = wheel_3d_levels.WheelLevels(replace(result, case=replace(case, coarse=6)))
+    finer = wheel_3d.WheelLevels(Outcomes(replace(case, coarse=6), strips))
     np.testing.assert_allclose(POWER_DECIBEL * finer.grid, 1.0, rtol=1e-9)
 
 
-def test_a_mean_over_bands_in_three_dimensions_has_all_of_its_errors():
-    """Both samples in quadrature, as they are independent; grid and solver added."""
+def test_a_band_in_three_dimensions_has_all_of_its_errors():
+    """Both samples in quadrature, as they are independent."""
     case = wheel_3d.Wheel3D(strips=3, coarser=2)
-    strips = {
-        wheel_3d.FINEST: [
-            {**one, "bem": f * one["bem"]} for one, f in zip(strips_of(1.0), (0.9, 1.0, 1.2), strict=True)
-        ],
-        wheel_3d.COARSER: strips_of(1.1, count=2),
-        wheel_3d.LOOSE: strips_of(1.0, 7, 1),
-        wheel_3d.TIGHT: strips_of(1.05, 7, 1),
-    }
-    levels = wheel_3d_levels.WheelLevels(wheel_3d.Result3D(case, strips, {}, ()))
+    strips = [{**one, "bem": f * one["bem"]} for one, f in zip(strips_of(1.0), (0.9, 1.0, 1.2), strict=True)]
+    levels = wheel_3d.WheelLevels(Outcomes(case, {wheel_3d.FINEST: strips}))
     bands = len(levels.centres)
     groups = 0.01 * np.random.default_rng(0).standard_normal((6, bands))
-    exact = dict.fromkeys((wheel_3d_levels.LINEAR_3D, wheel_3d_levels.LINEAR_1D), np.zeros(bands))
-    levels.__dict__.update(springs={wheel_3d_levels.GEIKE: groups}, exact=exact)
-    where = np.arange(bands) < 3
-    theory, left = levels.mean_over_bem(wheel_3d_levels.LINEAR_3D, where)
-    springs, same = levels.mean_over_bem(wheel_3d_levels.GEIKE, where)
-    assert left == same == pytest.approx(levels.grid[where].mean() + levels.solver[where].mean())
-    own = groups[:, where].mean(axis=1).std(ddof=1) / math.sqrt(6)
+    exact = dict.fromkeys((wheel_3d.LINEAR_3D, wheel_3d.LINEAR_1D), np.zeros(bands))
+    levels.__dict__.update(springs={wheel_3d.GEIKE: np.exp(groups)}, exact=exact)
+    theory, springs = (levels.over_bem(model)[0] for model in (wheel_3d.LINEAR_3D, wheel_3d.GEIKE))
     # of small logarithms, the spread of their means
+    own = groups[:, 0].std(ddof=1) / math.sqrt(6)
     assert math.sqrt(springs.error**2 - theory.error**2) == pytest.approx(own, rel=0.02)
     assert theory.error > 0 and theory.samples == springs.samples == 3

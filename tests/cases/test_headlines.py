@@ -24,8 +24,6 @@ from validation.cases.rolling.reduced_models import LAYER
 from validation.cases.rolling.reduced_models_map import map_headline
 from validation.cases.selection import model_selection_evidence
 from validation.cases.stability import evidence as stability_evidence
-from validation.cases.wheel import half_space_evidence, regions_evidence, spectrum_evidence
-from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
@@ -178,71 +176,6 @@ def test_titles_of_the_rail_have_the_status_of_their_claims(verdict, moving, lin
     assert circle in ellipse.circle_cost(claim)
     assert ellipse.finding([claim_with(AGREE), claim]).startswith("The closed form and boundary elements give the")
     assert "do not both give" in ellipse.finding([claim_with(DIFFER), claim])
-
-
-# --- the dynamic wheel ---
-
-
-@pytest.mark.parametrize(
-    ("verdict", "words"),
-    [
-        (AGREE, "is that of sin²(q a)"),
-        (DIFFER, "at zero 3 the oscillation has 3.0 dB of 0"),
-        (UNDECIDED, "lasts to zero 3 is open"),
-    ],
-)
-def test_the_title_of_the_wheel_counts_its_features_and_tells_of_its_oscillation(verdict, words):
-    figure = answered("Four regions.", [number(v, at=i) for i, v in enumerate((AGREE, verdict))], "so.")
-    zeros = answered(spectrum_evidence.DOWN_TO_ZEROS, [number(verdict, **{"worst at": 3.0})], "so.")
-    moved = [answered(text, [number(verdict)], "so.") for text in spectrum_evidence.MOVED.values()]
-    found = spectrum_evidence.headlines([figure, zeros, *moved])
-    assert found["wheel"].startswith(f"{2 if verdict is AGREE else 1} of 2 features")
-    assert found["wheel"].endswith(words)
-    word = {AGREE: "agrees", DIFFER: "differs", UNDECIDED: "open"}[verdict]
-    assert found["wheel-parameters"].count(word) == len(spectrum_evidence.MOVED)
-    assert "wheel-parameters" not in spectrum_evidence.headlines([figure, zeros])
-
-
-def test_a_level_that_rounds_to_nothing_has_no_sign():
-    worst = point(-0.04, reference=22.0, where={"worst at": 19.0})
-    zeros = answered(spectrum_evidence.DOWN_TO_ZEROS, [worst], "so.")
-    assert spectrum_evidence._oscillation([zeros]) == ["at zero 19 the oscillation has 0.0 dB of 22"]
-
-
-@pytest.mark.parametrize(
-    ("second", "third", "words"),
-    [
-        (DIFFER, DIFFER, "up to 3.0 dB too quiet in region 2, up to 3.0 dB too quiet in region 3"),
-        (AGREE, UNDECIDED, "within 1 dB in region 2, open within 1 dB in region 3"),
-    ],
-)
-def test_the_title_of_the_wheel_in_3d_has_a_side_for_each_region(second, third, words):
-    """The upper half of region 3 agrees: the worse half counts."""
-    where = (("region 2", second), ("region 3, lower half", third), ("region 3, upper half", AGREE))
-    model = OVER_BEM[half_space_evidence.GEIKE]
-    numbers = [number(verdict, LEVEL, model, sign=-1, range=region) for region, verdict in where]
-    assert half_space_evidence._geike(numbers) == f"Springs of Fig. 14.4: {words}"
-
-
-@pytest.mark.parametrize(
-    ("contrast", "merged", "words"),
-    [
-        (DIFFER, AGREE, "Over short waves region 2 has maxima 3 dB over its zeros; its plateau ends at"),
-        (
-            AGREE,
-            DIFFER,
-            "Over short waves region 2 has no substructure; its plateau ends at q_min v₀ = 3.00 ω_eigen, pr",
-        ),
-        (UNDECIDED, UNDECIDED, "Whether region 2 has a substructure over short waves is open"),
-    ],
-)
-def test_the_first_sentence_of_region_2_follows_its_claims(contrast, merged, words):
-    claims = [
-        answered("A substructure.", [number(contrast)], "so.", confirmed_by=DIFFER),
-        claim_with(AGREE),
-        claim_with(merged),
-    ]
-    assert regions_evidence.finding(claims).startswith(words)
 
 
 # --- the other cases of rolling, and punches ---

@@ -22,7 +22,7 @@ from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
 from validation.cases.rolling.reduced_models import MODELS, ReducedModels, ReducedResult, bands_of
 from validation.cases.rolling.roughness_from_force import RoughnessFromForce, RoughnessFromForceResult
-from validation.cases.wheel import half_space_tables
+from validation.cases.wheel import half_space_study
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
 from validation.scenes.roughness_levels import RoughnessLevels
@@ -57,10 +57,8 @@ def slope_of_table_14_1():
 
 
 def wheel_table(scene=WHEEL):
-    levels = SimpleNamespace(
-        result=SimpleNamespace(case=SimpleNamespace(scene=scene, cells=8)), converged=[{"applications": 1.0}]
-    )
-    return half_space_tables.wheel_of(levels)
+    values = half_space_study.of_wheel(SimpleNamespace(scene=scene, cells=8), 1.0)
+    return {name: [value] for name, value in values.items()}
 
 
 def validity_evidence(case=validity.CASE.quick):

@@ -14,9 +14,8 @@ from validation.cases.rail import rough_rail
 from validation.cases.rail.rail_dynamic_evidence import BESIDE, RMS
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
-from validation.cases.wheel.half_space_levels import GEIKE
-from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
-from validation.cases.wheel.half_space_numbers import OVER_BEM
+from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
+from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.report.answers import alternatives, questions, sources
 from validation.report.answers.alternatives import rolled
 from validation.report.answers.cells import Enough, RangeCell, span

@@ -66,6 +66,22 @@ def test_verdicts_stand_over_their_ranges():
     assert not second.texts
 
 
+def test_a_quantity_that_a_run_does_not_have_leaves_its_panel_empty():
+    curves = Curve("level", "bem", label="b"), Curve("contrast", by=("model",), bars=True)
+    for facet in ("", "h/d"):
+        assert [line.get_label() for line in drawn(*curves, facet=facet)[0].lines] == ["b"]
+    assert len(drawn(curves[1], facet="h/d")) == 1
+
+
+def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():
+    marks = Table("marks", {"model": ["ω_eigen", "q_min v₀"], "value": [1.5, 3.0]})
+    evidence = Evidence(title="t", method="", numbers=(), tables=(TABLE, marks), conclusions=(), captions={})
+    chart = Chart("c", "", (Panel("q a", "y", (Curve("level", "bem", label="b"),), marks="marks"),))
+    (axis,) = draw(chart, evidence).axes
+    assert {text.get_text(): text.get_position()[0] for text in axis.texts} == {"ω_eigen": 1.5, "q_min v₀": 3.0}
+    assert chart.tables == ("level", "marks")
+
+
 def test_the_cells_of_a_map_are_those_of_their_parameters():
     figure = draw(Chart("c", "", Map("level", "q a", "h/d", "model", "dB")), EVIDENCE)
     assert figure.axes[1].collections[0].get_array().reshape(2, 3).tolist() == [[4, 5, 6], [10, 11, 12]]

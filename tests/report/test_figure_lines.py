@@ -29,9 +29,6 @@ from validation.report.figures import (
     rolling_validity,
     roughness_from_force,
     track_stiffness,
-    wheel,
-    wheel_3d,
-    wheel_regions,
     wheel_stability,
 )
 from validation.report.figures import mdr_limits as mdr_limits_figure
@@ -409,71 +406,6 @@ def test_lines_of_input_spectra():
         mine = punches.where(input=label)["mdr over bem3d"]
         expected[label] = mine, (0.2 * mine, 0.1 * mine)
     drawn(axis, expected)
-
-
-def test_lines_of_fig_14_4():
-    spectrum, near = Made({"x": np.arange(6)}), Made({"x": np.arange(5)})
-    marks = Table("marks", {"mark": ["ω_eigen"], "omega [rad/s]": [1.0]})
-    contrast = Made({"x": np.arange(4)})
-    whole, region, last = wheel.draw(made(spectrum=spectrum, oscillation=near, marks=marks, contrast=contrast)).axes
-    expected = {
-        "linear theory": "linear",
-        "no window, (14.17)": "A [(m/s2)2 s]",
-        "Hann": "Hann",
-        "floor predicted": "floor",
-    }
-    drawn(whole, expected, spectrum)
-    band = whole.collections[0].get_paths()[0].vertices[:, 1]
-    assert set(np.round(spectrum["lowest tenth"], 9)) <= set(np.round(band, 9))
-    drawn(region, {"linear theory": "linear", "no window": "springs", "Hann": "springs, Hann"}, near)
-    drawn(last, {"linear theory": "linear", "springs, Hann": with_bars(contrast, "springs, Hann")}, contrast)
-    # a scene whose region 3 has no whole period
-    wheel.draw(made(spectrum=spectrum, oscillation=near, marks=marks))
-
-
-def with_bars(table, name):
-    """A column, and how far below and above it the ends of its interval are."""
-    return table[name], [np.abs(table[f"{name}, {end}"] - table[name]) for end in ("from", "to")]
-
-
-def test_lines_of_one_parameter_at_a_time():
-    names = ["the scene", "v₀ × 2", "F_N × 2", "q_min × 2", "q_max × 2", "H = 1", "h₀ × 4"]
-    table = Made({"scene": np.repeat(names, 3), "omega [rad/s]": [1.0, 2.0, 3.0] * 7})
-    for axis, name in zip(wheel.draw_parameters(made(variations=table)).axes, names[1:], strict=True):
-        drawn(axis, {name: "A [(m/s2)2 s]"}, table.where(scene=name))
-
-
-def test_lines_of_the_wheel_in_three_dimensions():
-    table, near = Made({"omega [rad/s]": np.arange(1.0, 5.0)}), Made({"x": np.arange(6)})
-    contrast = Made({"x": np.arange(4)})
-    levels, differences, oscillation, last = wheel_3d.draw(made(levels=table, oscillation=near, contrast=contrast)).axes
-    names = ("linear, 3D", "linear, 1D (14.12)", "springs, Geike spectrum", "springs, rolling spectrum")
-    bem = table["bem3d [dB]"]
-    half = sum(table[f"± {of} [dB]"] for of in ("sample", "grid", "solver"))
-    over = {name: table[f"{name} over bem3d [dB]"] for name in names}
-    drawn(levels, {name: bem + off for name, off in over.items()} | {"boundary elements": (bem, (half, half))})
-    for line, name in zip(differences.get_lines(), names, strict=False):
-        np.testing.assert_allclose(line.get_ydata(), over[name])
-    columns = {"linear contact, 3D": "linear, 3D", names[2]: names[2], "boundary elements": "bem3d"}
-    drawn(oscillation, columns, near)
-    bars = {name: with_bars(contrast, name) for name in (names[0], names[2], "bem3d")}
-    drawn(last, {"sin²(q a), (14.12)": names[1], **bars}, contrast)
-    band = differences.collections[0].get_paths()[0].vertices[:, 1]
-    assert (band.max(), band.min()) == pytest.approx((half.max(), -half.max()))
-
-
-def test_lines_of_region_2():
-    speeds = Made({"q_min v₀ / ω_eigen": [3.0, 2.0, 1.0]})
-    tables = {f"plateau_of_{name}_waves": Made({"omega [rad/s]": [1.0, 2.0, 3.0]}) for name in ("short", "long")}
-    spectra = Made({"q_min v₀ / ω_eigen": [3.0, 3.0, 1.0], "omega / omega_eigen": [1.0, 2.0, 1.0]})
-    short, long, by_speed, valley = wheel_regions.draw(made(**tables, spectra=spectra, speeds=speeds)).axes
-    columns = {"second-order force": "second order", "springs, steady-state": "steady-state"}
-    tables["plateau_of_short_waves"].given["open"] = tables["plateau_of_short_waves"]["open"]
-    drawn(long, columns, tables["plateau_of_long_waves"])
-    drawn(short, columns, tables["plateau_of_short_waves"])
-    a = spectra["A [(m/s2)2 s]"]
-    drawn(by_speed, {"3": a[:2], "1": a[2:]})
-    np.testing.assert_allclose(valley.get_lines()[0].get_ydata(), speeds["valley [dB]"])
 
 
 def test_lines_of_rounds_and_of_lift_off():

@@ -34,10 +34,6 @@ from validation.cases.rolling import claims as rolling_claims
 from validation.cases.rolling import force_spectrum_evidence as rolling_evidence
 from validation.cases.rolling import force_spectrum_tables as rolling_tables
 from validation.cases.rolling.force_spectrum_numbers import LEVEL, MEAN, VARIANCE
-from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
-from validation.cases.wheel import spectrum_evidence as wheel_evidence
-from validation.cases.wheel import spectrum_tables
-from validation.cases.wheel.spectrum_numbers import FEATURES, OMEGA
 from validation.report import formats, page
 from validation.report.contents import CASES
 from validation.report.documentation import BUILT, documentation_beside
@@ -400,54 +396,3 @@ def test_limits_print_the_numbers_they_are_given():
     assert [n.value for n in honest] == pytest.approx([7.0] * 3)
     text = limits_evidence._on_residuals(residuals, honest)
     assert "c = load 7, stiffness 7, pressure 7" in text and "alone load 2, stiffness 2, pressure 2." in text
-
-
-def feature(value, scene="the scene", name="peak"):
-    return number(
-        value,
-        quantity=FEATURES[name].quantity,
-        where={"scene": scene},
-        reference=1.0,
-        tolerance=0.2,
-        sample=0.05,
-        unit="rad/s",
-        role=Role.FINDING,
-    )
-
-
-def test_fig_14_4_says_what_does_not_stand_out_and_what_no_claim_counts():
-    without = wheel_evidence.conclusions({"peak": feature(1.0)})
-    assert [s.split(":")[0] for s in without] == ["None stands out in this run"] * 2
-    mine = {name: feature(1.0, name=name) for name in ("peak", "jump", "period")}
-    assert wheel_evidence.conclusions(mine) == []
-    (floor,) = wheel_evidence.conclusions({**mine, "floor over predicted": feature(1.023)})
-    assert floor.startswith("Region 4 is 1.023 ± 0.050 times the floor")
-
-
-def test_tables_of_fig_14_4_print_the_numbers_they_are_given():
-    mine = {"peak": feature(1.1), "jump": feature(3.3, name="jump")}
-    shown = spectrum_tables.shown_regions(mine)
-    assert shown.columns["found"][:3] == ["1.100 ± 0.050", "3.300 ± 0.050", "none stands out"]
-    assert list(map(str, shown.columns["verdict"]))[:3] == ["within 0.2: agree", "within 0.2: differ", ""]
-    varied = spectrum_tables.shown_parameters({"the scene": mine, "v₀ × 2": {"peak": feature(2.2)}})
-    assert list(map(str, varied.columns[FEATURES["peak"].name])) == [
-        "1.100 ± 0.050 (1): agree",
-        "2.200 ± 0.050 (1): differ",
-    ]
-    assert list(map(str, varied.columns[FEATURES["jump"].name])) == ["3.300 ± 0.050 (1): differ", "none stands out"]
-
-
-def test_the_wheel_in_three_dimensions_prints_the_numbers_it_is_given():
-    def over_bem(value, model, where, **errors):
-        key = {"quantity": "level", "model": f"{model}, over bem3d", "where": {"range": where, OMEGA: 1e4}}
-        return number(value, **key, reference=0.0, tolerance=1.0, **errors)
-
-    numbers = [
-        over_bem(0.31, "linear, 3D", "region 2", grid=0.1, sample=0.1),
-        over_bem(-23.4, "springs, Geike spectrum", "region 2", sample=0.3),
-        over_bem(5.55, "linear, 3D", "region 3", sample=0.1),
-        number(-4.44, quantity="slope of region 3", model="bem3d", reference=-4.4, sample=0.01, unit="-"),
-    ]
-    assert wheel_3d_evidence._geike(numbers) == "Springs of Fig. 14.4: up to 23.4 dB too quiet in region 2"
-    (cost,) = wheel_3d_evidence.conclusions(11.5)
-    assert "11.5 applications" in cost

@@ -34,8 +34,9 @@ class Panel:
     """Curves on one axis.
 
     facet: a column, a panel for each of its values; log: the axes that are logarithmic; decades: of y below the largest
-    value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade, lines: of y; downward:
-    from the largest x on; legend: its place.
+    value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade, lines: of y; marks: the
+    quantity whose values are marked on x by the names of their models; downward: from the largest x on; legend: its
+    place.
     """
 
     x: str
@@ -51,6 +52,7 @@ class Panel:
     judged: str = ""
     shade: Bounds | None = None
     lines: tuple[float, ...] = ()
+    marks: str = ""
     downward: bool = False
     legend: str = ""
 
@@ -70,11 +72,13 @@ class Map:
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states."""
+    """A figure. name: "case" or "case-part"; panels: none where `report/figures` has a function that draws it; claims:
+    numbers of those that its headline states.
+    """
 
     name: str
     caption: str
-    panels: tuple[Panel, ...] | Map
+    panels: tuple[Panel, ...] | Map = ()
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
     columns: int = 0
@@ -87,5 +91,6 @@ class Chart:
         if isinstance(self.panels, Map):
             return (self.panels.quantity,)
         curves = [curve.quantity for panel in self.panels for curve in panel.curves]
+        marks = [panel.marks for panel in self.panels if panel.marks]
         judged = [panel.judged + JUDGED for panel in self.panels if panel.judged]
-        return tuple(dict.fromkeys([*curves, *judged]))
+        return tuple(dict.fromkeys([*curves, *marks, *judged]))

@@ -22,6 +22,8 @@ STYLES: dict[str, Style] = {
     "other": MDR_OTHER,
     "guide": GUIDE,
     "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
+    "bem line": {"color": BEM["color"], "linestyle": "--", "linewidth": 1.2},
+    "triangles": {**MDR, "color": "#009E73", "marker": "^"},
     "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
 }
 GRADED: dict[str, Style] = {
@@ -33,7 +35,7 @@ GRADED: dict[str, Style] = {
     "open marks": {"markerfacecolor": "white", "linestyle": "none"},
 }
 FIRST = "first"
-POINTS = 12
+POINTS, FEW, LARGE = 12, 15, 1e5
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
@@ -57,8 +59,15 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
 def _facets(panel: Panel, evidence: Evidence) -> list[tuple[str, object]]:
     if not panel.facet:
         return [("", None)]
-    values = dict.fromkeys(v for c in panel.curves for v in _rows(evidence, c, {}).columns.get(panel.facet, ()))
-    return [(panel.facet, value) for value in values]
+    values = dict.fromkeys(
+        v for c in _there(panel, evidence) for v in _rows(evidence, c, {}).columns.get(panel.facet, ())
+    )
+    return [(panel.facet, value) for value in values] or [("", None)]
+
+
+def _there(panel: Panel, evidence: Evidence) -> list[Curve]:
+    """A run need not have every quantity."""
+    return [curve for curve in panel.curves if evidence.has_table(curve.quantity)]
 
 
 def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
@@ -66,7 +75,7 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         axis.axhspan(*panel.shade, color="#000000", alpha=0.07, linewidth=0)
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
-    for curve in panel.curves:
+    for curve in _there(panel, evidence):
         families = list(_families(curve, _rows(evidence, curve, facet)))
         for i, (values, mine) in enumerate(families):
             _curve(axis, curve, panel, mine, values, i, len(families))
@@ -75,6 +84,8 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
     _limits(axis, panel)
+    if panel.marks:
+        _marks(axis, _chosen(evidence.table(panel.marks), facet))
     if panel.legend:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
@@ -89,6 +100,14 @@ def _verdicts(axis: Axes, judged: Table) -> None:
         axis.text(math.sqrt(x * to), 0.97, SIGN[verdict], transform=axis.get_xaxis_transform(), ha="center", va="top")
 
 
+def _marks(axis: Axes, marks: Table) -> None:
+    """Vertical lines with their names at the lower end."""
+    for name, x in zip(marks["model"], marks["value"], strict=True):
+        axis.axvline(x, **GUIDE)
+        where = axis.get_xaxis_transform()
+        axis.text(x, 0.02, name, transform=where, rotation=90, va="bottom", ha="right", fontsize=7)
+
+
 def _limits(axis: Axes, panel: Panel) -> None:
     if panel.decades:
         top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
@@ -97,8 +116,8 @@ def _limits(axis: Axes, panel: Panel) -> None:
     axis.set_xlim(panel.xlim)
     if panel.ylim:
         axis.set_ylim(panel.ylim)
-    if "x" in panel.log:
-        low, high = axis.get_xlim()
+    low, high = axis.get_xlim()
+    if "x" in panel.log and high < LARGE:
         steps = (1, 2, 5) if high < 300 * low else (1,)
         powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
         tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
@@ -139,6 +158,8 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
     style = STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]}
     y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
+    if curve.style == "graded":
+        style = {**style, "markevery": max(y.size // FEW, 1)}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
     if curve.bars:

@@ -79,7 +79,7 @@ STUDY = Study(
                     OMEGA,
                     DENSITY,
                     (
-                        Curve(A, "spectrum", "lines", by=(DISTANCE,)),
+                        Curve(A, "spectrum", by=(DISTANCE,)),
                         Curve(A, "break", "open marks", "_", by=(DISTANCE,)),
                     ),
                     log="xy",

@@ -1,17 +1,15 @@
 """What an ensemble of wheels shows: each feature of its mean spectrum with its error, and what theory expects of it."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
-from validation.analysis.evidence import Number, Place
-from validation.analysis.features import FEATURES as JUDGED
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed, log_ratio_of_means
+from validation.analysis.statistics import Estimate, jackknifed, log_ratio_of_means
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
@@ -23,6 +21,15 @@ FloatArray = NDArray[np.float64]
 PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
 PREDICTED = " over predicted"
 """Of floor and break, which the same records predict by their jumps: as ratios they err less."""
+QUANTITIES = {
+    PEAK: "peak ω_eigen",
+    JUMP: "jump",
+    SLOPE: "slope of region 3",
+    PERIOD: "period of the oscillation",
+    FLOOR + PREDICTED: "floor over predicted",
+    BREAK + PREDICTED: "break over predicted",
+}
+LEVEL = "level"
 FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, FLOOR + PREDICTED, BREAK, BREAK + PREDICTED)
 THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
 """Region 3 begins at this multiple of the jump, and ends at this of q_max v_0; the oscillation ends earlier, since
@@ -228,24 +235,3 @@ def ratio(mine: Outcome, other: Outcome, band: tuple[float, float], window: str 
     """ln of a level over that of another ensemble without window, group by group."""
     above, below = _of_groups(mine, band, window), _of_groups(other, band, "plain")
     return log_ratio_of_means(above[:, np.newaxis], below[:, np.newaxis], weights=np.ones(1))
-
-
-def level_number(
-    estimate: Estimate, *, model: str, where: Mapping[str, Place], source: str, grid: float = 0.0, among: int = 1
-) -> Number:
-    """A level over a reference in decibels, from natural logarithms; among: points whose intervals hold at once."""
-    return JUDGED["level"].number(
-        POWER_DECIBEL * estimate.value,
-        0.0,
-        source,
-        model=model,
-        where=where,
-        grid=POWER_DECIBEL * grid,
-        sample=POWER_DECIBEL * estimate.half_width_among(among),
-    )
-
-
-def spectrum_rows(omega: FloatArray, density: FloatArray, low: float, high: float) -> list[dict[str, object]]:
-    """Until its last user is ported."""
-    pairs = zip(*in_sixths(omega, density, low, high), strict=True)
-    return [{"omega [rad/s]": float(x), "A [(m/s2)2 s]": float(y)} for x, y in pairs]

@@ -1,0 +1,250 @@
+"""Fig. 14.4: what is claimed of the regions of the spectrum, and of one parameter changed at a time."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.evidence import Table, columns
+from validation.analysis.study import Outcomes, Study
+from validation.cases.wheel.contrast import CONTRAST, ZERO
+from validation.cases.wheel.features import (
+    BREAK,
+    JUMP,
+    LEVEL,
+    OSCILLATION_LAST,
+    PEAK,
+    PEAK_LAST,
+    PERIOD,
+    PREDICTED,
+    QUANTITIES,
+    SLOPE,
+    THIRD_FIRST,
+)
+from validation.cases.wheel.spectrum import (
+    HANN,
+    HIGHEST,
+    LINEAR,
+    LOWEST,
+    MARKS,
+    NO_WINDOW,
+    OMEGA,
+    OSCILLATION,
+    PARAMETER,
+    PREDICTED_FLOOR,
+    SNAPSHOT,
+    SOURCES,
+    SPECTRUM,
+    TABLE,
+    VARIED,
+    WheelSpectrum,
+    numbers_of_scenes,
+    run,
+    series,
+)
+from validation.scenes.description import describe
+from validation.scenes.dynamic_wheel import WheelScene
+from validation.selection import model_needed
+from validation.simulation.wheel_on_springs import WAVES_APART
+
+SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
+OF_SCENE, MOVED = {"scene": str}, {"scenes": str}
+JUDGED = tuple(QUANTITIES[key] for key in SOURCES)
+PARAMETERS = Matrix(
+    name="one parameter at a time: found ± 95 % beside theory", quantity=JUDGED, rows=("scene",), columns="quantity"
+)
+
+
+def tables(result: Outcomes) -> list[Table]:
+    """The scene, each feature of each variation with its verdict, and the contact at one moment."""
+    snapshot, pairs = result[SNAPSHOT], describe(result.case.scene)
+    x, y = np.meshgrid(snapshot["x"], snapshot["y"], indexing="ij")
+    pressure = {"x / a": x.ravel(), "y / a": y.ravel(), "p / p0": snapshot["pressure"].ravel()}
+    return [
+        Table("the scene", dict(zip(("quantity", "value"), map(list, zip(*pairs, strict=True)), strict=True))),
+        PARAMETERS.table(numbers_of_scenes(result)),
+        Table("springs", columns(**dict(zip(SPRING_COLUMNS, snapshot["springs"], strict=True)))),
+        Table("pressure", columns(**pressure)),
+    ]
+
+
+def notes(result: Outcomes) -> Sequence[str]:
+    """What is special in the scene, and how far the wheels moved."""
+    scene, batches = result.case.scene, result[result.case.scene.name]
+    lowest, highest = min(float(b["lowest"].min()) for b in batches), max(float(b["highest"].max()) for b in batches)
+    airborne = 100 * float(np.mean(np.concatenate([b["airborne"] for b in batches])))
+    book = "Table 14.1 prints E, ν, R, M and h₀; all else is our choice." if is_of_the_book(scene) else ""
+    hidden = (
+        f"q_min v₀ = {scene.jump:.4g} rad/s is not above ω_eigen = {scene.eigenfrequency:.4g} rad/s by a factor of "
+        f"{PEAK_LAST:g}: the roughness excites the resonance itself, and there is no plateau and no jump to find."
+    )
+    flight = (
+        f"Approaches of all wheels lay between {lowest:.3g} and {highest:.3g} d; wheels had no contact for "
+        f"{airborne:.2g} % of the time."
+    )
+    hides = scene.jump <= PEAK_LAST * scene.eigenfrequency
+    return [*filter(None, (book, hidden if hides else "", flight, scene.no_steady_answer(), *scene.diagnose()))]
+
+
+def is_of_the_book(scene: WheelScene) -> bool:
+    """Whether it has what Table 14.1 prints: a changed copy of its file has the same name."""
+    return all(getattr(scene, key) == getattr(TABLE, key) for key in ("name", "radius", "mass", "material", "rms"))
+
+
+DENSITY, MODEL = "A [(m/s²)² s]", ("model",)
+STUDY = Study(
+    title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
+    method=(
+        "{c.realisations} wheels of {c.scene.name}, {c.varied} with one parameter changed, M z'' = F - F_N by velocity "
+        "Verlet in steps of dx / v₀, {c.scene.springs} springs to a contact radius, {c.scene.points} steps from static "
+        f"equilibrium; the end of a track is {WAVES_APART} longest waves from its beginning. "
+        "Nothing damps the wheel. Its initial free vibration stays and sets the level of region 1; the contact sets "
+        "the frequency of that region. A is two-sided over the frequency f, <a²> = int A df. It has no window, as in "
+        "the book, or Hann's where leakage would hide a feature. The peak is interpolated between lines of Hann's "
+        "spectrum. The jump is where that spectrum reaches half of the level above it. Slope and break come from "
+        "means over periods of the oscillation; the floor is measured beyond q_max v₀. The period is sought from "
+        f"{THIRD_FIRST:g} q_min v₀ to {OSCILLATION_LAST:g} q_max v₀. Errors: jackknife over groups of wheels."
+    ),
+    series=series,
+    claims=(
+        Claim(
+            says="On springs the peak and the regions of Fig. 14.4 lie where theory has them; region 3 has its level "
+            "and slope.",
+            short="Peak, regions, level and slope of Fig. 14.4",
+            either=(
+                {"quantity": tuple(QUANTITIES[k] for k in SOURCES if k != PERIOD), "where": OF_SCENE},
+                {"quantity": LEVEL},
+            ),
+        ),
+        Claim(
+            says="Region 3 oscillates with the constant period π v₀ / a.", quantity=QUANTITIES[PERIOD], along="scene"
+        ),
+        Claim(
+            says="Region 3 oscillates as sin²(q a), down to its zeros.",
+            short="maxima of region 3 over its zeros",
+            quantity=CONTRAST,
+        ),
+        Claim(
+            says="The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
+            short="One parameter changed, worst case: the peak",
+            quantity=QUANTITIES[PEAK],
+            where=MOVED,
+        ),
+        Claim(
+            says="Region 3 begins at q_min v₀, whatever the speed and the cut-off.",
+            short="the jump",
+            quantity=QUANTITIES[JUMP],
+            where=MOVED,
+        ),
+        Claim(
+            says="The slope of region 3 is -2 H - 3, whatever the parameters.",
+            short="the slope",
+            quantity=QUANTITIES[SLOPE],
+            where=MOVED,
+        ),
+        Claim(
+            says="The break lies where region 3 meets the predicted floor, whatever the parameters.",
+            short="the break",
+            quantity=QUANTITIES[BREAK + PREDICTED],
+            where=MOVED,
+        ),
+    ),
+    charts=(
+        Chart(
+            "wheel-contact",
+            "The wheel in the simulation. (a) As in Fig. 14.2: the profile x²/R over springs at the height of the "
+            "track; dark springs are in contact, with their compression below. (b) Boundary elements in the time loop: "
+            "pressure over Hertz's largest; circle: Hertz.",
+            claims=(),
+        ),
+        Chart(
+            "wheel",
+            "Fig. 14.4. (a) Spectrum of the acceleration, (14.17), mean of {c.realisations} wheels, with the tenth and "
+            "the ninetieth percentile. Vertical lines: ω_eigen, q_min v₀, predicted break, q_max v₀. (b) Region 3 over "
+            "ω^(-2H-3). (c) Contrast of the oscillation at each zero of sin²(q a), Hann's window, 95 %.",
+            (
+                Panel(
+                    OMEGA,
+                    DENSITY,
+                    (
+                        Curve(SPECTRUM, LINEAR, "thick", by=MODEL),
+                        Curve(SPECTRUM, (LOWEST, HIGHEST), "dotted", by=MODEL),
+                        Curve(SPECTRUM, NO_WINDOW, "mdr line", by=MODEL),
+                        Curve(SPECTRUM, HANN, "exact", by=MODEL),
+                        Curve(SPECTRUM, PREDICTED_FLOOR, "bem line", by=MODEL),
+                    ),
+                    log="xy",
+                    decades=13.0,
+                    marks=MARKS,
+                    legend="upper right",
+                ),
+                Panel(
+                    OMEGA,
+                    OSCILLATION,
+                    (
+                        Curve(OSCILLATION, LINEAR, "thick", by=MODEL),
+                        Curve(OSCILLATION, NO_WINDOW, "mdr line", by=MODEL),
+                        Curve(OSCILLATION, HANN, "exact", by=MODEL),
+                    ),
+                    log="y",
+                    ylim=(0.01, 30.0),
+                    legend="upper left",
+                ),
+                Panel(
+                    ZERO,
+                    "maxima over zeros [dB]",
+                    (
+                        Curve(CONTRAST, LINEAR, "thick", by=MODEL),
+                        Curve(CONTRAST, "springs", "mdr", "springs, Hann's window", bars=True),
+                    ),
+                    log="",
+                    lines=(0.0,),
+                    legend="center right",
+                ),
+            ),
+            claims=(0, 2),
+            width=13.5,
+            height=4.2,
+        ),
+        Chart(
+            "wheel-parameters",
+            "One parameter at a time, mean of {c.varied} wheels each, without window; thick grey: {c.scene.name}.",
+            (
+                Panel(
+                    OMEGA,
+                    DENSITY,
+                    (
+                        Curve(SPECTRUM, NO_WINDOW, "thick", "_"),
+                        Curve(VARIED, by=("scene",)),
+                    ),
+                    facet=PARAMETER,
+                    log="xy",
+                    legend="lower left",
+                ),
+            ),
+            claims=(3, 4, 5, 6),
+            columns=3,
+            width=11.0,
+            height=6.0,
+        ),
+    ),
+    tables=tables,
+    printed=("the scene", PARAMETERS.name),
+    notes=notes,
+)
+CASE = Case(
+    name="wheel",
+    chapter=Chapter.WHEEL,
+    place=1,
+    answers=(
+        "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
+    ),
+    quick=WheelSpectrum(scene=replace(TABLE, distance=0.4), realisations=30, varied=10),
+    full=WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
+    run=run,
+    study=STUDY,
+    needs=model_needed.wheel,
+)
