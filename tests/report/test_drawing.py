@@ -70,7 +70,7 @@ def test_a_quantity_that_a_run_does_not_have_leaves_its_panel_empty():
     curves = Curve("level", "bem", label="b"), Curve("contrast", by=("model",), bars=True)
     for facet in ("", "h/d"):
         assert [line.get_label() for line in drawn(*curves, facet=facet)[0].lines] == ["b"]
-    assert len(drawn(curves[1], facet="h/d")) == 1
+    assert len(drawn(curves[1], facet="h/d", legend="upper right")) == 1
 
 
 def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():

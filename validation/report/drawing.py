@@ -86,7 +86,7 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     _limits(axis, panel)
     if panel.marks:
         _marks(axis, _chosen(evidence.table(panel.marks), facet))
-    if panel.legend:
+    if panel.legend and axis.get_legend_handles_labels()[1]:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
 
