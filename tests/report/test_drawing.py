@@ -1,9 +1,11 @@
 """Curves of a declared figure belong to their rows: labels, bars, shifts, facets."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from validation.analysis.chart import Chart, Curve, Map, Panel
+from validation.analysis.chart import Chart, Curve, Map, Panel, by_model
 from validation.analysis.evidence import Evidence, Table
 from validation.analysis.study import Settings
 from validation.report.drawing import draw
@@ -39,6 +41,16 @@ def test_bars_end_where_the_interval_ends():
     (container,) = axis.containers
     ends = [segment[:, 1] for segment in container.lines[2][0].get_segments()]
     np.testing.assert_allclose(ends, [[0.9, 1.3], [1.9, 2.3], [2.9, 3.3]])
+
+
+def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
+    is_mdr = TABLE["model"] == "mdr"
+    exact = {**TABLE.columns, **{end: np.where(is_mdr, VALUE, TABLE[end]).tolist() for end in ("low", "high")}}
+    evidence = replace(EVIDENCE, tables=(Table("level", exact),))
+    curves = by_model("level", {"mdr": "exact", "bem": "bem"}, bars=True)
+    (axis,) = draw(Chart("c", "", (Panel("q a", "y", curves),)), evidence).axes
+    assert [container.get_label() for container in axis.containers] == ["bem"]
+    assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
 
 
 def test_facets_have_an_axis_each_with_their_rows_alone():

@@ -29,6 +29,11 @@ class Curve:
     down: float = 0.0
 
 
+def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) -> tuple[Curve, ...]:
+    """A curve of each model, by its name in the legend."""
+    return tuple(Curve(quantity, model, style, model, bars=bars) for model, style in styles.items())
+
+
 @dataclass(frozen=True)
 class Panel:
     """Curves on one axis.

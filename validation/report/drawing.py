@@ -162,7 +162,7 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         style = {**style, "markevery": max(y.size // FEW, 1)}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
-    if curve.bars:
+    if curve.bars and np.any(high > low):
         bars = [np.nan_to_num(y - low), np.nan_to_num(high - y)]
         axis.errorbar(mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
     else:

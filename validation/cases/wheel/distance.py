@@ -172,7 +172,7 @@ def _check_regions(scene: WheelScene) -> None:
         )
 
 
-A, OMEGA, BREAK_AT, DURATION = "A by distance", "ω [rad/s]", "ω_break [rad/s]", "T [s]"
+SPECTRA, OMEGA, BREAK_AT, DURATION = "A by distance", "ω [rad/s]", "ω_break [rad/s]", "T [s]"
 BREAK_LAW, JUMP, LEVEL = "d ln ω_break / d ln T", "rms jump over linear theory", "level"
 ORDER, SQUARE, PEAK_AT = "d ln A / d ln h₀", "mean square acceleration", "peak ω_eigen"
 CAUSE, OF_REGION, BY_HEIGHT, BY_PHASE = (
@@ -229,7 +229,7 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
         found = measured(spectrum)
         low, high = 1.5 * float(outcome["omega"][0]), 1.6 * scene.cutoff
         omega, density = in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
-        spectra = partial(Series, A, where={DISTANCE: round(distance, 3)}, along=OMEGA)
+        spectra = partial(Series, SPECTRA, where={DISTANCE: round(distance, 3)}, along=OMEGA)
         yield spectra("spectrum", density, at=omega)
         at_break = math.exp(np.interp(np.log(found[BREAK].value), np.log(omega), np.log(density)))
         yield spectra("break", (at_break,), at=(found[BREAK].value,))

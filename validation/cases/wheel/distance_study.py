@@ -3,41 +3,71 @@
 from dataclasses import replace
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim
 from validation.analysis.study import Study
-from validation.cases.wheel.distance import (
-    BREAK_AT,
-    BREAK_LAW,
-    BY_HEIGHT,
-    BY_PHASE,
-    CAUSE,
-    DISTANCE,
-    DURATION,
-    H_OVER_D,
-    HANN,
-    LEVEL,
-    LINEAR_OPEN,
-    OF_REGION,
-    OMEGA,
-    OPEN,
-    OVER_EIGEN,
-    PEAK_AT,
-    PERIODIC,
-    RELEASE,
-    SHORT,
-    STEADY,
-    TABLE,
-    A,
-    WheelDistance,
-    run,
-    series,
-)
+from validation.cases.wheel import distance
 from validation.cases.wheel.features import FOURTH
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
-LINEAR_OVER, DENSITY, MODEL = f"{LINEAR_OPEN}, over {OPEN}", "A [(m/s²)² s]", ("model",)
+LINEAR_OVER, DENSITY = f"{distance.LINEAR_OPEN}, over {distance.OPEN}", "A [(m/s²)² s]"
+BY_DISTANCE = Panel(
+    distance.OMEGA,
+    DENSITY,
+    (
+        Curve(distance.SPECTRA, "spectrum", by=(distance.DISTANCE,)),
+        Curve(distance.SPECTRA, "break", "open marks", "_", by=(distance.DISTANCE,)),
+    ),
+    log="xy",
+    legend="lower left",
+)
+BREAKS = Panel(
+    distance.DURATION,
+    distance.BREAK_AT,
+    by_model(
+        distance.BREAK_AT,
+        {"found": "bem", "by the jumps of the records": "crosses", "T^(1/(2H+1))": "exact"},
+        bars=True,
+    ),
+    log="xy",
+    legend="upper left",
+)
+CAUSES = Panel(
+    distance.OMEGA,
+    DENSITY,
+    by_model(
+        distance.CAUSE,
+        {
+            distance.STEADY: "thick",
+            distance.OPEN: "mdr line",
+            distance.PERIODIC: "other",
+            distance.HANN: "exact",
+            distance.LINEAR_OPEN: "guide",
+        },
+    ),
+    log="xy",
+    decades=11.0,
+    legend="lower left",
+)
+HEIGHTS = Panel(
+    distance.H_OVER_D,
+    "mean of A in region 2 [dB over (m/s²)² s]",
+    (
+        Curve(distance.BY_HEIGHT, distance.OPEN, "mdr", distance.OPEN, bars=True),
+        Curve(distance.BY_HEIGHT, distance.LINEAR_OPEN, "crosses", "linear, open: leakage", bars=True),
+        Curve(distance.BY_HEIGHT, distance.STEADY, "bem, few cells", "springs, steady: nonlinearity", bars=True),
+        *by_model(distance.BY_HEIGHT, {"h^2": "exact", "h^4": "guide"}),
+    ),
+    legend="lower right",
+)
+AMPLITUDES = Panel(
+    distance.RELEASE,
+    distance.OVER_EIGEN,
+    by_model(distance.OVER_EIGEN, {"Hertz, quadrature": "exact", "springs": "mdr"}, bars=True),
+    log="",
+    legend="lower left",
+)
 STUDY = Study(
     title="Fig. 14.5: the break, the plateau and the ends of a record",
     method=(
@@ -52,21 +82,23 @@ STUDY = Study(
         "2 ω_eigen, region 2 from 2 ω_eigen to 0.8 q_min v₀, region 3 from 1.1 q_min v₀ over half a period of its "
         "oscillation, region 4 from 1.3 to 2.6 q_max v₀."
     ),
-    series=series,
+    series=distance.series,
     claims=(
         Claim(
             says="The break that moves with the distance is leakage (Fig. 14.5).",
             short="The break is that of leakage",
-            either=({"quantity": BREAK_LAW}, {"model": LINEAR_OVER, "where": {"region": FOURTH}}),
+            either=({"quantity": distance.BREAK_LAW}, {"model": LINEAR_OVER, "where": {"region": FOURTH}}),
         ),
         Claim(
             says="Regions 1, 2 and 4 arise from the non-linearity of the contact.",
             short="A linear contact has other regions 1, 2 and 4",
-            quantity=LEVEL,
+            quantity=distance.LEVEL,
             model=LINEAR_OVER,
             differ=True,
         ),
-        Claim(says="The frequency of the peak depends on the amplitude as on a Hertz contact.", quantity=PEAK_AT),
+        Claim(
+            says="The frequency of the peak depends on the amplitude as on a Hertz contact.", quantity=distance.PEAK_AT
+        ),
     ),
     charts=(
         Chart(
@@ -74,86 +106,27 @@ STUDY = Study(
             "Fig. 14.5. (a) Spectra without window, dark to light from the shortest distance to the longest; open "
             "marks: the break. (b) The break against the duration with 95 % intervals; crosses: predicted by the jumps "
             "of the same records; line: T^(1/(2H+1)) through the middle.",
-            (
-                Panel(
-                    OMEGA,
-                    DENSITY,
-                    (
-                        Curve(A, "spectrum", by=(DISTANCE,)),
-                        Curve(A, "break", "open marks", "_", by=(DISTANCE,)),
-                    ),
-                    log="xy",
-                    legend="lower left",
-                ),
-                Panel(
-                    DURATION,
-                    BREAK_AT,
-                    (
-                        Curve(BREAK_AT, "found", "bem", "found", bars=True),
-                        Curve(BREAK_AT, "by the jumps of the records", "crosses", by=MODEL),
-                        Curve(BREAK_AT, "T^(1/(2H+1))", "exact", by=MODEL),
-                    ),
-                    log="xy",
-                    legend="upper left",
-                ),
-            ),
+            (BY_DISTANCE, BREAKS),
         ),
         Chart(
             "wheel_distance-cause",
             "(a) Wheels over {c.scene.length:.3g} m by contact and track. (b) Region 2 against the roughness, and h² "
             "and h⁴. (c) The peak against the amplitude of free vibration; line: quadrature, Hertz.",
-            (
-                Panel(
-                    OMEGA,
-                    DENSITY,
-                    (
-                        Curve(CAUSE, STEADY, "thick", by=MODEL),
-                        Curve(CAUSE, OPEN, "mdr line", by=MODEL),
-                        Curve(CAUSE, PERIODIC, "other", by=MODEL),
-                        Curve(CAUSE, HANN, "exact", by=MODEL),
-                        Curve(CAUSE, LINEAR_OPEN, "guide", by=MODEL),
-                    ),
-                    log="xy",
-                    decades=11.0,
-                    legend="lower left",
-                ),
-                Panel(
-                    H_OVER_D,
-                    "mean of A in region 2 [dB over (m/s²)² s]",
-                    (
-                        Curve(BY_HEIGHT, OPEN, "mdr", OPEN, bars=True),
-                        Curve(BY_HEIGHT, LINEAR_OPEN, "crosses", f"{LINEAR_OPEN}: leakage", bars=True),
-                        Curve(BY_HEIGHT, STEADY, "bem, few cells", f"{STEADY}: nonlinearity", bars=True),
-                        Curve(BY_HEIGHT, "h^2", "exact", by=MODEL),
-                        Curve(BY_HEIGHT, "h^4", "guide", by=MODEL),
-                    ),
-                    legend="lower right",
-                ),
-                Panel(
-                    RELEASE,
-                    OVER_EIGEN,
-                    (
-                        Curve(OVER_EIGEN, "Hertz, quadrature", "exact", by=MODEL),
-                        Curve(OVER_EIGEN, "springs", "mdr", "springs", bars=True),
-                    ),
-                    log="",
-                    legend="lower left",
-                ),
-            ),
+            (CAUSES, HEIGHTS, AMPLITUDES),
             claims=(1,),
             width=12.5,
         ),
     ),
-    printed=(OF_REGION, BY_HEIGHT, BY_PHASE),
+    printed=(distance.OF_REGION, distance.BY_HEIGHT, distance.BY_PHASE),
 )
 CASE = Case(
     name="wheel_distance",
     chapter=Chapter.WHEEL,
     place=2,
     answers="Fig. 14.5: the break that moves with the distance, its cause, and the share of leakage in the plateau",
-    quick=WheelDistance(scene=replace(SHORT, springs=64), doublings=3, wheels=40, causes=10),
-    full=WheelDistance(
-        scene=TABLE,
+    quick=distance.WheelDistance(scene=replace(distance.SHORT, springs=64), doublings=3, wheels=40, causes=10),
+    full=distance.WheelDistance(
+        scene=distance.TABLE,
         doublings=6,
         wheels=300,
         fewest=40,
@@ -164,7 +137,7 @@ CASE = Case(
         releases=(0.0, 0.1, 0.2, 0.4),
         released=5,
     ),
-    run=run,
+    run=distance.run,
     study=STUDY,
     needs=model_needed.wheel,
 )

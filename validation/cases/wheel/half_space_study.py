@@ -9,7 +9,7 @@ import numpy as np
 
 from validation.analysis import spectral_features
 from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Role, Table
 from validation.analysis.margins import MARGINS
@@ -17,24 +17,9 @@ from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL, jackknifed
 from validation.analysis.study import Outcomes, Study
+from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.contrast import CONTRAST, ZERO, contrast_series, contrasts_of, linear_contrasts
 from validation.cases.wheel.features import LEVEL, QUANTITIES, SLOPE, FloatArray, hurst, linear_force_3d
-from validation.cases.wheel.half_space import (
-    BEM,
-    CONTACTS,
-    FINEST,
-    GEIKE,
-    LINEAR_1D,
-    LINEAR_3D,
-    MODELS,
-    OVER_BEM,
-    ROLLING,
-    TABLE,
-    TIGHTER,
-    Wheel3D,
-    WheelLevels,
-    run,
-)
 from validation.scenes.description import slope_ratio
 from validation.selection import model_needed
 
@@ -54,36 +39,35 @@ decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 def series(result: Outcomes) -> list[Series]:
     """Levels over boundary elements, the worst in the plateau and parts of region 3; slope, contrast."""
-    levels = WheelLevels(result)
+    levels = wheel.WheelLevels(result)
     return [_mean(levels), *_of_bands(levels), *_slopes(levels), *_contrasts(levels), *_oscillation(levels)]
 
 
-def _mean(levels: WheelLevels) -> Series:
+def _mean(levels: wheel.WheelLevels) -> Series:
     """A motion that repeats itself gains no velocity."""
-    records = [strip["linear"] for strip in levels.result[FINEST]]
+    records = [strip["linear"] for strip in levels.result[wheel.FINEST]]
     worst = max(abs(float(one.mean())) / float(one.std()) for one in records)
     where = {"strips": "worst strip"}
     return Series("mean acceleration over its rms", "linear, steady-state", (worst,), where=where, margin=REPEATED)
 
 
-def _of_bands(levels: WheelLevels) -> Iterator[Series]:
+def _of_bands(levels: wheel.WheelLevels) -> Iterator[Series]:
     """Each one-third octave, and those of each range; none of a model that has nothing somewhere there."""
     left = levels.grid + levels.solver
     bands = partial(decibels, along=OMEGA, at=levels.centres, grid=left)
     bem = Estimates(replace(one, value=value) for one, value in zip(levels.ratio, levels.bem.tolist(), strict=True))
-    yield bands(LEVELS, BEM, bem)
-    yield bands(OVER, BEM, Estimates(replace(one, value=0.0) for one in levels.ratio))
+    yield bands(LEVELS, wheel.BEM, bem)
+    yield bands(OVER, wheel.BEM, Estimates(replace(one, value=0.0) for one in levels.ratio))
     margin = MARGINS["level"].beside("boundary elements in the time loop")
-    for model in MODELS:
+    for model in wheel.MODELS:
         over = levels.over_bem(model)
         yield decibels(LEVELS, model, over.values + levels.bem, along=OMEGA, at=levels.centres)
         yield bands(OVER, model, over)
-    for name, inside in levels.ranges.items():
-        for model in MODELS:
+        for name, inside in levels.ranges.items():
             yield decibels(
                 LEVEL,
-                OVER_BEM[model],
-                [one for one, here in zip(levels.over_bem(model), inside, strict=True) if here],
+                wheel.OVER_BEM[model],
+                [over[i] for i in np.flatnonzero(inside)],
                 where={"range": name},
                 along=OMEGA,
                 at=levels.centres[inside],
@@ -95,13 +79,13 @@ def _of_bands(levels: WheelLevels) -> Iterator[Series]:
     yield Series(MARKS, "q_min v₀", (levels.result.case.scene.jump,))
 
 
-def _slopes(levels: WheelLevels) -> Iterator[Series]:
+def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
     """The power law of region 3, where it has four periods of the oscillation, on the same strips for both."""
     scene = levels.result.case.scene
     first, last, period = 1.1 * scene.jump, 0.7 * scene.cutoff, scene.oscillation_period
     if last - first < 4 * period:
         return
-    for model, contact in CONTACTS.items():
+    for model, contact in wheel.CONTACTS.items():
         omega, density = levels.spectra(contact)
 
         def of(some: FloatArray, omega: FloatArray = omega) -> FloatArray:
@@ -118,32 +102,35 @@ def _slopes(levels: WheelLevels) -> Iterator[Series]:
         )
 
 
-def _spectra(levels: WheelLevels) -> dict[str, tuple[FloatArray, FloatArray]]:
+def _spectra(levels: wheel.WheelLevels) -> dict[str, tuple[FloatArray, FloatArray]]:
     """omega and A, (strips or groups, frequencies), of boundary elements, the linear contact and springs."""
-    return {**{model: levels.spectra(contact) for model, contact in CONTACTS.items()}, GEIKE: levels.on_springs(GEIKE)}
+    return {
+        **{model: levels.spectra(contact) for model, contact in wheel.CONTACTS.items()},
+        wheel.GEIKE: levels.on_springs(wheel.GEIKE),
+    }
 
 
-def _contrasts(levels: WheelLevels) -> Iterator[Series]:
+def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
     """Of boundary elements beside sin²(q a); of the linear contact on the same strips, and of springs."""
     scene = levels.result.case.scene
     for model, (omega, density) in _spectra(levels).items():
         found, linear = contrasts_of(omega, density, scene), linear_contrasts(omega, scene)
-        yield contrast_series(model, found, scene, linear if model == BEM else None, OF_FIGURE)
-        if model == BEM:
-            yield contrast_series(LINEAR_1D, linear, scene)
+        yield contrast_series(model, found, scene, linear if model == wheel.BEM else None, OF_FIGURE)
+        if model == wheel.BEM:
+            yield contrast_series(wheel.LINEAR_1D, linear, scene)
 
 
-def _oscillation(levels: WheelLevels) -> Iterator[Series]:
+def _oscillation(levels: wheel.WheelLevels) -> Iterator[Series]:
     """Spectra in bands of a twelfth of the period of the oscillation."""
     scene, spectra = levels.result.case.scene, _spectra(levels)
-    period, line = scene.oscillation_period, float(spectra[BEM][0][0])
+    period, line = scene.oscillation_period, float(spectra[wheel.BEM][0][0])
     edges = np.arange(0.7 * scene.jump, min(scene.cutoff, 12 * period), max(period / 12, 2 * line))
     for model, (omega, density) in spectra.items():
         means = band_means(omega, density.mean(axis=0), edges)
         yield Series(OSCILLATION, model, means, along=OMEGA, at=(edges[1:] + edges[:-1]) / 2)
 
 
-def of_wheel(case: Wheel3D, applications: float) -> dict[str, float]:
+def of_wheel(case: wheel.Wheel3D, applications: float) -> dict[str, float]:
     """Its roughness over the approach, the slope of that along the track, of all waves, and what a time step takes."""
     scene = case.scene
     return {
@@ -154,7 +141,7 @@ def of_wheel(case: Wheel3D, applications: float) -> dict[str, float]:
     }
 
 
-def of_regions(levels: WheelLevels) -> dict[str, float]:
+def of_regions(levels: wheel.WheelLevels) -> dict[str, float]:
     """C_F of linear theory in 3D at the resonance over that where the band begins, so that roughness excites it; how
     far boundary elements fall beyond the roughness, from its last tenth [dB]."""
     scene = levels.result.case.scene
@@ -171,7 +158,7 @@ def of_regions(levels: WheelLevels) -> dict[str, float]:
 
 
 def tables(result: Outcomes) -> list[Table]:
-    levels = WheelLevels(result)
+    levels = wheel.WheelLevels(result)
     applications = float(np.mean([strip["applications"] for strip in levels.converged]))
     values = of_wheel(result.case, applications) | of_regions(levels)
     return [Table(WHEEL, {name: [value] for name, value in values.items()})]
@@ -179,10 +166,50 @@ def tables(result: Outcomes) -> list[Table]:
 
 def over_bem(says: str, short: str, model: str) -> Claim:
     """Linear theory ends at short waves, along which contact is lost."""
-    return Claim(says=says, short=short, quantity=LEVEL, model=OVER_BEM[model], along="range")
+    return Claim(says=says, short=short, quantity=LEVEL, model=wheel.OVER_BEM[model], along="range")
 
 
-MODEL = ("model",)
+MODEL_STYLES = {
+    wheel.LINEAR_3D: "thick",
+    wheel.LINEAR_1D: "exact",
+    wheel.GEIKE: "mdr",
+    wheel.ROLLING: "triangles",
+}
+BANDS = Panel(
+    OMEGA,
+    LEVELS,
+    by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True),
+    decades=75.0,
+    marks=MARKS,
+)
+DIFFERENCES = Panel(
+    OMEGA,
+    "over boundary elements [dB]",
+    (Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES)),
+    ylim=(-12.0, 12.0),
+    lines=(-3.0, -1.0, 1.0, 3.0),
+    marks=MARKS,
+)
+THIRD = Panel(
+    OMEGA,
+    "A [(m/s²)² s]",
+    (
+        Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
+        Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
+        Curve(OSCILLATION, wheel.BEM, "bem line", f"{wheel.BEM}, region 3"),
+    ),
+    log="y",
+)
+ZEROS = Panel(
+    ZERO,
+    "maxima over zeros [dB]",
+    (
+        *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
+        Curve(CONTRAST, wheel.LINEAR_3D, "crosses", f"{wheel.LINEAR_3D}, contrast", bars=True),
+    ),
+    log="",
+    lines=(0.0,),
+)
 STUDY = Study(
     title="The wheel in three dimensions: boundary elements inside the time loop",
     method=(
@@ -193,7 +220,7 @@ STUDY = Study(
         "{c.wheels} wheels on springs move in their steady state, on tracks of Geike's spectrum of these surfaces, or "
         "of the rolling spectrum, with which springs have the force level of the half-space. All use Hann's window. "
         "Levels of boundary elements are over the linear contact on the same surfaces, times linear theory; grid: from "
-        f"{{c.coarse}} cells to a radius to first order; solver: from a residual {TIGHTER} times smaller. "
+        f"{{c.coarse}} cells to a radius to first order; solver: from a residual {wheel.TIGHTER} times smaller. "
         "Nothing damps the wheel, and in 3D roughness excites its resonance, so that all begin in the steady state and "
         "bands begin at twice the eigenfrequency."
     ),
@@ -203,18 +230,20 @@ STUDY = Study(
             says="Boundary elements in the time loop confirm Fig. 14.4.",
             short="Springs of Fig. 14.4 over boundary elements in the time loop",
             either=(
-                {"quantity": LEVEL, "model": OVER_BEM[GEIKE]},
-                {"quantity": QUANTITIES[SLOPE], "model": BEM},
+                {"quantity": LEVEL, "model": wheel.OVER_BEM[wheel.GEIKE]},
+                {"quantity": QUANTITIES[SLOPE], "model": wheel.BEM},
                 {"quantity": CONTRAST},
             ),
         ),
         over_bem(
-            "Linear theory in three dimensions has the acceleration of the wheel.", "linear theory in 3D", LINEAR_3D
+            "Linear theory in three dimensions has the acceleration of the wheel.",
+            "linear theory in 3D",
+            wheel.LINEAR_3D,
         ),
         over_bem(
             "Springs of the rolling spectrum have the acceleration of the wheel in three dimensions.",
             "springs of the rolling spectrum",
-            ROLLING,
+            wheel.ROLLING,
         ),
     ),
     charts=(
@@ -223,57 +252,7 @@ STUDY = Study(
             "(a) Acceleration of the wheel in one-third octaves, 95 % of sample, grid and solver. (b) The same over "
             "boundary elements, their interval shaded; lines: ± 1 and ± 3 dB. Region 2 ends at q_min v₀. (c) The "
             "oscillation of region 3. (d) Its contrast at each zero of sin²(q a), 95 %.",
-            (
-                Panel(
-                    OMEGA,
-                    LEVELS,
-                    (
-                        Curve(LEVELS, LINEAR_3D, "thick", by=MODEL),
-                        Curve(LEVELS, LINEAR_1D, "exact", by=MODEL),
-                        Curve(LEVELS, GEIKE, "mdr", by=MODEL),
-                        Curve(LEVELS, ROLLING, "triangles", by=MODEL),
-                        Curve(LEVELS, BEM, "bem", "boundary elements", bars=True),
-                    ),
-                    decades=75.0,
-                    marks=MARKS,
-                ),
-                Panel(
-                    OMEGA,
-                    "over boundary elements [dB]",
-                    (
-                        Curve(OVER, BEM, "guide", "_", band=True),
-                        Curve(OVER, LINEAR_3D, "thick", by=MODEL),
-                        Curve(OVER, LINEAR_1D, "exact", by=MODEL),
-                        Curve(OVER, GEIKE, "mdr", by=MODEL),
-                        Curve(OVER, ROLLING, "triangles", by=MODEL),
-                    ),
-                    ylim=(-12.0, 12.0),
-                    lines=(-3.0, -1.0, 1.0, 3.0),
-                    marks=MARKS,
-                ),
-                Panel(
-                    OMEGA,
-                    "A [(m/s²)² s]",
-                    (
-                        Curve(OSCILLATION, LINEAR_3D, "thick", by=MODEL),
-                        Curve(OSCILLATION, GEIKE, "mdr line", "springs, Geike spectrum, region 3"),
-                        Curve(OSCILLATION, BEM, "bem line", "boundary elements, region 3"),
-                    ),
-                    log="y",
-                ),
-                Panel(
-                    ZERO,
-                    "maxima over zeros [dB]",
-                    (
-                        Curve(CONTRAST, LINEAR_1D, "exact", by=MODEL),
-                        Curve(CONTRAST, LINEAR_3D, "crosses", "linear contact, 3D, contrast", bars=True),
-                        Curve(CONTRAST, GEIKE, "mdr", by=MODEL, bars=True),
-                        Curve(CONTRAST, BEM, "bem", "boundary elements", bars=True),
-                    ),
-                    log="",
-                    lines=(0.0,),
-                ),
-            ),
+            (BANDS, DIFFERENCES, THIRD, ZEROS),
             claims=(0, 1),
             columns=2,
             width=11.0,
@@ -288,9 +267,9 @@ CASE = Case(
     chapter=Chapter.WHEEL,
     place=3,
     answers="Boundary elements inside the time loop: the wheel in three dimensions, against every cheaper model",
-    quick=Wheel3D(strips=3, wheels=30),
-    full=Wheel3D(
-        scene=TABLE,
+    quick=wheel.Wheel3D(strips=3, wheels=30),
+    full=wheel.Wheel3D(
+        scene=wheel.TABLE,
         strips=8,
         periods=4,
         width=4,
@@ -302,7 +281,7 @@ CASE = Case(
         short=1,
         wheels=200,
     ),
-    run=run,
+    run=wheel.run,
     study=STUDY,
     needs=model_needed.wheel,
 )

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table, columns
 from validation.analysis.study import Outcomes, Study
+from validation.cases.wheel import spectrum
 from validation.cases.wheel.contrast import CONTRAST, ZERO
 from validation.cases.wheel.features import (
     BREAK,
@@ -24,35 +25,13 @@ from validation.cases.wheel.features import (
     SLOPE,
     THIRD_FIRST,
 )
-from validation.cases.wheel.spectrum import (
-    HANN,
-    HIGHEST,
-    LINEAR,
-    LOWEST,
-    MARKS,
-    NO_WINDOW,
-    OMEGA,
-    OSCILLATION,
-    PARAMETER,
-    PREDICTED_FLOOR,
-    SNAPSHOT,
-    SOURCES,
-    SPECTRUM,
-    TABLE,
-    VARIED,
-    WheelSpectrum,
-    numbers_of_scenes,
-    run,
-    series,
-)
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
-OF_SCENE, MOVED = {"scene": str}, {"scenes": str}
-JUDGED = tuple(QUANTITIES[key] for key in SOURCES)
+JUDGED = tuple(QUANTITIES[key] for key in spectrum.SOURCES)
 PARAMETERS = Matrix(
     name="one parameter at a time: found ± 95 % beside theory", quantity=JUDGED, rows=("scene",), columns="quantity"
 )
@@ -60,12 +39,12 @@ PARAMETERS = Matrix(
 
 def tables(result: Outcomes) -> list[Table]:
     """The scene, each feature of each variation with its verdict, and the contact at one moment."""
-    snapshot, pairs = result[SNAPSHOT], describe(result.case.scene)
+    snapshot, pairs = result[spectrum.SNAPSHOT], describe(result.case.scene)
     x, y = np.meshgrid(snapshot["x"], snapshot["y"], indexing="ij")
     pressure = {"x / a": x.ravel(), "y / a": y.ravel(), "p / p0": snapshot["pressure"].ravel()}
     return [
         Table("the scene", dict(zip(("quantity", "value"), map(list, zip(*pairs, strict=True)), strict=True))),
-        PARAMETERS.table(numbers_of_scenes(result)),
+        PARAMETERS.table(spectrum.numbers_of_scenes(result)),
         Table("springs", columns(**dict(zip(SPRING_COLUMNS, snapshot["springs"], strict=True)))),
         Table("pressure", columns(**pressure)),
     ]
@@ -91,10 +70,57 @@ def notes(result: Outcomes) -> Sequence[str]:
 
 def is_of_the_book(scene: WheelScene) -> bool:
     """Whether it has what Table 14.1 prints: a changed copy of its file has the same name."""
-    return all(getattr(scene, key) == getattr(TABLE, key) for key in ("name", "radius", "mass", "material", "rms"))
+    return all(
+        getattr(scene, key) == getattr(spectrum.TABLE, key) for key in ("name", "radius", "mass", "material", "rms")
+    )
 
 
-DENSITY, MODEL = "A [(m/s²)² s]", ("model",)
+DENSITY = "A [(m/s²)² s]"
+WHOLE = Panel(
+    spectrum.OMEGA,
+    DENSITY,
+    by_model(
+        spectrum.SPECTRUM,
+        {
+            spectrum.LINEAR: "thick",
+            spectrum.LOWEST: "dotted",
+            spectrum.HIGHEST: "dotted",
+            spectrum.NO_WINDOW: "mdr line",
+            spectrum.HANN: "exact",
+            spectrum.PREDICTED_FLOOR: "bem line",
+        },
+    ),
+    log="xy",
+    decades=13.0,
+    marks=spectrum.MARKS,
+    legend="upper right",
+)
+STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}
+THIRD = Panel(
+    spectrum.OMEGA,
+    spectrum.OSCILLATION,
+    by_model(spectrum.OSCILLATION, STYLES),
+    log="y",
+    ylim=(0.01, 30.0),
+    legend="upper left",
+)
+ZEROS = Panel(
+    ZERO,
+    "maxima over zeros [dB]",
+    by_model(CONTRAST, {spectrum.LINEAR: "thick", "springs": "mdr"}, bars=True),
+    log="",
+    lines=(0.0,),
+    legend="center right",
+)
+BASE, ONE_CHANGED = Curve(spectrum.SPECTRUM, spectrum.NO_WINDOW, "thick", "_"), Curve(spectrum.VARIED, by=("scene",))
+VARIED = Panel(spectrum.OMEGA, DENSITY, (BASE, ONE_CHANGED), facet=spectrum.PARAMETER, log="xy", legend="lower left")
+
+
+def of_worst(says: str, short: str, feature: str) -> Claim:
+    """Of the scene, with one parameter changed, that decides."""
+    return Claim(says=says, short=short, quantity=QUANTITIES[feature], where={"scenes": str})
+
+
 STUDY = Study(
     title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
     method=(
@@ -108,14 +134,14 @@ STUDY = Study(
         "means over periods of the oscillation; the floor is measured beyond q_max v₀. The period is sought from "
         f"{THIRD_FIRST:g} q_min v₀ to {OSCILLATION_LAST:g} q_max v₀. Errors: jackknife over groups of wheels."
     ),
-    series=series,
+    series=spectrum.series,
     claims=(
         Claim(
             says="On springs the peak and the regions of Fig. 14.4 lie where theory has them; region 3 has its level "
             "and slope.",
             short="Peak, regions, level and slope of Fig. 14.4",
             either=(
-                {"quantity": tuple(QUANTITIES[k] for k in SOURCES if k != PERIOD), "where": OF_SCENE},
+                {"quantity": tuple(QUANTITIES[k] for k in spectrum.SOURCES if k != PERIOD), "where": {"scene": str}},
                 {"quantity": LEVEL},
             ),
         ),
@@ -127,29 +153,17 @@ STUDY = Study(
             short="maxima of region 3 over its zeros",
             quantity=CONTRAST,
         ),
-        Claim(
-            says="The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
-            short="One parameter changed, worst case: the peak",
-            quantity=QUANTITIES[PEAK],
-            where=MOVED,
+        of_worst(
+            "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
+            "One parameter changed, the peak in the worst case",
+            PEAK,
         ),
-        Claim(
-            says="Region 3 begins at q_min v₀, whatever the speed and the cut-off.",
-            short="the jump",
-            quantity=QUANTITIES[JUMP],
-            where=MOVED,
-        ),
-        Claim(
-            says="The slope of region 3 is -2 H - 3, whatever the parameters.",
-            short="the slope",
-            quantity=QUANTITIES[SLOPE],
-            where=MOVED,
-        ),
-        Claim(
-            says="The break lies where region 3 meets the predicted floor, whatever the parameters.",
-            short="the break",
-            quantity=QUANTITIES[BREAK + PREDICTED],
-            where=MOVED,
+        of_worst("Region 3 begins at q_min v₀, whatever the speed and the cut-off.", "the jump", JUMP),
+        of_worst("The slope of region 3 is -2 H - 3, whatever the parameters.", "the slope", SLOPE),
+        of_worst(
+            "The break lies where region 3 meets the predicted floor, whatever the parameters.",
+            "the break",
+            BREAK + PREDICTED,
         ),
     ),
     charts=(
@@ -165,46 +179,7 @@ STUDY = Study(
             "Fig. 14.4. (a) Spectrum of the acceleration, (14.17), mean of {c.realisations} wheels, with the tenth and "
             "the ninetieth percentile. Vertical lines: ω_eigen, q_min v₀, predicted break, q_max v₀. (b) Region 3 over "
             "ω^(-2H-3). (c) Contrast of the oscillation at each zero of sin²(q a), Hann's window, 95 %.",
-            (
-                Panel(
-                    OMEGA,
-                    DENSITY,
-                    (
-                        Curve(SPECTRUM, LINEAR, "thick", by=MODEL),
-                        Curve(SPECTRUM, (LOWEST, HIGHEST), "dotted", by=MODEL),
-                        Curve(SPECTRUM, NO_WINDOW, "mdr line", by=MODEL),
-                        Curve(SPECTRUM, HANN, "exact", by=MODEL),
-                        Curve(SPECTRUM, PREDICTED_FLOOR, "bem line", by=MODEL),
-                    ),
-                    log="xy",
-                    decades=13.0,
-                    marks=MARKS,
-                    legend="upper right",
-                ),
-                Panel(
-                    OMEGA,
-                    OSCILLATION,
-                    (
-                        Curve(OSCILLATION, LINEAR, "thick", by=MODEL),
-                        Curve(OSCILLATION, NO_WINDOW, "mdr line", by=MODEL),
-                        Curve(OSCILLATION, HANN, "exact", by=MODEL),
-                    ),
-                    log="y",
-                    ylim=(0.01, 30.0),
-                    legend="upper left",
-                ),
-                Panel(
-                    ZERO,
-                    "maxima over zeros [dB]",
-                    (
-                        Curve(CONTRAST, LINEAR, "thick", by=MODEL),
-                        Curve(CONTRAST, "springs", "mdr", "springs, Hann's window", bars=True),
-                    ),
-                    log="",
-                    lines=(0.0,),
-                    legend="center right",
-                ),
-            ),
+            (WHOLE, THIRD, ZEROS),
             claims=(0, 2),
             width=13.5,
             height=4.2,
@@ -212,19 +187,7 @@ STUDY = Study(
         Chart(
             "wheel-parameters",
             "One parameter at a time, mean of {c.varied} wheels each, without window; thick grey: {c.scene.name}.",
-            (
-                Panel(
-                    OMEGA,
-                    DENSITY,
-                    (
-                        Curve(SPECTRUM, NO_WINDOW, "thick", "_"),
-                        Curve(VARIED, by=("scene",)),
-                    ),
-                    facet=PARAMETER,
-                    log="xy",
-                    legend="lower left",
-                ),
-            ),
+            (VARIED,),
             claims=(3, 4, 5, 6),
             columns=3,
             width=11.0,
@@ -242,9 +205,9 @@ CASE = Case(
     answers=(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),
-    quick=WheelSpectrum(scene=replace(TABLE, distance=0.4), realisations=30, varied=10),
-    full=WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
-    run=run,
+    quick=spectrum.WheelSpectrum(scene=replace(spectrum.TABLE, distance=0.4), realisations=30, varied=10),
+    full=spectrum.WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
+    run=spectrum.run,
     study=STUDY,
     needs=model_needed.wheel,
 )
