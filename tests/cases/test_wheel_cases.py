@@ -206,7 +206,7 @@ def of_distances(result, changed=None):
 def hann(evidence):
     """Region 4 with Hann's window over that without."""
     model = f"{wheel_distance.HANN}, over {wheel_distance.OPEN}"
-    return number_with(evidence.numbers, wheel_distance.LEVEL, model)
+    return number_with(evidence.numbers, LEVEL, model)
 
 
 @pytest.mark.slow

@@ -248,6 +248,7 @@ def test_a_value_with_its_interval(value, half):
         (1.0, 2e-9, "1 ± 2e-09"),
         (1.0, 2.4e-6, "1.0000000 ± 0.0000024"),
         (1.0, 2.4e-7, "1 ± 2.4e-07"),
+        (-0.04, 1.5, "0.0 ± 1.5"),
     ],
 )
 def test_values_with_intervals_of_all_sizes(value, half, text):

@@ -19,9 +19,12 @@ from validation.cases.wheel.features import (
     FIRST,
     FLOOR,
     FOURTH,
+    LEVEL,
+    OMEGA,
     PEAK,
     PLATEAU,
     PREDICTED,
+    QUANTITIES,
     THIRD,
     FloatArray,
     Spectrum,
@@ -172,16 +175,11 @@ def _check_regions(scene: WheelScene) -> None:
         )
 
 
-SPECTRA, OMEGA, BREAK_AT, DURATION = "A by distance", "ω [rad/s]", "ω_break [rad/s]", "T [s]"
-BREAK_LAW, JUMP, LEVEL = "d ln ω_break / d ln T", "rms jump over linear theory", "level"
-ORDER, SQUARE, PEAK_AT = "d ln A / d ln h₀", "mean square acceleration", "peak ω_eigen"
-CAUSE, OF_REGION, BY_HEIGHT, BY_PHASE = (
-    "A by contact and track",
-    "level of a region",
-    "level by height",
-    "level by phase",
-)
-FLOORS = "floor over J² / (ω² T), an identity"
+SPECTRA, BREAK_AT, DURATION = "A by distance", "ω_break [rad/s]", "T [s]"
+BREAK_LAW, JUMP = "d ln ω_break / d ln T", "rms jump over linear theory"
+ORDER, SQUARE = "d ln A / d ln h₀", "mean square acceleration"
+CAUSE, OF_REGION = "A by contact and track", "level of a region"
+BY_HEIGHT, BY_PHASE, FLOORS = "level by height", "level by phase", "floor over J² / (ω² T), an identity"
 OVER_EIGEN, DISTANCE, RELEASE, H_OVER_D = "peak over ω_eigen", "distance [m]", "release / d", "h / d"
 HANN = f"{OPEN}, Hann's window"
 QUARTER, WHOLE = 0.25, 1.0
@@ -332,7 +330,7 @@ def _motion(result: Outcomes) -> Iterator[Series]:
         found.append(Estimate(value.value / frequency, value.error / frequency, value.samples))
         source = "period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)"
         yield Series(
-            PEAK_AT,
+            QUANTITIES[PEAK],
             OPEN,
             found[-1:],
             where={RELEASE: release},

@@ -7,13 +7,13 @@ from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim
 from validation.analysis.study import Study
 from validation.cases.wheel import distance
-from validation.cases.wheel.features import FOURTH
+from validation.cases.wheel.features import DENSITY, FOURTH, LEVEL, OMEGA, PEAK, QUANTITIES
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
-LINEAR_OVER, DENSITY = f"{distance.LINEAR_OPEN}, over {distance.OPEN}", "A [(m/s²)² s]"
+LINEAR_OVER = f"{distance.LINEAR_OPEN}, over {distance.OPEN}"
 BY_DISTANCE = Panel(
-    distance.OMEGA,
+    OMEGA,
     DENSITY,
     (
         Curve(distance.SPECTRA, "spectrum", by=(distance.DISTANCE,)),
@@ -34,7 +34,7 @@ BREAKS = Panel(
     legend="upper left",
 )
 CAUSES = Panel(
-    distance.OMEGA,
+    OMEGA,
     DENSITY,
     by_model(
         distance.CAUSE,
@@ -91,13 +91,13 @@ STUDY = Study(
         ),
         Claim(
             says="Regions 1, 2 and 4 arise from the non-linearity of the contact.",
-            short="A linear contact has other regions 1, 2 and 4",
-            quantity=distance.LEVEL,
+            short="Regions 1, 2 and 4 of a linear contact and of springs",
+            quantity=LEVEL,
             model=LINEAR_OVER,
             differ=True,
         ),
         Claim(
-            says="The frequency of the peak depends on the amplitude as on a Hertz contact.", quantity=distance.PEAK_AT
+            says="The frequency of the peak depends on the amplitude as on a Hertz contact.", quantity=QUANTITIES[PEAK]
         ),
     ),
     charts=(

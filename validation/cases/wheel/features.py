@@ -29,7 +29,7 @@ QUANTITIES = {
     FLOOR + PREDICTED: "floor over predicted",
     BREAK + PREDICTED: "break over predicted",
 }
-LEVEL = "level"
+LEVEL, OMEGA, DENSITY = "level", "ω [rad/s]", "A [(m/s²)² s]"
 FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, FLOOR + PREDICTED, BREAK, BREAK + PREDICTED)
 THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
 """Region 3 begins at this multiple of the jump, and ends at this of q_max v_0; the oscillation ends earlier, since

@@ -199,7 +199,8 @@ class WheelLevels:
     def solver(self) -> FloatArray:
         """Change of the level of a short strip with a tighter residual; zero where that has no line."""
         loose, tight = (self.of_strips(self.result[name], "bem")[0] for name in (LOOSE, TIGHT))
-        return np.asarray(np.nan_to_num(np.abs(np.log(loose / tight))))
+        change = np.abs(np.log(loose / tight))
+        return np.where(np.isfinite(change), change, 0.0)
 
     @cached_property
     def exact(self) -> dict[str, FloatArray]:

@@ -19,11 +19,11 @@ from validation.analysis.statistics import POWER_DECIBEL, jackknifed
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.contrast import CONTRAST, ZERO, contrast_series, contrasts_of, linear_contrasts
-from validation.cases.wheel.features import LEVEL, QUANTITIES, SLOPE, FloatArray, hurst, linear_force_3d
+from validation.cases.wheel.features import DENSITY, LEVEL, OMEGA, QUANTITIES, SLOPE, FloatArray, hurst, linear_force_3d
 from validation.scenes.description import slope_ratio
 from validation.selection import model_needed
 
-OMEGA, LEVELS, OVER = "ω [rad/s]", "one-third octave level [dB over (m/s²)²]", "level over boundary elements"
+LEVELS, OVER = "one-third octave level [dB over (m/s²)²]", "level over boundary elements"
 OSCILLATION, MARKS = "A of region 3", "marks [rad/s]"
 WHEEL, APPLICATIONS = "wheel", "applications a time step"
 OF_FIGURE = 5
@@ -192,7 +192,7 @@ DIFFERENCES = Panel(
 )
 THIRD = Panel(
     OMEGA,
-    "A [(m/s²)² s]",
+    DENSITY,
     (
         Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
         Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
@@ -213,7 +213,8 @@ ZEROS = Panel(
 STUDY = Study(
     title="The wheel in three dimensions: boundary elements inside the time loop",
     method=(
-        "{c.strips} wheels of {c.scene.name} over isotropic surfaces; contact by boundary elements in each of "
+        "{c.strips} wheels of {c.scene.name} over isotropic surfaces, waves of {c.scene.rail.longest:g} to "
+        "{c.scene.rail.shortest:g} m, H = {c.scene.rail.hurst:g}; contact by boundary elements in each of "
         "{c.strip.shape[0]} time steps, {c.cells} cells to a contact radius, residual {c.tolerance:g}; surfaces "
         "periodic, {c.strip.shape[1]} cells wide, half a natural period longer than {c.periods}. The linear contact of "
         "fixed radius rolls on the same surfaces; boundary elements begin in its steady state. "

@@ -18,7 +18,7 @@ from validation.analysis.spectra import band_levels, band_means, one_third_octav
 from validation.analysis.statistics import POWER_DECIBEL, jackknifed
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel.contrast import CONTRAST, log_beside_over_at
-from validation.cases.wheel.features import JUMP, LEVEL, QUANTITIES, FloatArray, resonator, roughness
+from validation.cases.wheel.features import DENSITY, JUMP, LEVEL, OMEGA, QUANTITIES, FloatArray, resonator, roughness
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
@@ -99,7 +99,7 @@ def run(case: WheelRegions, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, found)
 
 
-OMEGA, RATIO, MAXIMUM = "ω [rad/s]", "q_min v₀ / ω_eigen", "maximum of cos²(q a)"
+RATIO, MAXIMUM = "q_min v₀ / ω_eigen", "maximum of cos²(q a)"
 OVER_EIGEN, VALLEY, A, BY_SPEED = "ω / ω_eigen", "valley before the jump [dB]", "A of region 2", "A by speed"
 MERGED, MERGES, SECOND_ORDER = f"{RATIO} at which the plateau disappears", "merges at", "second-order force"
 FIRST, LAST = 3.0, 0.9
@@ -259,7 +259,7 @@ def plateau_panel(steady: str, *more: Curve) -> Panel:
         Curve(A, steady, "mdr", "springs, steady-state"),
         *more,
     )
-    return Panel(OMEGA, "A [(m/s²)² s]", curves, log="y")
+    return Panel(OMEGA, DENSITY, curves, log="y")
 
 
 STUDY = Study(
@@ -276,7 +276,7 @@ STUDY = Study(
     claims=(
         Claim(
             says="The plateau of region 2 has a substructure or none, depending on the parameters.",
-            short="Maxima over zeros of region 2 over short waves",
+            short="Maxima and zeros of region 2 over short waves",
             quantity=CONTRAST,
             model=SHORT_OPEN,
             differ=True,
@@ -301,12 +301,7 @@ STUDY = Study(
             (
                 plateau_panel(SHORT_STEADY, Curve(A, SHORT_OPEN, "guide", "springs, open tracks")),
                 plateau_panel(LONG_STEADY),
-                Panel(
-                    OVER_EIGEN,
-                    "A [(m/s²)² s]",
-                    (Curve(BY_SPEED, by=(RATIO,)),),
-                    log="xy",
-                ),
+                Panel(OVER_EIGEN, DENSITY, (Curve(BY_SPEED, by=(RATIO,)),), log="xy"),
                 Panel(RATIO, VALLEY, (Curve(VALLEY, label="_"),), lines=(APART,), marks=MERGES),
             ),
             claims=(0, 2),

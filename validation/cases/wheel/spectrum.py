@@ -20,6 +20,7 @@ from validation.cases.wheel.features import (
     FREE_MASS,
     JUMP,
     LEVEL,
+    OMEGA,
     PEAK,
     PERIOD,
     PREDICTED,
@@ -111,7 +112,7 @@ def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     return varied | {name: replace(scene, rail=one) for name, one in rails.items()}
 
 
-OMEGA, SPECTRUM, VARIED = "ω [rad/s]", "A in twelfths of an octave", "A with one parameter changed"
+SPECTRUM, VARIED = "A in twelfths of an octave", "A with one parameter changed"
 OSCILLATION, MARKS, PARAMETER = "A over its mean law ω^(-2H-3)", "marks [rad/s]", "parameter"
 NO_WINDOW, HANN, LINEAR = "no window, (14.17)", "Hann's window", "linear theory"
 LOWEST, HIGHEST, PREDICTED_FLOOR = "lowest tenth of wheels", "highest tenth of wheels", "floor predicted"

@@ -14,8 +14,10 @@ from validation.cases.wheel import spectrum
 from validation.cases.wheel.contrast import CONTRAST, ZERO
 from validation.cases.wheel.features import (
     BREAK,
+    DENSITY,
     JUMP,
     LEVEL,
+    OMEGA,
     OSCILLATION_LAST,
     PEAK,
     PEAK_LAST,
@@ -75,9 +77,8 @@ def is_of_the_book(scene: WheelScene) -> bool:
     )
 
 
-DENSITY = "A [(m/s²)² s]"
 WHOLE = Panel(
-    spectrum.OMEGA,
+    OMEGA,
     DENSITY,
     by_model(
         spectrum.SPECTRUM,
@@ -97,7 +98,7 @@ WHOLE = Panel(
 )
 STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}
 THIRD = Panel(
-    spectrum.OMEGA,
+    OMEGA,
     spectrum.OSCILLATION,
     by_model(spectrum.OSCILLATION, STYLES),
     log="y",
@@ -113,7 +114,7 @@ ZEROS = Panel(
     legend="center right",
 )
 BASE, ONE_CHANGED = Curve(spectrum.SPECTRUM, spectrum.NO_WINDOW, "thick", "_"), Curve(spectrum.VARIED, by=("scene",))
-VARIED = Panel(spectrum.OMEGA, DENSITY, (BASE, ONE_CHANGED), facet=spectrum.PARAMETER, log="xy", legend="lower left")
+VARIED = Panel(OMEGA, DENSITY, (BASE, ONE_CHANGED), facet=spectrum.PARAMETER, log="xy", legend="lower left")
 
 
 def of_worst(says: str, short: str, feature: str) -> Claim:
