@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.evidence import Number, Role
+from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
 from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, Where
@@ -140,21 +140,28 @@ OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact 
 
 def series(result: Outcomes) -> list[Series]:
     """Features beside theory for the scene and for the worst variation; level and contrast of region 3; identities."""
-    base, *varied = result.case.variations()
-    spectrum = _spectrum(result, base)
+    spectra, (mine, *varied) = spectra_of(result), features_by_scene(result)
+    base, spectrum = next(iter(spectra.items()))
     return [
-        *_identities([batch for name in (base, *varied) for batch in result[name]]),
-        *features_of(base, spectrum, family=OF_FIGURE).values(),
+        *_identities([batch for name in spectra for batch in result[name]]),
+        *mine.values(),
         *levels_over_linear(spectrum),
-        *_worst_scenes([features_of(n, _spectrum(result, n), family=len(varied)) for n in varied]),
+        *_worst_scenes(varied),
         *_contrasts(spectrum),
         *_drawn(spectrum, result[base]),
-        *(_in_sixths(name, _spectrum(result, name)) for name in varied),
+        *(_in_sixths(name, one) for name, one in spectra.items() if name != base),
     ]
 
 
-def _spectrum(result: Outcomes, name: str) -> Spectrum:
-    return Spectrum.of(result.case.variations()[name], result[name])
+def spectra_of(result: Outcomes) -> dict[str, Spectrum]:
+    """Of the scene itself first."""
+    return {name: Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
+
+
+def features_by_scene(result: Outcomes) -> list[dict[str, Series]]:
+    """Of the scene itself first, whose intervals hold at once for the figure; those of the others, for all of them."""
+    (base, spectrum), *varied = spectra_of(result).items()
+    return [features_of(base, spectrum, OF_FIGURE), *(features_of(*one, len(varied)) for one in varied)]
 
 
 def features_of(name: str, spectrum: Spectrum, family: int) -> dict[str, Series]:
@@ -178,13 +185,6 @@ def features_of(name: str, spectrum: Spectrum, family: int) -> dict[str, Series]
         for key, quantity in QUANTITIES.items()
         if key in values
     }
-
-
-def numbers_of_scenes(result: Outcomes) -> list[Number]:
-    """Each feature of each scene."""
-    names = list(result.case.variations())
-    of_scenes = [features_of(n, _spectrum(result, n), OF_FIGURE if n == names[0] else len(names) - 1) for n in names]
-    return [number for features in of_scenes for one in features.values() for number in one.numbers]
 
 
 def _worst_scenes(varied: list[dict[str, Series]]) -> Iterator[Series]:

@@ -46,7 +46,9 @@ def tables(result: Outcomes) -> list[Table]:
     pressure = {"x / a": x.ravel(), "y / a": y.ravel(), "p / p0": snapshot["pressure"].ravel()}
     return [
         Table("the scene", dict(zip(("quantity", "value"), map(list, zip(*pairs, strict=True)), strict=True))),
-        PARAMETERS.table(spectrum.numbers_of_scenes(result)),
+        PARAMETERS.table(
+            [n for scene in spectrum.features_by_scene(result) for one in scene.values() for n in one.numbers]
+        ),
         Table("springs", columns(**dict(zip(SPRING_COLUMNS, snapshot["springs"], strict=True)))),
         Table("pressure", columns(**pressure)),
     ]
