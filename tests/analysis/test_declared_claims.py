@@ -65,6 +65,14 @@ def test_a_claim_that_things_differ_is_confirmed_by_that():
     assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
 
 
+def test_a_matrix_has_a_column_for_each_quantity_that_it_names():
+    matrix = Matrix(name="m", quantity=("level", "slope"), rows=("h/d",), columns="quantity")
+    table = matrix.table(by_height(AGREE, DIFFER))
+    assert list(table.columns) == ["h/d", "level", "slope"] and table.columns["slope"] == ["–", "–"]
+    assert [cell.verdict for cell in table.columns["level"]] == [AGREE, DIFFER]
+    assert matrix.table([]).columns == {"h/d": (), "level": [], "slope": []}
+
+
 def test_members_are_chosen_by_quantity_model_and_conditions():
     numbers = [number(AGREE, model=m, across=a) for m in "ab" for a in ("ridges", "ground")] + by_height(
         AGREE, model="a"

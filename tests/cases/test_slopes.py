@@ -23,7 +23,7 @@ from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.roughness_from_force import RoughnessFromForce
 from validation.cases.rolling.settings import slopes_of
-from validation.cases.wheel import half_space_tables
+from validation.cases.wheel import half_space_study
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
 from validation.scenes.roughness_levels import RoughnessLevels
@@ -59,10 +59,8 @@ def slope_of_table_14_1():
 
 
 def wheel_table(scene=WHEEL):
-    levels = SimpleNamespace(
-        result=SimpleNamespace(case=SimpleNamespace(scene=scene, cells=8)), converged=[{"applications": 1.0}]
-    )
-    return half_space_tables.wheel_of(levels)
+    values = half_space_study.of_wheel(SimpleNamespace(scene=scene, cells=8), 1.0)
+    return {name: [value] for name, value in values.items()}
 
 
 def validity_evidence(case=validity.CASE.quick):

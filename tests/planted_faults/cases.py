@@ -28,6 +28,7 @@ from tests.cases import (
 )
 from tests.planted_faults.wrong import scaled
 from validation.analysis import multilevel, statistics
+from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
 from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
@@ -41,7 +42,7 @@ from validation.cases.rolling import (
     validity,
 )
 from validation.cases.selection import model_selection as calibration
-from validation.cases.wheel import contrast, regions_numbers
+from validation.cases.wheel import contrast, regions
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import (
@@ -299,11 +300,11 @@ FAULTS = {
         functools.partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
     ),
     "the first zero for the worst": (
-        (contrast, "worst_contrast", lambda numbers: numbers[0]),
+        (analysis_series, "worst", lambda points, parameter: points[0]),
         test_wheel_cases.test_an_oscillation_that_dies_is_noticed,
     ),
     "a valley behind the jump": (
-        (regions_numbers, "valley", lambda scene, omega, hann: 0.0),
+        (regions, "valley", lambda scene, omega, hann: 0.0),
         test_wheel_regions.test_a_valley_is_as_deep_as_it_is_drawn,
     ),
     "a limit read on its good side": (
