@@ -214,7 +214,7 @@ def test_a_reference_that_fails_is_a_line_of_the_result():
         ladder.run(case, Given(pressed, lambda _: True))
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.study is None])
 def test_every_case_hands_on_what_is_lost(name):
     """Where a result knows what has not converged, the evidence that is read from it says so."""
     evidence = CASES[name].evidence

@@ -35,7 +35,7 @@ from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
-from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
+from validation.cases.punch import bandwidth, ensembles, fractal_punch_cost, fractal_punch_decades
 from validation.cases.rail import ellipse as rail_ellipse
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound_levels
@@ -50,7 +50,14 @@ from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
-from validation.simulation import equivalent_displacement, free_vibration, indentation, integrators, rough_punch
+from validation.simulation import (
+    equivalent_displacement,
+    free_vibration,
+    indentation,
+    integrators,
+    rolled_off,
+    rough_punch,
+)
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.rail_strip import PowerLawGround
@@ -169,11 +176,11 @@ FAULTS = {
         functools.partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
     ),
     "no plateau below the roll-off": (
-        (bandwidth.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
+        (rolled_off.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
         test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,
     ),
     "a wide band without the change from the narrow one": (
-        (bandwidth_levels, "plus", lambda one, other: one),
+        (bandwidth, "accumulate", lambda steps, initial: [initial] * (1 + len(steps))),
         test_bandwidth.test_a_planted_change_of_boundary_elements_adds_up,
     ),
     "half of the jackknife's error in a change": (

@@ -16,7 +16,7 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
-from validation.analysis.contents import as_csv, as_json
+from validation.analysis.contents import as_csv, as_json, csv_name
 from validation.analysis.evidence import Role
 from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
@@ -180,7 +180,7 @@ def files_of(name, evidence):
     """A CSV for each table that is not played, a figure for each caption, one of each at least, and a WAV a sound."""
     assert evidence.tables and name in evidence.captions
     played = evidence.sounds.table if evidence.sounds else None
-    data = {f"data/{name}-{table.name}.csv" for table in evidence.tables if table.name != played}
+    data = {f"data/{csv_name(name, table.name)}" for table in evidence.tables if table.name != played}
     sounds = {f"sounds/{name}-{sound.name}.wav" for sound in evidence.sounds.tracks} if evidence.sounds else set()
     pictures = {f"figures/{figure}.svg" for figure in evidence.captions}
     return {"results.json", *data, *pictures, *sounds}
@@ -200,7 +200,7 @@ def read_back_whole(folder):
     assert json.loads(as_json(results_of(kept, "quick"))) == {name: said[name] for name in ("profile", "cases")}
     (section,) = kept
     assert section.files == contents(folder, "data/*.csv", "sounds/*.wav")
-    tables = {f"data/{section.name}-{table.name}.csv": as_csv(table) for table in section.evidence.tables}
+    tables = {f"data/{csv_name(section.name, table.name)}": as_csv(table) for table in section.evidence.tables}
     assert tables == contents(folder, "data/*.csv")
 
 

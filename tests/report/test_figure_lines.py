@@ -17,7 +17,6 @@ from validation.analysis.evidence import Table, table_of
 from validation.cases.rolling.input_spectrum_numbers import NAMES
 from validation.cases.rolling.roughness_from_force import FILTERS
 from validation.report.figures import (
-    bandwidth,
     fractal_punch,
     geike,
     hertz,
@@ -231,30 +230,6 @@ def test_lines_of_where_mdr_must_fail():
             expected[f"boundary elements, q_r L / 2π = {roll_off}"] = value, (0.1 * value, 0.3 * value)
             expected[f"MDR, q_r L / 2π = {roll_off}"] = (table[f"mdr {name}"] / unit)[rows]
         drawn(axis, expected)
-
-
-def test_lines_of_bandwidths():
-    """A narrow and a wide band, and a roll-off; the fit of the first and of the last."""
-    keys = {"q_max / q_min": np.repeat([8.0, 32.0, 32.0], 4), "q_r L / 2π": np.repeat([1.0, 1.0, 4.0], 4)}
-    table = Made({**keys, "Fbar": np.tile(FORCE, 3)})
-    names = ("mdr over bem3d mean stiffness", "mdr over bem3d relative deviation", "bem3d relative deviation")
-    for name in names:
-        table.given[f"{name} low"], table.given[f"{name} high"] = 0.9 * table[name], 1.3 * table[name]
-    mean, over, deviation = bandwidth.draw(made(curves=table)).axes
-    labels = "q_max / q_min = 8", "q_max / q_min = 32", "q_max / q_min = 32, q_r L / 2π = 4"
-    rows = dict(zip(labels, (slice(4), slice(4, 8), slice(8, 12)), strict=True))
-
-    def with_bars(name):
-        return {label: (table[name][of], (0.1 * table[name][of], 0.3 * table[name][of])) for label, of in rows.items()}
-
-    fits = {f"fit, {label}": table["fit over bem3d mean stiffness"][rows[label]] for label in (labels[0], labels[2])}
-    drawn(mean, with_bars(names[0]) | fits)
-    drawn(over, with_bars(names[1]))
-    for container, of in zip(deviation.containers, rows.values(), strict=True):
-        np.testing.assert_allclose(container.lines[0].get_ydata(), table[names[2]][of])
-    springs = [line for line in deviation.get_lines() if line.get_linestyle() != "None"]
-    for line, of in zip([line for line in springs if len(line.get_xdata()) == 4], rows.values(), strict=True):
-        np.testing.assert_allclose(line.get_ydata(), table["mdr relative deviation"][of])
 
 
 def test_lines_of_fig_14_3():

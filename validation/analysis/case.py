@@ -55,7 +55,8 @@ class Case:
     def __post_init__(self) -> None:
         if self.study is not None:
             object.__setattr__(self, "claim", self.study.claims[0].says)
-            object.__setattr__(self, "evidence", self.study.evidence)
+            if self.evidence is none:
+                object.__setattr__(self, "evidence", self.study.evidence)
 
     def settings(self, profile: Profile, seed: int | None, scene: Any = None) -> Any:
         """Of that size, with the seed where it draws anything, and the scene where it has one."""

@@ -34,6 +34,7 @@ GRADED: dict[str, Style] = {
 }
 FIRST = "first"
 POINTS = 12
+FEW_DECADES = 300
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
@@ -98,12 +99,18 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if panel.ylim:
         axis.set_ylim(panel.ylim)
     if "x" in panel.log:
-        low, high = axis.get_xlim()
-        steps = (1, 2, 5) if high < 300 * low else (1,)
-        powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
-        tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
+        tick(axis, _round(*axis.get_xlim()))
+    if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
+        tick(axis, _round(*axis.get_ylim()), up=True)
     if panel.downward:
         axis.invert_xaxis()
+
+
+def _round(low: float, high: float) -> list[float]:
+    """Powers of ten, of few decades two and five times them too."""
+    steps = (1, 2, 5) if high < FEW_DECADES * low else (1,)
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
+    return [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
 
 
 def _said(name: str, value: object) -> str:
@@ -143,7 +150,9 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
     down = i * curve.down
     if curve.bars:
         bars = [np.nan_to_num(y - low), np.nan_to_num(high - y)]
-        axis.errorbar(mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
+        # moved a little, so that intervals stand side by side
+        beside = 1.03**i if "x" in panel.log else 1.0
+        axis.errorbar(beside * mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
     else:
         axis.plot(mine[x], y - down, label=label, **style)
     if curve.band:
