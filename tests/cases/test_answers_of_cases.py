@@ -5,9 +5,7 @@ import pytest
 from tests.analysis.test_judged_claims import point
 from validation.analysis.answers import answered
 from validation.analysis.evidence import ClaimStatus, Verdict
-from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import area_gap_rolloff_evidence as area_gap
-from validation.cases.punch import fractal_punch_decades, fractal_punch_text
 from validation.cases.punch.area_gap_rolloff_numbers import AREA, DEVIATION, GAP
 from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.wheel import half_space_evidence, spectrum_evidence
@@ -72,12 +70,3 @@ def test_a_ratio_that_says_nothing_is_not_quoted_as_the_largest():
     numbers = [point(7.7, 11.0, quantity=DEVIATION), point(-8.4, 4.4, quantity=DEVIATION, at=2.0)]
     (judged,) = area_gap.claims_of(numbers)
     assert judged.answer.endswith("it is 0.38 (0.23 to 0.63) at q a = 2; 1 of 2 are decided.")
-
-
-@pytest.mark.parametrize("name", ["relative deviation", "relative deviation, L_1D = 1.1523 L"])
-def test_a_deviation_of_nothing_is_no_interval_of_99_per_cent(name):
-    """-40 dB is where less is judged, not what was measured."""
-    number = point(DECIBEL * fractal_punch_decades.NOTHING_LEFT, 0.1, quantity=name, where={"worst at": 10.0})
-    assert str(fractal_punch_text.verdict(number)) == "none left at Fbar = 10: differ"
-    left = point(-20.0, 0.1, quantity=name, where={"worst at": 10.0})
-    assert str(fractal_punch_text.verdict(left)).startswith("-90 % (-90 to -90) at Fbar = 10")

@@ -28,14 +28,15 @@ from tests.cases import (
     test_whose_surfaces,
 )
 from tests.planted_faults.wrong import scaled
-from validation.analysis import multilevel, statistics
+from validation.analysis import multilevel, series, statistics
 from validation.analysis.evidence import Verdict
+from validation.analysis.multilevel import Resolved
 from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
-from validation.cases.punch import bandwidth, ensembles, fractal_punch_cost, fractal_punch_decades
+from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import ellipse as rail_ellipse
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound_levels
@@ -76,7 +77,7 @@ def in_the_case(attribute, wrong):
     return view
 
 
-combined = fractal_punch_decades.combined
+combined = multilevel.combined
 
 
 def of_each_hurst_exponent(mine, kind, realisation):
@@ -212,11 +213,11 @@ FAULTS = {
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
-        (fractal_punch_decades.PointComparison, "grid", 0.0),
+        (multilevel.Resolved, "beside", lambda one, other: Resolved(one.value.beside(other.value), 0.0)),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "no extrapolation": (
-        (fractal_punch_decades, "extrapolated", fractal_punch_decades.on_finest),
+        (fractal_punch, "on_no_size", multilevel.on_finest),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "a third of the interval": (
@@ -224,15 +225,15 @@ FAULTS = {
         functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
     ),
     "the mean of a decade for its worst force": (
-        (fractal_punch_decades, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
+        (series, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
     ),
     "a fine application as cheap as a coarse one": (
-        (fractal_punch_cost, "_work", lambda ensemble, cells, level: 1.0),
+        (work, "_cost", lambda applications, cells: 1.0),
         test_fractal_punch.test_the_work_beside_plain_sampling,
     ),
     "the order of the curves turned round": (
-        (fractal_punch_decades, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
+        (fractal_punch, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
         test_fractal_punch.test_the_order_of_the_curves_is_found_or_shown_to_be_absent,
     ),
     "other phases for every Hurst exponent": (

@@ -20,7 +20,6 @@ from tests.report import (
 )
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
-from validation.cases.punch import fractal_punch_text
 from validation.report import build, chapter, formats, provenance, sounds, style
 from validation.report.answers import cells, words
 from validation.report.figures import ladder
@@ -165,10 +164,6 @@ FAULTS = {
     "another model's line under a label": (
         (rolling_figure, "SPRINGS", "linear 1D"),
         test_figure_lines.test_lines_of_rolling,
-    ),
-    "a printed decibel halved": (
-        (fractal_punch_text, "DECIBEL", 2 * statistics.DECIBEL),
-        test_printed.test_verdicts_of_fig_14_1_are_in_per_cent,
     ),
     "two signs of verdicts exchanged": (
         (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),

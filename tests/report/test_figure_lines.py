@@ -9,15 +9,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.collections import PolyCollection
 from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Table, table_of
+from validation.analysis.evidence import Table
 from validation.cases.rolling.input_spectrum_numbers import NAMES
 from validation.cases.rolling.roughness_from_force import FILTERS
 from validation.report.figures import (
-    fractal_punch,
     geike,
     hertz,
     limits,
@@ -102,79 +100,6 @@ def drawn(axis, expected, table=None):
 
 
 FORCE = np.array([0.01, 0.1, 1.0, 10.0])
-FEW_THEN_MANY = np.array([True, False, False, False])
-MARKS = {
-    "tolerance of the relative deviation [dB]": 20 * np.log10(1.03),
-    "claimed of rolling [dB]": 3.0,
-    "smallest published exponent": 0.5,
-    "largest published exponent": 0.8,
-}
-MARKS = Table("marks", {"mark": list(MARKS), "value": list(MARKS.values())})
-
-
-def curves(**more):
-    """Of one Hurst exponent; intervals lie about their values."""
-    given = {"H": np.full(4, 0.7), "Fbar": FORCE, "bem3d few cells": FEW_THEN_MANY, **more}
-    table = Made(given)
-    for name in (
-        f"{method} {what}"
-        for method in ("bem3d", "mdr", "mdr 1.1523 L", "mdr over bem3d")
-        for what in ("mean stiffness", "relative deviation", "exponent")
-    ):
-        table.given[f"{name} low"], table.given[f"{name} high"] = 0.9 * table[name], 1.3 * table[name]
-    return table
-
-
-def bars_of(table, name, rows=slice(None)):
-    value = table[name][rows]
-    return value, (value - table[f"{name} low"][rows], table[f"{name} high"][rows] - value)
-
-
-@pytest.mark.parametrize(
-    ("draw", "what", "guide"),
-    [
-        (fractal_punch.draw_overlay, "relative deviation", None),
-        (fractal_punch.draw_mean, "mean stiffness", "slope 1 / (1 + H)"),
-        (fractal_punch.draw_exponent, "exponent", "1 / (1 + H)"),
-    ],
-)
-def test_lines_of_fig_14_1_laid_over_each_other(draw, what, guide):
-    table = curves()
-    axis = draw(made(curves=table, marks=MARKS)).axes[0]
-    expected = {
-        "boundary elements": bars_of(table, f"bem3d {what}", slice(1, None)),
-        "boundary elements, few cells": bars_of(table, f"bem3d {what}", slice(0, 1)),
-        "MDR, L_1D = L": f"mdr {what}",
-        "MDR, L_1D = 1.1523 L": f"mdr 1.1523 L {what}",
-    }
-    drawn(axis, expected | ({guide: series(axis)[guide][0]} if guide else {}), table)
-
-
-def test_lines_of_fig_14_1():
-    table = curves()
-    of_bem, of_mdr = fractal_punch.draw(made(curves=table)).axes
-    assert (of_bem.get_title(), of_mdr.get_title()) == ("boundary elements", "MDR")
-    drawn(of_bem, {"H = 0.7": "bem3d relative deviation"}, table)
-    drawn(of_mdr, {"H = 0.7": "mdr relative deviation"}, table)
-
-
-@pytest.mark.parametrize(("verdict", "sign"), [("agree", "="), ("differ", "≠"), ("undecided", "?")])
-def test_boxes_of_fig_14_1_are_the_decibels_of_the_data_with_their_verdict(verdict, sign):
-    table = curves()
-    row = {"quantity": "relative deviation", "H": 0.7, "Fbar from": 0.1, "Fbar to": 1.0, "difference": 1.2}
-    decades = table_of("decades", [{**row, "± sample": 0.3, "± grid": 0.2, "verdict": verdict}])
-    axis = fractal_punch.draw_difference(made(curves=table, decades=decades, marks=MARKS)).axes[0]
-    found = series(axis)
-    np.testing.assert_allclose(found["worst of a decade"][0], 10 ** (1.2 / 20))
-    value, _ = bars_of(table, "mdr over bem3d relative deviation", slice(1, None))
-    np.testing.assert_allclose(found["at each force"][0], value)
-    (box,) = (c for c in axis.collections if isinstance(c, PolyCollection))
-    heights = box.get_paths()[0].vertices[:, 1]
-    assert (heights.min(), heights.max()) == pytest.approx((10 ** (0.7 / 20), 10 ** (1.7 / 20)))
-    assert [t.get_text() for t in axis.texts] == [sign]
-    assert found["3 dB"][0][0] == pytest.approx(10 ** (3 / 20))
-    near = axis.patches[0].get_extents().transformed(axis.transData.inverted())
-    assert near.y1 == pytest.approx(1.03) and near.y0 == pytest.approx(1 / 1.03)
 
 
 def test_lines_of_the_sphere():

@@ -70,7 +70,7 @@ class Map:
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states."""
+    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states; sharey: one for all."""
 
     name: str
     caption: str
@@ -80,6 +80,7 @@ class Chart:
     columns: int = 0
     width: float = 10.5
     height: float = 4.0
+    sharey: bool = False
 
     @property
     def tables(self) -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -35,6 +36,8 @@ GRADED: dict[str, Style] = {
 FIRST = "first"
 POINTS = 12
 FEW_DECADES = 300
+HIGHEST = 4.8
+"""Of a row of panels."""
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
@@ -42,16 +45,20 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     if isinstance(chart.panels, Map):
         return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
     facets = [(panel, *facet) for panel in chart.panels for facet in _facets(panel, evidence)]
-    columns = chart.columns or len(facets)
+    columns = min(chart.columns or len(facets), len(facets))
     rows = -(-len(facets) // columns)
-    figure, axes = panels(rows, columns, width=chart.width, height=chart.height)
+    shared: Literal["all", "none"] = "all" if chart.sharey else "none"
+    figure, axes = panels(rows, columns, width=chart.width, height=min(chart.height, HIGHEST * rows), sharey=shared)
     for axis, (panel, column, value) in zip(axes, facets, strict=False):
         _panel(axis, panel, {column: value} if column else {}, evidence)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
-    shared = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
-    if shared and not any(panel.legend for panel in chart.panels):
-        figure.legend(shared.values(), shared.keys(), loc="outside lower center", ncols=4)
+    for i, axis in enumerate(axes):
+        if chart.sharey and i % columns:
+            axis.set_ylabel("")
+    labels = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
+    if labels and not any(panel.legend for panel in chart.panels):
+        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -114,7 +121,11 @@ def _round(low: float, high: float) -> list[float]:
 
 
 def _said(name: str, value: object) -> str:
-    return str(value) if isinstance(value, str) else f"{name} = {value:g}"
+    """A value by its name; a name by itself, unless it is a number of a column that has names too."""
+    try:
+        return f"{name} = {float(value):g}"  # type: ignore[arg-type]
+    except ValueError:
+        return str(value)
 
 
 def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:

@@ -18,7 +18,7 @@ from validation.analysis.claims import Claim, Matrix, per_cent
 from validation.analysis.series import Estimates, Margin, Series, Where, spans
 from validation.analysis.statistics import DECIBEL, FIVE_PER_CENT, ROUNDING, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
-from validation.cases.punch.ensembles import PunchEnsembles, press
+from validation.cases.punch.ensembles import DEVIATION, MEAN, PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
 from validation.simulation.rolled_off import RolledOffRoughness
@@ -98,7 +98,6 @@ def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
 
 
 CHANGE, SIZE, OF_BEM = "change of MDR over bem3d, ", "with the roll-off over without, ", " over bem3d"
-MEAN, DEVIATION = "mean stiffness", "relative deviation"
 MARGINS = {
     MEAN: Margin(
         tolerance=FIVE_PER_CENT,

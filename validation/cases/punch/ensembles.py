@@ -19,6 +19,7 @@ from validation.simulation.rough_punch import (
     stacked,
 )
 
+MEAN, DEVIATION = "mean stiffness", "relative deviation"
 Row = dict[str, float]
 K = TypeVar("K", bound=Hashable)
 J = TypeVar("J", bound=Hashable)

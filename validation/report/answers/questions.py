@@ -2,7 +2,7 @@
 
 from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth
-from validation.cases.punch import fractal_punch_decades as punch
+from validation.cases.punch import ensembles as punch
 from validation.cases.rolling import force_spectrum_numbers as rolling
 from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, ROLLING_SPRINGS, SPRINGS
 from validation.cases.wheel import half_space_levels as wheel

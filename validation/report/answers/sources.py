@@ -3,6 +3,7 @@
 from validation.analysis.evidence import Evidence, Number, Place
 from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth
+from validation.cases.punch import ensembles as punch
 from validation.cases.rail import rail_dynamic_evidence, rough_rail
 from validation.cases.rolling import reduced_models_evidence
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
@@ -90,7 +91,7 @@ def of_fit(kind: str) -> NumberSource:
     """The fit, at several bandwidths or with a roll-off."""
     return NumberSource(
         case="bandwidth",
-        quantities=(bandwidth.MEAN + bandwidth.OF_BEM,),
+        quantities=(punch.MEAN + bandwidth.OF_BEM,),
         model=bandwidth.FIT,
         axis=FORCE,
         series=(kind,),

@@ -34,5 +34,6 @@ def drawing(name: str) -> Callable[[Evidence], Figure]:
     if find_spec(module) is not None:
         own = getattr(import_module(module), function, None)
     if own is None:
-        raise ValueError(f"figure {name!r} must be a chart of its case or {function} in report/figures/{case}.py")
+        place = f"validation/report/figures/{case}.py"
+        raise ValueError(f"figure {name!r} must be a chart of its case or {function} in {place}")
     return own
