@@ -26,7 +26,7 @@ from validation.analysis.statistics import (
 )
 from validation.cases.limits.numbers import exponent_number, threshold_number
 from validation.cases.limits.sweep import Sweep, swept
-from validation.cases.selection.model_selection_numbers import clopper_pearson
+from validation.cases.selection.model_selection_study import clopper_pearson
 from validation.cases.stability import long_runs
 
 # --- of a mean, of a ratio, of a difference ---

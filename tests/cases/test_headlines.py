@@ -22,7 +22,6 @@ from validation.cases.rolling import reduced_models_evidence as reduced
 from validation.cases.rolling import validity_headlines as validity
 from validation.cases.rolling.reduced_models import LAYER
 from validation.cases.rolling.reduced_models_map import map_headline
-from validation.cases.selection import model_selection_evidence
 from validation.cases.stability import evidence as stability_evidence
 from validation.cases.wheel import distance_evidence, half_space_evidence, regions_evidence, spectrum_evidence
 from validation.cases.wheel.distance import LINEAR_OPEN, OPEN, STEADY
@@ -357,16 +356,3 @@ def test_titles_of_time_stepping_have_the_status_of_their_claims(verdict, stable
     assert stable in found["wheel_stability"] and stable in stability_evidence.finding(claims)
     assert found["wheel_stability-rough"].startswith(rough)
     assert "lift off" not in stability_evidence.headlines(claims[:3])["wheel_stability-rough"]
-
-
-def test_the_title_of_model_selection_has_its_coverage_and_what_it_saves_or_loses():
-    def scenes(true, fine):
-        columns = {"true error": true, "estimated error": 0.1, "error of the reference": 0.0, "selection [s]": 2.0}
-        rows = {name: value if isinstance(value, list) else [value] * 4 for name, value in columns.items()}
-        return Table("scenes", {**rows, "fine [s]": [fine] * 4})
-
-    known = [(0.1, scenes([0.05, 0.05, 0.05, 0.2], 6.0)), (0.3, scenes([0.05] * 4, 1.0))]
-    words = "75% to 100% of true errors lie within their estimates, of 94 % wanted or more"
-    assert model_selection_evidence.headline(known) == words
-    assert model_selection_evidence.headline(known[1:]).startswith("100% of true errors")
-    assert "take 0.5 to 3 times as long" in model_selection_evidence.saving(known)
