@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix, per_cent
-from validation.analysis.evidence import ClaimStatus, Verdict
+from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times
+from validation.analysis.evidence import ClaimStatus, Role, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
@@ -47,6 +47,12 @@ def test_limits_from_the_last_value_on():
     assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "h/d from 1 on")
 
 
+def test_limits_along_quantities_name_those_that_agree():
+    numbers = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradient", AGREE), ("curvature", AGREE))]
+    judged = Claim(says="It is so.", along="-quantity").judged(numbers)
+    assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "in curvature, gradient")
+
+
 def test_limits_need_a_number_of_each_quantity():
     numbers = [*by_height(AGREE, DIFFER), *by_height(DIFFER, DIFFER, quantity="rms of level")[1:]]
     assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.CONTRADICTED
@@ -55,7 +61,7 @@ def test_limits_need_a_number_of_each_quantity():
 def test_a_claim_that_things_differ_is_confirmed_by_that():
     claim = Claim(says="They differ.", short="They", differ=True)
     judged = claim.judged(by_height(DIFFER, DIFFER))
-    assert judged.status is ClaimStatus.HOLDS and claim.headline(judged) == "They: differ within 1 dB"
+    assert judged.status is ClaimStatus.HOLDS and claim.headline(judged) == "They: differ by more than 1 dB"
     assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
 
 
@@ -68,9 +74,18 @@ def test_members_are_chosen_by_quantity_model_and_conditions():
         return [(n.model, *n.where.values()) for n in Claim(says="", **choice).numbers(numbers)]
 
     assert chosen(model="a", where={"across": ...}) == [("a", "ridges"), ("a", "ground")]
+    assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     assert chosen(model=("a", "b"), where={"across": "ridges"}) == [("a", "ridges"), ("b", "ridges")]
+    assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     both = ({"model": "b"}, {"where": {"h/d": 0.1}})
     assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
+
+
+def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
+    same = replace(number(AGREE, across="ridges"), role=Role.IDENTITY)
+    claim, matrix = Claim(says="It is so."), Matrix(name="t", quantity="level", rows=("across",), columns="model")
+    assert claim.judged([same, *by_height(DIFFER)]).numbers == tuple(by_height(DIFFER))
+    assert [str(cell) for cell in matrix.table([same]).columns["m"]] == ["+0.20 ± 0.10 dB: agree"]
 
 
 def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():
@@ -84,6 +99,22 @@ def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():
 def test_a_worst_point_is_said_to_be_at_its_place_and_not_at_a_range():
     worst = point(3.0, 0.1, quantity="level", model="m", where={"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0})
     assert Claim(says="It is so.").judged([worst]).answer == "No: +3.00 ± 0.10 dB at h/d = 1, q a = 2."
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "said"), [(51.0, 0.0, "350 times (350 to 350)"), (-6.0, 1.0, "0.5 times (0.45 to 0.56)")]
+)
+def test_large_ratios_have_no_exponent(value, half, said):
+    assert times(point(value, half)) == said
+
+
+def test_a_closed_form_leaves_a_difference():
+    assert off_by(point(1.0, quantity="k", model="m")) == "off by +1.0e+00 dB"
+
+
+def test_places_with_a_name_follow_after_a_comma_and_large_values_have_no_power_of_ten():
+    found = point(3.0, 0.1, quantity="level", model="m", where={"band": "below it", "f [Hz]": (177.0, 1402.0)})
+    assert Claim(says="It is so.").judged([found]).answer == "No: +3.00 ± 0.10 dB, below it, f [Hz] = 177 to 1402."
 
 
 def test_a_ratio_in_decibels_is_printed_in_per_cent():

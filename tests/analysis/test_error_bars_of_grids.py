@@ -25,10 +25,9 @@ from validation.analysis.study import Outcomes
 from validation.benchmarks.work_precision.errors import MethodValues, error
 from validation.benchmarks.work_precision.problem import Quantity, logarithm
 from validation.cases.punch import fractal_punch_study as study
-from validation.cases.punch.area_gap_rolloff_numbers import RollOffSamples
 from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS
-from validation.cases.punch.ensembles import interval_columns
 from validation.cases.punch.fractal_punch import FractalPunch, PunchStatistics
+from validation.cases.punch.mdr_limits import GAP, MdrLimits, RollOffSamples, over_bem
 from validation.simulation.rough_punch import BEM, MDR
 
 
@@ -155,27 +154,23 @@ def test_the_sample_interval_of_fig_14_1():
 
 
 def test_intervals_of_where_mdr_must_fail():
-    """Area, gap and stiffness in decibels; on the page as ratios about their value, the gap over h."""
+    """In decibels, at once for both forces of the decade, and for the area too."""
     rng = np.random.default_rng(1)
-    coarse, fine = on_grids(rng, 12)
-    other = 2.0 + 0.2 * rng.standard_normal((40, 1))
+    coarse, fine = (np.repeat(values, 2, axis=1) for values in on_grids(rng, 12))
+    other = np.repeat(2.0 + 0.2 * rng.standard_normal((40, 1)), 2, axis=1)
     mine = RollOffSamples(
         1,
         {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
         {"gap": np.stack([coarse[:4], fine[:4]], axis=1)},
     )
-    statistic = at_level(0, log_mean)
-    number = mine.over_bem("mean gap", "gap", statistic, 0.1, among=3)
-    change = np.log([np.delete(fine[:4], i).mean() / np.delete(coarse[:4], i).mean() for i in range(4)])
-    finer = Estimate(float(np.log(fine[:4].mean() / coarse[:4].mean())), float(jackknife_error(change)), 4)
-    bem, springs = (mine.by_method[method, "gap"].estimate(statistic) for method in (BEM, MDR))
+    (number,) = over_bem(MdrLimits(roll_offs=(1,), decades=(-1, 0), per_decade=1), mine, GAP).numbers
+    fine, coarse = fine[:4, 0], coarse[:4, 0]
+    change = np.log([np.delete(fine, i).mean() / np.delete(coarse, i).mean() for i in range(4)])
+    finer = Estimate(float(np.log(fine.mean() / coarse.mean())), float(jackknife_error(change)), 4)
+    bem, springs = (mine.by_method[method, "gap"].by_level(log_mean)[0] for method in (BEM, MDR))
     assert number.grid == pytest.approx(DECIBEL * (abs(finer.value) + 2 * finer.half_width))
-    assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width_among(3))
+    assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width_among(2 * 2))
     assert number.value == pytest.approx(DECIBEL * (springs.value - bem.value - 2 * finer.value))
-    row = interval_columns("gap", bem, lambda log: math.exp(log) / 1e-3)
-    assert row["gap"] == pytest.approx(1e3 * coarse.mean())
-    assert row["gap high"] / row["gap"] == pytest.approx(row["gap"] / row["gap low"])
-    assert math.log(row["gap high"] / row["gap"]) == pytest.approx(bem.half_width)
 
 
 MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))

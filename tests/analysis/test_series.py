@@ -34,6 +34,9 @@ def test_intervals_of_all_points_and_of_all_ranges_hold_at_once():
     worst, rms = series(0.1, 0.2, 0.3, error=0.1, family=4).numbers
     assert worst.sample == pytest.approx(0.1 * student(4, 1 - 0.05 / 12))
     assert rms.sample == pytest.approx(0.1 * student(4, 1 - 0.05 / 4))
+    worst, rms = series(0.1, 0.2, 0.3, error=0.1, family=7 / 3, rms_family=2).numbers
+    assert worst.sample == pytest.approx(0.1 * student(4, 1 - 0.05 / 7))
+    assert rms.sample == pytest.approx(0.1 * student(4, 1 - 0.05 / 2))
 
 
 def test_an_interval_of_its_own_is_the_sample_of_a_number():

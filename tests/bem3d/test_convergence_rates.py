@@ -7,6 +7,8 @@ import bem3d
 from tests.oracles import flat_square_by_graded_cells
 from validation.cases.exact import hertz, westergaard
 from validation.simulation.flat_punches import FlatPunches, press_flat_punches
+from validation.simulation.periodic_wave import press_wave
+from validation.simulation.smooth_sphere import press_sphere_by_bem
 from validation.theory import closed_forms
 
 
@@ -17,10 +19,7 @@ def slope(sizes, errors):
 
 def sphere_force_errors(cells_per_radius):
     case = hertz.Hertz()
-    return [
-        hertz.press_by_bem(hertz.Sphere(case=case, resolution=n, approach=case.approach))["force"] / case.force - 1
-        for n in cells_per_radius
-    ]
+    return [press_sphere_by_bem(case.sphere(n, case.approach))["force"] / case.force - 1 for n in cells_per_radius]
 
 
 @pytest.mark.slow
@@ -96,8 +95,7 @@ def test_circular_punch_within_half_a_cell():
 
 
 def wave_errors(cells, load):
-    case = westergaard.Westergaard()
-    return [float(westergaard.press_by_bem(westergaard.Wave(case=case, load=load, cells=n))["error"]) for n in cells]
+    return [float(press_wave(westergaard.Westergaard().wave(load, n))["error"]) for n in cells]
 
 
 def test_wave_pressure_at_first_order():
@@ -112,18 +110,12 @@ def test_wave_pressure_at_first_order():
 def test_wave_pressure_away_from_the_edge(load):
     """Where an edge cuts a cell, that cell is wrong by up to its own pressure; inside 0.9 a the error is of order 3/2
     in the cells across the half-width: a misplaced edge weighs dx^(3/2) in the force."""
-    case = westergaard.Westergaard()
     for n in (128, 512):
-        found = westergaard.press_by_bem(westergaard.Wave(case=case, load=load, cells=n))
-        a = closed_forms.westergaard_half_width(
-            mean_pressure=load * case.full_pressure,
-            amplitude=case.amplitude,
-            wavelength=case.wavelength,
-            modulus=case.modulus,
-        )
+        wave = westergaard.Westergaard().wave(load, n)
+        found, a = press_wave(wave), closed_forms.westergaard_half_width(**wave.scene)
         inside = np.abs(found["x"]) < 0.9 * a
         worst = np.max(np.abs(found["pressure"] - found["exact_pressure"])[inside]) / found["exact_pressure"].max()
-        assert worst <= 0.5 * (case.wavelength / n / a) ** 1.5
+        assert worst <= 0.5 * (wave.spacing / a) ** 1.5
 
 
 def test_a_row_of_cells_answers_like_a_whole_periodic_grid():

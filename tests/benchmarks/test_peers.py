@@ -310,7 +310,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     assert json.loads((tmp_path / "results.json").read_text())["cases"] == {}
     assert (tmp_path / "figures" / "race.svg").exists()
     assert (tmp_path / "data" / "race-heats.csv").exists()
-    assert "Solver comparison" in (tmp_path / "index.html").read_text()
+    assert "Solver comparison" in (tmp_path / "speed.html").read_text()
 
 
 @pytest.mark.slow

@@ -3,32 +3,31 @@
 import pytest
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.answers import answered
-from validation.analysis.evidence import ClaimStatus, Verdict
-from validation.cases.punch import area_gap_rolloff_evidence as area_gap
-from validation.cases.punch.area_gap_rolloff_numbers import AREA, DEVIATION, GAP
-from validation.cases.rolling import reduced_models_evidence as reduced
+from validation.analysis.evidence import ClaimStatus
+from validation.cases.punch.mdr_limits import DEVIATION, STUDY
+from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space_evidence, spectrum_evidence
 from validation.cases.wheel.half_space_levels import LINEAR_3D
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 from validation.cases.wheel.spectrum_evidence import of_period
 
 
-def strip(slope, value, half, model=reduced.READ):
-    return point(value, half, quantity=reduced.OFF, model=model, where={"h' a/d": slope})
+def strip(slope, value, half):
+    return point(value, half, quantity=reduced.OFF, model=reduced.READ, where={"h' a/d": slope})
+
+
+AT_LIMIT = reduced.STUDY.claims[2]
 
 
 def test_strips_on_both_sides_of_a_limit_count():
     """0.687 is as near to 1 / sqrt(2) as 0.728: the strip that is open there keeps the claim open."""
-    strips = [strip(0.571, 1.5, 0.6), strip(0.728, 2.7, 0.6), strip(0.687, 1.6, 1.0), strip(1.9, 6.9, 2.0)]
-    found = reduced.at_limit(strips)
-    assert {number.where["h' a/d"] for number in found} == {0.687, 0.728}
-    judged = answered("They are off.", found, "see.", confirmed_by=Verdict.DIFFER)
+    judged = AT_LIMIT.judged([strip(0.571, 1.5, 0.6), strip(0.728, 2.7, 0.6), strip(0.687, 1.6, 1.0), strip(1.9, 6, 2)])
+    assert {number.where["h' a/d"] for number in judged.numbers} == {0.687, 0.728}
     assert judged.status is ClaimStatus.OPEN
 
 
 def test_where_no_strip_is_at_the_limit_the_roughest_below_it_counts():
-    (one,) = reduced.at_limit([strip(0.2, 3.0, 0.1), strip(0.8, 3.0, 0.1)])
+    (one,) = AT_LIMIT.numbers([strip(0.2, 3.0, 0.1), strip(0.8, 3.0, 0.1)])
     assert one.where["h' a/d"] == 0.8
 
 
@@ -59,14 +58,8 @@ def test_the_worst_band_is_printed_with_its_interval():
     assert said == "region 3 +0.4 dB in the mean, +0.0 ± 1.5 dB in the worst one-third octave"
 
 
-def test_large_ratios_have_no_exponent():
-    numbers = [point(20.8, quantity=AREA), point(51.0, quantity=AREA, at=2.0), point(-4.3, quantity=GAP)]
-    (judged,) = area_gap.claims_of(numbers)
-    assert "11 to 350 times as many springs" in judged.answer
-
-
 def test_a_ratio_that_says_nothing_is_not_quoted_as_the_largest():
     """From few surfaces 7.7 dB may be 11 dB wide: what is quoted is the ratio that differs, with its interval."""
     numbers = [point(7.7, 11.0, quantity=DEVIATION), point(-8.4, 4.4, quantity=DEVIATION, at=2.0)]
-    (judged,) = area_gap.claims_of(numbers)
-    assert judged.answer.endswith("it is 0.38 (0.23 to 0.63) at q a = 2; 1 of 2 are decided.")
+    (claim,) = (claim for claim in STUDY.claims if claim.quantity == DEVIATION)
+    assert claim.judged(numbers).answer == "No: 0.38 times (0.23 to 0.63) at q a = 2 (0 of 2 agree)."

@@ -14,8 +14,7 @@ from validation.benchmarks.work_precision import evidence as precision_evidence
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
 from validation.cases.limits.solver import Grid
-from validation.cases.punch import area_gap_rolloff as mdr_limits
-from validation.cases.punch import bandwidth, fractal_punch, normalisation
+from validation.cases.punch import bandwidth, fractal_punch, mdr_limits, normalisation
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import ridges
@@ -27,6 +26,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.report.contents import CASES
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.ridges import RidgesTrack
 
 
 class Given:
@@ -53,7 +53,7 @@ def pressed(problem, lost):
         cells = round(problem.scene.length * problem.cells)
         force = np.random.default_rng(problem.realisation).standard_normal(cells)
         return {"force": np.nan * force if lost else force, "linear": force, "failed": np.array(7.0 * lost)}
-    if isinstance(problem, ridges.RidgesTrack):
+    if isinstance(problem, RidgesTrack):
         return {"response": np.ones((2, 3)), "failed": np.array(3.0 * lost)}
     if isinstance(problem, wheel_ensemble.WheelEnsemble | ladder.CalibrationTrial) or hasattr(
         problem, "natural_periods"

@@ -10,9 +10,9 @@ import bem3d
 from validation.cases.limits.solver import Grid, press_grid
 from validation.cases.punch import fractal_punch
 from validation.cases.rolling import force_spectrum as rolling
-from validation.cases.rolling import ridges
+from validation.cases.rolling.ridges import RollingOverRidges
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.simulation import rolling_strip, rough_punch
+from validation.simulation import ridges, rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.track_spectrum import self_affine
 
@@ -80,8 +80,8 @@ def test_a_position_that_does_not_converge_has_no_force(monkeypatch):
 
 @pytest.mark.slow
 def test_both_ways_over_ridges_are_counted(monkeypatch):
-    case = ridges.RollingOverRidges(length=8, shortest=4.0, cells=(4,))
-    rolled = ridges.RidgesTrack(case=case, method="bem3d", cells=4)
+    waves = RollingOverRidges(length=8, shortest=4.0).ridges
+    rolled = ridges.RidgesTrack(ridges=waves, method="bem3d", cells=4)
     assert ridges.roll_over(rolled)["failed"] == 0
     calls = iter([False, True])
     monkeypatch.setattr(bem3d, "roll", cut(bem3d.roll, lambda: next(calls)))

@@ -50,7 +50,11 @@ def reported(monkeypatch, tmp_path, *, numbers=(), unconverged=(), raises=None):
     entry = replace(CASES["geike"], run=run, evidence=lambda result: result)
     monkeypatch.setitem(CASES, "geike", entry)
     status = command.main(["report", "--only", "geike", "--out", str(tmp_path / "report"), "--workers", "1"])
-    return status, (tmp_path / "report" / "index.html").read_text(), (tmp_path / "report" / "results.json").read_text()
+    return (
+        status,
+        "".join(page.read_text() for page in (tmp_path / "report").glob("*.html")),
+        (tmp_path / "report" / "results.json").read_text(),
+    )
 
 
 @pytest.mark.slow

@@ -9,12 +9,35 @@ import pytest
 import bem3d
 from validation.analysis.evidence import ClaimStatus, numbers_with
 from validation.analysis.statistics import Estimate
-from validation.cases.rolling import roughness_from_force, roughness_from_force_evidence, track_stiffness, validity
-from validation.cases.rolling.force_spectrum_levels import level_1d, level_3d
+from validation.analysis.study import Outcomes
+from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.rolling.roughness_from_force import FILTER_1D, FILTER_3D, MEAN_FILTER, RoughnessFromForce
-from validation.cases.rolling.track_stiffness_evidence import DEVIATION, MEAN, evidence, of_punches, over, statistic
-from validation.cases.rolling.validity import HEIGHT, REFERENCE, SLOPE, SPECTRA, Validity, ValidityResult
-from validation.cases.rolling.validity_reduced import LAYER, MODELS, over_boundary_elements, roll_reduced
+from validation.cases.rolling.track_stiffness import (
+    DEVIATION,
+    MEAN,
+    OVER,
+    PROFILE,
+    PUNCH,
+    REFINED,
+    STUDY,
+    WHEEL,
+    TrackStiffness,
+    of_punches,
+    of_tracks,
+)
+from validation.cases.rolling.validity import (
+    CORRELATION,
+    HEIGHT,
+    KEPT,
+    OFF,
+    REFERENCE,
+    SLOPE,
+    SPECTRA,
+    Validity,
+)
+from validation.simulation import track_stiffness
+from validation.simulation.linear_levels import level_1d, level_3d
+from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
 from validation.simulation.rolling_strip import roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
@@ -68,15 +91,15 @@ def on_linear_theory(factor=1.0):
     """A result whose boundary elements are linear theory, times a factor."""
     linear = RNG.lognormal(0, 0.2, (6, len(TRUE)))
     level = factor * linear * (1 + 1e-3 * RNG.standard_normal(linear.shape))
-    levels = {height: {"level": level, "linear level": linear} for height in CASE.heights}
-    return roughness_from_force.RoughnessFromForceResult(CASE, levels, ())
+    return Outcomes(CASE, {height: {"level": level, "linear level": linear} for height in CASE.heights})
 
 
 def test_claims_of_roughness_from_force_follow_their_numbers():
-    book, one, between, *_ = roughness_from_force_evidence.evidence(on_linear_theory()).claims
-    assert book.claim == roughness_from_force_evidence.CASE.claim
+    evidence = roughness_from_force.CASE.evidence
+    book, one, between, *_ = evidence(on_linear_theory()).claims
+    assert book.claim == roughness_from_force.CASE.claim
     assert [book.status, one.status, between.status] == [CONTRADICTED, CONTRADICTED, HOLDS]
-    assert roughness_from_force_evidence.evidence(on_linear_theory(4.0)).claims[2].status is CONTRADICTED
+    assert evidence(on_linear_theory(4.0)).claims[2].status is CONTRADICTED
 
 
 # --- where linear theory ends ---
@@ -101,17 +124,16 @@ def test_the_level_off_linear_theory_is_a_root_mean_square_in_decibels():
 def test_the_parameter_that_counts_is_found(parameter):
     """A loss of contact, and of level, that depends on one parameter alone."""
     case = Validity(slopes=(0.5, 1.0), heights=(0.1, 0.3))
-    kept, levels = {}, {}
+    found = {}
     for name, spectrum in SPECTRA.items():
         for given, value in case.levels:
             height = value / spectrum.slope_along if given == SLOPE else value
             x = height * (spectrum.slope_along if parameter == SLOPE else 1.0)
-            linear = RNG.lognormal(0, 0.2, (4, 3))
-            kept[name, given, value] = Estimate(1 - 0.3 * x, 0.001, 4)
-            cross = np.stack([linear, 0 * linear])
-            levels[name, given, value] = {"level": linear * 10 ** (-0.8 * x), "linear level": linear, "cross": cross}
-    reduced = {(model, key): Estimate(0.1 if model == LAYER else 3.0, 0.01, 4) for model in MODELS for key in levels}
-    claims = validity.evidence(ValidityResult(case, levels, kept, reduced, ())).claims
+            of = {KEPT: 1 - 0.3 * x, OFF: 8 * x, LAYER: 0.1, READ: 3.0}
+            found[name, given, value] = {what: Estimate(one, 0.01 * one, 4) for what, one in of.items()} | {
+                CORRELATION: 1.0
+            }
+    claims = validity.CASE.evidence(Outcomes(case, found)).claims
     slope, height, slope_level, height_level, read, layer = claims
     assert [read.status, layer.status] == [CONTRADICTED, HOLDS]
     right, wrong = (slope, height) if parameter == SLOPE else (height, slope)
@@ -139,7 +161,7 @@ def test_the_spectrum_of_reference_is_not_judged_beside_itself():
 
 # --- stiffness along a track ---
 
-SMALL = track_stiffness.TrackStiffness(forces=(1.0,), length=16, strips=3, refined=3, tracks=5, surfaces=4, profiles=10)
+SMALL = TrackStiffness(forces=(1.0,), length=16, strips=3, refined=3, tracks=5, surfaces=4, profiles=10)
 
 
 @pytest.mark.parametrize("height", [0.0, 0.3])
@@ -173,8 +195,8 @@ def along(mean=1.0, deviation=0.1, rows=8):
 
 @pytest.mark.slow
 def test_the_deviation_is_that_of_the_mean_variance():
-    assert math.exp(statistic(DEVIATION, along(2.0, 0.1)).value) == pytest.approx(0.1, rel=1e-3)
-    assert math.exp(statistic(MEAN, along(2.0, 0.1)).value) == pytest.approx(2.0, rel=1e-3)
+    assert math.exp(of_tracks(DEVIATION, along(2.0, 0.1)).value) == pytest.approx(0.1, rel=1e-3)
+    assert math.exp(of_tracks(MEAN, along(2.0, 0.1)).value) == pytest.approx(2.0, rel=1e-3)
     punches = 2 + 0.2 * RNG.standard_normal(4000)
     assert math.exp(of_punches(punches, DEVIATION).value) == pytest.approx(0.1, rel=0.05)
     assert of_punches(punches, DEVIATION).half_width == pytest.approx(1.96 / math.sqrt(2 * 4000), rel=0.1)
@@ -183,18 +205,15 @@ def test_the_deviation_is_that_of_the_mean_variance():
 @pytest.mark.slow
 @pytest.mark.parametrize(("springs", "status"), [(0.1, HOLDS), (0.15, CONTRADICTED)])
 def test_claims_of_the_stiffness_follow_their_numbers(springs, status):
-    bem = along()
-    result = track_stiffness.TrackStiffnessResult(
+    bem, scatter = along(), RNG.standard_normal(4000)
+    result = Outcomes(
         SMALL,
-        {1.0: bem},
-        {1.0: bem},
-        {(1.0, rule): along(deviation=springs) for rule in INPUT_SPECTRA},
-        {1.0: 1 + 0.1 * RNG.standard_normal(4000)},
-        {1.0: 1 + springs * RNG.standard_normal(4000)},
-        (),
+        {(grid, 1.0): bem for grid in (WHEEL, REFINED)}
+        | {(rule, 1.0): along(deviation=springs) for rule in INPUT_SPECTRA}
+        | {(PUNCH, 1.0): 1 + 0.1 * scatter, (PROFILE, 1.0): 1 + springs * scatter},
     )
-    found = evidence(result)
+    found = STUDY.evidence(result)
     fluctuation, mean, *_, punch = found.claims
     assert [fluctuation.status, mean.status, punch.status] == [status, HOLDS, HOLDS]
-    (number,) = numbers_with(found.numbers, DEVIATION, over("geike"))
+    (number,) = numbers_with(found.numbers, DEVIATION, OVER["geike"])
     assert number.value == pytest.approx(springs / 0.1 - 1, abs=0.01)

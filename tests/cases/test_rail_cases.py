@@ -26,7 +26,7 @@ def strip_of(across, rms=1e-9):
 
 
 def test_contact_of_the_program_contact_is_reproduced():
-    evidence = ellipse.evidence(ellipse.run(ellipse.Ellipse(cells=(16, 32), crowns=(0.3, 0.46)), SERIAL))
+    evidence = ellipse.STUDY.evidence(ellipse.run(ellipse.Ellipse(cells=(16, 32), crowns=(0.3, 0.46)), SERIAL))
     for quantity in ellipse.CONTACT:
         found = numbers_with(evidence.numbers, quantity)
         assert len(found) == 2
@@ -91,11 +91,12 @@ def test_line_of_a_drawn_strip_has_the_rms_of_its_ground():
 def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less():
     case = line_convention.LineConvention(strips=3)
     result = line_convention.run(case, SERIAL)
-    claim = line_convention.evidence(result).claims[0]
-    ridges = [n for n in claim.numbers if n.where["across"] == "ridges"]
-    isotropic = [n for n in claim.numbers if n.where["across"] == "isotropic ground"]
-    assert all(number.verdict is Verdict.AGREE for number in ridges)
-    assert all(number.value < -3 for number in isotropic)
+    numbers = line_convention.STUDY.evidence(result).numbers
+    ridges, isotropic = (
+        numbers_with(numbers, line_convention.HEIGHTS, across=ground) for ground in ("ridges", "isotropic ground")
+    )
+    assert len(ridges) == 2 and all(number.verdict is Verdict.AGREE for number in ridges)
+    assert len(isotropic) == 2 and all(number.value < -3 for number in isotropic)
 
 
 def test_left_by_grid_vanishes_where_grids_agree():

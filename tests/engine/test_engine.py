@@ -206,14 +206,13 @@ def test_a_timed_run_that_is_interrupted_goes_on(problems, tmp_path):
 
 def test_results_are_keyed_by_source_that_is_there(monkeypatch):
     """Wherever the engine stands in the house: without a file, every version of the code would have one key."""
-    for package in sources.NUMERICS:
-        files = sources.sources_of(package)
-        assert {file.parts[files[0].parts.index(package)] for file in files} == {package}
-        assert len(files) > 10
-        assert not [file for file in files if "report" in file.parts]
-    assert Path(ensemble.__file__) in sources.sources_of("validation")
-    with pytest.raises(RuntimeError, match="the source of no_such_package is not to be found"):
-        sources.sources_of("no_such_package")
+    found = sources.modules()
+    assert Path(ensemble.__file__) == found["validation.engine.engine"]
+    assert {name.partition(".")[0] for name in found} == set(sources.PACKAGES) and len(found) > 100
+    assert not [file for file in found.values() if "report" in file.parts]
+    monkeypatch.setattr(sources, "PACKAGES", ("no_such_package",))
+    with pytest.raises(RuntimeError, match=r"the source of .*no_such_package"):
+        sources.modules.__wrapped__()
 
 
 def explode(problem):

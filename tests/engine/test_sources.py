@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from functools import partial
 from importlib import import_module
 
 import pytest
@@ -12,34 +13,40 @@ from validation.engine.sources import modules_behind, version_behind
 PUNCH = "validation.simulation.rough_punch"
 
 
+REMEMBERED = (sources._tree, sources._meaning, sources._words, sources._version, sources.modules_behind)
+
+
 @pytest.fixture
 def edited(monkeypatch):
     """A function that changes the bytes of a file in the eyes of the digests."""
 
     def edit(path, old, new):
-        read = sources._source.__wrapped__
-        assert old in read(path)
-        monkeypatch.setattr(sources, "_source", lambda p: read(p).replace(old, new) if p == path else read(p))
-        for digest in (sources._meaning, sources._of_modules, sources._names, sources._tree, sources.modules_behind):
+        assert old in path.read_bytes()
+        monkeypatch.setattr(
+            sources, "_source", lambda p: p.read_bytes().replace(old, new) if p == path else p.read_bytes()
+        )
+        forget()
+
+    def forget():
+        for digest in REMEMBERED:
             digest.cache_clear()
 
     yield edit
-    for digest in (sources._meaning, sources._of_modules, sources._names, sources._tree, sources.modules_behind):
-        digest.cache_clear()
+    forget()
 
 
 def test_a_punch_rests_on_both_methods_and_on_no_page():
     behind = modules_behind(PUNCH)
     assert {PUNCH, "bem3d.solver", "bem3d", "mdr.foundation", "validation.simulation.surface"} <= behind
     assert not [name for name in behind if name.startswith(("validation.selection", "validation.cases"))]
-    assert not [name for name in sources._modules() if ".report" in name]
+    assert not [name for name in sources.modules() if ".report" in name]
 
 
 def test_every_import_of_the_running_code_is_found():
     """Python's own list of what a fresh interpreter has loaded, beside what is read from the source."""
     code = f"import sys, {PUNCH}; print(*sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    loaded = {name for name in run.stdout.split() if name.split(".")[0] in sources.NUMERICS}
+    loaded = {name for name in run.stdout.split() if name.split(".")[0] in sources.PACKAGES}
     left = {name for name in loaded - modules_behind(PUNCH) if not name.startswith("validation.engine")}
     assert not left
     assert len(loaded) > 20
@@ -52,14 +59,6 @@ def test_the_engine_changes_no_result():
     assert "validation.engine.random_numbers" in behind
 
 
-def test_a_module_that_lists_a_package_rests_on_its_modules():
-    behind = modules_behind("validation.simulation.model")
-    models = {name for name in sources._modules() if name.startswith("validation.simulation.models.")}
-    assert len(models) > 10
-    assert models <= behind
-    assert not [name for name in behind if name.startswith("validation.selection")]
-
-
 def test_a_solve_that_uses_the_face_rests_on_everything(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     for number, line in enumerate(("import validation", "from validation import compare")):
@@ -70,7 +69,7 @@ def test_a_solve_that_uses_the_face_rests_on_everything(tmp_path, monkeypatch):
 def test_a_module_that_imports_by_name_rests_on_everything(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     (tmp_path / "by_name.py").write_text("from importlib import import_module\n\nimport_module('math')\n")
-    assert modules_behind(import_module("by_name").__name__) >= set(sources._modules()) - {sources.ENGINE}
+    assert modules_behind(import_module("by_name").__name__) >= set(sources.modules()) - {sources.ENGINE}
 
 
 @pytest.mark.slow
@@ -78,6 +77,10 @@ def test_a_module_that_imports_by_name_rests_on_everything(tmp_path, monkeypatch
     ("module", "old", "new", "changes"),
     [
         ("bem3d.solver", b"import", b"import sys, ", True),
+        ("validation.engine.random_numbers", b"return ", b"return 2 * ", True),
+        ("validation.analysis.spectra", b"def ", b"def other_", True),
+        ("validation.analysis.spectra", b"def ", b"def  ", False),
+        ("validation.cases.punch.normalisation", b"def ", b"def other_", False),
         ("validation.simulation.rough_punch", b"def ", b"def other_", True),
         ("validation.simulation.rough_punch", b'"""A rigid', b'"""Another word: a rigid', False),
         ("validation.simulation.rough_punch", b"\n\n", b"\n# a comment\n\n", False),
@@ -85,9 +88,10 @@ def test_a_module_that_imports_by_name_rests_on_everything(tmp_path, monkeypatch
     ],
 )
 def test_results_are_as_good_as_the_code_behind_them(edited, module, old, new, changes):
-    before = version_behind(PUNCH, None)
-    edited(sources._modules()[module], old, new)
-    assert (version_behind(PUNCH, None) != before) is changes
+    solves = PUNCH, "validation.simulation.rolling_strip"
+    before = [version_behind(solve, None) for solve in solves]
+    edited(sources.modules()[module], old, new)
+    assert ([version_behind(solve, None) for solve in solves] != before) is changes
 
 
 def test_the_classes_of_a_problem_count(problems):
@@ -99,7 +103,7 @@ def test_the_classes_of_a_problem_count(problems):
 
 @pytest.mark.slow
 def test_data_beside_a_module_that_asks_for_its_place_counts(edited):
-    table = sources._modules()["validation.simulation.calibration"].with_name("calibration.csv")
+    table = sources.modules()["validation.simulation.calibration"].with_name("calibration.csv")
     before = version_behind("validation.simulation.calibration", None)
     edited(table, b"measured", b"guessed")
     assert version_behind("validation.simulation.calibration", None) != before
@@ -121,51 +125,14 @@ def test_a_solve_without_source_is_refused():
         version_behind("nowhere", None)
 
 
-SPRINGS = "validation.simulation.models.springs_pressed"
-LEFT_OUT = ("validation.scenes", "validation.simulation.models", "validation.simulation.calibration", "mdr.formatting")
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("module", "old", "new", "same"),
-    [
-        ("mdr.foundation", b"import numpy as np", b"import numpy as np  # of arrays", True),
-        ("mdr.foundation", b"import numpy as np", b"import numpy as np\nTWO = 2", False),
-        ("mdr.foundation", b"return f", b"return 'springs' + f", True),
-        ("mdr.foundation", b"from mdr.formatting import span", b"from mdr.formatting import pair, span", True),
-        ("mdr.formatting", b"def span", b"def wide_span", True),
-        ("mdr.rolling_surface", b"def ", b"def other_", True),
-        ("mdr.spectrum", b"def ", b"def other_", False),
-        ("validation.simulation.models.springs_rolling", b"def ", b"def other_", True),
-        (SPRINGS, b"def ", b"def other_", False),
-    ],
-)
-def test_the_version_of_a_model_is_that_of_the_code_behind_its_numbers(edited, module, old, new, same):
-    """Not of what prints, nor of functions of the method that it does not use."""
-    version = sources.version_of((SPRINGS,), LEFT_OUT)
-    edited(sources._modules()[module], old, new)
-    assert (sources.version_of((SPRINGS,), LEFT_OUT) == version) is same
-
-
-@pytest.mark.parametrize(
-    ("text", "whole"),
-    [
-        ("import mdr\nmdr.load_curve", False),
-        ("from mdr import load_curve", False),
-        ("import mdr as springs\nsprings.load_curve", True),
-        ("import mdr\nprint(mdr)", True),
-        ("import mdr\nmdr.Wheels", True),
-    ],
-)
-def test_of_a_method_the_modules_count_whose_names_are_used(tmp_path, monkeypatch, text, whole):
-    """All of them where that cannot be read from the source."""
-    monkeypatch.syspath_prepend(str(tmp_path))
-    name = f"own_{abs(hash(text))}"
-    (tmp_path / f"{name}.py").write_text(text)
-    import_module(name)
-    behind = modules_behind(name, by_names=True)
-    assert "mdr.foundation" in behind
-    assert ("mdr.rolling_surface" in behind) is whole
+def test_what_is_left_out_of_a_version_does_not_count(edited):
+    without = ("validation.scenes", "validation.simulation.surface")
+    version = partial(sources.version_of, (PUNCH,))
+    some, whole = version(without), version()
+    edited(sources.modules()["validation.simulation.surface"], b"def ", b"def other_")
+    assert version(without) == some
+    assert version() != whole
 
 
 def test_a_version_of_nothing_is_refused():

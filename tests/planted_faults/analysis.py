@@ -21,15 +21,15 @@ from tests.analysis import (
     test_wording,
 )
 from tests.analysis import test_spectra as test_wheel_spectra
-from validation.analysis import difference as difference_module
-from validation.analysis import multilevel, nominal_bands, over_range, series, spectra, statistics, wording
+from validation.analysis import multilevel, nominal_bands, over_range, spectra, statistics, wording
+from validation.analysis import series as declared
+from validation.analysis import series as series_module
 from validation.analysis import spectral_features as regions
-from validation.analysis.difference import difference
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
 from validation.analysis.features import JudgedFeature
 from validation.analysis.over_range import signed_mean, worst
 from validation.cases.punch import fractal_punch
-from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
+from validation.cases.rolling import force_spectrum
 
 COMBINED = multilevel.combined
 
@@ -338,19 +338,19 @@ FAULTS = {
         test_error_bars_of_grids.test_the_sample_interval_of_fig_14_1,
     ),
     "sample and grid exchanged": (
-        (difference_module, "Number", sample_for_grid),
+        (series_module, "Number", sample_for_grid),
         test_error_bars_of_grids.test_intervals_of_where_mdr_must_fail,
     ),
     "sample and grid of Fig. 14.1 exchanged": (
-        (series, "Number", sample_for_grid),
+        (series_module, "Number", sample_for_grid),
         test_error_bars_of_grids.test_the_grid_interval_of_fig_14_1,
     ),
     "the signed mean over bands for the worst of them, in rolling": (
-        (rolling_numbers, "worst", mean_of_the_range),
+        (declared, "worst", mean_of_the_range),
         test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
     ),
     "decibels of an amplitude for those of a power, in rolling": (
-        (rolling_numbers, "difference", functools.partial(difference, scale=statistics.DECIBEL)),
+        (force_spectrum, "POWER_DECIBEL", statistics.DECIBEL),
         test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
     ),
     "a line at the upper edge of a band counted in it": (

@@ -20,7 +20,6 @@ from tests.cases import (
     test_limits,
     test_rail_cases,
     test_rail_sound,
-    test_rolling_cases,
     test_wheel_cases,
     test_wheel_ensembles,
     test_wheel_regions,
@@ -37,15 +36,11 @@ from validation.cases.exact import geike, square_punch
 from validation.cases.limits import isotropy
 from validation.cases.limits import sweep as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
-from validation.cases.rail import ellipse as rail_ellipse
 from validation.cases.rail import filters as rail_filters
-from validation.cases.rail import line_convention, published, rail_sound_levels
+from validation.cases.rail import line_convention, published, rail_sound
 from validation.cases.rolling import (
-    force_spectrum_headlines,
     roughness_from_force,
-    track_stiffness,
     validity,
-    validity_reduced,
 )
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions_numbers
@@ -56,11 +51,14 @@ from validation.simulation import (
     free_vibration,
     indentation,
     integrators,
+    reduced_pair,
     rolled_off,
     rough_punch,
+    track_stiffness,
 )
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.published_contact import PublishedContact
 from validation.simulation.rail_strip import PowerLawGround
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
@@ -158,18 +156,12 @@ linear_response = rough_springs.linear_response
 
 
 FAULTS = {
-    "a title that calls a quiet band loud": (
-        (force_spectrum_headlines, "too_loud", lambda decibels: f"{abs(decibels):.1f} dB too loud"),
-        functools.partial(
-            test_rolling_cases.test_the_title_of_springs_has_the_side_of_each_region, *test_rolling_cases.PLANTED[0]
-        ),
-    ),
     "a weighting of amplitudes taken twice": (
-        (rail_sound_levels, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
+        (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
         functools.partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
     ),
     "levels of all frequencies in each range": (
-        (rail_sound_levels, "filtered", lambda signal, gain: signal),
+        (rail_sound, "filtered", lambda signal, gain: signal),
         test_rail_sound.test_each_range_is_compared_alone,
     ),
     "a window of a measured sphere that ends at its contact": (
@@ -278,7 +270,7 @@ FAULTS = {
         test_from_force_to_roughness_and_stiffness.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
     ),
     "amplitudes of a reduced model twice as large": (
-        (validity_reduced, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
+        (reduced_pair, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
         test_from_force_to_roughness_and_stiffness.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
     ),
     "stiffness of the frame for that of the contact": (
@@ -337,7 +329,7 @@ FAULTS = {
         test_whose_surfaces.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
     ),
     "one of two elastic bodies taken for rigid": (
-        (rail_ellipse.PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
+        (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
         test_rail_cases.test_contact_of_the_program_contact_is_reproduced,
     ),
     "the load of an axle for that of a wheel": (

@@ -11,7 +11,6 @@ from tests.report import (
     test_calibration_figure,
     test_claims,
     test_colours,
-    test_figure_lines,
     test_kept,
     test_page,
     test_printed,
@@ -23,7 +22,6 @@ from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.report import build, chapter, formats, provenance, sounds, style
 from validation.report.answers import cells, words
 from validation.report.figures import ladder
-from validation.report.figures import rolling as rolling_figure
 from validation.report.page_figure import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
@@ -161,13 +159,9 @@ FAULTS = {
         (chapter, "numbers_with", lambda numbers, quantity, model: numbers_with(numbers, quantity)),
         functools.partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "model": "m"}),
     ),
-    "another model's line under a label": (
-        (rolling_figure, "SPRINGS", "linear 1D"),
-        test_figure_lines.test_lines_of_rolling,
-    ),
     "two signs of verdicts exchanged": (
         (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
-        test_printed.test_rows_of_the_page_are_their_numbers,
+        test_printed.test_every_verdict_has_its_word_and_sign,
     ),
     "undecided read as agree": (
         (test_printed, "if_confirmed", unless_it_differs),

@@ -23,10 +23,9 @@ from tests.simulation import (
     test_wheel_motion,
     test_wheel_on_rail,
 )
+from validation.analysis import series
 from validation.analysis.over_range import worst
-from validation.cases.punch import normalisation
 from validation.cases.punch.rough_interface import Layer
-from validation.cases.rolling import ridges, track_stiffness
 from validation.simulation import (
     band_limited,
     contact_laws,
@@ -37,8 +36,10 @@ from validation.simulation import (
     profiled_strip,
     rail_models,
     rail_quantity,
+    ridges,
     rough_punch,
     spectral_springs,
+    track_stiffness,
     wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
@@ -174,8 +175,8 @@ FLAGS = (
     (test_flags_of_rolling, "roll_held_wheel", "validation.simulation.rail_sound:_boundary_elements"),
     (test_flags_of_rolling, "roll_and_move", "validation.simulation.wheel_on_rail:at_constant_load"),
     (test_flags_of_rolling, "roll_by_all", "validation.simulation.reduced_models:boundary_elements"),
-    (ridges, "roll_over", "validation.cases.rolling.ridges:_roll"),
-    (track_stiffness, "roll_loaded_strip", "validation.cases.rolling.track_stiffness:roll_loaded_strip"),
+    (ridges, "roll_over", "validation.simulation.ridges:_roll"),
+    (track_stiffness, "roll_loaded_strip", "validation.simulation.track_stiffness:roll_loaded_strip"),
 )
 
 FAULTS = {
@@ -251,7 +252,7 @@ FAULTS = {
         test_rail_sound.test_springs_that_read_a_smoother_rail_are_linear_theory,
     ),
     "the first force of a decade for the worst": (
-        (normalisation, "worst", lambda points, parameter: worst(points[:1], parameter)),
+        (series, "worst", lambda points, parameter: worst(points[:1], parameter)),
         test_rough_punches.test_a_way_to_draw_is_judged_by_its_worst_force,
     ),
     "rms of the ensemble for that of each": (

@@ -9,10 +9,10 @@ from tests.scenes import test_materials
 from tests.theory import test_rolling_theory
 from validation.analysis.nominal_bands import NominalBands
 from validation.cases.limits import pressed_springs
-from validation.cases.punch import area_gap_rolloff_numbers
+from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
-from validation.cases.rolling import reduced_models_evidence, validity
-from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
+from validation.cases.rolling import reduced_models as reduced_case
+from validation.cases.rolling import settings, validity
 from validation.cases.wheel import half_space_tables
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
@@ -94,7 +94,7 @@ PLACES = {
         test_slopes.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands,
     ),
     "h' a/d of the force": (
-        (LevelsAtHeight, "slope"),
+        (settings.SelfAffineSettings, "slopes"),
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "h' a/d in the words of rolling": (
@@ -102,12 +102,12 @@ PLACES = {
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "h' a/d of reduced models": (
-        (reduced_models_evidence, "slope_of"),
+        (reduced_case, "slope_of"),
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "heights at an h' a/d": ((validity, "height_at"), STRIPS_AT_A_SLOPE),
     "h' a/d up to which a layer follows": (
-        (reduced_models_evidence, "LIMIT"),
+        (reduced_case, "LIMIT"),
         test_slopes.test_limits_of_claims_are_where_the_gradient_is_1_and_0_3,
     ),
     "the gradient of the linear filter's limit": (
@@ -121,7 +121,7 @@ PLACES = {
     "p over E* g of nine tenths in contact": ((pressed_springs, "FULL"), AREA),
     "p over E* g of one half in contact": ((pressed_springs, "HALF"), GAP),
     "Persson's fraction of a case": (
-        (area_gap_rolloff_numbers, "persson"),
+        (mdr_limits, "persson_fractions"),
         test_slopes.test_the_contact_fraction_of_persson_is_that_of_the_gradient,
     ),
     "the gradient of two scales": (

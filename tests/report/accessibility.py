@@ -1,7 +1,7 @@
 """What keeps a page from being read: by a screen reader, by keyboard, without colour, on paper."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
 
@@ -72,11 +72,17 @@ def words_seen(element: Element) -> int:
     return seen + sum(words_seen(child) for child in children)
 
 
-def faults(page: str) -> list[str]:
-    """One line each; none for a page that can be read."""
-    elements = list(Tree(page).root.walk())
+def faults(pages: Mapping[str, str]) -> list[str]:
+    """One line each; none for pages, by their names, that can be read and lead to places of each other."""
+    trees = {name: list(Tree(page).root.walk()) for name, page in pages.items()}
+    places = {f"{name}#{e.attributes['id']}" for name, tree in trees.items() for e in tree if "id" in e.attributes}
+    return [fault for name, page in pages.items() for fault in _of_page(name, page, trees[name], places | set(trees))]
+
+
+def _of_page(name: str, page: str, elements: list[Element], places: set[str]) -> list[str]:
     return [
         *_of_document(elements),
+        *_of_links(name, elements, places),
         *_of_headings(elements),
         *_of_names(elements),
         *_of_tables(elements),
@@ -94,12 +100,18 @@ def _of_document(elements: list[Element]) -> Iterator[str]:
     names = [e.attributes["id"] for e in elements if "id" in e.attributes]
     yield from (f"id {name} twice" for name in {n for n in names if names.count(n) > 1})
     for element in elements:
-        target = element.attributes.get("href", "")
-        if target.startswith("#") and target[1:] not in names:
-            yield f"link to {target}, which is nowhere"
         for name in element.attributes.get("aria-labelledby", "").split():
             if name not in names:
                 yield f"labelled by {name}, which is nowhere"
+
+
+def _of_links(page: str, elements: list[Element], places: set[str]) -> Iterator[str]:
+    for element in elements:
+        target = element.attributes.get("href", "")
+        if (target.startswith("#") or ".html" in target) and (
+            target if target[0] != "#" else page + target
+        ) not in places:
+            yield f"link to {target}, which is nowhere"
 
 
 def _of_headings(elements: list[Element]) -> Iterator[str]:

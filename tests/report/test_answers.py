@@ -7,14 +7,13 @@ import pytest
 
 from tests.report.test_printed import html_of, number
 from validation.analysis.evidence import Evidence, Role, Table
-from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import fractal_punch_study
+from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.punch.ensembles import DEVIATION, MEAN
 from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail
-from validation.cases.rail.rail_dynamic_evidence import BESIDE, RMS
-from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, SPRINGS
-from validation.cases.rolling.force_spectrum_numbers import LEVEL, RMS_FORCE
+from validation.cases.rail.rail_dynamic import BESIDE, RMS
+from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
 from validation.cases.wheel.half_space_levels import GEIKE
 from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space_numbers import OVER_BEM
@@ -204,8 +203,8 @@ def rolling(quantity, model, value, half=0.1):
     where = {"h/d": 0.1} | ({"q a": (1.0, 10.0)} if quantity == LEVEL else {})
     settings = {"reference": 0.0, "tolerance": 3.0, "sample": half, "role": Role.FINDING}
     planted = number(value, quantity=quantity, model=f"{model} over bem3d", where=where, **settings)
-    summary = Table("summary", {"h / d": [0.03, 0.1], "h' a / d": [0.081, 0.27]})
-    return section_of("rolling", [planted], summary, hurst=0.7)
+    slopes = Table(sources.SLOPE, {"h/d": [0.03, 0.1], "value": [0.081, 0.27]})
+    return section_of("rolling", [planted], slopes, hurst=0.7)
 
 
 @pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", LEVEL)])
@@ -314,7 +313,7 @@ def test_a_roll_off_is_judged_by_roughness_that_has_one():
     [((3.04, 3.0, 99.0), "3"), ((12000.0, 300.4, 99.0), "300 to 12,000")],
 )
 def test_a_reduced_model_costs_its_counted_work_over_springs(times, said):
-    table = Table("reduced_models", {"model": ["mine", "mine", "other"], "work over springs on a line": list(times)})
+    table = Table("work over springs on a line", {"model": ["mine", "mine", "other"], "value": list(times)})
     evidence = section_of("reduced_models", [], table).evidence
     assert rolled("mine").text(evidence) == f"{said} times the counted work of springs on a line"
 
@@ -364,7 +363,7 @@ def test_cells_of_the_page_are_lettered_and_link_to_their_evidence():
     assert [kind for kind, _ in cells] == ["unmeasured", "yes", "no", "yes", "unmeasured"]
     assert all(text.endswith({"unmeasured": "not measured"}.get(kind, kind)) for kind, text in cells)
     row = page[page.index('id="answer-mean-stiffness"') : page.index('id="answer-scatter"')]
-    assert 'href="#fractal_punch"' in row
+    assert 'href="pressed.html#fractal_punch"' in row
     assert 'id="fractal_punch"' in page
     assert "is MDR enough?" in row
     missing = page[page.index('id="answer-contact-filter"') : page.index('id="answer-dynamic-wheel"')]

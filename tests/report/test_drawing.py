@@ -1,5 +1,7 @@
 """Curves of a declared figure belong to their rows: labels, bars, shifts, facets."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -52,10 +54,45 @@ def test_few_decades_of_a_logarithmic_axis_have_plain_numbers():
     assert [label.get_text() for label in axis.get_yticklabels()] == ["0.5", "1", "2"]
 
 
+def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
+    columns = {name: column[:3] for name, column in TABLE.columns.items()} | {"low": [-1.0, 1.9, 2.9]}
+    evidence = replace(EVIDENCE, tables=(Table("level", columns),))
+    panel = Panel("q a", "y", (Curve("level", style="bem", label="b", bars=True),), log="xy")
+    (axis,) = draw(Chart("c", "", (panel,)), evidence).axes
+    ends = [segment[:, 1] for segment in axis.containers[0].lines[2][0].get_segments()]
+    np.testing.assert_allclose(ends, [[0.1, 1.3], [1.9, 2.3], [2.9, 3.3]])
+
+
 def test_facets_have_an_axis_each_with_their_rows_alone():
     axes = drawn(Curve("level", "bem", "exact", "b"), facet="h/d")
     assert [axis.get_title() for axis in axes] == ["h/d = 0.1", "h/d = 1"]
     np.testing.assert_array_equal(axes[1].lines[0].get_ydata(), [7, 8, 9])
+
+
+def test_markers_are_apart_and_ticks_at_the_values():
+    (axis,) = drawn(Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True)
+    assert axis.lines[0].get_markevery() == 0.1
+    assert [label.get_text() for label in axis.get_xticklabels()] == ["1", "2", "4"]
+
+
+def test_a_family_has_one_style_in_all_facets():
+    """Of models, each of which is in one facet alone."""
+    first, second = drawn(Curve("level", by=("model", "h/d")), facet="h/d")
+    colours = [line.get_color() for axis in (first, second) for line in axis.lines]
+    assert len(set(colours)) == 4
+
+
+def test_a_panel_with_a_legend_of_its_own_leaves_the_others_to_the_figure():
+    curves = (Curve("level", "bem", label="b"),)
+    figure = draw(Chart("c", "", (Panel("q a", "y", curves, legend="best"), Panel("q a", "y", curves))), EVIDENCE)
+    assert figure.axes[0].get_legend() and not figure.axes[1].get_legend() and len(figure.legends) == 1
+
+
+def test_values_may_be_places_on_the_horizontal_axis_and_intervals_stand_alone():
+    (axis,) = drawn(Curve("level", "bem", "guide", upright=True, of={"h/d": 0.1}))
+    assert [line.get_xdata()[0] for line in axis.lines] == [1, 2, 3]
+    (axis,) = drawn(Curve("level", "bem", "interval", of={"h/d": 0.1}))
+    assert not axis.lines and {*axis.collections[0].get_paths()[0].vertices[:, 1]} >= {0.9, 1.3, 3.3}
 
 
 def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
@@ -82,7 +119,33 @@ def test_the_cells_of_a_map_are_those_of_their_parameters():
     assert figure.axes[1].collections[0].get_array().reshape(2, 3).tolist() == [[4, 5, 6], [10, 11, 12]]
 
 
-@pytest.mark.parametrize(("text", "found"), [("{c.x:.1f}", "2.0"), ("{c.many:g}", "1, 2 and 3"), ("{c.one}", "1")])
+def test_panels_share_an_axis_where_they_say_so():
+    """Up to the largest value of all, though a bound is given below."""
+    panels = tuple(Panel("q a", "y", (Curve("level", model, "exact", "b"),), ylim=(0, None)) for model in MODELS)
+    first, second = draw(Chart("c", "", panels, sharey=True), EVIDENCE).axes
+    assert first.get_ylim() == second.get_ylim()
+    assert first.get_ylim()[0] == 0 and first.get_ylim()[1] > VALUE.max()
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [("{c.x:.1f}", "2.0"), ("{c.many:g}", "1, 2 and 3"), ("{c.one}", "1"), ("{c.small:SI}m", "2.5 µm")],
+)
 def test_settings_are_filled_into_a_text(text, found):
-    case = type("C", (), {"x": 2.0, "many": (1.0, 2.0, 3.0), "one": (1,)})
+    case = type("C", (), {"x": 2.0, "many": (1.0, 2.0, 3.0), "one": (1,), "small": 2.5e-6})
     assert Settings().format(text, c=case) == found
+
+
+def test_several_columns_have_an_axis_for_each_of_their_values():
+    axes = drawn(Curve("level", label="b"), facet=("h/d", "model"), at=(2.0, 99.0))
+    assert [axis.get_title() for axis in axes] == [f"h/d = {h:g}, {model}" for h in H for model in MODELS]
+    np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
+    # a mark that the panel does not reach is not drawn
+    assert [list(line.get_xdata()) for line in axes[3].lines[1:]] == [[2.0, 2.0]]
+
+
+def test_panels_with_one_vertical_axis_are_labelled_at_the_left_alone():
+    panel = Panel("q a", "y", (Curve("level", "bem", label="b"),), facet="h/d")
+    left, right = draw(Chart("c", "", (panel,), sharey=True), EVIDENCE).axes
+    assert (left.get_ylabel(), right.get_ylabel()) == ("y", "")
+    assert left.get_ylim() == right.get_ylim()

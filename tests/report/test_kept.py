@@ -47,10 +47,10 @@ def test_the_other_case_is_kept(tmp_path, monkeypatch):
     assert (made["commit"], about["commit"]) == ("first00", "second0")
     assert about["kept"] == {"hertz": "first00"}
     assert about["seconds"]["hertz"] == made["seconds"]["hertz"]
-    page = (tmp_path / "index.html").read_text()
+    page = "".join(path.read_text() for path in tmp_path.glob("*.html"))
     assert "Version" in page and "commit second0; kept as made at commit first00: hertz" in page
     cited = {
-        figure: commit for commit, figure in re.findall(r"commit (\w+), profile quick\), index.html#figure-(\w+)", page)
+        figure: commit for commit, figure in re.findall(r"commit (\w+), profile quick\), exact.html#figure-(\w+)", page)
     }
     assert cited == {"hertz": "first00", "geike": "second0"}
     assert report(tmp_path, "--only", "geike") == command.Exit.MET

@@ -20,10 +20,15 @@ from validation.report.section import Section
 from validation.report.style import svg
 from validation.report.verdict_map import map_of
 
-PICTURES = {"geike": b"<svg>curves</svg>", "hertz": b"<svg>sphere</svg>"}
 ABOUT = {
     **dict.fromkeys(("python", "system", "processor", "cores", "workers"), ""),
-    **{"libraries": {}, "seeds": {}, "kept": {}, "timed": (), "seconds": dict.fromkeys(PICTURES, 1.0)},
+    **{
+        "libraries": {},
+        "seeds": {},
+        "kept": {},
+        "timed": (),
+        "seconds": dict.fromkeys(("geike", "hertz", "rolling"), 1.0),
+    },
     **{"version": "1.2.3", "commit": "abc1234", "documentation": ""},
 }
 FIELDS = [VerdictCell("+1 %", Verdict.AGREE), VerdictCell("+9 %", Verdict.DIFFER), "no value"]
@@ -41,15 +46,22 @@ def section_of(name, *, criterion=1.0, **changes):
     return Section(name, CASES[name], "none", {}, shown)
 
 
+def pages_of(*sections):
+    return {name: text.decode() for name, text in page.pages(sections, "full", ABOUT, None).items()}
+
+
 def html_of(*sections):
-    return page.page(sections, "full", PICTURES, ABOUT, None).decode()
+    """Of a chapter."""
+    return pages_of(*sections)["exact.html"]
 
 
 # --- for everyone ---
 
 
 def test_the_page_can_be_read_by_everyone():
-    assert faults(html_of(section_of("geike"), section_of("hertz", criterion=9.0))) == []
+    pages = pages_of(section_of("geike"), section_of("hertz", criterion=9.0), section_of("rolling"))
+    assert list(pages) == ["exact.html", "rolling.html", "index.html"]
+    assert faults(pages) == []
 
 
 @pytest.mark.parametrize(
@@ -57,11 +69,12 @@ def test_the_page_can_be_read_by_everyone():
     [
         ('lang="en"', "", "html has no lang"),
         ("<h1>", "<h1>x</h1><h1>", "not one h1"),
-        ('<h3 id="geike-title">Case</h3>', '<h5 id="geike-title">Case</h5>', "h5 follows h2"),
+        ('<h2 id="geike-title">Case</h2>', '<h5 id="geike-title">Case</h5>', "h5 follows h1"),
         ('alt="A curve"', 'alt=""', "img says nothing"),
         ('id="figure-geike"', 'id="geike"', "id geike twice"),
-        ('href="#asked"', 'href="#nowhere"', "link to #nowhere"),
-        ('<th scope="col">Verdict', "<th>Verdict", "header 'Verdict' has no scope"),
+        ('href="index.html#asked"', 'href="#nowhere"', "link to #nowhere"),
+        ('href="exact.html#geike"', 'href="exact.html#nowhere"', "link to exact.html#nowhere"),
+        ('<th scope="col">H', "<th>H", "header 'H' has no scope"),
         ("--soft: #5a5a5a", "--soft: #9a9a9a", "#9a9a9a on #ffffff has a contrast of 2.8"),
         ("<summary>Method</summary>", "", "details does not begin with its summary"),
         ('role="region"', "", "what the keyboard reaches has no role"),
@@ -70,7 +83,8 @@ def test_the_page_can_be_read_by_everyone():
 def test_a_page_that_somebody_cannot_read_is_found(right, wrong, said):
     text = html_of(section_of("geike", title="Case"))
     assert right in text
-    assert any(said in fault for fault in faults(text.replace(right, wrong)))
+    others = pages_of(section_of("geike", title="Case"))
+    assert any(said in fault for fault in faults(others | {"exact.html": text.replace(right, wrong)}))
 
 
 def test_contrast_is_that_of_the_guidelines():
@@ -92,14 +106,13 @@ def test_colours_of_the_verdict_map_differ_in_grey():
 
 def test_most_of_a_case_is_folded():
     body = next(e for e in Tree(html_of(section_of("geike"))).root.walk() if e.attributes.get("id") == "geike")
-    assert words_seen(body) < 0.5 * len(body.text.split())
+    assert words_seen(body) < 0.6 * len(body.text.split())
 
 
-@pytest.mark.parametrize(("criterion", "opened"), [(1.0, False), (9.0, True)])
-def test_the_numbers_are_unfolded_where_a_criterion_is_missed(criterion, opened):
-    elements = Tree(html_of(section_of("geike", criterion=criterion))).root.walk()
-    (numbers,) = (e for e in elements if e.tag == "details" and "each with its reference" in e.children[0].text)
-    assert ("open" in numbers.attributes) == opened
+@pytest.mark.parametrize(("criterion", "said"), [(1.0, 0), (9.0, 1)])
+def test_a_criterion_that_is_missed_is_said_above_the_figures(criterion, said):
+    text = html_of(section_of("geike", criterion=criterion))
+    assert text.partition("<figure")[0].count("Missed criterion:") == said
 
 
 def test_the_first_words_of_a_case_are_its_finding_and_then_the_claim():
@@ -151,11 +164,11 @@ def test_a_table_with_few_verdicts_stays_as_it_is(columns):
 def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit():
     text = html_of(section_of("hertz"), section_of("geike"))
     assert text.index('id="figure-hertz"') < text.index('id="figure-geike"')
-    figure = figures_of([section_of("hertz"), section_of("geike")], PICTURES)["geike"]
+    figure = figures_of([section_of("hertz"), section_of("geike")])["geike"]
     assert (figure.number, figure.finding) == (2, "A curve")
     assert figure.citation(ABOUT, "full") == (
         "Figure 2, “A curve”, in: Reduced contact models: validation report (mdr-validation 1.2.3, commit abc1234, "
-        "profile full), index.html#figure-geike"
+        "profile full), exact.html#figure-geike"
     )
     assert figure.citation(ABOUT, "full") in text
     assert "commit 0ld0000, profile" in figure.citation({**ABOUT, "kept": {"geike": "0ld0000"}}, "full")
@@ -164,7 +177,7 @@ def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit()
 
 def test_no_finding_is_stated_of_a_scene_without_a_steady_answer():
     shown = section_of("geike", headlines={"geike": "Springs agree"})
-    assert figures_of([shown], PICTURES, unsteady=True)["geike"].finding == "A curve"
+    assert figures_of([shown], unsteady=True)["geike"].finding == "A curve"
 
 
 def test_a_table_comes_back_from_its_file():
@@ -180,7 +193,7 @@ def test_a_table_comes_back_from_its_file():
 
 
 def test_the_tables_of_a_figure_are_those_that_it_asks_for():
-    assert tables_of("geike") == ("spectra", "moments")
+    assert tables_of("geike") == ("C_1D [m³]", "moment over that of the surface")
     assert "contrast" in tables_of("wheel") and "contrast" not in tables_of("wheel-parameters")
 
 
@@ -189,9 +202,13 @@ def test_the_line_beside_a_figure_draws_it_again(tmp_path, monkeypatch):
     """From the files alone, and the same to the printed digit."""
     monkeypatch.setitem(CASES, "geike", replace(CASES["geike"], quick=SMALL["geike"]))
     assert command.main(["report", "--only", "geike", "--out", str(tmp_path), "--workers", "1"]) == 0
-    text = (tmp_path / "index.html").read_text()
+    text = (tmp_path / "exact.html").read_text()
     linked = set(re.findall(r'href="(data/[^"]*\.csv)"', text))
-    assert linked == {"data/geike-spectra.csv", "data/geike-moments.csv"}
+    assert linked == {
+        "data/geike-C_1D_m³.csv",
+        "data/geike-moment_over_that_of_the_surface.csv",
+        "data/geike-numbers.csv",
+    }
     assert all((tmp_path / path).exists() for path in linked)
     line = re.search(r"<code>(.*?)</code>", text)[1].replace("&#34;", '"')
     monkeypatch.chdir(tmp_path)

@@ -22,4 +22,4 @@ def test_the_processor_is_the_first_that_the_system_lists_or_its_architecture(li
 
 def test_the_page_names_the_processor_and_its_cores():
     about = {**ABOUT, "processor": "Made-up 9", "cores": 3}
-    assert "Made-up 9, 3 cores" in page.page([section_of("geike")], "full", {"geike": b"<svg/>"}, about, None).decode()
+    assert "Made-up 9, 3 cores" in page.pages([section_of("geike")], "full", about, None)["index.html"].decode()

@@ -399,7 +399,7 @@ def test_only_may_be_given_more_than_once(tmp_path):
     words = ["report", "--only", "geike", "geike", "--only", "hertz", "--out", str(tmp_path), "--workers", "1"]
     assert command.main(words) == command.Exit.MET
     assert list(json.loads((tmp_path / "results.json").read_text())["cases"]) == ["geike", "hertz"]
-    assert (tmp_path / "index.html").read_text().count('id="geike"') == 1
+    assert (tmp_path / "exact.html").read_text().count('id="geike"') == 1
 
 
 def test_the_reference_report_is_a_report():

@@ -14,24 +14,25 @@ from tests.simulation.test_calibration import wheel
 from validation.benchmarks.solvers.rolling import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.limits import spheres
-from validation.cases.rail import ellipse
-from validation.cases.rolling import ridges, track_stiffness
-from validation.cases.rolling.reduced_models import roll_by_all
+from validation.cases.rolling.ridges import RollingOverRidges
+from validation.cases.rolling.track_stiffness import TrackStiffness
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
 from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
-from validation.simulation import rail_models, wheel_on_rail
+from validation.simulation import rail_models, ridges, track_stiffness, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import BEM, RolledRail, roll_rail
 from validation.simulation.model import Resolution, Target
 from validation.simulation.models import rail_boundary_elements
 from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.simulation.profiled_strip import roll_on_profile
+from validation.simulation.published_contact import PublishedContact, press_ellipse
 from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
 from validation.simulation.rail_strip import PowerLawGround, RailStrip
+from validation.simulation.reduced_strip import roll_by_all
 from validation.simulation.rolling_strip import RoughStrip, roll_strip
 from validation.simulation.track_spectrum import self_affine
 from validation.simulation.wheel_on_rail import WheelOnRail, roll_and_move
@@ -51,20 +52,20 @@ RAIL = RailStrip(
     seed=3,
 )
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
-ONE_POSITION = ("validation.cases.rail.ellipse:press_ellipse",)
+ONE_POSITION = ("validation.simulation.published_contact:press_ellipse",)
 TOO_SHORT = bem3d.HalfSpace(shape=(12, 12), spacing=0.2, modulus=1.0), np.add.outer(*[np.linspace(-1, 1, 12) ** 2] * 2)
 Y = np.linspace(-0.03, 0.03, 61)
 PROFILE = TransverseProfile(y=tuple(Y.tolist()), height=tuple((-(Y**2) / 0.6).tolist()), source="head.csv")
 
 
 def over_ridges():
-    case = ridges.RollingOverRidges(length=8, shortest=4.0, cells=(4,))
-    return ridges.roll_over(ridges.RidgesTrack(case=case, method="bem3d", cells=4))
+    waves = RollingOverRidges(length=8, shortest=4.0).ridges
+    return ridges.roll_over(ridges.RidgesTrack(ridges=waves, method="bem3d", cells=4))
 
 
 def at_constant_load():
-    case = track_stiffness.TrackStiffness()
-    return track_stiffness.roll_loaded_strip(track_stiffness.LoadedStrip(strip=STRIP, bands=case.bands))
+    loaded = track_stiffness.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
+    return track_stiffness.roll_loaded_strip(loaded)
 
 
 def on_the_chart():
@@ -84,8 +85,8 @@ def by_a_model(target):
 
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
-    "validation.cases.rolling.ridges:_roll": over_ridges,
-    "validation.cases.rolling.track_stiffness:roll_loaded_strip": at_constant_load,
+    "validation.simulation.ridges:_roll": over_ridges,
+    "validation.simulation.track_stiffness:roll_loaded_strip": at_constant_load,
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
     "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,
@@ -102,8 +103,8 @@ PATHS = {
     ),
     "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
     "validation.benchmarks.solvers.rolling:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
-    "validation.cases.rail.ellipse:press_ellipse": lambda: ellipse.press_ellipse(
-        ellipse.PublishedContact(cells=6, tolerance=1e-6)
+    "validation.simulation.published_contact:press_ellipse": lambda: press_ellipse(
+        PublishedContact(cells=6, tolerance=1e-6)
     ),
     "validation.cases.limits.spheres:sweep_strip_width": lambda: spheres.sweep_strip_width(
         spheres.Spheres(finer=6, sides=(13, 18))

@@ -53,7 +53,7 @@ class Case:
     evidence: "Callable[[Any], Evidence]" = none
 
     def __post_init__(self) -> None:
-        if self.study is not None:
+        if self.study is not None and self.evidence is none:
             object.__setattr__(self, "claim", self.study.claims[0].says)
             if self.evidence is none:
                 object.__setattr__(self, "evidence", self.study.evidence)

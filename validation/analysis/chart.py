@@ -5,7 +5,7 @@ from dataclasses import KW_ONLY, dataclass, field
 
 from validation.analysis.series import JUDGED
 
-Bounds = tuple[float, float]
+Bounds = tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,10 @@ class Curve:
 
     quantity: the table; model: one or several, all where empty; style: a name of `STYLES`, "graded" from dark to light;
     label: in the legend, by default the values, "_" for none; by: columns, a curve for each value of them; of: values
-    that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve.
+    that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve;
+    apart: from marker to marker, of the diagonal of the panel, all markers where zero; beside: x of a curve with bars
+    over that of the last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis,
+    drawn as lines across the panel.
     """
 
     quantity: str
@@ -27,15 +30,19 @@ class Curve:
     bars: bool = False
     band: bool = False
     down: float = 0.0
+    apart: float = 0.0
+    beside: float = 1.03
+    upright: bool = False
 
 
 @dataclass(frozen=True)
 class Panel:
     """Curves on one axis.
 
-    facet: a column, a panel for each of its values; log: the axes that are logarithmic; decades: of y below the largest
-    value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade, lines: of y; downward:
-    from the largest x on; legend: its place.
+    facet: a column, or several, a panel for each of their values; log: the axes that are logarithmic; decades: of y
+    below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade,
+    lines: of y; at: of x, dotted, where the panel reaches it; downward: from the largest x on; ticked: at the values of
+    x alone; legend: its place.
     """
 
     x: str
@@ -43,27 +50,32 @@ class Panel:
     curves: tuple[Curve, ...]
     title: str = ""
     _: KW_ONLY
-    facet: str = ""
+    facet: str | tuple[str, ...] = ()
     log: str = "x"
     xlim: Bounds | None = None
     ylim: Bounds | None = None
     decades: float = 0.0
     judged: str = ""
-    shade: Bounds | None = None
+    shade: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()
+    at: tuple[float, ...] = ()
     downward: bool = False
+    ticked: bool = False
     legend: str = ""
 
 
 @dataclass(frozen=True)
 class Map:
-    """A quantity over two parameters in colours, a panel for each value of `facet`; borders: where it passes them."""
+    """A quantity over two parameters in colours, a panel for each value of `facet`; borders: where it passes them;
+    at: of x, dotted.
+    """
 
     quantity: str
     x: str
     y: str
     facet: str
     label: str
+    at: tuple[float, ...] = ()
     borders: tuple[float, float] = (1.0, 3.0)
     largest: float = 12.0
 
@@ -80,9 +92,9 @@ class Chart:
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
     columns: int = 0
+    sharey: bool = False
     width: float = 10.5
     height: float = 4.0
-    sharey: bool = False
 
     @property
     def tables(self) -> tuple[str, ...]:

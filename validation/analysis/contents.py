@@ -13,8 +13,8 @@ LEVELS = 4
 """Of a JSON file, that are written a line a part: results, cases, what a case has, its numbers."""
 BOOLEAN = {"True": True, "False": False}
 INTEGER = re.compile(r"-?\d+")
-NO_NAME = re.compile(r'[/\\:*?"<>|]+')
-"""What a file name cannot have everywhere."""
+NO_NAME = re.compile(r"[^\w.+'-]+")
+"""What a file name is better without."""
 
 
 def as_json(value: object) -> bytes:
@@ -34,7 +34,7 @@ def _nested(value: object, levels: int) -> str:
 
 def csv_name(case: str, table: str) -> str:
     """Of the file of a table: a quantity may be named "k / (E* L)"."""
-    return f"{case}-{NO_NAME.sub('_', table)}.csv"
+    return f"{case}-{NO_NAME.sub('_', table).strip('_')}.csv"
 
 
 def as_csv(table: Table) -> bytes:

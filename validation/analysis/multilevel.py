@@ -56,7 +56,7 @@ class Linearised:
         most = float(max(squares.size - 1, 1))
         return min(2 * float(squares.sum()) ** 2 / float(spread), most) if spread > 0 else most
 
-    def half_width_among(self, points: int) -> float:
+    def half_width_among(self, points: float) -> float:
         """Of an interval that holds at 95 % together with those of the other points of a range, by Bonferroni."""
         return student(self.freedom, 1 - 0.05 / points) * self.error if self.error > 0 else 0.0
 

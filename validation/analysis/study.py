@@ -9,15 +9,21 @@ from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.series import Series, numbers_of, tables_of
+from validation.analysis.sound import Sounds
+
+PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
 class Settings(string.Formatter):
-    """Settings in a text: `{c.hurst:g}`; of several values, `{c.heights:g}` prints all."""
+    """Settings in a text: `{c.hurst:g}`; of several values, `{c.heights:g}` prints all; `{c.height:SI}m` has "2 µm"."""
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, tuple | list):
             parts = [self.format_field(one, format_spec) for one in value]
             return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else "".join(parts)
+        if format_spec == "SI":
+            power = int(f"{value:e}".partition("e")[2]) // 3 * 3
+            return f"{value / 10.0**power:.5g} {PREFIXES[power]}"
         return str(super().format_field(value, format_spec))
 
 
@@ -31,7 +37,8 @@ class Study:
 
     title, method: with settings in braces; series: of a result, all that it shows; claims: the first is that of the
     case; charts; matrices: verdicts on the page; printed: names of tables on the page; tables: that are no series;
-    once_more: numbers that are judged by another margin too; notes: sentences that no pattern has.
+    once_more: numbers that are judged by another margin too; notes: sentences that no pattern has; sounds: played on
+    the page.
     """
 
     title: str
@@ -44,6 +51,7 @@ class Study:
     tables: Callable[[Any], Sequence[Table]] = nothing
     once_more: Callable[[Any, Sequence[Number]], Sequence[Number]] = nothing
     notes: Callable[[Any], Sequence[str]] = nothing
+    sounds: Callable[[Any], Sounds | None] = lambda result: None
 
     def evidence(self, result: Any) -> Evidence:
         series = self.series(result)
@@ -66,6 +74,7 @@ class Study:
             headlines={chart.name: self._headline(chart, said) for chart in self.charts},
             finding=f"{'; '.join(list(said.values())[:2])}.",
             unconverged=result.unconverged,
+            sounds=self.sounds(result),
         )
 
     def _headline(self, chart: Chart, said: Mapping[str, str]) -> str:

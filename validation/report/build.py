@@ -25,10 +25,10 @@ from validation.report.durations import expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.kept import PROVENANCE, kept_provenance, kept_sections
-from validation.report.page import page, scene_summary
+from validation.report.page import pages, scene_summary
 from validation.report.pictures import FIGURES, Pictures
 from validation.report.provenance import provenance, with_kept
-from validation.report.section import Section, results_of
+from validation.report.section import Section, numbers_table, results_of
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -168,11 +168,11 @@ def _files(
     for section in timed:
         files[f"{section.name}.json"] = as_json(results_of([section], profile))
     about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
-    files["index.html"] = page(sections, profile, pictures, about, scene)
-    return files
+    return files | pages(sections, profile, about, scene)
 
 
 def _data_files(name: str, evidence: Evidence) -> dict[str, bytes]:
     """CSV of all tables of a case but the one that is played, which its WAV files hold."""
     played = evidence.sounds.table if evidence.sounds else None
-    return {f"data/{csv_name(name, table.name)}": as_csv(table) for table in evidence.tables if table.name != played}
+    shown = [table for table in evidence.tables if table.name != played]
+    return {f"data/{csv_name(name, table.name)}": as_csv(table) for table in [*shown, numbers_table(evidence.numbers)]}

@@ -19,9 +19,12 @@ STYLES: dict[str, Style] = {
     "bem": BEM,
     "bem, few cells": {**BEM, "markerfacecolor": "white"},
     "mdr": MDR,
+    "mdr around": {**MDR, "markersize": 8},
     "mdr line": MDR_LINE,
     "other": MDR_OTHER,
     "guide": GUIDE,
+    "dashed": {**GUIDE, "linestyle": "--"},
+    "interval": {"color": "#000000"},
     "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
     "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
 }
@@ -29,6 +32,7 @@ GRADED: dict[str, Style] = {
     "graded": {},
     "marks": {"linestyle": "none"},
     "lines": {"marker": "none"},
+    "graded dashed": {"linestyle": "--"},
     "dotted": {"marker": "none", "linestyle": ":"},
     "open": {"markerfacecolor": "white", "linestyle": ":"},
     "open marks": {"markerfacecolor": "white", "linestyle": "none"},
@@ -44,29 +48,34 @@ SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 def draw(chart: Chart, evidence: Evidence) -> Figure:
     if isinstance(chart.panels, Map):
         return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
-    facets = [(panel, *facet) for panel in chart.panels for facet in _facets(panel, evidence)]
+    facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = min(chart.columns or len(facets), len(facets))
     rows = -(-len(facets) // columns)
     shared: Literal["all", "none"] = "all" if chart.sharey else "none"
     figure, axes = panels(rows, columns, width=chart.width, height=min(chart.height, HIGHEST * rows), sharey=shared)
-    for axis, (panel, column, value) in zip(axes, facets, strict=False):
-        _panel(axis, panel, {column: value} if column else {}, evidence)
+    for axis, (panel, facet) in zip(axes, facets, strict=False):
+        _panel(axis, panel, facet, evidence)
+    for axis, (panel, _) in zip(axes, facets, strict=False):
+        _limits(axis, panel)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
     for i, axis in enumerate(axes):
         if chart.sharey and i % columns:
             axis.set_ylabel("")
-    labels = dict(pair for axis in axes for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
-    if labels and not any(panel.legend for panel in chart.panels):
+    without = [axis for axis, (panel, _) in zip(axes, facets, strict=False) if not panel.legend]
+    labels = dict(pair for axis in without for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
+    if labels:
         figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
     return figure
 
 
-def _facets(panel: Panel, evidence: Evidence) -> list[tuple[str, object]]:
-    if not panel.facet:
-        return [("", None)]
-    values = dict.fromkeys(v for c in panel.curves for v in _rows(evidence, c, {}).columns.get(panel.facet, ()))
-    return [(panel.facet, value) for value in values]
+def _facets(panel: Panel, evidence: Evidence) -> list[dict[str, object]]:
+    names = (panel.facet,) if isinstance(panel.facet, str) else panel.facet
+    if not names:
+        return [{}]
+    tables = [_rows(evidence, curve, {}) for curve in panel.curves]
+    values = dict.fromkeys(key for one in tables for key in zip(*(one.columns.get(n, ()) for n in names), strict=True))
+    return [dict(zip(names, key, strict=True)) for key in values]
 
 
 def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
@@ -75,14 +84,14 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
     for curve in panel.curves:
-        families = list(_families(curve, _rows(evidence, curve, facet)))
-        for i, (values, mine) in enumerate(families):
-            _curve(axis, curve, panel, mine, values, i, len(families))
+        # a family has one style in all facets
+        every = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
+        for key, values, mine in _families(curve, _rows(evidence, curve, facet)):
+            _curve(axis, curve, panel, mine, values, every.index(key), len(every))
     if panel.judged:
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    _limits(axis, panel)
     if panel.legend:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
@@ -102,13 +111,19 @@ def _limits(axis: Axes, panel: Panel) -> None:
         top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
         low = top * 10**-panel.decades if "y" in panel.log else top - panel.decades
         axis.set_ylim(low, 6 * top if "y" in panel.log else top + 0.1 * panel.decades)
-    axis.set_xlim(panel.xlim)
+    if panel.xlim:
+        axis.set_xlim(*panel.xlim)
     if panel.ylim:
-        axis.set_ylim(panel.ylim)
-    if "x" in panel.log:
+        axis.set_ylim(*panel.ylim)
+    if panel.ticked:
+        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
+    elif "x" in panel.log:
         tick(axis, _round(*axis.get_xlim()))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
         tick(axis, _round(*axis.get_ylim()), up=True)
+    for x in panel.at:
+        if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
+            axis.axvline(x, **GUIDE)
     if panel.downward:
         axis.invert_xaxis()
 
@@ -143,26 +158,37 @@ def _chosen(table: Table, of: Mapping[str, object]) -> Table:
     return table
 
 
-def _families(curve: Curve, table: Table) -> Iterator[tuple[dict[str, object], Table]]:
+def _families(curve: Curve, table: Table) -> Iterator[tuple[tuple[str, ...], dict[str, object], Table]]:
     size = len(next(iter(table.columns.values())))
     keys = list(zip(*(map(str, table.columns[name]) for name in curve.by), strict=True)) or [()] * size
     for key in dict.fromkeys(keys):
         keep = [i for i in range(size) if keys[i] == key]
         mine = Table(table.name, {name: [column[i] for i in keep] for name, column in table.columns.items()})
-        yield {name: column[0] for name, column in mine.columns.items()}, mine
+        yield key, {name: column[0] for name, column in mine.columns.items()}, mine
 
 
 def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
     above, x = 0.0 if "y" in panel.log else -np.inf, panel.x
-    style = STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]}
+    style = {**(STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]})}
+    if curve.apart:
+        style["markevery"] = curve.apart
     y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
+    if curve.style == "interval":
+        axis.fill_between(mine[x], low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
+        return
+    if curve.upright:
+        for at in mine["value"]:
+            axis.axvline(at, label=label, **style)
+        return
     if curve.bars:
-        bars = [np.nan_to_num(y - low), np.nan_to_num(high - y)]
+        # down to nothing: on a logarithmic axis a decade
+        down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
+        bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
         # moved a little, so that intervals stand side by side
-        beside = 1.03**i if "x" in panel.log else 1.0
+        beside = curve.beside**i if "x" in panel.log else 1.0
         axis.errorbar(beside * mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
     else:
         axis.plot(mine[x], y - down, label=label, **style)
@@ -192,6 +218,9 @@ def _map(chart: Chart, what: Map, table: Table) -> Figure:
         axis.set(xscale="log", yscale="log", title=str(facet))
         axis.set_yticks(up, [f"{y:g}" for y in up])
         axis.yaxis.minorticks_off()
+        tick(axis, _round(edges_x[0], edges_x[-1]))
+        for x in what.at:
+            axis.axvline(x, **GUIDE)
         axis.grid(visible=False)
     for axis in axes[::2]:
         axis.set_ylabel(what.y)

@@ -1,6 +1,5 @@
 """How values, verdicts and the status of claims are written on the page: the filters of its templates."""
 
-import math
 import re
 
 from markupsafe import Markup, escape
@@ -13,18 +12,6 @@ STATUS_SYMBOL = {"holds": "✓", "holds within limits": "(✓)", "contradicted":
 NO_STEADY_ANSWER = Markup('<span class="verdict undecided">? no steady answer</span>')
 PANEL = re.compile(r"^\([a-z]\)(, \([a-z]\))* ")
 SENTENCE_END = re.compile(r"(?<=[.;]) (?=[A-Z(])")
-
-
-def format_value(value: float, tolerance: float) -> str:
-    """A value with two digits more than its tolerance has, seven at the most."""
-    digits = max(0, 2 - math.floor(math.log10(tolerance))) if tolerance > 0 else 6
-    if digits > 9:
-        return f"{value:.2g}"
-    return f"{value:.{min(digits, 7)}f}"
-
-
-def format_small(value: float) -> str:
-    return f"{value:.2g}"
 
 
 def format_verdict(verdict: str, *, unsteady: bool = False) -> Markup:

@@ -74,9 +74,7 @@ def _files(folder: Path, name: str) -> list[Path]:
 def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     numbers = {number["label"]: _number(number) for number in case["numbers"]}
     tables = (
-        from_csv(table, path.read_text(encoding="utf-8"))
-        for table in case["tables"]
-        if (path := folder / DATA / csv_name(name, table)).exists()
+        from_csv(table, (folder / DATA / csv_name(name, table)).read_text(encoding="utf-8")) for table in case["tables"]
     )
     figures = case["figures"]
     return Evidence(

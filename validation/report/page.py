@@ -1,6 +1,6 @@
-"""The page of a report: sections and pictures into the templates beside it."""
+"""The pages of a report: the front page and one a chapter, made of sections by the templates beside it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -32,40 +32,45 @@ def scene_summary(scene: WheelScene) -> dict[str, object]:
     }
 
 
-def page(
-    sections: Sequence[Section],
-    profile: Profile,
-    pictures: Mapping[str, bytes],
-    about: dict[str, object],
-    scene: WheelScene | None,
-) -> bytes:
-    """The whole page. pictures: SVG of each figure; about: the provenance; scene: of the user's own, or None."""
+FRONT = "index.html"
+
+
+def pages(
+    sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
+) -> dict[str, bytes]:
+    """By their names. about: the provenance; scene: of the user's own, or None."""
     unsteady = scene is not None and bool(scene.no_steady_answer())
     chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]
     in_order = [section for _, some in chapters for section in some]
-    figures = figures_of(in_order, pictures, unsteady=unsteady)
-    text = (
-        _environment(unsteady)
-        .get_template("page.html")
-        .render(
-            sections=sections,
-            book=[] if scene else chapter_of(sections),
-            errata=ERRATA,
-            answers=[] if scene else answered_questions(sections),
-            total="" if unsteady else total_of(sections),
-            chapters=chapters,
-            profile=profile,
-            figures=figures,
-            validity_map=None if scene else figures.get(MAP),
-            few_findings=FEW_FINDINGS,
-            about=about,
-            kept=kept_from(about),
-            zip=zip,
-            scene=scene_summary(scene) if scene else None,
-            unsteady=unsteady,
-        )
-    )
-    return (text + "\n").encode()
+    figures = figures_of(in_order, unsteady=unsteady)
+    places = {section.name: section.place for section in sections}
+    environment = _environment(unsteady)
+    environment.filters["place_of"] = places.__getitem__
+    environment.globals |= {
+        "front": FRONT,
+        "sections": sections,
+        "book": [] if scene else chapter_of(sections),
+        "errata": ERRATA,
+        "answers": [] if scene else answered_questions(sections),
+        "total": "" if unsteady else total_of(sections),
+        "chapters": chapters,
+        "profile": profile,
+        "figures": figures,
+        "validity_map": None if scene else figures.get(MAP),
+        "few_findings": FEW_FINDINGS,
+        "about": about,
+        "kept": kept_from(about),
+        "zip": zip,
+        "scene": scene_summary(scene) if scene else None,
+        "unsteady": unsteady,
+    }
+    made = {
+        some[0].page: environment.get_template("chapter.html").render(chapter=chapter, some=some)
+        for chapter, some in chapters
+    }
+    # the front page last: it leads to all others
+    made[FRONT] = environment.get_template("front.html").render()
+    return {name: (text + "\n").encode() for name, text in made.items()}
 
 
 def _environment(unsteady: bool) -> jinja2.Environment:
@@ -78,7 +83,6 @@ def _environment(unsteady: bool) -> jinja2.Environment:
         lstrip_blocks=True,
     )
     environment.filters |= {
-        "format_value": formats.format_value,
         "format_cell": partial(formats.format_cell, unsteady=unsteady),
         "format_verdict": partial(formats.format_verdict, unsteady=unsteady),
         "format_status": partial(formats.format_status, unsteady=unsteady),
@@ -86,7 +90,6 @@ def _environment(unsteady: bool) -> jinja2.Environment:
         "answer_of": answer_of,
         "map_of": map_of,
         "sound_place": sound_place,
-        "small": formats.format_small,
         "capitalized": formats.capitalized,
     }
     return environment

@@ -3,29 +3,33 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
-from urllib.parse import quote
 
 from validation.analysis.contents import csv_name
 from validation.report.figure_tables import tables_of
 from validation.report.formats import first_sentence
 from validation.report.section import Section
 
-SAFE = " !$'()*+,-./;=?@[]_~{}<>|^`"
-"""What an address in quotation marks may hold as it is."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class PageFigure:
-    """number: in the order of the page; finding: what it shows; caption: what it draws; address: the picture itself;
-    tables: names of those that it draws, each a CSV of its case."""
+    """number: in the order of the pages; page: where it is; finding: what it shows; caption: what it draws; tables:
+    names of those that it draws, each a CSV of its case."""
 
     number: int
     name: str
     case: str
+    page: str
     finding: str
     caption: str
-    address: str
     tables: tuple[str, ...]
+
+    @property
+    def address(self) -> str:
+        return f"figures/{self.name}.svg"
+
+    @property
+    def place(self) -> str:
+        return f"{self.page}#{self.anchor}"
 
     @property
     def anchor(self) -> str:
@@ -48,14 +52,12 @@ class PageFigure:
         return (
             f"Figure {self.number}, “{self.finding}”, in: Reduced contact models: validation report "
             f"(mdr-validation {about['version']}, commit {commit}, profile {profile}), "
-            f"index.html#{self.anchor}"
+            f"{self.place}"
         )
 
 
-def figures_of(
-    sections: Sequence[Section], pictures: Mapping[str, bytes], *, unsteady: bool = False
-) -> dict[str, PageFigure]:
-    """All figures by name, in the order of the page. pictures: their SVG; unsteady: no finding may be stated."""
+def figures_of(sections: Sequence[Section], *, unsteady: bool = False) -> dict[str, PageFigure]:
+    """All figures by name, in the order of the pages. unsteady: no finding may be stated."""
     found: dict[str, PageFigure] = {}
     for section in sections:
         if section.evidence is None:
@@ -66,14 +68,9 @@ def figures_of(
                 number=len(found) + 1,
                 name=name,
                 case=section.name,
+                page=section.page,
                 finding=headlines.get(name) or first_sentence(caption),
                 caption=caption,
-                address=as_address(pictures[name]),
                 tables=tuple(table for table in tables_of(name) if section.evidence.has_table(table)),
             )
     return found
-
-
-def as_address(picture: bytes) -> str:
-    """A picture as text of an attribute: a third shorter than in base64."""
-    return "data:image/svg+xml," + quote(" ".join(picture.decode().replace('"', "'").split()), safe=SAFE)

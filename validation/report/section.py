@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict, VerdictCell
+from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell
 
 
 @dataclass(frozen=True)
@@ -38,12 +38,27 @@ class Section:
         return self.evidence.unconverged if self.evidence else self.failure
 
     @property
+    def page(self) -> str:
+        """Of its chapter."""
+        return f"{self.entry.chapter.name.lower()}.html"
+
+    @property
+    def place(self) -> str:
+        return f"{self.page}#{self.name}"
+
+    @property
     def missed(self) -> tuple[Number, ...]:
         return tuple(number for number in self.numbers if not number.met)
 
     @property
     def criteria(self) -> int:
         return sum(number.role is Role.CRITERION for number in self.numbers)
+
+
+def numbers_table(numbers: Sequence[Number]) -> Table:
+    """All that is known of each."""
+    named = "quantity model conditions verdict value reference unit difference grid sample tolerance reason source role"
+    return Table("numbers", {name: [_plain(getattr(number, name)) for number in numbers] for name in named.split()})
 
 
 def answer_of(claim: JudgedClaim) -> str:
@@ -106,7 +121,7 @@ def _words(evidence: Evidence | None) -> dict[str, object]:
     return {
         "title": evidence.title,
         "finding": evidence.finding,
-        "tables": [table.name for table in evidence.tables],
+        "tables": [t.name for t in evidence.tables if not evidence.sounds or t.name != evidence.sounds.table],
         "method": evidence.method,
         "figures": [
             {"name": name, "headline": evidence.headlines.get(name, ""), "caption": caption}

@@ -1,40 +1,23 @@
 """A smooth sphere on the half-space: both methods against Hertz."""
 
-import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-import bem3d
-import mdr
-from validation.analysis.answers import answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Table, columns
-from validation.analysis.wording import by_status
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, off_by
+from validation.analysis.series import Series, single
+from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
+from validation.simulation.smooth_sphere import SmoothSphere, press_sphere_by_bem, press_sphere_by_springs
 from validation.theory import closed_forms
 
-# tolerance of the force in units of (dx/a)^2, and why; what scatters its error from grid to grid
-FORCE_ERROR = {
-    "bem3d": (
-        0.25,
-        "second order: the discrete pressure minimises the energy, so the error of the force is quadratic in that of "
-        "the pressure; (dx/a)^2 / 4 includes the staircase edge of the contact",
-        "the staircase edge of the contact scatters the error",
-    ),
-    "mdr": (
-        0.5,
-        "second order: midpoint rule, (dx/a)^2 / 8 inside and at most 3/8 from the two ends of the contact",
-        "the error depends on where the ends of the contact lie between two springs",
-    ),
-}
-
-
-CLAIM = "Both methods give the contact of Hertz."
+BEM, MDR, OVER, HERTZ, SECOND = "bem3d", "mdr", "mdr over bem3d", "Hertz", "second order"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,247 +41,163 @@ class Hertz:
         return closed_forms.hertz_contact_radius(radius=self.radius, approach=self.approach)
 
     @property
+    def force(self) -> float:
+        """Of Hertz [N]."""
+        return self.sphere(1, self.approach).force
+
+    @property
     def approaches(self) -> list[float]:
         """Of the load curve [m]."""
         return [float(s * self.approach) for s in np.linspace(0, 1, self.load_steps + 1)[1:]]
 
-    @property
-    def force(self) -> float:
-        """Of Hertz [N]."""
-        return closed_forms.hertz_force(approach=self.approach, **self.sphere)
-
-    @property
-    def sphere(self) -> dict[str, float]:
-        """Arguments of the closed forms."""
-        return {"radius": self.radius, "modulus": self.modulus}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Sphere:
-    """One sphere on one grid: cells of side a / resolution, where a is the contact radius of the case."""
-
-    case: Hertz
-    resolution: int
-    approach: float
-
-    @property
-    def spacing(self) -> float:
-        """Side of a cell [m]."""
-        return self.case.contact_radius / self.resolution
+    def sphere(self, resolution: int, approach: float) -> SmoothSphere:
+        """On cells of side a / resolution, where a is the contact radius of the case."""
+        return SmoothSphere(
+            radius=self.radius,
+            modulus=self.modulus,
+            approach=approach,
+            cells=4 * resolution,
+            spacing=self.contact_radius / resolution,
+            tolerance=self.tolerance,
+        )
 
 
-@dataclass(frozen=True)
-class HertzResult:
-    """Outcomes of each method: of all "grids" at the approach of the case, of all "loads" on the second grid."""
-
-    case: Hertz
-    bem: dict[str, list[Outcome]]
-    mdr: dict[str, list[Outcome]]
-
-
-def run(case: Hertz, engine: Engine = SERIAL) -> HertzResult:
-    """Press the sphere with both methods."""
-    second = case.cells_per_radius[1]
+def run(case: Hertz, engine: Engine = SERIAL) -> Outcomes:
+    """Press the sphere with both methods, on all "grids" at one approach, and with all "loads" on the second grid."""
     spheres = {
-        "grids": [Sphere(case=case, resolution=n, approach=case.approach) for n in case.cells_per_radius],
-        "loads": [Sphere(case=case, resolution=second, approach=d) for d in case.approaches],
+        "grids": [case.sphere(n, case.approach) for n in case.cells_per_radius],
+        "loads": [case.sphere(case.cells_per_radius[1], approach) for approach in case.approaches],
     }
-    return HertzResult(case, engine.map_groups(press_by_bem, spheres), engine.map_groups(press_by_springs, spheres))
+    solves = ((BEM, press_sphere_by_bem), (MDR, press_sphere_by_springs))
+    found = {(model, group): one for model, solve in solves for group, one in engine.map_groups(solve, spheres).items()}
+    return Outcomes(case, found)
 
 
-def press_by_bem(sphere: Sphere) -> Outcome:
-    """Boundary elements: by approach, and by the force of Hertz."""
-    case, cells = sphere.case, 4 * sphere.resolution
-    x = (np.arange(cells) - (cells - 1) / 2) * sphere.spacing
-    r = np.hypot(x[:, np.newaxis], x)
-    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=sphere.spacing, modulus=case.modulus)
-    gap = r**2 / (2 * case.radius)
-    contact = bem3d.solve(half_space, gap, approach=sphere.approach, tolerance=case.tolerance)
-    force = closed_forms.hertz_force(approach=sphere.approach, **case.sphere)
-    by_force = bem3d.solve(half_space, gap, force=force, start=contact, tolerance=case.tolerance)
-    exact = closed_forms.hertz_pressure(r, approach=sphere.approach, **case.sphere)
-    middle = cells // 2
-    return {
-        "force": np.array(contact.force),
-        "radius": np.sqrt(contact.area / np.pi),
-        "stiffness": np.array(contact.stiffness()),
-        "approach_at_force": np.array(by_force.approach),
-        "pressure_error": np.sqrt(np.sum((contact.pressure - exact) ** 2) / np.sum(exact**2)),
-        "x": x[middle:],
-        "pressure": contact.pressure[middle, middle:],
-    }
+# tolerance of the force in units of (dx/a)^2, and why; what scatters its error from grid to grid
+FORCE_ERROR = {
+    BEM: (
+        0.25,
+        "second order: the discrete pressure minimises the energy, so the error of the force is quadratic in that of "
+        "the pressure; (dx/a)^2 / 4 includes the staircase edge of the contact",
+        "the staircase edge of the contact scatters the error",
+    ),
+    MDR: (
+        0.5,
+        "second order: midpoint rule, (dx/a)^2 / 8 inside and at most 3/8 from the two ends of the contact",
+        "the error depends on where the ends of the contact lie between two springs",
+    ),
+}
+ONE_CELL = "one cell in the radius; for springs it is the stiffness again, both being their number in contact"
+FIRST = "first order in the cell size: the pressure falls as a square root at the edge of the contact"
+RADIUS = "k is proportional to the radius of the discrete contact: one cell in the radius"
+FORCE, PRESSURE, ERROR = "force F [N]", "pressure p [MPa]", "|F / F(Hertz) - 1|"
+APPROACH, DISTANCE, CELLS = "approach d [µm]", "distance from the centre [mm]", "cells per contact radius"
+PRESSURE_ERROR = "relative L2 error of the pressure"
 
 
-def press_by_springs(sphere: Sphere) -> Outcome:
-    """MDR: the parabola on springs as wide as the cells."""
-    case, cells = sphere.case, 4 * sphere.resolution
-    x = (np.arange(cells) - (cells - 1) / 2) * sphere.spacing
-    height = -mdr.sphere_profile(x, radius=case.radius)
-    curve = mdr.load_curve(height, length=cells * sphere.spacing, modulus=case.modulus)
-    force = closed_forms.hertz_force(approach=sphere.approach, **case.sphere)
-    with warnings.catch_warnings():
-        # the error that few springs make is measured here
-        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        point, by_force = curve.at_approach(sphere.approach), curve.at_force(force)
-    return {
-        "force": np.array(point.force),
-        "stiffness": np.array(point.stiffness),
-        "approach_at_force": np.array(by_force.approach),
-    }
-
-
-def evidence(result: HertzResult) -> Evidence:
+def series(result: Outcomes) -> list[Series]:
     """Force, approach, contact radius, stiffness and pressure over Hertz on the finest grid; order of the force."""
-    case, n, finest = result.case, result.case.cells_per_radius, result.bem["grids"][-1]
-    numbers = (
-        *_over_hertz(case, "bem3d", result.bem["grids"]),
-        *_over_hertz(case, "mdr", result.mdr["grids"]),
-        Number(
-            quantity="contact radius over Hertz",
-            model="bem3d",
-            value=float(finest["radius"]) / case.contact_radius,
-            reference=1.0,
-            source="Hertz",
-            tolerance=1 / n[-1],
-            reason="one cell in the radius; for springs it is the stiffness again, both being their number in contact",
-        ),
-        Number(
-            quantity="relative L2 error of the pressure",
-            model="bem3d",
-            value=float(finest["pressure_error"]),
-            reference=0.0,
-            source="Hertz",
-            tolerance=1 / n[-1],
-            reason="first order in the cell size: the pressure falls as a square root at the edge of the contact",
-        ),
-        Number(
-            quantity="force at the given approach",
-            model="mdr over bem3d",
-            value=float(result.mdr["grids"][-1]["force"] / finest["force"]),
-            reference=1.0,
-            source="the other method",
-            tolerance=0.75 / n[-1] ** 2,
-            reason="sum of both discretisation errors",
-        ),
-    )
-    claim = answered(CLAIM, numbers, _answer(case, numbers))
-    return Evidence(
-        title="Smooth sphere",
-        method=(
-            f"A rigid sphere, R = {case.radius:g} m, on a half-space of E* = {case.modulus / 1e9:g} GPa, pressed by "
-            f"{case.approach * 1e6:g} µm (Hertz: {case.force:.1f} N, a = {case.contact_radius * 1e3:.4f} mm). "
-            f"MDR: the parabola x²/R on springs. Boundary elements: (x² + y²)/2R on cells of the same width. "
-            f"{n[0]} to {n[-1]} cells in the contact radius (whole numbers, which favours the springs), "
-            f"residual {case.tolerance:g}."
-        ),
-        numbers=numbers,
-        tables=tuple(Table(name, columns(**data)) for name, data in _data(result).items()),
-        claims=(claim,),
-        finding=f"{headline(claim)}.",
-        headlines={"hertz": headline(claim)},
-        conclusions=(),
-        captions={
-            "hertz": (
-                f"(a) Load curve, {n[1]} cells in the largest contact radius. (b) Pressure along a row of cells next "
-                f"to the centre, {n[1]} cells in the contact radius. (c) Relative error of the force at a given "
-                "approach against cells in the contact radius. Dotted: second order."
-            )
-        },
-    )
+    case, bem, springs = result.case, result[BEM, "grids"], result[MDR, "grids"]
+    cell, finest = 1 / case.cells_per_radius[-1], bem[-1]
+    over_bem, radius = float(springs[-1]["force"] / finest["force"]), float(finest["radius"]) / case.contact_radius
+    both = "sum of both discretisation errors"
+    return [
+        *_shown(result),
+        *_over_hertz(case, BEM, bem),
+        *_over_hertz(case, MDR, springs),
+        single("contact radius over Hertz", BEM, radius, cell, HERTZ, ONE_CELL, 1.0),
+        single(PRESSURE_ERROR, BEM, float(finest["pressure_error"]), cell, HERTZ, FIRST),
+        single("force at the given approach", OVER, over_bem, 0.75 * cell**2, "the other method", both, 1.0),
+    ]
 
 
-def headline(claim: JudgedClaim) -> str:
-    return by_status(
-        claim,
-        holds="Springs and boundary elements give the contact of Hertz",
-        fails="Springs and boundary elements do not both give the contact of Hertz",
-        undecided="Whether springs and boundary elements give the contact of Hertz is open",
-    )
+def _shown(result: Outcomes) -> Iterator[Series]:
+    """Load curves and pressure on the second grid, and errors on all."""
+    case, second = result.case, result[BEM, "grids"][1]
+    n, x = case.cells_per_radius, np.linspace(0, 2 * case.contact_radius, 401)
+    exact = closed_forms.hertz_pressure(x, approach=case.approach, radius=case.radius, modulus=case.modulus)
+    by_load = partial(Series, FORCE, along=APPROACH, at=1e6 * np.array(case.approaches))
+    yield by_load(HERTZ, np.array([case.sphere(1, d).force for d in case.approaches]))
+    yield Series(PRESSURE, HERTZ, 1e-6 * exact, along=DISTANCE, at=1e3 * x)
+    yield Series(PRESSURE, BEM, 1e-6 * second["pressure"], along=DISTANCE, at=1e3 * second["x"])
+    for model in (BEM, MDR):
+        yield by_load(model, np.array([float(o["force"]) for o in result[model, "loads"]]))
+        yield Series(ERROR, model, np.abs(_errors(case, result[model, "grids"])), along=CELLS, at=n)
+    first = abs(_errors(case, result[BEM, "grids"])[0])
+    yield Series(ERROR, SECOND, first * (np.array(n) / n[0]) ** -2.0, along=CELLS, at=n)
+    errors = np.array([float(o["pressure_error"]) for o in result[BEM, "grids"]])
+    yield Series(PRESSURE_ERROR + " on each grid", BEM, errors, along=CELLS, at=n)
 
 
-def _answer(case: Hertz, numbers: tuple[Number, ...]) -> str:
-    """How far the worst of each kind is off."""
-
-    def off(*quantities: str) -> str:
-        return f"{max(abs(n.difference) for n in numbers if n.quantity.startswith(quantities)):.1e}"
-
-    return (
-        f"with {case.cells_per_radius[-1]} cells in the contact radius the relative error of force and approach is at "
-        f"most {off('force', 'approach')}, that of contact radius and stiffness {off('contact radius', 'stiffness')}, "
-        f"and the relative L2 error of the pressure {off('relative L2')}."
-    )
+def _errors(case: Hertz, outcomes: list[Outcome]) -> list[float]:
+    """Of the force, relative."""
+    return [float(o["force"]) / case.force - 1 for o in outcomes]
 
 
-def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> tuple[Number, ...]:
+def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> Iterator[Series]:
     """Force, approach and stiffness on the finest grid over those of Hertz, and the order of the force."""
     cell, last = 1 / case.cells_per_radius[-1], outcomes[-1]
     quadratic, why, scatter = FORCE_ERROR[model]
-    stiffness = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
-    over = partial(Number, model=model, reference=1.0, source="Hertz")
-    return (
-        over(
-            quantity="force at the given approach over Hertz",
-            value=float(last["force"]) / case.force,
-            tolerance=quadratic * cell**2,
-            reason=why,
-        ),
-        over(
-            quantity="approach at the given force over Hertz",
-            value=float(last["approach_at_force"]) / case.approach,
-            tolerance=2 / 3 * quadratic * cell**2,
-            reason="two thirds of the tolerance of the force, since d ~ F^(2/3)",
-        ),
-        over(
-            quantity="stiffness over 2 E* a",
-            value=float(last["stiffness"]) / stiffness,
-            source="Boussinesq",
-            tolerance=cell,
-            reason="k is proportional to the radius of the discrete contact: one cell in the radius",
-        ),
-        over(
-            quantity="order of the force error in the cell size",
-            value=order(case.cells_per_radius, [float(o["force"]) / case.force - 1 for o in outcomes]),
-            reference=2.0,
-            source="error model",
-            tolerance=0.5,
-            reason=f"second order; {scatter}",
-        ),
-    )
+    punch = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
+    force, approach = float(last["force"]) / case.force, float(last["approach_at_force"]) / case.approach
+    near, power = quadratic * cell**2, "two thirds of the tolerance of the force, since d ~ F^(2/3)"
+    rate, second = order(case.cells_per_radius, _errors(case, outcomes)), f"second order; {scatter}"
+    yield single("force at the given approach over Hertz", model, force, near, HERTZ, why, 1.0)
+    yield single("approach at the given force over Hertz", model, approach, 2 / 3 * near, HERTZ, power, 1.0)
+    yield single("stiffness over 2 E* a", model, float(last["stiffness"]) / punch, cell, "Boussinesq", RADIUS, 1.0)
+    yield single("order of the force error in the cell size", model, rate, 0.5, "error model", second, 2.0)
 
 
-def _data(result: HertzResult) -> dict[str, dict[str, ArrayLike]]:
-    case, bem, springs = result.case, result.bem, result.mdr
-    x = np.linspace(0, 2 * case.contact_radius, 401)
-    return {
-        "load": {
-            "approach [m]": case.approaches,
-            "hertz force [N]": [closed_forms.hertz_force(approach=d, **case.sphere) for d in case.approaches],
-            "bem3d force [N]": [o["force"] for o in bem["loads"]],
-            "mdr force [N]": [o["force"] for o in springs["loads"]],
-        },
-        "pressure": {"x [m]": bem["grids"][1]["x"], "bem3d pressure [Pa]": bem["grids"][1]["pressure"]},
-        "exact-pressure": {
-            "x [m]": x,
-            "hertz pressure [Pa]": closed_forms.hertz_pressure(x, approach=case.approach, **case.sphere),
-        },
-        "refinement": {
-            "cells per contact radius": case.cells_per_radius,
-            "bem3d force error": [o["force"] / case.force - 1 for o in bem["grids"]],
-            "mdr force error": [o["force"] / case.force - 1 for o in springs["grids"]],
-            "bem3d pressure error": [o["pressure_error"] for o in bem["grids"]],
-        },
-    }
+LOOKS = {
+    HERTZ: ("exact", HERTZ),
+    BEM: ("bem", "boundary elements"),
+    MDR: ("mdr around", "MDR"),
+    SECOND: ("guide", SECOND),
+}
 
 
+def _curves(quantity: str, *models: str) -> tuple[Curve, ...]:
+    return tuple(Curve(quantity, model, *LOOKS[model]) for model in models)
+
+
+STUDY = Study(
+    title="Smooth sphere",
+    method=(
+        "A rigid sphere, R = {c.radius:g} m, on a half-space of E* = {c.modulus:SI}Pa, pressed by {c.approach:SI}m "
+        "(Hertz: {c.force:.1f} N, a = {c.contact_radius:SI}m). MDR: the parabola x²/R on springs. Boundary elements: "
+        "(x² + y²)/2R on cells of the same width. {c.cells_per_radius} cells in the contact radius (whole numbers, "
+        "which favours the springs), residual {c.tolerance:g}."
+    ),
+    series=series,
+    claims=(
+        Claim(
+            says="Both methods give the contact of Hertz.",
+            short="Springs and boundary elements beside the contact of Hertz",
+            printed=off_by,
+        ),
+    ),
+    charts=(
+        Chart(
+            "hertz",
+            "(a) Load curve, {c.cells_per_radius[1]} cells in the largest contact radius. (b) Pressure along a row of "
+            "cells next to the centre, {c.cells_per_radius[1]} cells in the contact radius. (c) Relative error of the "
+            "force at a given approach against cells in the contact radius. Dotted: second order.",
+            (
+                Panel(APPROACH, FORCE, _curves(FORCE, HERTZ, BEM, MDR), log=""),
+                Panel(DISTANCE, PRESSURE, _curves(PRESSURE, HERTZ, BEM), log=""),
+                Panel(CELLS, ERROR, _curves(ERROR, BEM, MDR, SECOND), log="xy", ticked=True),
+            ),
+        ),
+    ),
+)
 CASE = Case(
     name="hertz",
     chapter=Chapter.EXACT,
     place=1,
-    claim=CLAIM,
     answers="Smooth sphere: both methods against Hertz",
     quick=Hertz(),
     full=Hertz(cells_per_radius=(8, 16, 32, 64, 128)),
     run=run,
-    evidence=evidence,
+    study=STUDY,
     needs=model_needed.sphere,
 )

@@ -82,6 +82,13 @@ def series(result: Outcomes) -> list[Series]:
         by_cells(SQUARE, "bem3d", square),
         *(by_cells(SQUARE, name, np.full(len(n), k)) for name, k in zip(LENGTHS, springs, strict=True)),
         by_cells(SQUARE, "capacitance", np.full(len(n), exact)),
+        Series(
+            SQUARE,
+            EXTRAPOLATED,
+            np.array([2 * square[i] - square[i - 1] for i in range(1, len(n))]),
+            along=CELLS,
+            at=n[1:],
+        ),
         by_cells(CIRCLE, "bem3d, on each grid", circle),
         Series(PRESSURE, "bem3d", last["pressure"], along="x / L", at=last["x"]),
         Series(
@@ -101,7 +108,7 @@ def series(result: Outcomes) -> list[Series]:
     ]
 
 
-LENGTHS = ("L_1D = L", "L_1D = 1.1523 L")
+LENGTHS, EXTRAPOLATED = ("L_1D = L", "L_1D = 1.1523 L"), "bem3d, extrapolated"
 STUDY = Study(
     title="Flat punches",
     method=(
@@ -132,13 +139,16 @@ STUDY = Study(
                     CELLS,
                     "k / (E* L); circle k / (2 E* a)",
                     (
-                        Curve(SQUARE, "capacitance", "exact", by=("model",)),
-                        Curve(SQUARE, LENGTHS, "lines", by=("model",)),
+                        Curve(SQUARE, "capacitance", "thick", "square, numerical capacitance"),
+                        Curve(SQUARE, LENGTHS[0], "mdr line", "MDR, L_1D = L"),
+                        Curve(SQUARE, LENGTHS[1], "other", "MDR, L_1D = 1.1523 L"),
+                        Curve(SQUARE, EXTRAPOLATED, "guide", "first-order extrapolation"),
                         Curve(SQUARE, "bem3d", "bem", "boundary elements, square"),
                         Curve(CIRCLE, "bem3d, on each grid", "crosses", "boundary elements, circle"),
                     ),
+                    ticked=True,
                 ),
-                Panel("x / L", PRESSURE, (Curve(PRESSURE, style="bem", label="_"),), log=""),
+                Panel("x / L", PRESSURE, (Curve(PRESSURE, style="bem", label="_"),), log="y"),
             ),
             claims=(0, 1),
         ),

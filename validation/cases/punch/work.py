@@ -10,7 +10,7 @@ import numpy as np
 from validation.analysis.evidence import Table
 from validation.analysis.multilevel import Linearised, Moments, moments, multilevel_moments, on_no_size
 from validation.analysis.statistics import FloatArray
-from validation.cases.punch.ensembles import DEVIATION, MEAN, Row
+from validation.cases.punch.ensembles import DEVIATION, MEAN
 from validation.engine.engine import Outcome
 
 WORK = "work"
@@ -52,7 +52,9 @@ OnGrids = Mapping[int, FloatArray]
 """Of each realisation, on each grid, cells on a side; coarse to fine; NaN where it was not pressed."""
 
 
-def estimator(counts: Mapping[int, int], stiffness: Sequence[OnGrids], work: Sequence[OnGrids]) -> list[Row]:
+def estimator(
+    counts: Mapping[int, int], stiffness: Sequence[OnGrids], work: Sequence[OnGrids]
+) -> list[dict[str, float]]:
     """What the multilevel estimate costs beside plain sampling that leaves the same error: a row a grid.
 
     counts: surfaces on each grid; stiffness, work: at each of several forces, work the operator applications.

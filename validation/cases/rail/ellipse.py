@@ -1,18 +1,18 @@
 """The smooth contact of a wheel with two radii: a published example, and what a circle in its place costs."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-import bem3d
-from validation.analysis.answers import agreeing_from_the_first, answered
 from validation.analysis.case import Case, Chapter
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, table_of
-from validation.analysis.over_range import worst
-from validation.analysis.wording import by_status, farthest_off, sentence, title
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.evidence import Role
+from validation.analysis.series import Margin, Series, Where, only
+from validation.analysis.study import Outcomes, Study
 from validation.cases.rail.filters import (
     ACROSS,
     COUNTED,
@@ -24,25 +24,12 @@ from validation.cases.rail.filters import (
 )
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import SERIAL, Engine
 from validation.simulation.equivalent_displacement import LINEAR
+from validation.simulation.published_contact import APPROACH, PRESSURE, PublishedContact, press_ellipse
 from validation.simulation.rail_ground import StatedAcross
-from validation.theory.elliptic_contact import elliptic_contact
 
 FloatArray = NDArray[np.float64]
-
-APPROACH, PRESSURE = "approach", "largest pressure"
-CONTACT = {APPROACH: (0.08190, "mm"), PRESSURE: (770.6, "MPa")}
-"""Published example output of the program CONTACT for 100 kN, G = 82 GPa, nu = 0.28 on both bodies."""
-CURVATURES = (0.001015, 0.0004215)
-"""Of its gap, A x^2 + B y^2 [1/mm]."""
-CLOSED, BEM = "closed form", "boundary elements"
-DIGITS = 2e-4
-STRIP = 2.6
-"""Length and width of the flat strip over those of the contact."""
-CLAIM = "Both the closed form and boundary elements give the contact of the program CONTACT."
-CIRCLE = "A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB."
-EXCESS = "A3 of a circle over that of the ellipse"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,119 +48,69 @@ class Ellipse:
         return RailWheel(self.load, self.diameter)
 
 
-@dataclass(frozen=True, kw_only=True)
-class PublishedContact:
-    """The example of CONTACT on a grid."""
-
-    cells: int
-    tolerance: float
-    force: float = 100e3
-
-    @property
-    def modulus(self) -> float:
-        """E* = G / (1 - nu) of two equal bodies [Pa]."""
-        return 82e9 / (1 - 0.28)
-
-    @property
-    def radii(self) -> tuple[float, float]:
-        """1 / (2 A) along, 1 / (2 B) across [m]."""
-        along, across = (1e-3 / (2 * curvature) for curvature in CURVATURES)
-        return along, across
-
-
-@dataclass(frozen=True)
-class EllipseResult:
-    """Approach [mm] and largest pressure [MPa] of boundary elements, by cells."""
-
-    case: Ellipse
-    found: dict[int, Outcome]
-
-
-def press_ellipse(problem: PublishedContact) -> Outcome:
-    """Boundary elements on a flat strip; an odd number of columns puts a cell under the deepest point."""
-    smooth = elliptic_contact(problem.radii, modulus=problem.modulus, force=problem.force)
-    spacing = smooth.along / problem.cells
-    shape = tuple(2 * round(STRIP / 2 * axis / spacing) + 1 for axis in (2 * smooth.along, 2 * smooth.across))
-    track = bem3d.Track(height=np.zeros(shape), spacing=spacing, radius=problem.radii, modulus=problem.modulus)
-    wheel = bem3d.RollingContact(track, tolerance=problem.tolerance)
-    found = wheel.carry(0, problem.force)
-    return {
-        APPROACH: np.array(1e3 * found.approach),
-        PRESSURE: np.array(1e-6 * wheel.pressure()[2].max() if found.converged else math.nan),
-        "failed": np.array(float(not found.converged)),
-    }
-
-
-def run(case: Ellipse, engine: Engine = SERIAL) -> EllipseResult:
+def run(case: Ellipse, engine: Engine = SERIAL) -> Outcomes:
     """Press on every grid. Raises NotConvergedError where one does not converge."""
     problems = [PublishedContact(cells=n, tolerance=case.tolerance) for n in case.cells]
     found = dict(zip(case.cells, engine.map(press_ellipse, problems), strict=True))
     if lost := [f"{n} cells to the semi-axis" for n, one in found.items() if one["failed"]]:
         raise NotConvergedError("a grid of the ellipse has no contact", lost)
-    return EllipseResult(case, found)
+    return Outcomes(case, found)
 
 
-def evidence(result: EllipseResult) -> Evidence:
-    """The example of CONTACT, and the circle over crowns."""
+CONTACT = {APPROACH: (0.08190, "mm"), PRESSURE: (770.6, "MPa")}
+"""Published example output of the program CONTACT for 100 kN, G = 82 GPa, nu = 0.28 on both bodies."""
+CLOSED, BEM, CIRCLE = "closed form", "boundary elements", "circle of the same area"
+A3, EXCESS, SHORT = "A3", "A3 of a circle over that of the ellipse", "A3 of a circle over that of the ellipse, 16 mm"
+WEIGHTED, SEMI_AXIS = "A-weighted level with the circle over that with the ellipse", "semi-axis"
+CROWN, GROUND, WAVE, SPEED = "crown [mm]", "across", "wavelength [mm]", "speed [km/h]"
+DIGITS = Margin(
+    tolerance=2e-4,
+    relative=True,
+    reason="2e-4: the fourth digit of what is published",
+    source="CONTACT, published example output, four digits",
+    role=Role.CRITERION,
+)
+FIELD = Margin(tolerance=1.0, reason="1 dB: a tolerance of the field", source="filter of the ellipse")
+
+
+def series(result: Outcomes) -> list[Series]:
     case = result.case
-    grids = _grids(result)
-    rows = [row for crown in case.crowns for row in _crown(case, crown)]
-    circle = [_worst_of_crown(rows, case, crown, name) for crown in case.crowns for name in ACROSS]
-    speeds = [_weighted(case, crown, name) for crown in case.crowns for name in ACROSS]
-    contact = [number for number in grids if number.role is Role.CRITERION]
-    claims = (answered(CLAIM, contact, _contact_answer(contact)), _circle_claim(circle, case))
-    return Evidence(
-        title="The ellipse of contact of a wheel with two radii",
-        method=(
-            "A flat strip is pressed by a body with the two curvatures of the published example, by boundary elements "
-            f"with {', '.join(str(n) for n in case.cells)} cells to the semi-axis along. The filter sin S / S of the "
-            f"ellipse is compared with that of a circle of the same area, for {case.wheel.label} on crowns of "
-            f"{1000 * min(case.crowns):g} to {1000 * max(case.crowns):g} mm, at the levels of ISO 3095:2013, over "
-            "ridges and over isotropic ground. Bands count down to the first in which A3 of the ellipse is below "
-            f"{COUNTED:g} dB."
-        ),
-        numbers=(*grids, *circle, *speeds),
-        tables=(table_of("crowns", rows), table_of("weighted", _speed_rows(case))),
-        conclusions=(),
-        claims=claims,
-        finding=finding(claims),
-        headlines={"ellipse": title(circle_cost(claims[1]))},
-        captions={
-            "ellipse": (
-                f"(a) Semi-axes of the contact of {case.wheel.label} over the crown; dotted: the circle of the same "
-                "area. (b) A3 of this circle over that of the ellipse, isotropic ground, bands that count; shaded: "
-                "within 1 dB. (c) The same at 16 mm, over the crown, both grounds."
-            )
-        },
-    )
+    crowns = [one for crown in case.crowns for one in _crown(case, crown)]
+    return [*_published(result), *crowns]
 
 
-def _grids(result: EllipseResult) -> list[Number]:
+def _published(result: Outcomes) -> Iterator[Series]:
     """Closed form and the finest grid beside CONTACT; what the grid leaves is what the next coarser one is off."""
-    problem = PublishedContact(cells=1, tolerance=1e-8)
-    smooth = elliptic_contact(problem.radii, modulus=problem.modulus, force=problem.force)
+    smooth = PublishedContact(cells=1, tolerance=1e-8).closed
     closed = {APPROACH: 1e3 * smooth.approach, PRESSURE: 1e-6 * smooth.pressure}
-    coarse, fine = (result.found[n] for n in sorted(result.found)[-2:])
-    numbers = []
+    coarse, fine = (result[n] for n in sorted(result.found)[-2:])
     for quantity, (reference, unit) in CONTACT.items():
-        for model, value, grid in (
-            (CLOSED, closed[quantity], 0.0),
-            (BEM, float(fine[quantity]), abs(float(fine[quantity] - coarse[quantity])) / 3),
-        ):
-            numbers.append(
-                Number(
-                    quantity=quantity,
-                    model=model,
-                    value=value,
-                    reference=reference,
-                    source="CONTACT, published example output, four digits",
-                    tolerance=DIGITS * reference,
-                    reason="2e-4: the fourth digit of what is published",
-                    unit=unit,
-                    grid=grid,
-                )
-            )
-    return numbers
+        found = float(fine[quantity])
+        grid = abs(found - float(coarse[quantity])) / 3
+        for model, value, left in ((CLOSED, closed[quantity], 0.0), (BEM, found, grid)):
+            yield Series(quantity, model, (value,), reference=reference, grid=left, unit=unit, margin=DIGITS)
+
+
+def _crown(case: Ellipse, crown: float) -> Iterator[Series]:
+    """Over both grounds, in the bands that count and A-weighted; an ellipse that is a circle is beside itself."""
+    scene = scene_of(case.wheel, crown=crown)
+    along, across = 1000 * scene.contact.along, 1000 * scene.contact.across
+    for axis, value in {"a_x, along": along, "a_y, across": across, "sqrt(a_x a_y)": math.sqrt(along * across)}.items():
+        yield Series(SEMI_AXIS, axis, (value,), where={CROWN: 1000 * crown}, unit="mm")
+    itself = math.isclose(1000 * crown, case.wheel.diameter / 2)
+    margin = replace(FIELD, role=Role.IDENTITY) if itself else FIELD
+    at = np.round(1000 * scene.levels.bands.nominal, 2)
+    for name, ground in ACROSS.items():
+        where: Where = {CROWN: 1000 * crown, GROUND: name}
+        ellipse, circle = circle_excess(case, crown, ground)
+        keep, excess = counted(ellipse), circle - ellipse
+        for model, a3 in (("ellipse", ellipse), (CIRCLE, circle)):
+            yield Series(A3, model, a3, where=where, along=WAVE, at=at, unit="dB")
+        shown = np.where(keep, excess, np.nan)
+        yield Series(EXCESS, "", shown, where=where, along=WAVE, at=at, unit="dB", margin=margin, ranges=only(at, keep))
+        yield Series(SHORT, "", excess[at == 16], where=where, unit="dB")
+        by_speed = [*map(weighted_difference(scene, circle, ellipse), SPEEDS)]
+        yield Series(WEIGHTED, "", by_speed, where=where, along=SPEED, at=SPEEDS, unit="dB(A)", margin=margin)
 
 
 def circle_excess(case: Ellipse, crown: float, across: StatedAcross) -> tuple[FloatArray, FloatArray]:
@@ -181,150 +118,79 @@ def circle_excess(case: Ellipse, crown: float, across: StatedAcross) -> tuple[Fl
     scene = scene_of(case.wheel, crown=crown)
     contact = scene.contact
     radius = float(np.sqrt(contact.along * contact.across))
-    circle = replace(contact, along=radius, across=radius)
-    return (
-        linear_filter(scene, LINEAR, across, contact),
-        linear_filter(scene, LINEAR, across, circle),
-    )
+    both = contact, replace(contact, along=radius, across=radius)
+    ellipse, circle = (linear_filter(scene, LINEAR, across, one) for one in both)
+    return ellipse, circle
 
 
-def _crown(case: Ellipse, crown: float) -> list[dict[str, object]]:
-    scene = scene_of(case.wheel, crown=crown)
-    rows: list[dict[str, object]] = []
-    for name, across in ACROSS.items():
-        ellipse, circle = circle_excess(case, crown, across)
-        for wave, mine, other, count in zip(scene.levels.bands.nominal, ellipse, circle, counted(ellipse), strict=True):
-            rows.append(
-                {
-                    "crown [mm]": 1000 * crown,
-                    "across": name,
-                    "a_x [mm]": 1000 * scene.contact.along,
-                    "a_y [mm]": 1000 * scene.contact.across,
-                    "wavelength [mm]": round(1000 * float(wave), 2),
-                    "ellipse [dB]": float(mine),
-                    "circle [dB]": float(other),
-                    "counted": bool(count),
-                }
-            )
-    return rows
-
-
-def _worst_of_crown(rows: list[dict[str, object]], case: Ellipse, crown: float, across: str) -> Number:
-    """The worst of the bands that count."""
-    points = [
-        Number(
-            quantity=EXCESS,
-            where={"crown [mm]": 1000 * crown, "across": across, "wavelength [mm]": row["wavelength [mm]"]},  # type: ignore[dict-item]
-            value=row["circle [dB]"] - row["ellipse [dB]"],  # type: ignore[operator]
-            reference=0.0,
-            source="filter of the ellipse",
-            tolerance=1.0,
-            reason="1 dB: a tolerance of the field",
-            unit="dB",
-            role=_role_of(case, crown),
-        )
-        for row in rows
-        if row["crown [mm]"] == 1000 * crown and row["across"] == across and row["counted"]
-    ]
-    return worst(points, "wavelength [mm]")
-
-
-def _role_of(case: Ellipse, crown: float) -> Role:
-    """An ellipse that is a circle is compared with itself."""
-    return Role.IDENTITY if math.isclose(1000 * crown, case.wheel.diameter / 2) else Role.FINDING
-
-
-def _weighted(case: Ellipse, crown: float, name: str) -> Number:
-    """The worst speed."""
-    scene = scene_of(case.wheel, crown=crown)
-    ellipse, circle = circle_excess(case, crown, ACROSS[name])
-    by_speed = weighted_difference(scene, circle, ellipse)
-    points = [
-        Number(
-            quantity="A-weighted level with the circle over that with the ellipse",
-            where={"crown [mm]": 1000 * crown, "across": name, "speed [km/h]": speed},
-            value=by_speed(speed),
-            reference=0.0,
-            source="filter of the ellipse",
-            tolerance=1.0,
-            reason="1 dB: a tolerance of the field",
-            unit="dB(A)",
-            role=_role_of(case, crown),
-        )
-        for speed in SPEEDS
-    ]
-    return worst(points, "speed [km/h]")
-
-
-def _speed_rows(case: Ellipse) -> list[dict[str, object]]:
-    rows: list[dict[str, object]] = []
-    for crown in case.crowns:
-        scene = scene_of(case.wheel, crown=crown)
-        for name, across in ACROSS.items():
-            ellipse, circle = circle_excess(case, crown, across)
-            by_speed = weighted_difference(scene, circle, ellipse)
-            rows.append(
-                {"crown [mm]": 1000 * crown, "across": name}
-                | {f"{v:g} km/h [dB(A)]": round(by_speed(v), 3) for v in SPEEDS}
-            )
-    return rows
-
-
-def _contact_answer(numbers: list[Number]) -> str:
-    found = max(abs(number.difference) / number.reference for number in numbers)
-    return f"they differ by {found:.1e} of its printed values at the most, of which the fourth digit is 2e-4."
-
-
-def circle_cost(claim: JudgedClaim) -> str:
-    """What a circle costs, at the worst crown that differs."""
-    off = farthest_off(claim.numbers)
-    return by_status(
-        claim,
-        holds="a circle of the same area has the filter of the ellipse within 1 dB",
-        fails=f"a circle for the ellipse costs {off.value:+.1f} dB on a crown of {off.where['crown [mm]']:g} mm",
-        undecided="whether a circle has the filter of the ellipse is open",
-    )
-
-
-def finding(claims: Sequence[JudgedClaim]) -> str:
-    return sentence(
-        by_status(
-            claims[0],
-            holds="the closed form and boundary elements give the contact of CONTACT",
-            fails="the closed form and boundary elements do not both give the contact of CONTACT",
-            undecided="whether both give the contact of CONTACT is open",
+STUDY = Study(
+    title="The ellipse of contact of a wheel with two radii",
+    method=(
+        "A flat strip is pressed by a body with the two curvatures of the published example, by boundary elements with "
+        "{c.cells} cells to the semi-axis along. The filter sin S / S of the ellipse is compared with that of a circle "
+        "of the same area, for {c.wheel.label} on crowns of {c.crowns:g} m, at the levels of ISO 3095:2013, over "
+        f"ridges and over isotropic ground. Bands count down to the first with A3 of the ellipse below {COUNTED:g} dB."
+    ),
+    series=series,
+    claims=(
+        Claim(
+            says="Both the closed form and boundary elements give the contact of the program CONTACT.",
+            short="Closed form and boundary elements beside the contact of CONTACT",
+            quantity=tuple(CONTACT),
         ),
-        circle_cost(claims[1]),
-    )
-
-
-def _circle_claim(numbers: list[Number], case: Ellipse) -> JudgedClaim:
-    """Limits are crowns about that of a circular contact, at which both are the same and nothing is tested."""
-    mine = [number for number in numbers if number.role is not Role.IDENTITY]
-    off = max(mine, key=lambda number: abs(number.value))
-    circle = case.wheel.diameter / 2
-    crowns = sorted((1000 * crown for crown in case.crowns), key=lambda crown: abs(math.log(crown / circle)))
-    inside = agreeing_from_the_first([n for n in mine if n.where["crown [mm]"] == crown] for crown in crowns)
-    kept = dict.fromkeys(f"{number.where['crown [mm]']:g}" for number in inside)
-    return answered(
-        CIRCLE,
-        mine,
-        f"at worst it is {off.value:+.1f} dB off in a band with A3 > {COUNTED:g} dB, on a crown of "
-        f"{off.where['crown [mm]']:g} mm, {off.where['across']}, at {off.where['worst at']:g} mm.",
-        limits=f"crowns of {', '.join(kept)} mm" if kept else "",
-        inside=inside,
-    )
-
-
+        Claim(
+            says="A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB.",
+            short="A circle of the same area for the ellipse",
+            quantity=EXCESS,
+        ),
+    ),
+    charts=(
+        Chart(
+            "ellipse",
+            "(a) Semi-axes of the contact of {c.wheel.label} over the crown, and the circle of the same area. (b) A3 "
+            "of this circle over that of the ellipse, isotropic ground, bands that count; shaded: within 1 dB. (c) The "
+            "same at 16 mm, over the crown, both grounds.",
+            (
+                Panel(
+                    CROWN,
+                    "semi-axis [mm]",
+                    (
+                        Curve(SEMI_AXIS, ("a_x, along", "a_y, across"), by=("model",)),
+                        Curve(SEMI_AXIS, "sqrt(a_x a_y)", "guide", by=("model",)),
+                    ),
+                    ylim=(0, None),
+                    legend="upper left",
+                ),
+                Panel(
+                    WAVE,
+                    "circle over ellipse [dB]",
+                    (Curve(EXCESS, of={GROUND: "isotropic ground"}, by=(CROWN,)),),
+                    shade=(-1, 1),
+                    xlim=(11, 140),
+                    downward=True,
+                    legend="upper left",
+                ),
+                Panel(
+                    CROWN,
+                    "circle over ellipse at 16 mm [dB]",
+                    (Curve(SHORT, by=(GROUND,)),),
+                    shade=(-1, 1),
+                    legend="upper right",
+                ),
+            ),
+            claims=(1,),
+        ),
+    ),
+    matrices=tuple(Matrix(name=one, quantity=one, rows=(CROWN,), columns=GROUND) for one in (EXCESS, WEIGHTED)),
+)
 CASE = Case(
     name="ellipse",
     chapter=Chapter.RAIL,
     place=1,
-    claim=CLAIM,
     answers="The contact of a wheel with two radii, and what a circle in its place costs",
     quick=Ellipse(),
     full=Ellipse(cells=(16, 32, 64, 128)),
     run=run,
-    evidence=evidence,
+    study=STUDY,
     needs="closed form",
 )

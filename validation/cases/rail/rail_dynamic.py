@@ -1,14 +1,20 @@
 """A wheel with a mass on a rough rail: does the contact filter of constant load hold when the wheel moves?"""
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix
 from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.series import Estimates, Margin, Series, Where, masked, only
 from validation.analysis.spectra import Bands
+from validation.analysis.statistics import POWER_DECIBEL, FloatArray
+from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.level_files import curve
@@ -18,12 +24,24 @@ from validation.simulation.wheel_on_rail import BEM, SPRINGS, WheelOnRail, roll_
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 from validation.theory.line_spectrum import LineSpectrum
 
-FloatArray = NDArray[np.float64]
-
 MODELS = (BEM, SPRINGS)
 FINE, COARSE = "fine", "coarse"
 Key = tuple[float, str, str]
 """Offset of the levels, model, grid."""
+Track = tuple[str, str]
+"""Model, and what lifts its wheel."""
+
+OFFSET, FREQUENCY, A3 = "dB over the curve", "f [Hz]", "contact filter A3"
+MOVING, INFERRED, BESIDE = "filter in motion", "filter inferred from the force", "filter in motion, of two models"
+AIRBORNE, PLACES, LAST = "time in the air", "places in frequency", "last band that is judged"
+RMS = "rms of "
+NEAR, ABOVE = "near the resonance", "above the resonance"
+LOUD, WIDEST = -15.0, 1.5
+"""Level of the filter [dB] down to which its bands are judged; bands near the resonance are within this factor."""
+DECIBEL = "1 dB: repeatability of measured one-third octave levels"
+REPEATABLE = Margin(
+    tolerance=1.0, reason=DECIBEL, source="at constant load, same strips", worst=False, rms=(1.0, DECIBEL)
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,11 +132,10 @@ class RailDynamic:
 
 
 @dataclass(frozen=True)
-class RailDynamicResult:
+class RailDynamicResult(Outcomes):
     """Outcomes of the strips, by offset, model and grid."""
 
     case: RailDynamic
-    outcomes: dict[Key, list[Outcome]]
 
     def powers(self, key: Key, name: str) -> FloatArray:
         """Mean square in each band of what lifts the wheel, (strips, bands), through Hann's window.
@@ -127,13 +144,36 @@ class RailDynamicResult:
         Free vibration does not end where it began: without a window it would leak.
         """
         spacing = self.case.problem(key, 0).strip.spacing
-        tracks = [self._track(key, outcome, name) for outcome in self.outcomes[key]]
+        tracks = [self._track(key, outcome, name) for outcome in self[key]]
         return np.array([self.case.bands.powers_of_track(track, spacing=spacing) for track in tracks])
 
     def _track(self, key: Key, outcome: Outcome, name: str) -> FloatArray:
         values = outcome["force" if name == "inferred" else name]
         seen = hann(values.size) * (values - values.mean())
         return over_dynamic_stiffness(self.case.problem(key, 0), seen) if name == "inferred" else seen
+
+    def filter(self, key: Key, name: str) -> FloatArray:
+        """ln of the band powers over those of the line roughness."""
+        mine, line = (self.powers(key, track).mean(axis=0) for track in (name, "line"))
+        return np.asarray(np.log(mine / line))
+
+    @cached_property
+    def judged(self) -> np.ndarray:
+        """Bands before the first zero of the filter, at lambda = 2 a, and not below -15 dB."""
+        before = self.case.bands.wavelengths > 2.5 * self.case.contact.along
+        linear = self.filter((self.case.offsets[0], SPRINGS, FINE), "linear")
+        return np.asarray(before & (POWER_DECIBEL * linear > LOUD))
+
+    def over(self, offset: float, mine: Track, other: Track) -> tuple[Estimates, FloatArray]:
+        """ln of the band powers of one track over another on the same strips, and what the grid leaves of it."""
+        case, some = self.case, slice(self.case.compared)
+
+        def ratios(grid: str, strips: slice) -> Estimates:
+            found, reference = (self.powers((offset, model, grid), name)[strips] for model, name in (mine, other))
+            return Estimates.ratios(found, reference)
+
+        change = ratios(FINE, some).values - ratios(COARSE, some).values
+        return ratios(FINE, slice(None)), np.abs(change) / (case.cells / case.coarse - 1)
 
 
 def over_dynamic_stiffness(problem: WheelOnRail, force: FloatArray) -> FloatArray:
@@ -159,3 +199,152 @@ def run(case: RailDynamic, engine: Engine = SERIAL) -> RailDynamicResult:
     if lost := [f"{key[1]} at +{key[0]:g} dB, {key[2]} grid: {n} strips" for key, n in failed.items() if n]:
         raise NotConvergedError("models are compared strip by strip, and some are lost", lost)
     return RailDynamicResult(case, outcomes)
+
+
+def series(result: RailDynamicResult) -> list[Series]:
+    """Filters and ratios by offset, the time in the air, and places on the axis of frequencies."""
+    case, last = result.case, result.case.frequencies[result.judged].max() * 10**0.05
+    places = {NEAR: (case.resonance / WIDEST, case.resonance * WIDEST), LAST: (last,)}
+    flying = [100 * float(np.mean([one["force"] <= 0 for one in result[o, BEM, FINE]])) for o in case.offsets]
+    return [
+        *(one for offset in case.offsets for one in (*_filters(result, offset), *_ratios(result, offset))),
+        Series(AIRBORNE, BEM, flying, along=OFFSET, at=case.offsets, unit="%"),
+        *(Series(PLACES, name, ends, along=FREQUENCY, at=ends, unit="Hz") for name, ends in places.items()),
+    ]
+
+
+def _filters(result: RailDynamicResult, offset: float) -> Iterator[Series]:
+    """A3 of all that lifts a wheel."""
+    in_bands = partial(Series, along=FREQUENCY, at=result.case.frequencies, scale=POWER_DECIBEL, unit="dB")
+    for model in MODELS:
+        for lift in ("constant", "moving", "inferred"):
+            found = result.filter((offset, model, FINE), lift)
+            yield in_bands(A3, model, found, where={OFFSET: offset, "lift": lift})
+    first = result.filter((result.case.offsets[0], SPRINGS, FINE), "linear")
+    yield in_bands(A3, "linear theory", first, where={OFFSET: offset, "lift": "constant"})
+
+
+def _ratios(result: RailDynamicResult, offset: float) -> Iterator[Series]:
+    """In motion and from the force over constant load; the intervals hold at once for all numbers of a claim."""
+    case, f = result.case, result.case.frequencies
+    near = (f > case.resonance / WIDEST) & (f < WIDEST * case.resonance)
+    above, every = f >= WIDEST * case.resonance, np.ones(f.size, dtype=bool)
+    in_bands = partial(
+        Series, along=FREQUENCY, at=f, scale=POWER_DECIBEL, unit="dB", family=len(MODELS) * len(case.offsets)
+    )
+    compared = [
+        *((MOVING, model, "all bands", every, (model, "moving"), (model, "constant")) for model in MODELS),
+        (BESIDE, f"{SPRINGS} over {BEM}", "all bands", every, (SPRINGS, "moving"), (BEM, "moving")),
+        (INFERRED, BEM, ABOVE, above, (BEM, "inferred"), (BEM, "constant")),
+        (INFERRED, BEM, NEAR, near, (BEM, "inferred"), (BEM, "constant")),
+    ]
+    for quantity, model, bands, inside, mine, other in compared:
+        margin = replace(REPEATABLE, source="boundary elements, same strips") if quantity == BESIDE else REPEATABLE
+        found, grid = result.over(offset, mine, other)
+        where: Where = {OFFSET: offset, "bands": bands}
+        ranges = only(f, result.judged & inside)
+        yield in_bands(quantity, model, masked(found, inside), where=where, grid=grid, margin=margin, ranges=ranges)
+
+
+PLACED = (Curve(PLACES, NEAR, "guide", "_", upright=True), Curve(PLACES, LAST, "dashed", "_", upright=True))
+STUDY = Study(
+    title="The wheel that moves on a rail: does the contact filter of constant load hold?",
+    method=(
+        "A rigid wheel, M = {c.mass:g} kg, {c.load:g} N, {c.speed:.3g} m/s, radii {c.radii:g} m, over {c.strips} "
+        "isotropic surfaces whose lines have the levels of {c.curve}, raised by {c.offsets:g} dB. M z'' = F - F_N "
+        "by velocity Verlet, the contact solved in each step by boundary elements, {c.cells} cells to the "
+        "semi-axis along, or by springs that read the surface; it begins in the steady state of linear theory. The "
+        "lift in motion is d_Hertz(F) - d, the approach of the smooth wheel under this force less the true one: a "
+        "vibration on a smooth rail has none, however large. At constant load it is the contact filter's equivalent "
+        "displacement. The force over the linear dynamic stiffness, F (1/k - 1/(M ω²)), is what a measured "
+        "force would tell; a large vibration has a second harmonic, which it takes for roughness. Nothing damps the "
+        "resonance, {c.resonance:.0f} Hz: its vibration grows with the length of the strip, {c.periods} natural "
+        "periods and a half. All through Hann's window. Judged are the root mean squares over bands before the first "
+        f"zero of the filter and above {LOUD:g} dB. The roughness has waves of "
+        "{c.bands.span}; in the last two bands oblique waves are missing. Grid: from {c.coarse} cells on {c.compared} "
+        "surfaces, to first order."
+    ),
+    series=series,
+    claims=(
+        Claim(
+            says="The contact filter of constant load holds when the wheel moves.",
+            short="In motion over constant load, rms over bands",
+            quantity=RMS + MOVING,
+            along=OFFSET,
+        ),
+        Claim(
+            says="Springs that read the surface lift a wheel that moves as boundary elements do.",
+            short="springs that read the surface over boundary elements in motion",
+            quantity=RMS + BESIDE,
+            along=OFFSET,
+        ),
+        *(
+            Claim(
+                says=f"The force over the linear dynamic stiffness tells what lifts the wheel {bands}.",
+                quantity=RMS + INFERRED,
+                where={"bands": bands},
+                along=OFFSET,
+            )
+            for bands in (ABOVE, NEAR)
+        ),
+    ),
+    charts=(
+        Chart(
+            "rail_dynamic",
+            "(a) A3 at {c.speed:.3g} m/s and the lowest level. (b), (c) In motion over at constant load, 95 %, a curve "
+            "for each level; shaded: within 1 dB. Between the dotted lines: near the resonance. Right of the dashed "
+            "line: not judged.",
+            (
+                Panel(
+                    FREQUENCY,
+                    "contact filter A3 [dB]",
+                    (
+                        Curve(A3, "linear theory", "thick", "linear theory", of={OFFSET: "first"}),
+                        Curve(A3, BEM, "exact", "bem3d, constant load", of={OFFSET: "first", "lift": "constant"}),
+                        Curve(A3, BEM, "bem", "bem3d, in motion", of={OFFSET: "first", "lift": "moving"}),
+                        Curve(A3, SPRINGS, "mdr", "springs, in motion", of={OFFSET: "first", "lift": "moving"}),
+                        Curve(A3, BEM, "crosses", "from the force", of={OFFSET: "first", "lift": "inferred"}),
+                        *PLACED,
+                    ),
+                    ylim=(-30, 10),
+                    legend="lower left",
+                ),
+                *(
+                    Panel(
+                        FREQUENCY,
+                        "in motion over constant load [dB]",
+                        (Curve(MOVING, model, by=(OFFSET,), bars=True), *PLACED),
+                        model,
+                        shade=(-1, 1),
+                        ylim=(-15, 20),
+                        legend="lower left",
+                    )
+                    for model in MODELS
+                ),
+            ),
+        ),
+    ),
+    matrices=(Matrix(name="rms over bands", quantity="", rows=("quantity", "model", "bands"), columns=OFFSET),),
+    printed=(AIRBORNE,),
+)
+CASE = Case(
+    name="rail_dynamic",
+    chapter=Chapter.RAIL,
+    place=5,
+    answers="A contact filter is measured and computed at constant load; the wheel of rolling noise moves",
+    quick=RailDynamic(strips=3),
+    full=RailDynamic(
+        offsets=(-10.0, 0.0, 10.0),
+        longest=0.4,
+        shortest=0.0025,
+        periods=12,
+        width=0.6,
+        cells=12,
+        coarse=8,
+        strips=14,
+        compared=4,
+    ),
+    run=run,
+    study=STUDY,
+    needs="boundary elements in the time loop",
+)

@@ -1,4 +1,7 @@
-"""The contact force of a wheel on a rail as a sound, by four models on the same surface, and its levels."""
+"""The contact force of a wheel on a rail as a sound, by four models on the same surface, and its levels.
+
+Levels are A-weighted, in three ranges and in one-third octaves, and over boundary elements.
+"""
 
 import math
 from collections.abc import Sequence
@@ -7,9 +10,12 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from validation.analysis.sound import common_full_scale
+from validation.analysis.evidence import Table, table_of
+from validation.analysis.sound import a_weighting, common_full_scale, filtered, powers_of_blocks
+from validation.analysis.spectra import KILOHERTZ, Bands, levels, waves
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
+from validation.analysis.study import Outcomes
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.load import load_scene
@@ -26,18 +32,19 @@ from validation.simulation.rail_sound import (
 )
 from validation.simulation.rail_strip import RailStrip
 
-FloatArray = NDArray[np.float64]
-
 SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike": GEIKE}
 """Models by the names of their files."""
 SHORTEST = 0.9
 """Largest wavenumber over that of two cells a wave."""
-LABELS = {
-    BEM: "boundary elements",
-    LINEAR: "linear theory in 3D",
-    SPRINGS_THAT_READ: SPRINGS_THAT_READ,
-    GEIKE: GEIKE,
-}
+LABELS = {model: model for model in SOUNDING.values()} | {LINEAR: "linear theory in 3D"}
+WEIGHTED, LOW = "A-weighted", "below the band"
+LONG, SHORT = "in waves longer than the contact", "in waves shorter than the contact"
+SILENT = -30.0
+"""dB over boundary elements; a model that is quieter still counts as this."""
+LOWEST, FEWEST_WAVES = 20.0, 5
+"""First frequency of one-third octaves [Hz], and waves of a period below it."""
+LEAST = -40.0
+"""dB re 1 N: of 0.01 N, a tenth of the last digit of the samples."""
 
 
 def shipped_rail() -> RailScene:
@@ -100,6 +107,11 @@ class RailSound:
         return self.rail.speed
 
     @property
+    def metres(self) -> float:
+        """Of rail in a period."""
+        return self.speed * self.seconds
+
+    @property
     def band(self) -> tuple[float, float]:
         """Frequencies between which the strip is rough along the track [Hz]."""
         edges = strip_bands(self.rail).edges
@@ -137,20 +149,105 @@ class RailSound:
 
 
 @dataclass(frozen=True)
-class RailSoundResult:
-    """Samples of one period of each model on both grids: the force less its mean [N]."""
+class RailSoundResult(Outcomes):
+    """Samples of one period of each model on both grids, the force less its mean [N], and their levels."""
 
     case: RailSound
-    signals: dict[tuple[str, int], FloatArray]
 
     def signal(self, model: str) -> FloatArray:
         """On the finer grid."""
-        return self.signals[model, self.case.cells[1]]
+        found: FloatArray = self[model, self.case.cells[1]]
+        return found
 
     @cached_property
     def full_scale(self) -> float:
         """Force that the largest number of a file stands for, one for all models [N]."""
         return common_full_scale(self.signal(model) for model in self.case.sounding)
+
+    @cached_property
+    def gains(self) -> dict[str, FloatArray]:
+        """A-weighting, and the three ranges: 1 inside, 0 outside; of the waves of a period."""
+        f, (first, last) = np.fft.rfftfreq(self.case.samples, 1 / self.case.rate), self.case.band
+        ranges = {LOW: (0.0, first), LONG: (first, self.case.of_contact), SHORT: (self.case.of_contact, last)}
+        inside = {name: ((f > low) & (f < high)).astype(np.float64) for name, (low, high) in ranges.items()}
+        weight = 10 ** (a_weighting(np.maximum(f, f[1])) / 20)
+        return {WEIGHTED: weight, **{name: gain for name, gain in inside.items() if gain.any()}}
+
+    def level(self, model: str, part: str | None = None) -> float:
+        """dB re 1 N; of all frequencies where no part is named."""
+        signal = self.signal(model)
+        return decibels(float(np.mean((signal if part is None else filtered(signal, self.gains[part])) ** 2)))
+
+    def over(self, model: str, part: str) -> tuple[Estimate, float]:
+        """Level over boundary elements on the same strip, and what the grid leaves of it, to first order [dB]."""
+        coarse, fine = self.case.cells
+        found, before = (self._over_bem(model, part, cells) for cells in (fine, coarse))
+        return found, abs(found.value - before.value) * coarse / (fine - coarse)
+
+    def _over_bem(self, model: str, part: str, cells: int) -> Estimate:
+        """By the jackknife over pieces of the strip."""
+        powers = [
+            powers_of_blocks(filtered(self[name, cells], self.gains[part]), self.case.blocks) for name in (model, BEM)
+        ]
+
+        def ratio(rows: FloatArray) -> FloatArray:
+            mine, other = rows.sum(axis=0)
+            return np.atleast_1d(max(decibels(mine / other), SILENT))
+
+        return jackknifed(ratio, np.stack(powers, axis=1))[0]
+
+    @cached_property
+    def bands(self) -> Bands:
+        """One-third octaves of frequency, in rad/s."""
+        first = max(LOWEST, FEWEST_WAVES * self.case.rate / self.case.samples)
+        return Bands.around(KILOHERTZ, 2 * math.pi * first, 2 * math.pi * min(self.case.band[1], self.case.rate / 2))
+
+    def in_bands(self, model: str) -> FloatArray:
+        """dB re 1 N; NaN below that of the samples' last digit."""
+        powers = levels(waves(self.signal(model), spacing=1 / self.case.rate), self.bands)
+        found = np.array([decibels(2 * power) for power in powers])
+        return np.where(found > LEAST, np.round(found, 2), np.nan)
+
+    def bands_table(self) -> Table:
+        """A row a band."""
+        found = {f"{LABELS[model]} [dB re 1 N]": self.in_bands(model).tolist() for model in self.case.sounding}
+        return Table("levels", {"f [Hz]": (self.bands.centres / (2 * math.pi)).tolist(), **found})
+
+    def sounds_table(self) -> Table:
+        """A row a model: its levels, and over boundary elements where these are heard."""
+        rows = []
+        for model in self.case.sounding:
+            row: dict[str, object] = {
+                "model": LABELS[model],
+                "level [dB re 1 N]": round(self.level(model), 2),
+                "A-weighted [dB re 1 N]": round(self.level(model, WEIGHTED), 2),
+                "largest [N]": round(float(np.abs(self.signal(model)).max()), 1),
+                "full scale [N]": self.full_scale,
+                "samples a second": self.case.rate,
+            }
+            if BEM in self.case.sounding:
+                found, grid = self.over(model, WEIGHTED)
+                row |= {
+                    "A-weighted over boundary elements [dB]": round(found.value, 2),
+                    "± [dB]": round(found.half_width + grid, 2),
+                }
+            rows.append(row)
+        return table_of("sounds", rows)
+
+    def samples_table(self) -> Table:
+        """A column a model, to a tenth of a newton."""
+        found = {column_of(model): np.round(self.signal(model), 1).tolist() for model in self.case.sounding}
+        return Table("samples", found)
+
+
+def column_of(model: str) -> str:
+    """Of the table of samples."""
+    return f"{LABELS[model]} [N]"
+
+
+def decibels(power: float) -> float:
+    """-300 dB where there is none."""
+    return POWER_DECIBEL * math.log(max(power, 1e-30))
 
 
 def run(case: RailSound, engine: Engine = SERIAL) -> RailSoundResult:

@@ -1,20 +1,27 @@
 """Strips of rough rail under a wheel of constant load, by boundary elements and by one-sided springs."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import Estimate
-from validation.cases.rail.filters import ACROSS, scene_of
+from validation.analysis.statistics import POWER_DECIBEL, FloatArray
+from validation.analysis.study import Outcomes
+from validation.cases.rail.filters import ACROSS, REMINGTON, linear_filter, scene_of
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import (
+    BED,
     BEM,
+    LINEAR,
+    LINEAR_ON_LINE,
+    LINEAR_ON_MEAN,
     ONE_SIDED_BED,
     SPRINGS_ON_LINE,
     SPRINGS_ON_MEAN,
@@ -32,11 +39,14 @@ from validation.simulation.spectral_springs import (
     twin_of,
 )
 
-FloatArray = NDArray[np.float64]
 Key = tuple[RailWheel, float, str]
 """Wheel, dB over the levels, and what lies across, by its name."""
 
+FILTERS = (LINEAR, LINEAR_ON_LINE, LINEAR_ON_MEAN, BED, REMINGTON)
 RIVALS = (SPRINGS_THAT_READ, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, ONE_SIDED_BED)
+A3, OVER_BEM, WAVE = "A3", "A3 over that of boundary elements", "wavelength [mm]"
+FIELD = "1 dB: a tolerance of the field"
+NEAR = Margin(tolerance=1.0, reason=FIELD)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,34 +99,68 @@ def spectral_models(key: Key) -> tuple[str, ...]:
     return (SPRINGS_ROLLING, SPRINGS_GEIKE) if ACROSS[key[2]] == "isotropic" else (SPRINGS_ROLLING,)
 
 
+def models_of(key: Key) -> tuple[str, ...]:
+    """All that a kind of strip has a filter of."""
+    return (BEM, *FILTERS, *RIVALS, *spectral_models(key))
+
+
 @dataclass(frozen=True)
-class RolledFiltersResult:
+class RolledFiltersResult(Outcomes):
     """Tracks of all models along each strip, by kind of strip and by cells."""
 
     case: RolledFilters
-    outcomes: dict[tuple[Key, int], list[Outcome]]
-    unconverged: tuple[str, ...]
 
-    def over_twin(self, key: Key, model: str, cells: int | None = None) -> list[Estimate]:
-        """ln of the band power of a one-sided model over that of its linear twin on the same strips."""
-        return self.over(key, model, twin_of(model), cells)
-
-    def over(self, key: Key, model: str, other: str, cells: int | None = None) -> list[Estimate]:
-        """The same over any other track; on the finer grid unless told."""
-        cells = cells or self.case.cells[1]
+    def over(self, key: Key, model: str, other: str, cells: int | None = None) -> Estimates:
+        """ln of the band power over that of another track of the same strips; on the finer grid unless told."""
+        cells, bands = cells or self.case.cells[1], strip_bands(self.case.scene(key))
+        if model == other:
+            return Estimates.exact(np.zeros(len(bands)))
         spacing = self.case.problems(key, cells)[0].strip.spacing
-        found = [outcome for outcome in self.outcomes[key, cells] if not outcome["failed"]]
-        bands = Bands(tuple(strip_bands(self.case.scene(key)).edges.tolist()))
-        return log_over(model, other, found, spacing, bands)
+        found = [outcome for outcome in self[key, cells] if not outcome["failed"]]
+        return Estimates(log_over(model, other, found, spacing, Bands(tuple(bands.edges.tolist()))))
+
+    def over_twin(self, key: Key, model: str) -> Estimates:
+        """The same over the linear twin of a one-sided model."""
+        return self.over(key, model, twin_of(model))
 
     def left_by_grid(self, key: Key, model: str, other: str) -> FloatArray:
         """Half-width that cells leave, to first order: what is left of the way from the coarse grid to the fine one."""
         coarse, fine = self.case.cells
-        change = [
-            b.value - a.value
-            for a, b in zip(self.over(key, model, other, coarse), self.over(key, model, other, fine), strict=True)
-        ]
+        change = self.over(key, model, other, fine).values - self.over(key, model, other, coarse).values
         return np.abs(change) * coarse / (fine - coarse)
+
+    def linear(self, key: Key, model: str = LINEAR) -> FloatArray:
+        """A3 of the linear twin of a model in the bands of the strips [dB]."""
+        scene = self.case.scene(key)
+        bands = strip_bands(scene)
+        first = scene.levels.bands.longest - bands.longest
+        return linear_filter(scene, twin_of(model), ACROSS[key[2]])[first : first + len(bands)]
+
+    def over_linear(self, key: Key, model: str) -> Estimates:
+        """ln of the filter of a model over that of linear theory of the ellipse: that of its twin is exact."""
+        return Estimates.exact((self.linear(key, model) - self.linear(key)) / POWER_DECIBEL) + self.over_twin(
+            key, model
+        )
+
+    def filters(self, key: Key) -> Iterator[Series]:
+        """A3 of all models."""
+        linear = Estimates.exact(self.linear(key) / POWER_DECIBEL)
+        for model in models_of(key):
+            grid = self.left_by_grid(key, model, twin_of(model))
+            yield in_bands(self.case, key)(A3, model, self.over_linear(key, model) + linear, grid=grid)
+
+
+def in_bands(case: RolledFilters, key: Key) -> Callable[..., Series]:
+    """A series over the bands of a kind of strip [dB]."""
+    wheel, offset, name = key
+    where: Where = {"wheel": wheel.label, "offset [dB]": offset, "across": name}
+    at = millimetres(strip_bands(case.scene(key)))
+    return partial(Series, where=where, along=WAVE, at=at, scale=POWER_DECIBEL, unit="dB")
+
+
+def millimetres(bands: NominalBands) -> FloatArray:
+    """As they are named."""
+    return np.round(1000 * bands.nominal, 2)
 
 
 def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersResult:

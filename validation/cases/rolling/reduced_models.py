@@ -1,47 +1,42 @@
 """Reduced models of the wheel and boundary elements on the same strips: which one follows, and what it costs."""
 
 import math
-import warnings
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-import bem3d
-import mdr
-from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
-from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation import reduced_models as reduced
-from validation.simulation.rolling_strip import RoughStrip, Strip
-from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
-
-FloatArray = NDArray[np.float64]
-
-READ, LAYER, LINE = "springs that read the surface", "pressed layer", "springs on a line"
-LINEAR, BED, COARSE_LAYER = "linear theory, 3D", "one-sided bed (DPRS)", "pressed layer, 1/2 of the cells"
-JUDGE, COARSE, COARSEST = (
-    "boundary elements",
-    "boundary elements, 1/2 of the cells",
-    "boundary elements, 1/3 of the cells",
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.evidence import Number, Place
+from validation.analysis.series import Margin, Series
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
+from validation.analysis.study import Outcomes, Study
+from validation.engine.engine import SERIAL, Engine
+from validation.simulation.reduced_models import TOLERANCE
+from validation.simulation.reduced_strip import (
+    BED,
+    COARSE,
+    COARSE_LAYER,
+    COARSEST,
+    JUDGE,
+    LAYER,
+    LINE,
+    LINEAR,
+    MODELS,
+    READ,
+    bands_of,
+    roll_by_all,
 )
-MODELS: Mapping[str, tuple[Callable[[FloatArray, float], reduced.Reduced], int]] = {
-    JUDGE: (reduced.boundary_elements, 1),
-    LINE: (reduced.springs_on_a_line, 1),
-    LINEAR: (reduced.linear_theory, 1),
-    READ: (reduced.springs_that_read, 1),
-    "their radius by the mean force": (reduced.radius_by_the_mean_force, 1),
-    "one-sided in two dimensions": (reduced.one_sided_in_two_dimensions, 1),
-    BED: (reduced.one_sided_bed, 1),
-    "two scales, Persson": (reduced.two_scales_by_persson, 1),
-    "two scales, short waves pressed": (reduced.two_scales_pressed, 1),
-    "weights of some positions": (reduced.frozen_weights, 1),
-    LAYER: (reduced.pressed_layer, 1),
-    COARSE_LAYER: (reduced.pressed_layer, 2),
-    COARSE: (reduced.boundary_elements, 2),
-    COARSEST: (reduced.boundary_elements, 3),
-}
-"""With the cells to a contact radius, of which it has one in so many."""
+from validation.simulation.rolling_strip import RoughStrip, Strip
+from validation.simulation.track_spectrum import self_affine
+from validation.theory.rolling import slope_in_one_direction
+
+__all__ = ["CASE", "COARSE_LAYER", "JUDGE", "LAYER", "OFF", "READ", "WORK"]
+FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,24 +73,15 @@ class ReducedModels:
             width=max(self.width, math.ceil(longest)),
             seed=self.seed,
         )
-        return scene.strips(self.cells, reduced.TOLERANCE * height, self.strips)
+        return scene.strips(self.cells, TOLERANCE * height, self.strips)
 
 
 Key = tuple[tuple[float, float, float], float]
 """Spectrum, and h/d."""
 
 
-@dataclass(frozen=True)
-class ReducedResult:
-    """Outcomes of all strips by spectrum and height."""
-
-    case: ReducedModels
-    strips: dict[Key, list[Outcome]]
-    unconverged: tuple[str, ...]
-
-
-def run(case: ReducedModels, engine: Engine = SERIAL) -> ReducedResult:
-    """All models over all strips."""
+def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
+    """All models over all strips, by spectrum and height."""
     groups = {
         (spectrum, height): case.strips_of(spectrum, height) for spectrum in case.spectra for height in case.heights
     }
@@ -106,52 +92,245 @@ def run(case: ReducedModels, engine: Engine = SERIAL) -> ReducedResult:
         for i, outcome in enumerate(outcomes)
         if outcome["failed"]
     )
-    return ReducedResult(case, found, unconverged)
+    return Outcomes(case, found, unconverged)
 
 
-def bands_of(spectrum: PiecewisePowerLaw) -> Bands:
-    """One-third octaves from the longest wave on, whole octaves of them."""
-    first, last = spectrum.edges[0], spectrum.edges[-1]
-    return Bands(tuple(first * 2 ** (k / 3) for k in range(3 * math.floor(math.log2(last / first) + 1e-9) + 1)))
+OFF, LARGEST = "rms over octaves of the level over boundary elements", "largest rms over octaves up to this h' a/d"
+OCTAVES, LEVEL = "level of octaves over boundary elements", "level of one-third octaves over boundary elements"
+COHERENCE, SHARED = "coherence", "coherence, mean of one-third octaves"
+FORCE, WORK, AT_WORK = "mean force over bem3d", "work over springs on a line", "rms over octaves at one h' a/d"
+SLOPE, Q = "h' a/d", "q a"
+LIMIT, LIMIT_OF_READ = slope_in_one_direction(1.0), slope_in_one_direction(0.3)
+"""h' a/d up to which two models are claimed to follow, where the rms gradient g a/d is 1 and 0.3."""
+SLACK = 1.15
+"""By which h' a/d may lie above a limit."""
+GRID = 1 / 3
+"""Error of a grid over its change to half of the cells, of second order."""
+ONE_DECIBEL = Margin(
+    tolerance=1.0,
+    reason="1 dB: repeatability of measured one-third octave levels",
+    source="boundary elements on the same strips",
+)
 
 
-def roll_by_all(strip: Strip) -> Outcome:
-    """Models in the order of `MODELS`: level in each band, cross level with boundary elements, mean force, and work.
-
-    level, cross (complex): (models, bands), of the force over that of Hertz; mean, work of the whole strip: (models,);
-    failed: models with a contact that did not converge, which have no force.
-    """
-    bands = bands_of(strip.scene.spectrum)
-    rolled = [_roll(strip, solve, coarser) for solve, coarser in MODELS.values()]
-    of_waves = [
-        _waves(one.force, coarser / strip.cells, bands)
-        for one, (_, coarser) in zip(rolled, MODELS.values(), strict=True)
-    ]
-    cross = np.array([cross_levels(one, of_waves[0], bands) for one in of_waves])
-    return {
-        "level": np.array([levels(one, bands) for one in of_waves]),
-        "cross": np.stack([cross.real, cross.imag]),
-        "mean": np.array([one.force.mean() for one in rolled]),
-        "work": np.array([one.work for one in rolled]),
-        "failed": np.array(float(sum(math.isnan(one.work) for one in rolled))),
-    }
+def series(result: Outcomes) -> list[Series]:
+    """Of each model over all strips, the smoothest first; in bands and over its work where h' a/d is nearest LIMIT."""
+    keys = sorted(result.found, key=slope_of)
+    nearest = min(keys, key=lambda key: abs(math.log(slope_of(key) / LIMIT)))
+    found: list[Series] = []
+    for model in MODELS:
+        for key in keys:
+            found += _of_strips(result, key, model)
+        rms = np.maximum.accumulate([off(result, key, model).value for key in keys])
+        found.append(Series(LARGEST, model, rms, along=SLOPE, at=list(map(slope_of, keys))))
+        found += _in_bands(result, nearest, model)
+    return found
 
 
-def _roll(strip: Strip, solve: Callable[[FloatArray, float], reduced.Reduced], coarser: int) -> reduced.Reduced:
-    cells = strip.cells // coarser
-    with warnings.catch_warnings():
-        # what fewer cells change is compared
-        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        surface = replace(strip, cells=cells).surface()
-        try:
-            return solve(surface, 1 / cells)
-        except bem3d.ConvergenceError:
-            return reduced.Reduced(np.full(len(surface), math.nan), math.nan)
+def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
+    (hurst, *ends), height = key
+    where: dict[str, Place] = {"H": hurst, Q: (ends[0], ends[1]), "h/d": height, SLOPE: float(f"{slope_of(key):.3g}")}
+    in_octaves = decibels(octaves(_pairs(result, key, model)))
+    single = partial(Series, model=model, where=where)
+    yield single(
+        OFF,
+        found=(off(result, key, model),),
+        grid=GRID * off(result, key, COARSE).value,
+        unit="dB",
+        margin=ONE_DECIBEL if model != JUDGE else None,
+    )
+    yield single(OCTAVES, found=in_octaves, along=Q, at=[ends[0] * 2 ** (k + 0.5) for k in range(in_octaves.size)])
+    yield single(SHARED, found=(coherence(result, key, model).mean(),))
+    yield single(FORCE, found=(_mean_over(result, key, "mean", model, JUDGE),))
+    yield single(WORK, found=(_mean_over(result, key, "work", model, LINE),))
 
 
-def _waves(force: FloatArray, spacing: float, bands: Bands) -> Waves:
-    """Of a force at the centres of cells, from the beginning of the strip on, up to the last band."""
-    found = waves(force, spacing=spacing)
-    known = found.q < bands.edges[-1]
-    return Waves(found.q[known], (found.amplitude * np.exp(-0.5j * found.q * spacing))[known])
+def _in_bands(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
+    where = {SLOPE: slope_of(key)}
+    along_q = partial(Series, where=where, along=Q, at=bands_of(self_affine(*key[0])).centres)
+    yield along_q(LEVEL, model, jackknifed(decibels, _pairs(result, key, model)), unit="dB")
+    yield along_q(COHERENCE, model, coherence(result, key, model))
+    if model != JUDGE:
+        work = _mean_over(result, key, "work", model, LINE)
+        yield Series(AT_WORK, model, (off(result, key, model),), where=where, along=WORK, at=(work,), unit="dB")
+
+
+def slope_of(key: Key) -> float:
+    """h' a/d, along the track, of all waves."""
+    spectrum, height = key
+    return height * self_affine(*spectrum).slope_along
+
+
+def octaves(level: FloatArray) -> FloatArray:
+    """Sums of three one-third octaves, along the last axis."""
+    return np.asarray(level.reshape(*level.shape[:-1], -1, 3).sum(axis=-1))
+
+
+def decibels(pairs: FloatArray) -> FloatArray:
+    """Mean level of a model over that of boundary elements: pairs (strips, 2, bands)."""
+    mine, other = pairs.mean(axis=0)
+    return np.asarray(POWER_DECIBEL * np.log(mine / other))
+
+
+def rms_decibels(pairs: FloatArray) -> FloatArray:
+    return np.asarray(np.sqrt(np.mean(decibels(pairs) ** 2)))
+
+
+def off(result: Outcomes, key: Key, model: str) -> Estimate:
+    return jackknifed(rms_decibels, octaves(_pairs(result, key, model)))[0]
+
+
+def _pairs(result: Outcomes, key: Key, model: str) -> FloatArray:
+    """Levels in one-third octaves of a model and of boundary elements, (strips, 2, bands)."""
+    names = list(MODELS)
+    return np.array([one["level"][[names.index(model), names.index(JUDGE)]] for one in result[key]])
+
+
+def coherence(result: Outcomes, key: Key, model: str) -> FloatArray:
+    """|sum of cross levels|^2 over both levels, of all strips, in one-third octaves."""
+    place = list(MODELS).index(model)
+    real, imaginary = np.sum([one["cross"][:, place] for one in result[key]], axis=0)
+    mine, other = _pairs(result, key, model).sum(axis=0)
+    return np.asarray((real**2 + imaginary**2) / (mine * other))
+
+
+def _mean_over(result: Outcomes, key: Key, name: str, model: str, other: str) -> float:
+    """Of all strips."""
+    mean, names = np.mean([one[name] for one in result[key]], axis=0), list(MODELS)
+    return float(mean[names.index(model)] / mean[names.index(other)])
+
+
+class AtTheLimit(Claim):
+    """Of all strips about as rough as the roughest up to the limit: no strip is chosen."""
+
+    def numbers(self, numbers: Sequence[Number]) -> list[Number]:
+        mine = super().numbers(numbers)
+        slopes = [float(str(number.where[SLOPE])) for number in mine]
+        return [number for number, slope in zip(mine, slopes, strict=True) if slope >= max(slopes) / SLACK]
+
+
+def _up_to(limit: float) -> dict[str, object]:
+    return {SLOPE: lambda slope: slope <= SLACK * limit}
+
+
+SHOWN = (LINE, LINEAR, READ, BED, LAYER, COARSEST)
+"""As curves; all models have a point over their work."""
+TRIALS = tuple(model for model in MODELS if model not in (*SHOWN, JUDGE))
+BY_MODEL = partial(Curve, by=("model",))
+STUDY = Study(
+    title="Reduced models of the wheel on a rough surface, beside boundary elements",
+    method=(
+        "A wheel rolls at a fixed approach over {c.strips} strips of each spectrum and height, {c.waves} of the "
+        "longest waves long, {c.cells} cells to a contact radius. Each model rolls over the same strips. Levels of the "
+        "force are taken in octaves from the longest wave on, over those of boundary elements. h' is the rms slope "
+        "along the track, in one direction, of all waves. Errors of the sample are by the jackknife, and those of the "
+        "grid a third of what half of the cells change. Work counts springs, cells read, and cells of every "
+        "application of an operator, over that of springs on a line; it is not a time."
+    ),
+    series=series,
+    claims=(
+        Claim(
+            says="In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to "
+            f"h' a/d of {LIMIT:.2g}.",
+            short=f"Pressed layer beside boundary elements up to h' a/d = {LIMIT:.2g}",
+            quantity=OFF,
+            model=LAYER,
+            where=_up_to(LIMIT),
+        ),
+        Claim(
+            says="In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
+            f"{LIMIT_OF_READ:.2g}.",
+            short=f"springs that read the surface up to {LIMIT_OF_READ:.2g}",
+            quantity=OFF,
+            model=READ,
+            where=_up_to(LIMIT_OF_READ),
+        ),
+        AtTheLimit(
+            says=f"At h' a/d of {LIMIT:.2g}, linear theory, springs and the bed of the field are more than 1 dB off "
+            "boundary elements in octaves.",
+            short=f"linear theory, springs and the bed at {LIMIT:.2g}",
+            quantity=OFF,
+            model=(LINEAR, LINE, READ, BED),
+            where=_up_to(LIMIT),
+            differ=True,
+        ),
+        Claim(
+            says="In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
+            f"{LIMIT:.2g}.",
+            quantity=OFF,
+            model=COARSEST,
+            where=_up_to(LIMIT),
+        ),
+    ),
+    charts=(
+        Chart(
+            "reduced_models-map",
+            "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
+            "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB.",
+            (
+                Panel(
+                    SLOPE,
+                    "rms over octaves [dB]",
+                    (BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")),
+                    log="xy",
+                    shade=(1e-9, 1),
+                    ylim=(0.01, 20),
+                ),
+            ),
+            claims=(0, 1, 2),
+            width=9.0,
+            height=4.6,
+        ),
+        Chart(
+            "reduced_models",
+            "(a) Root mean square over octaves of the level over boundary elements, over h' a/d; line: 1 dB. At the "
+            f"h' a/d nearest to {LIMIT:.2g}: (b) that level in one-third octaves, (c) coherence, (d) the root mean "
+            "square over counted work; open: trials. Bars: 95 %.",
+            (
+                Panel(
+                    SLOPE,
+                    "rms over octaves [dB]",
+                    (BY_MODEL(OFF, SHOWN, bars=True),),
+                    "over roughness",
+                    ylim=(0, None),
+                    lines=(1.0,),
+                ),
+                Panel(
+                    Q,
+                    "level over boundary elements [dB]",
+                    (BY_MODEL(LEVEL, SHOWN, bars=True),),
+                    "in one-third octaves",
+                    lines=(0.0,),
+                ),
+                Panel(Q, COHERENCE, (BY_MODEL(COHERENCE, SHOWN),), "position by position", ylim=(0, 1.02)),
+                Panel(
+                    WORK,
+                    "rms over octaves [dB]",
+                    (BY_MODEL(AT_WORK, SHOWN, "marks"), BY_MODEL(AT_WORK, TRIALS, "open marks")),
+                    "error over work",
+                    log="xy",
+                    lines=(1.0,),
+                ),
+            ),
+            claims=(0, 1),
+            columns=2,
+            height=7.4,
+        ),
+    ),
+    matrices=(Matrix(name=OFF, quantity=OFF, rows=("H", Q, "h/d", SLOPE), columns="model"),),
+)
+CASE = Case(
+    name="reduced_models",
+    chapter=Chapter.ROLLING,
+    place=7,
+    answers="Reduced models of the rolling wheel: which one follows boundary elements as contact is lost",
+    quick=ReducedModels(strips=3),
+    full=ReducedModels(
+        spectra=((0.7, 1.0, 10.0), (0.4, 1.0, 10.0), (0.7, 0.3, 5.0), (0.4, 0.3, 5.0)),
+        heights=(0.03, 0.1, 0.3, 1.0),
+        width=12,
+    ),
+    run=run,
+    study=STUDY,
+    needs="boundary elements",
+)

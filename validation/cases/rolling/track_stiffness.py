@@ -1,19 +1,24 @@
 """Stiffness along a track at constant load, by both methods, beside that of the punches of Fig. 14.1."""
 
 import math
-import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-import bem3d
-import mdr
-from validation.analysis.spectra import Bands, levels, waves
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.evidence import Number
+from validation.analysis.series import Estimates, Margin, Series
+from validation.analysis.spectra import Bands
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated, jackknife_error, log_ratio_of_means
+from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks, crop_to_reach
+from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks
 from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
@@ -25,12 +30,11 @@ from validation.simulation.rough_punch import (
     stacked,
 )
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
+from validation.simulation.track_stiffness import LoadedStrip, roll_loaded_strip, roll_loaded_tracks
 
 FloatArray = NDArray[np.float64]
-SMOOTH = 2.0
-"""Stiffness 2 E* a of the smooth wheel, a = E* = 1."""
-LOADS_BELOW = 3
-"""A punch is pressed at Fbar / 3 first: each contact starts from the last."""
+ROUNDING = 1e-9
+"""A relative deviation below is none: all springs touch."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +77,22 @@ class TrackStiffness:
     def punch(self) -> PunchRoughness:
         return PunchRoughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
 
+    @property
+    def faces(self) -> list[Surface]:
+        """Of punches, pressed at Fbar / 3 first: each contact starts from the last."""
+        return [
+            Surface(
+                roughness=self.punch, realisation=i, cells=8 * self.waves, forces=(force / 3, force), tolerance=1e-4
+            )
+            for force in self.forces
+            for i in range(self.surfaces)
+        ]
+
+    @property
+    def faces_of_springs(self) -> Profiles:
+        points = 8 * self.springs
+        return Profiles(roughness=self.punch, realisations=self.profiles, points=points, length=1.0, forces=self.forces)
+
     def height(self, force: float) -> float:
         """h/d."""
         return HERTZ / 2 / force
@@ -82,7 +102,7 @@ class TrackStiffness:
             spectrum=self.spectrum, height=self.height(force), length=self.length, width=self.width, seed=self.seed
         )
 
-    def strips_of(self, force: float, cells: int) -> list["LoadedStrip"]:
+    def strips_of(self, force: float, cells: int) -> list[LoadedStrip]:
         strips = self.rough_strip(force).strips(cells, 3e-5, self.strips if cells == self.cells else self.refined)
         return [LoadedStrip(strip=strip, bands=self.bands) for strip in strips]
 
@@ -96,80 +116,14 @@ class TrackStiffness:
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class LoadedStrip:
-    """One rough strip under a wheel of constant load."""
-
-    strip: Strip
-    bands: Bands
-
-
-@dataclass(frozen=True)
-class TrackStiffnessResult:
-    """Stiffness over 2 E* a, by Fbar: `moments` along strips, along those again on finer cells, along tracks by input
-    spectrum; k / (E* L) of punches and of profiles."""
-
-    case: TrackStiffness
-    bem: dict[float, Outcome]
-    refined: dict[float, Outcome]
-    springs: dict[tuple[float, InputSpectrum], Outcome]
-    punches: dict[float, FloatArray]
-    profiles: dict[float, FloatArray]
-    unconverged: tuple[str, ...]
-
-
-def roll_loaded_strip(problem: LoadedStrip) -> Outcome:
-    """Boundary elements: `moments` of k = dF/dd at a constant contact area, over 2 E* a; failed: positions."""
-    strip, spacing = problem.strip, 1 / problem.strip.cells
-    height = np.ascontiguousarray(crop_to_reach(strip.surface(), spacing))
-    wheel = bem3d.RollingContact(
-        bem3d.Track(height=height, spacing=spacing, radius=1.0, modulus=1.0), tolerance=strip.tolerance
-    )
-    stiffness = np.array([tangent_stiffness(wheel, position) for position in range(len(height))]) / SMOOTH
-    return {**moments(stiffness, spacing, problem.bands), "failed": np.array(float(np.isnan(stiffness).sum()))}
-
-
-def tangent_stiffness(wheel: bem3d.RollingContact, position: int) -> float:
-    """Of the contact under the load of Hertz over one cell of the track; NaN where it does not converge."""
-    if not wheel.carry(position, HERTZ).converged:
-        return math.nan
-    _, _, pressure = wheel.pressure()
-    body = half_space(pressure.shape, wheel.track.spacing)
-    return bem3d.solve_fixed_area(body, pressure > 0, tolerance=1e-3).stiffness
-
-
-@cache
-def half_space(shape: tuple[int, int], spacing: float) -> bem3d.HalfSpace:
-    """Frames along a track have few shapes."""
-    return bem3d.HalfSpace(shape=shape, spacing=spacing, modulus=1.0)
-
-
-def roll_loaded_tracks(tracks: Tracks) -> Outcome:
-    """One-sided springs: `moments` of the stiffness along each track."""
-    spacing = 1 / tracks.springs
-    with warnings.catch_warnings():
-        # the smooth contact has springs enough, which is what the warning is about
-        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        rolled = [mdr.roll(h, spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ) for h in tracks.heights()]
-    return moments(np.array([one.stiffness for one in rolled]) / SMOOTH, spacing, tracks.bands)
-
-
-def moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
-    """Mean and variance along a track, and the level int C_k dq in each band; along the last axis."""
-    return {
-        "mean": np.asarray(stiffness.mean(axis=-1)),
-        "variance": np.asarray(stiffness.var(axis=-1)),
-        "level": levels(waves(stiffness, spacing=spacing), bands),
-    }
-
-
-def run(case: TrackStiffness, engine: Engine = SERIAL) -> TrackStiffnessResult:
+def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
     """Roll and press. Raises NotConvergedError where fewer than three strips or punches converge at a force."""
-    groups = {(f, cells): case.strips_of(f, cells) for f in case.forces for cells in (case.cells, 2 * case.cells)}
+    cells = {WHEEL: case.cells, REFINED: 2 * case.cells}
+    groups = {(name, force): case.strips_of(force, n) for force in case.forces for name, n in cells.items()}
     strips = engine.map_groups(roll_loaded_strip, groups)
     lost = tuple(
-        f"strip {i}, Fbar = {force:g}, {cells} cells to a radius: {int(one['failed'])} positions"
-        for (force, cells), found in strips.items()
+        f"strip {i}, Fbar = {force:g}, {cells[name]} cells to a radius: {int(one['failed'])} positions"
+        for (name, force), found in strips.items()
         for i, one in enumerate(found)
         if one["failed"]
     )
@@ -177,27 +131,212 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> TrackStiffnessResult:
         if sum(not one["failed"] for one in found) < FEWEST:
             raise NotConvergedError(f"fewer than {FEWEST} strips of {key} converged", lost)
     along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in strips.items()}
-    tracks = {(force, rule): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
-    loads = {force: (force / LOADS_BELOW, force) for force in case.forces}
-    faces = [
-        Surface(roughness=case.punch, realisation=i, cells=8 * case.waves, forces=loads[force], tolerance=1e-4)
-        for force in case.forces
-        for i in range(case.surfaces)
-    ]
-    pressed = engine.map(press_surface, faces)
-    failures = describe_failures(faces, pressed)
-    punches = np.array([one["stiffness"][-1] for one in pressed]).reshape(len(case.forces), -1)
+    tracks = {(rule, force): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
+    rolled = engine.map(roll_loaded_tracks, list(tracks.values()))
+    pressed = engine.map(press_surface, case.faces)
+    failures = describe_failures(case.faces, pressed)
     require_converged([stacked(pressed)], failures)
-    profiles = Profiles(
-        roughness=case.punch, realisations=case.profiles, points=8 * case.springs, length=1.0, forces=case.forces
+    punches = np.array([one["stiffness"][-1] for one in pressed]).reshape(len(case.forces), -1)
+    results: dict[tuple[str, float], Outcome | FloatArray] = {**along, **dict(zip(tracks, rolled, strict=True))}
+    for force, bem, springs in zip(
+        case.forces, punches, press_profiles(case.faces_of_springs)["stiffness"].T, strict=True
+    ):
+        results |= {(PUNCH, force): bem, (PROFILE, force): springs}
+    return Outcomes(case, results, (*lost, *failures))
+
+
+WHEEL, REFINED, PUNCH, PROFILE = "wheel, bem3d", "wheel, bem3d, half of the cell", "punch, bem3d", "punch, springs"
+SPRINGS: dict[InputSpectrum, str] = {
+    "geike": "springs with Geike's spectrum",
+    "line": "springs with line trace",
+    "rolling": "springs with rolling-equivalent spectrum",
+}
+OVER = {rule: f"{springs} over bem3d" for rule, springs in SPRINGS.items()}
+PUNCH_OVER_WHEEL = "punch over wheel, bem3d"
+MEAN, DEVIATION = "mean stiffness", "relative deviation of stiffness"
+LEVEL, OWN_LEVEL = "level of stiffness in a one-third octave", "own level of stiffness in a one-third octave"
+FORCE, Q = "Fbar", "q a"
+SHOWN = {MEAN: "mean k over 2 E* a, of a punch over E* L", DEVIATION: "deviation of k over its mean"}
+ROWS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
+"""Weights of ln of the mean variance and of ln of the mean."""
+SOURCE = "bem3d along the track, extrapolated"
+TEN_PER_CENT = Margin(tolerance=0.1, reason="10 %: the margin of Fig. 14.1", source=SOURCE)
+IN_BANDS = Margin(
+    tolerance=3.0,
+    reason="3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
+    source=SOURCE,
+    rms=(1.0, "1 dB: repeatability of measured one-third octave levels"),
+)
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Moments along the track and from punch to punch, and levels in one-third octaves, force by force."""
+    return [
+        one
+        for force in result.case.forces
+        for some in (*(_moments(result, quantity, force) for quantity in ROWS), _levels(result, force))
+        for one in some
+    ]
+
+
+def _moments(result: Outcomes, quantity: str, force: float) -> Iterator[Series]:
+    """Each model's own, and springs over boundary elements along the track; of deviations that of punches too."""
+    case, together = result.case, len(result.case.forces) * len(INPUT_SPECTRA)
+    bem, grid = of_bem(result, quantity, force)
+    found = {WHEEL: bem}
+    found |= {springs: of_tracks(quantity, result[rule, force]) for rule, springs in SPRINGS.items()}
+    found |= {model: of_punches(result[model, force], quantity) for model in (PUNCH, PROFILE)}
+    for model, log in found.items():
+        left = math.exp(log.value) * grid if model == WHEEL else 0.0
+        where = {FORCE: force, "h/d": case.height(force)}
+        yield Series(SHOWN[quantity], model, (exponential(log),), where=where, grid=left)
+    pairs = {OVER[rule]: found[springs] for rule, springs in SPRINGS.items()}
+    for model, log in (pairs | ({PUNCH_OVER_WHEEL: found[PUNCH]} if quantity == DEVIATION else {})).items():
+        apart = log.minus(bem)
+        yield Series(
+            quantity,
+            model,
+            (exponential(apart, less=1.0),),
+            where={FORCE: force},
+            grid=math.exp(apart.value) * grid,
+            margin=TEN_PER_CENT,
+            family=together,
+        )
+
+
+def _levels(result: Outcomes, force: float) -> Iterator[Series]:
+    """Springs over boundary elements on cells of no size; intervals hold at once for all forces."""
+    coarse, fine = (result[grid, force]["level"] for grid in (WHEEL, REFINED))
+    finer, alone = Estimates.ratios(fine, coarse[: len(fine)]), np.ones(coarse.shape[1])
+    bem = Estimates.ratios(coarse, alone).on_no_size(finer)
+    in_bands = partial(Series, along=Q, at=result.case.bands.centres, scale=POWER_DECIBEL, unit="dB")
+    where, family = {FORCE: force}, 2 * len(result.case.forces)
+    yield in_bands(OWN_LEVEL, WHEEL, bem, where=where, grid=finer)
+    for rule, name in SPRINGS.items():
+        springs = Estimates.ratios(result[rule, force]["level"], alone)
+        yield in_bands(OWN_LEVEL, name, springs, where=where)
+        yield in_bands(LEVEL, OVER[rule], springs - bem, where=where, grid=finer, margin=IN_BANDS, family=family)
+
+
+def of_bem(result: Outcomes, quantity: str, force: float) -> tuple[Estimate, float]:
+    """ln of the mean stiffness, or of its relative deviation, on cells of no size; half-width that the grid leaves."""
+    coarse, fine = result[WHEEL, force], result[REFINED, force]
+    same = {name: values[: len(fine["mean"])] for name, values in coarse.items()}
+    return extrapolated(of_tracks(quantity, coarse), of_tracks(quantity, fine, same))
+
+
+def of_tracks(quantity: str, outcome: Outcome, other: Outcome | None = None) -> Estimate:
+    """The same along tracks, or over another's."""
+    mine, reference = (np.stack([one["variance"], one["mean"]], axis=1) for one in (outcome, other or outcome))
+    return log_ratio_of_means(mine, reference if other else np.ones(2), ROWS[quantity])
+
+
+def of_punches(stiffness: FloatArray, quantity: str) -> Estimate:
+    """The same over punches, with its jackknife error."""
+    known = stiffness[np.isfinite(stiffness)]
+    without = np.array([np.delete(known, i) for i in range(known.size)])
+
+    def log(values: FloatArray) -> FloatArray:
+        mean = values.mean(axis=-1)
+        value = mean if quantity == MEAN else np.maximum(values.std(axis=-1, ddof=1) / mean, ROUNDING)
+        return np.asarray(np.log(value))
+
+    return Estimate(float(log(known)), float(jackknife_error(log(without))), known.size)
+
+
+def exponential(log: Estimate, less: float = 0.0) -> Estimate:
+    """exp(x) - less of an estimate of x, to first order in its error."""
+    ratio = math.exp(log.value)
+    return Estimate(ratio - less, ratio * log.error, log.samples)
+
+
+def percent(number: Number) -> str:
+    return f"{100 * number.value:+.0f} ± {100 * number.uncertainty:.0f} %"
+
+
+def _claim(quantity: str, model: str | tuple[str, ...], says: str, short: str = "") -> Claim:
+    return Claim(says=says, short=short, quantity=quantity, model=model, printed=percent)
+
+
+def _over_force(quantity: str) -> Panel:
+    curves = (
+        Curve(SHOWN[quantity], (WHEEL, *SPRINGS.values()), by=("model",), bars=True),
+        Curve(SHOWN[quantity], (PUNCH, PROFILE), "open", by=("model",), bars=True),
     )
-    on_springs = press_profiles(profiles)["stiffness"].T
-    return TrackStiffnessResult(
-        case,
-        {force: along[force, case.cells] for force in case.forces},
-        {force: along[force, 2 * case.cells] for force in case.forces},
-        dict(zip(tracks, engine.map(roll_loaded_tracks, list(tracks.values())), strict=True)),
-        dict(zip(case.forces, punches, strict=True)),
-        dict(zip(case.forces, on_springs, strict=True)),
-        (*lost, *failures),
-    )
+    return Panel(FORCE, SHOWN[quantity], curves, ylim=(0, None), ticked=True)
+
+
+ALONG = "Along a track under constant load, springs with Geike's spectrum"
+STUDY = Study(
+    title="Stiffness along a track at constant load: from Fig. 14.1 to rolling",
+    method=(
+        "A wheel rolls under a constant force over {c.strips} isotropic surfaces, H = {c.hurst:g}, whose longest wave "
+        "is the diameter L = 2 a of the smooth contact and whose shortest is L / {c.waves}, as on the punches of Fig. "
+        "14.1. At each position the stiffness is dF/dd of boundary elements at a constant contact area, {c.cells} "
+        "cells to a radius, {c.refined} surfaces again with twice as many; and that of the springs in contact, "
+        "{c.tracks} tracks with each of three input spectra. Beside them: {c.surfaces} punches of side L with the same "
+        "roughness, eight cells to its shortest wave, and {c.profiles} profiles, at the same Fbar = F / (E* h L)."
+    ),
+    series=series,
+    claims=(
+        _claim(
+            DEVIATION,
+            OVER["geike"],
+            f"{ALONG} have the fluctuation of stiffness of boundary elements.",
+            "fluctuation of stiffness along a track, springs beside boundary elements",
+        ),
+        _claim(MEAN, OVER["geike"], f"{ALONG} have the mean stiffness of boundary elements.", "its mean"),
+        Claim(
+            says="Springs with Geike's spectrum have the level of the stiffness in each one-third octave.",
+            quantity=(LEVEL, "rms of " + LEVEL),
+            model=OVER["geike"],
+        ),
+        _claim(
+            DEVIATION,
+            (OVER["line"], OVER["rolling"]),
+            "The line trace or the rolling-equivalent spectrum mends the fluctuation of stiffness.",
+        ),
+        _claim(
+            DEVIATION,
+            PUNCH_OVER_WHEEL,
+            "The fluctuation of stiffness along a track is that from punch to punch of Fig. 14.1 at the same Fbar.",
+        ),
+    ),
+    charts=(
+        Chart(
+            "track_stiffness",
+            "(a) Mean stiffness over 2 E* a of a wheel, and over E* L of punches, over Fbar = F / (E* h L). (b) "
+            "Relative deviation, along the track and, open, from punch to punch; 95 %. (c) Level of the stiffness, "
+            "springs of Geike's spectrum over boundary elements, dark to light: Fbar; shaded: within 3 dB.",
+            (
+                _over_force(MEAN),
+                _over_force(DEVIATION),
+                Panel(
+                    Q,
+                    "springs over boundary elements [dB]",
+                    (Curve(LEVEL, OVER["geike"], by=(FORCE,), bars=True),),
+                    shade=(-3, 3),
+                    ylim=(-25, 25),
+                ),
+            ),
+            claims=(0, 1),
+            height=4.4,
+        ),
+    ),
+    matrices=tuple(
+        Matrix(name=quantity, quantity=quantity, rows=("model",), columns=FORCE, printed=percent) for quantity in ROWS
+    ),
+)
+CASE = Case(
+    name="track_stiffness",
+    chapter=Chapter.ROLLING,
+    place=6,
+    answers="Fluctuation of stiffness along a track: the link from Fig. 14.1 to rolling",
+    quick=TrackStiffness(cells=6, strips=4, tracks=20),
+    full=TrackStiffness(
+        forces=(0.3, 1.0, 3.0, 10.0), length=32, width=12, strips=8, refined=6, tracks=60, surfaces=100, profiles=2000
+    ),
+    run=run,
+    study=STUDY,
+    needs="boundary elements",
+)

@@ -23,7 +23,7 @@ def _worked(evidence: Evidence) -> str:
 
 
 def _times_springs(model: str, evidence: Evidence) -> str:
-    mine = evidence.table("reduced_models").where(model=model)["work over springs on a line"]
+    mine = evidence.table(reduced.WORK).where(model=model)["value"]
     least, most = (f"{float(f'{times:.2g}'):,g}" for times in (mine.min(), mine.max()))
     return f"{least if least == most else f'{least} to {most}'} times the counted work of springs on a line"
 

@@ -1,10 +1,10 @@
 """The questions of the first screen, in the order of the cases that answer them."""
 
-from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth
 from validation.cases.punch import ensembles as punch
-from validation.cases.rolling import force_spectrum_numbers as rolling
-from validation.cases.rolling.force_spectrum_levels import LINEAR_3D, ROLLING_SPRINGS, SPRINGS
+from validation.cases.punch import mdr_limits as rolled_off
+from validation.cases.rolling import force_spectrum as rolling
+from validation.cases.rolling.force_spectrum import LINEAR_3D, ROLLING_SPRINGS, SPRINGS
 from validation.cases.wheel import half_space_levels as wheel
 from validation.cases.wheel.half_space_tables import WHEEL
 from validation.report.answers.alternatives import (

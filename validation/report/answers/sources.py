@@ -1,11 +1,11 @@
 """Which numbers of which case answer a question, and where they stand on its axis."""
 
 from validation.analysis.evidence import Evidence, Number, Place
-from validation.cases.punch import area_gap_rolloff_numbers as rolled_off
 from validation.cases.punch import bandwidth
 from validation.cases.punch import ensembles as punch
-from validation.cases.rail import rail_dynamic_evidence, rough_rail
-from validation.cases.rolling import reduced_models_evidence
+from validation.cases.punch import mdr_limits as rolled_off
+from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
+from validation.cases.rolling import reduced_models
 from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
 from validation.report.answers.cells import NumberSource
 
@@ -36,8 +36,7 @@ def not_modelled(*quantities: str, rolled: bool) -> NumberSource:
 
 
 def _slope_of_height(evidence: Evidence, number: Number) -> Place:
-    summary = evidence.table("summary")
-    return float(summary.where(**{"h / d": number.where["h/d"]})["h' a / d"][0])
+    return float(evidence.table(SLOPE).where(**{"h/d": number.where["h/d"]})["value"][0])
 
 
 def of_rolling(quantity: str, model: str) -> NumberSource:
@@ -54,7 +53,7 @@ def of_rolling(quantity: str, model: str) -> NumberSource:
 def of_strips(model: str) -> NumberSource:
     return NumberSource(
         case="reduced_models",
-        quantities=(reduced_models_evidence.OFF,),
+        quantities=(reduced_models.OFF,),
         model=model,
         axis=SLOPE,
         series=("H", "q a"),
@@ -75,7 +74,7 @@ def waves_of_slope(evidence: Evidence) -> str:
 def of_rail(model: str) -> NumberSource:
     return NumberSource(
         case="rough_rail",
-        quantities=(rough_rail.OVER_BEM,),
+        quantities=(rolled_filters.OVER_BEM,),
         model=model,
         axis="offset [dB]",
         place=_slope_of_offset,
@@ -103,7 +102,7 @@ def of_moving_wheel() -> NumberSource:
     """Springs that read the surface over boundary elements, both in motion."""
     return NumberSource(
         case="rail_dynamic",
-        quantities=(rail_dynamic_evidence.RMS + rail_dynamic_evidence.BESIDE,),
+        quantities=(rail_dynamic.RMS + rail_dynamic.BESIDE,),
         model="springs that read the surface over bem3d",
-        axis=rail_dynamic_evidence.OFFSET,
+        axis=rail_dynamic.OFFSET,
     )

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from validation.analysis.contents import as_csv, as_json
 from validation.cases.rail.rail_sound import LABELS, SOUNDING, RailSound, RailSoundResult, run
-from validation.cases.rail.rail_sound_evidence import signed, sounds_of, what_is_heard
-from validation.cases.rail.rail_sound_levels import SoundLevels
+from validation.cases.rail.rail_sound_study import signed, sounds_of, what_is_heard
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import at_least
@@ -78,15 +77,14 @@ def sound(arguments: argparse.Namespace) -> Exit:
             result = run(case, Engine(workers=arguments.workers, progress=progress))
         folder.replace(files_of(result))
     said = [line for sentence in what_is_heard(result) for line in textwrap.wrap(sentence, COLUMNS)]
-    print("\n".join([*said, "", *_lines(SoundLevels(result))]))
+    print("\n".join([*said, "", *_lines(result)]))
     print(printable(f"sounds: {arguments.out}"))
     return Exit.MET
 
 
 def files_of(result: RailSoundResult) -> dict[str, bytes]:
     """By their names: sounds, levels in one-third octaves, and all that is to be known about them."""
-    levels = SoundLevels(result)
-    sounds, samples, table = sounds_of(levels), levels.samples_table(), levels.sounds_table()
+    sounds, samples, table = sounds_of(result), result.samples_table(), result.sounds_table()
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
     files = {
         f"{track.name}.wav": wav(
@@ -105,7 +103,7 @@ def files_of(result: RailSoundResult) -> dict[str, bytes]:
         "band [Hz]": list(result.case.band),
         "sounds": [{"file": name, **row} for name, row in zip(files, rows, strict=True)],
     }
-    return {**files, "levels.csv": as_csv(levels.bands_table()), "sounds.json": as_json(about)}
+    return {**files, "levels.csv": as_csv(result.bands_table()), "sounds.json": as_json(about)}
 
 
 def _assumed(case: RailSound) -> list[str]:
@@ -117,13 +115,13 @@ def _assumed(case: RailSound) -> list[str]:
     return lines
 
 
-def _lines(levels: SoundLevels) -> list[str]:
+def _lines(result: RailSoundResult) -> list[str]:
     """A row a model."""
-    table = levels.sounds_table()
+    table = result.sounds_table()
     reference = SOUNDING["bem"]
-    beside = reference in levels.case.sounding
+    beside = reference in result.case.sounding
     lines = [f"{'model':32s} {'level':>10s} {'A-weighted':>12s}" + ("   over boundary elements" if beside else "")]
-    for i, model in enumerate(levels.case.sounding):
+    for i, model in enumerate(result.case.sounding):
         level, weighted = table["level [dB re 1 N]"][i], table["A-weighted [dB re 1 N]"][i]
         line = f"{LABELS[model]:32s} {level:7.1f} dB {weighted:6.1f} dB(A)"
         if beside and model != reference:

@@ -34,6 +34,5 @@ def drawing(name: str) -> Callable[[Evidence], Figure]:
     if find_spec(module) is not None:
         own = getattr(import_module(module), function, None)
     if own is None:
-        place = f"validation/report/figures/{case}.py"
-        raise ValueError(f"figure {name!r} must be a chart of its case or {function} in {place}")
+        raise ValueError(f"figure {name!r} must be a chart of its case or {function} in report/figures/{case}.py")
     return own

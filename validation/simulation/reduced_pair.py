@@ -1,4 +1,4 @@
-"""Reduced models on the map of validity, over boundary elements: springs that read the surface, the pressed layer."""
+"""Two reduced models on the rough strips of boundary elements: springs that read the surface, the pressed layer."""
 
 import math
 import warnings
@@ -9,9 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mdr
-from validation.analysis.evidence import Number, Place, Role
 from validation.analysis.spectra import Bands, levels, waves
-from validation.analysis.statistics import Estimate
 from validation.engine.engine import Outcome
 from validation.simulation.reduced_models import Reduced, pressed_layer, springs_that_read
 from validation.simulation.rolling_strip import Strip
@@ -24,11 +22,6 @@ MODELS: Mapping[str, tuple[Callable[[FloatArray, float], Reduced], int]] = {
     LAYER: (pressed_layer, 2),
 }
 """With the cells to a contact radius, of which the layer needs one in two."""
-OFF_REDUCED = "rms level over boundary elements"
-FOLLOWS = {
-    LAYER: "A pressed layer follows boundary elements within 1 dB up to h' a/d of {:g}, in all bands.",
-    READ: "Springs that read the surface follow boundary elements within 1 dB up to h' a/d of {:g}, in all bands.",
-}
 
 
 def roll_reduced(strip: Strip) -> Outcome:
@@ -53,19 +46,3 @@ def over_boundary_elements(model: str, found: list[Outcome], strip: Strip, besid
     """Levels of a model, and those of boundary elements in the place of linear theory's; strip: any of them."""
     mine = waves(np.array([one[model] for one in found]), spacing=1 / cells_of(strip, model))
     return {"level": levels(mine, bands), "linear level": beside["level"]}
-
-
-def number_of(model: str, off: Estimate, where: Mapping[str, Place], among: int) -> Number:
-    return Number(
-        quantity=OFF_REDUCED,
-        model=model,
-        where=where,
-        value=off.value,
-        reference=0.0,
-        source="boundary elements on the same surfaces",
-        tolerance=1.0,
-        reason="1 dB: repeatability of measured one-third octave levels",
-        unit="dB",
-        sample=off.half_width_among(among),
-        role=Role.FINDING,
-    )
