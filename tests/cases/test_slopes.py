@@ -15,7 +15,7 @@ from scipy import integrate, special
 import validation
 from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
-from validation.cases.limits import linear_filter, pressed_springs
+from validation.cases.limits.sweeps import LIMITS, Sweep
 from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
@@ -23,14 +23,14 @@ from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.roughness_from_force import RoughnessFromForce
 from validation.cases.rolling.settings import slopes_of
-from validation.cases.wheel import half_space_tables
+from validation.cases.wheel import half_space_study
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.compare import models_of
 from validation.selection.summary import heading
 from validation.selection.tolerance import tolerance_of
-from validation.simulation import indentation, rail_ground, reduced_models
+from validation.simulation import indentation, limits_of_springs, rail_ground, reduced_models
 from validation.simulation.models import linear_filter_3d
 from validation.simulation.rail_models import linear_error
 from validation.simulation.rail_quantity import RailQuantity
@@ -59,10 +59,8 @@ def slope_of_table_14_1():
 
 
 def wheel_table(scene=WHEEL):
-    levels = SimpleNamespace(
-        result=SimpleNamespace(case=SimpleNamespace(scene=scene, cells=8)), converged=[{"applications": 1.0}]
-    )
-    return half_space_tables.wheel_of(levels)
+    values = half_space_study.of_wheel(SimpleNamespace(scene=scene, cells=8), 1.0)
+    return {name: [value] for name, value in values.items()}
 
 
 def validity_evidence(case=validity.CASE.quick):
@@ -248,25 +246,29 @@ def test_limits_of_claims_are_where_the_gradient_is_1_and_0_3():
 # --- g, where formulas need it ---
 
 
+def threshold_of(title, probe, *values, **settings):
+    limit = next(limit for limit in LIMITS if limit.named.title == title)
+    return Sweep.of(limit, probe(*values, **settings)).predicted_threshold
+
+
 @patch.object(
-    linear_filter,
+    limits_of_springs,
     "roll_strip",
     lambda strip: {"force": np.arange(4.0), "linear": np.arange(4.0), "failed": np.array(0.0)},
 )
 def test_the_linear_filter_in_3d_ends_where_persson_loses_a_fifth():
     """sqrt(pi / 8) g a / d = 0.2, whatever the force."""
-    strip = linear_filter.StripHeights(seed=1, length=7, cells=4)
-    gradient = math.sqrt(2) * power_law_slope(strip.hurst, 1.0, strip.last)
-    threshold = strip.sweep()["linear in 3D threshold"]
-    assert threshold == pytest.approx(0.2 / (math.sqrt(math.pi / 8) * gradient), rel=1e-6)
+    gradient = math.sqrt(2) * power_law_slope(limits_of_springs.HURST, 1.0, 8.0)
+    found = threshold_of("rough strip", limits_of_springs.rough_strips, (0.1,), seed=1, length=7, strip_cells=4)
+    assert found == pytest.approx(0.2 / (math.sqrt(math.pi / 8) * gradient), rel=1e-6)
 
 
-@pytest.mark.parametrize(("name", "share"), [("area", 0.9), ("gap", 0.5)])
-def test_springs_are_right_where_persson_has_a_share_in_contact(name, share):
+@pytest.mark.parametrize(("title", "share"), [("true contact area", 0.9), ("mean gap", 0.5)])
+def test_springs_are_right_where_persson_has_a_share_in_contact(title, share):
     """erf(sqrt(2) p / (E* g)) at the threshold, g of the surface as it was drawn; p = F / L^2."""
-    rough = PunchRoughness(hurst=0.7, waves=(1, 2), seed=1)
-    punches = pressed_springs.Punches(roughness=rough, cells=16, surfaces=1, profiles=1, points=64, forces=(1.0,))
-    pressure = rough.height * punches.sweep()[f"{name} threshold"]
+    rough = PunchRoughness(hurst=0.7, waves=(1, 4), seed=1)
+    sizes = {"cells": 16, "surfaces": 1, "profiles": 1, "seed": 1, "points": 64}
+    pressure = rough.height * threshold_of(title, limits_of_springs.rough_punches, (1.0,), **sizes)
     gradient = math.hypot(*periodic_slopes(rough.surface(16, 0), 1 / 16))
     assert special.erf(math.sqrt(2) * pressure / gradient) == pytest.approx(share, abs=1e-4)
 

@@ -27,14 +27,14 @@ from tests.cases import (
     test_whose_surfaces,
 )
 from tests.planted_faults.wrong import scaled
-from validation.analysis import multilevel, series, statistics
+from validation.analysis import multilevel, statistics
+from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
 from validation.analysis.multilevel import Resolved
 from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
-from validation.cases.limits import isotropy
-from validation.cases.limits import sweep as limits
+from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound
@@ -43,7 +43,7 @@ from validation.cases.rolling import (
     validity,
 )
 from validation.cases.selection import model_selection as calibration
-from validation.cases.wheel import contrast, regions_numbers
+from validation.cases.wheel import contrast, regions
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import (
@@ -51,6 +51,7 @@ from validation.simulation import (
     free_vibration,
     indentation,
     integrators,
+    limits_of_springs,
     reduced_pair,
     rolled_off,
     rough_punch,
@@ -217,7 +218,7 @@ FAULTS = {
         functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
     ),
     "the mean of a decade for its worst force": (
-        (series, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
+        (analysis_series, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
     ),
     "a fine application as cheap as a coarse one": (
@@ -301,11 +302,11 @@ FAULTS = {
         functools.partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
     ),
     "the first zero for the worst": (
-        (contrast, "worst_contrast", lambda numbers: numbers[0]),
+        (analysis_series, "worst", lambda points, parameter: points[0]),
         test_wheel_cases.test_an_oscillation_that_dies_is_noticed,
     ),
     "a valley behind the jump": (
-        (regions_numbers, "valley", lambda scene, omega, hann: 0.0),
+        (regions, "valley", lambda scene, omega, hann: 0.0),
         test_wheel_regions.test_a_valley_is_as_deep_as_it_is_drawn,
     ),
     "a limit read on its good side": (
@@ -313,7 +314,7 @@ FAULTS = {
         functools.partial(test_limits.test_crossings_of_a_power_law, "above"),
     ),
     "factor 4 lost over a stretched surface": (
-        (isotropy, "response", scaled(rolling_theory.response, 0.5)),
+        (limits_of_springs, "response", scaled(rolling_theory.response, 0.5)),
         test_limits.test_a_stretched_surface_by_another_quadrature,
     ),
     "factor 2 lost in the periodic symbol, seen by images": (

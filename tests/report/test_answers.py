@@ -14,9 +14,8 @@ from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail
 from validation.cases.rail.rail_dynamic import BESIDE, RMS
 from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
-from validation.cases.wheel.half_space_levels import GEIKE
-from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
-from validation.cases.wheel.half_space_numbers import OVER_BEM
+from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
+from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.report.answers import alternatives, questions, sources
 from validation.report.answers.alternatives import rolled
 from validation.report.answers.cells import Enough, RangeCell, span

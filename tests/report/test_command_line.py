@@ -33,7 +33,7 @@ from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import reduced_models, ridges, roughness_from_force, track_stiffness, validity
 from validation.cases.selection import model_selection as ladder
-from validation.cases.stability import stability as wheel_stability
+from validation.cases.stability import wheel_stability
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import regions as wheel_regions

@@ -13,7 +13,6 @@ import bem3d
 from tests.simulation.test_calibration import wheel
 from validation.benchmarks.solvers.rolling import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
-from validation.cases.limits import spheres
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.cases.rolling.track_stiffness import TrackStiffness
 from validation.engine.convergence import NotConvergedError, as_not_converged
@@ -25,6 +24,7 @@ from validation.selection.scene_model import SceneModel
 from validation.simulation import rail_models, ridges, track_stiffness, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import BEM, RolledRail, roll_rail
+from validation.simulation.limits_of_half_space import strip_widths
 from validation.simulation.model import Resolution, Target
 from validation.simulation.models import rail_boundary_elements
 from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
@@ -106,9 +106,7 @@ PATHS = {
     "validation.simulation.published_contact:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),
-    "validation.cases.limits.spheres:sweep_strip_width": lambda: spheres.sweep_strip_width(
-        spheres.Spheres(finer=6, sides=(13, 18))
-    ),
+    "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),
 }
 
 

@@ -301,9 +301,11 @@ def plus_minus(value: float, half_width: float) -> str:
     if not half_width > 0:
         return f"{value:.5g}"
     place = 1 - math.floor(math.log10(half_width))
-    if place <= 0:
-        return f"{round(value, place):.0f} ± {round(half_width, place):.0f}"
-    return f"{value:.{place}f} ± {half_width:.{place}f}" if place < 8 else f"{value:.5g} ± {half_width:.2g}"
+    # what rounds to nothing has no sign
+    rounded, half = round(value, place) + 0.0, round(half_width, place)
+    if place < 8:
+        return f"{rounded:.{max(place, 0)}f} ± {half:.{max(place, 0)}f}"
+    return f"{value:.5g} ± {half_width:.2g}"
 
 
 def with_reference(number: Number) -> str:

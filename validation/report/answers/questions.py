@@ -5,8 +5,8 @@ from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling.force_spectrum import LINEAR_3D, ROLLING_SPRINGS, SPRINGS
-from validation.cases.wheel import half_space_levels as wheel
-from validation.cases.wheel.half_space_tables import WHEEL
+from validation.cases.wheel import half_space as wheel
+from validation.cases.wheel.half_space_study import WHEEL
 from validation.report.answers.alternatives import (
     IN_TIME,
     JUDGE,

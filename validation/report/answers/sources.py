@@ -6,7 +6,8 @@ from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import reduced_models
-from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
+from validation.cases.wheel.features import LEVEL
+from validation.cases.wheel.half_space import OVER_BEM
 from validation.report.answers.cells import NumberSource
 
 FORCE, SLOPE = "Fbar", "h' a/d"
