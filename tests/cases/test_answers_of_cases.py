@@ -1,11 +1,7 @@
 """Answers of cases on planted numbers: no strip or scene is chosen, no worst band stands without its interval."""
 
-import pytest
-
 from tests.analysis.test_judged_claims import point
 from validation.analysis.evidence import ClaimStatus
-from validation.analysis.statistics import DECIBEL
-from validation.cases.punch import fractal_punch_decades, fractal_punch_text
 from validation.cases.punch.mdr_limits import DEVIATION, STUDY
 from validation.cases.rolling import reduced_models as reduced
 
@@ -34,12 +30,3 @@ def test_a_ratio_that_says_nothing_is_not_quoted_as_the_largest():
     numbers = [point(7.7, 11.0, quantity=DEVIATION), point(-8.4, 4.4, quantity=DEVIATION, at=2.0)]
     (claim,) = (claim for claim in STUDY.claims if claim.quantity == DEVIATION)
     assert claim.judged(numbers).answer == "No: 0.38 times (0.23 to 0.63) at q a = 2 (0 of 2 agree)."
-
-
-@pytest.mark.parametrize("name", ["relative deviation", "relative deviation, L_1D = 1.1523 L"])
-def test_a_deviation_of_nothing_is_no_interval_of_99_per_cent(name):
-    """-40 dB is where less is judged, not what was measured."""
-    number = point(DECIBEL * fractal_punch_decades.NOTHING_LEFT, 0.1, quantity=name, where={"worst at": 10.0})
-    assert str(fractal_punch_text.verdict(number)) == "none left at Fbar = 10: differ"
-    left = point(-20.0, 0.1, quantity=name, where={"worst at": 10.0})
-    assert str(fractal_punch_text.verdict(left)).startswith("-90 % (-90 to -90) at Fbar = 10")

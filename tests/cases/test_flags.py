@@ -1,10 +1,7 @@
 """A flag that something did not converge, in the outcome of a case: a line of its result, or its end."""
 
-import ast
-import inspect
-from dataclasses import fields, replace
+from dataclasses import replace
 from types import SimpleNamespace
-from typing import get_type_hints
 
 import numpy as np
 import pytest
@@ -23,7 +20,6 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.convergence import NotConvergedError
-from validation.report.contents import CASES
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.limits_of_half_space import Grid
@@ -212,20 +208,6 @@ def test_a_reference_that_fails_is_a_line_of_the_result():
     assert ladder.run(case, Given(pressed, lambda p: p == gone)).unconverged == (f"{gone.kind} {gone.number}",)
     with pytest.raises(NotConvergedError):
         ladder.run(case, Given(pressed, lambda _: True))
-
-
-@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.study is None])
-def test_every_case_hands_on_what_is_lost(name):
-    """Where a result knows what has not converged, the evidence that is read from it says so."""
-    evidence = CASES[name].evidence
-    (result,) = [kind for parameter, kind in get_type_hints(evidence).items() if parameter != "return"]
-    tree = ast.parse(inspect.getsource(inspect.getmodule(evidence)))
-    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and getattr(n.func, "id", "") == "Evidence"]
-    assert calls
-    for call in calls:
-        handed = [ast.unparse(keyword.value) for keyword in call.keywords if keyword.arg == "unconverged"]
-        knows = "unconverged" in {field.name for field in fields(result)}
-        assert (handed == ["result.unconverged"]) if knows else (handed != ["()"])
 
 
 def test_a_declared_case_hands_on_what_is_lost():

@@ -30,11 +30,12 @@ from tests.planted_faults.wrong import scaled
 from validation.analysis import multilevel, statistics
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
+from validation.analysis.multilevel import Resolved
 from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import sweeps as limits
-from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
+from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound
 from validation.cases.rolling import (
@@ -52,6 +53,7 @@ from validation.simulation import (
     integrators,
     limits_of_springs,
     reduced_pair,
+    rolled_off,
     rough_punch,
     track_stiffness,
 )
@@ -74,7 +76,7 @@ def in_the_case(attribute, wrong):
     return view
 
 
-combined = fractal_punch_decades.combined
+combined = multilevel.combined
 
 
 def of_each_hurst_exponent(mine, kind, realisation):
@@ -168,11 +170,11 @@ FAULTS = {
         functools.partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
     ),
     "no plateau below the roll-off": (
-        (bandwidth.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
+        (rolled_off.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
         test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,
     ),
     "a wide band without the change from the narrow one": (
-        (bandwidth_levels, "plus", lambda one, other: one),
+        (bandwidth, "accumulate", lambda steps, initial: [initial] * (1 + len(steps))),
         test_bandwidth.test_a_planted_change_of_boundary_elements_adds_up,
     ),
     "half of the jackknife's error in a change": (
@@ -204,11 +206,11 @@ FAULTS = {
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
-        (fractal_punch_decades.PointComparison, "grid", 0.0),
+        (multilevel.Resolved, "beside", lambda one, other: Resolved(one.value.beside(other.value), 0.0)),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "no extrapolation": (
-        (fractal_punch_decades, "extrapolated", fractal_punch_decades.on_finest),
+        (fractal_punch, "on_no_size", multilevel.on_finest),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "a third of the interval": (
@@ -216,15 +218,15 @@ FAULTS = {
         functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
     ),
     "the mean of a decade for its worst force": (
-        (fractal_punch_decades, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
+        (analysis_series, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
     ),
     "a fine application as cheap as a coarse one": (
-        (fractal_punch_cost, "_work", lambda ensemble, cells, level: 1.0),
+        (work, "_cost", lambda applications, cells: 1.0),
         test_fractal_punch.test_the_work_beside_plain_sampling,
     ),
     "the order of the curves turned round": (
-        (fractal_punch_decades, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
+        (fractal_punch, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
         test_fractal_punch.test_the_order_of_the_curves_is_found_or_shown_to_be_absent,
     ),
     "other phases for every Hurst exponent": (

@@ -23,7 +23,7 @@ from tests.selection import (
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
-from validation.cases.selection import edge_evidence
+from validation.cases.selection import model_selection_study
 from validation.engine.random_numbers import random_generator
 from validation.report import compared
 from validation.scenes import measured, rail
@@ -343,7 +343,7 @@ FAULTS = {
         functools.partial(test_edge_scenes.test_every_grid_under_a_wheel_has_all_measured_points, 0),
     ),
     "an answer at the edge that always holds": (
-        (edge_evidence, "_held", lambda table: np.isfinite(table["true error"])),
+        (model_selection_study, "over_estimate", lambda table: 0 * table["true error"]),
         test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
     ),
     "a punch without the error at its edge": (

@@ -43,6 +43,17 @@ def test_bars_end_where_the_interval_ends():
     np.testing.assert_allclose(ends, [[0.9, 1.3], [1.9, 2.3], [2.9, 3.3]])
 
 
+def test_bars_of_a_family_stand_side_by_side():
+    (axis,) = drawn(Curve("level", by=("model",), of={"h/d": "first"}, bars=True))
+    first, second = (container.lines[0].get_xdata() for container in axis.containers)
+    np.testing.assert_allclose(second, 1.03 * first)
+
+
+def test_few_decades_of_a_logarithmic_axis_have_plain_numbers():
+    (axis,) = drawn(Curve("level", "bem"), log="xy", ylim=(0.3, 3))
+    assert [label.get_text() for label in axis.get_yticklabels()] == ["0.5", "1", "2"]
+
+
 def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
     columns = {name: column[:3] for name, column in TABLE.columns.items()} | {"low": [-1.0, 1.9, 2.9]}
     evidence = replace(EVIDENCE, tables=(Table("level", columns),))

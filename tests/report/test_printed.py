@@ -5,7 +5,6 @@ import io
 import math
 from dataclasses import replace
 from html.parser import HTMLParser
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -26,11 +25,9 @@ from validation.analysis.evidence import (
     with_reference,
 )
 from validation.benchmarks.work_precision.pareto import format_error, format_seconds
-from validation.cases.punch import fractal_punch_decades, fractal_punch_text
-from validation.report import formats, page
+from validation.report import drawing, formats, page
 from validation.report.contents import CASES
 from validation.report.documentation import BUILT, documentation_beside
-from validation.report.figures import fractal_punch
 from validation.report.section import Section, case_results, numbers_table
 
 # --- the page, files ---
@@ -129,7 +126,7 @@ def test_rows_of_the_file_are_the_numbers():
 
 def test_every_verdict_has_its_word_and_sign():
     assert formats.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(formats.SYMBOL) == set(Verdict)
-    assert fractal_punch.SIGN == {"agree": "=", "differ": "≠", "undecided": "?"}
+    assert drawing.SIGN == {"agree": "=", "differ": "≠", "undecided": "?"}
     for verdict, symbol in formats.SYMBOL.items():
         assert formats.format_cell(VerdictCell("+3 %", Verdict(verdict), "more")) == (
             f'+3 %<br><span class="verdict {verdict}">{symbol} {verdict}</span>; more'
@@ -274,35 +271,3 @@ def test_seconds_in_words(seconds, text):
 )
 def test_errors_in_words(value, unit, text):
     assert format_error(value, unit) == text
-
-
-# --- sentences built from numbers ---
-
-
-def decade(value, half, *, verdict=None, unit="dB", h=0.7, first=0.1, name="relative deviation"):
-    """A comparison of Fig. 14.1 that came out so."""
-    tolerance = fractal_punch_decades.QUANTITIES[name].tolerance
-    n = number(value, reference=0.0, tolerance=tolerance, sample=half, unit=unit, role=Role.FINDING)
-    return SimpleNamespace(name=name, hurst=h, first=first, number=n)
-
-
-def test_verdicts_of_fig_14_1_are_in_per_cent():
-    """20 lg 1.20 dB is +20 %; its interval from 14 to 26 %, both ends, by half-widths of 20 lg."""
-    half = 20 * math.log10(1.26 / 1.14) / 2
-    middle = 20 * math.log10(1.26 * 1.14) / 2
-    cell = fractal_punch_text.verdict(decade(middle, half).number)
-    assert str(cell) == "+20 % (+14 to +26): differ"
-    assert fractal_punch_text.verdict(None) == "no value"
-    exponent = decade(0.0123, 0.001, unit="-", name="exponent").number
-    assert str(fractal_punch_text.verdict(exponent)) == "+0.012 (+0.011 to +0.013): agree"
-
-
-def test_the_sample_that_would_decide():
-    """Times the factor; out of reach, and where no sample can."""
-    decided_by = fractal_punch_text.decided_by
-    n = number(0.75, reference=0.0, tolerance=0.25, sample=1.0)
-    assert n.sample_needed == 4
-    assert decided_by(n) == "needs 4.0 times the sample"
-    assert decided_by(replace(n, sample=5.1)) == "needs over 100 times the sample"
-    assert decided_by(replace(n, grid=0.5)) == "grid error too large"
-    assert str(fractal_punch_text.verdict(n)).endswith(f"undecided; {decided_by(n)}")

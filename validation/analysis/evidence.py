@@ -1,7 +1,7 @@
 """Evidence: numbers with a reference, a tolerance, an error bar and a verdict; tables behind figures; conclusions."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -185,6 +185,17 @@ class Table:
 def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
     """Of rows with the same columns, one at least."""
     return Table(name, {column: [row[column] for row in rows] for column in rows[0]})
+
+
+Columns = Mapping[str, Callable[[Table], object]]
+
+
+def grouped(name: str, table: Table, by: tuple[str, ...], columns: Columns) -> Table:
+    """A row for each value of some columns, with what is found in the rows that have it."""
+    keys = list(dict.fromkeys(zip(*(table[one].tolist() for one in by), strict=True)))
+    groups = [table.where(**dict(zip(by, key, strict=True))) for key in keys]
+    named = {one: [key[i] for key in keys] for i, one in enumerate(by)}
+    return Table(name, {**named, **{column: [of(group) for group in groups] for column, of in columns.items()}})
 
 
 class ClaimStatus(StrEnum):

@@ -42,6 +42,8 @@ GRADED: dict[str, Style] = {
 FIRST = "first"
 POINTS, FEW, LARGE = 12, 15, 1e5
 FEW_DECADES = 300
+HIGHEST = 4.8
+"""Of a row of panels."""
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
@@ -49,10 +51,10 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     if isinstance(chart.panels, Map):
         return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
-    columns = chart.columns or len(facets)
+    columns = min(chart.columns or len(facets), len(facets))
     rows = -(-len(facets) // columns)
     shared: Literal["all", "none"] = "all" if chart.sharey else "none"
-    figure, axes = panels(rows, columns, width=chart.width, height=chart.height, sharey=shared)
+    figure, axes = panels(rows, columns, width=chart.width, height=min(chart.height, HIGHEST * rows), sharey=shared)
     for axis, (panel, facet) in zip(axes, facets, strict=False):
         _panel(axis, panel, facet, evidence)
     for axis, (panel, _) in zip(axes, facets, strict=False):
@@ -134,6 +136,8 @@ def _limits(axis: Axes, panel: Panel) -> None:
         tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
     elif "x" in panel.log and axis.get_xlim()[1] < LARGE:
         tick(axis, _round(*axis.get_xlim()))
+    if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
+        tick(axis, _round(*axis.get_ylim()), up=True)
     for x in panel.at:
         if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
             axis.axvline(x, **GUIDE)
@@ -149,7 +153,11 @@ def _round(low: float, high: float) -> list[float]:
 
 
 def _said(name: str, value: object) -> str:
-    return str(value) if isinstance(value, str) else f"{name} = {value:g}"
+    """A value by its name; a name by itself, unless it is a number of a column that has names too."""
+    try:
+        return f"{name} = {float(value):g}"  # type: ignore[arg-type]
+    except ValueError:
+        return str(value)
 
 
 def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
