@@ -187,7 +187,7 @@ def test_the_first_screen_finds_the_numbers_of_rolling(rolled):
     rows = {row.question.name: row for row in answered_questions([section])}
     slope = 0.01 * SMALL.spectrum.slope_along
     for name in ("rolling-rms", "rolling-spectrum"):
-        assert rows[name].strip[1].place == f"{slope:.2g}"
+        assert rows[name].strip[1][0] == f"{slope:.2g}"
         assert rows[name].measured.endswith("H = 0.7")
     assert rows["rolling-spectrum"].word == "No"
 

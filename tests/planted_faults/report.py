@@ -20,7 +20,7 @@ from tests.report import (
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
 from validation.report import build, chapter, formats, provenance, sounds, style
-from validation.report.answers import cells, words
+from validation.report.answers import questions, strip
 from validation.report.figures import ladder
 from validation.report.page_figure import PageFigure
 
@@ -44,17 +44,16 @@ def by_its_own_peak(samples, full_scale):
 
 def enough_by_most(cell):
     """A counterexample outvoted."""
-    agree = sum(number.verdict is Verdict.AGREE for number in cell.numbers)
-    return cells.Enough.YES if 2 * agree > len(cell.numbers) else cells.Enough.NO
+    return AGREE if 2 * sum(number.verdict is AGREE for number in cell.numbers) > len(cell.numbers) else DIFFER
 
 
 def enough_unless_it_differs(cell):
     """What is undecided taken for what agrees."""
-    right = enough_of_a_cell(cell)
-    return cells.Enough.YES if right is cells.Enough.OPEN and not cell.lacking else right
+    right = verdict_of_a_cell(cell)
+    return AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
 
 
-enough_of_a_cell = cells.RangeCell.enough.fget
+verdict_of_a_cell = strip.Cell.verdict.fget
 
 WITH_KEPT, SHEET = provenance.with_kept, test_colours.sheet()
 
@@ -114,11 +113,11 @@ FAULTS = {
         ),
     ),
     "a place with one number that is undecided under a yes": (
-        (cells.RangeCell, "enough", property(enough_unless_it_differs)),
+        (strip.Cell, "verdict", property(enough_unless_it_differs)),
         functools.partial(
             test_answers.test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks,
             [test_answers.AGREES, test_answers.UNDECIDED],
-            cells.Enough.OPEN,
+            Verdict.UNDECIDED,
         ),
     ),
     "labels of the calibration figure on the other axes": (
@@ -136,15 +135,15 @@ FAULTS = {
         functools.partial(test_texts_of_users.test_a_plain_text_is_drawn_as_it_is_written, "$x^2$"),
     ),
     "a cell that says what most of its numbers say": (
-        (cells.RangeCell, "enough", property(enough_by_most)),
+        (strip.Cell, "verdict", property(enough_by_most)),
         test_answers.test_one_counterexample_among_all_exponents_is_a_no,
     ),
     "cells that overlap": (
-        (cells, "_apart", lambda found: dict(sorted(found.items()))),
+        (strip, "_apart", lambda found: dict(sorted(found.items()))),
         test_answers.test_ranges_that_overlap_are_one_cell,
     ),
     "the power of a ratio printed for its amplitude": (
-        (words, "DECIBEL", statistics.POWER_DECIBEL),
+        (questions, "DECIBEL", statistics.POWER_DECIBEL),
         test_answers.test_decibels_are_printed_as_their_quantity,
     ),
     "a sound normalised by itself": (
