@@ -28,12 +28,13 @@ from validation.simulation.model import Cost, ErrorEstimate, Target
 from validation.simulation.models import (
     boundary_elements_pressed,
     boundary_elements_rolling,
-    springs_pressed,
-    springs_rolling,
+    pressed,
 )
-from validation.simulation.resolution import too_few
+from validation.simulation.models import (
+    rolling as rolling_models,
+)
 from validation.simulation.rolling_quantity import RollingQuantity
-from validation.simulation.sampling import grid_error, mean_error
+from validation.simulation.sampling import grid_error, mean_error, too_few
 from validation.theory.closed_forms import SQUARE_PUNCH
 from validation.theory.rolling import contact_lost
 
@@ -209,7 +210,7 @@ def test_a_model_out_of_range_is_never_asked():
         kind = name = "refusing"
 
         def cost(self):
-            return Cost(work=1, unit="candidates", seconds=1.0)
+            return Cost(work=1, seconds=1.0)
 
         def estimate(self):
             return ErrorEstimate.out_of_range("never measured")
@@ -248,7 +249,7 @@ def test_a_solve_that_raises_is_a_row_and_the_others_go_on(problem, monkeypatch)
     def raising(*_):
         raise problem
 
-    monkeypatch.setattr(springs_pressed.SpringsPressed, "prepare", raising)
+    monkeypatch.setattr(pressed, "springs", replace(pressed.springs, prepare=raising))
     found = compare(punch(load=0.1), tolerance=0.3)
     assert statuses(found)["springs"] == "failed"
     assert found.selection.met
@@ -281,7 +282,7 @@ def test_the_shortest_waves_cost_no_memory():
 def test_profiles_in_blocks_are_those_drawn_at_once(monkeypatch):
     model = model_of_kind("springs", punch(), "stiffness", 0.2, seed=3)
     whole = model.solve()
-    monkeypatch.setattr(springs_pressed, "BLOCK", 7 * round(model.resolution.size))
+    monkeypatch.setattr(pressed, "BLOCK", 7 * round(model.resolution.size))
     assert model.solve().value == whole.value
     assert model.solve().sample == whole.sample
 
@@ -312,11 +313,8 @@ def test_every_model_has_its_claims_tested(kind):
 
 
 def test_a_model_that_the_case_does_not_know_is_an_error():
-    class New(springs_pressed.SpringsPressed):
-        name = "a new closed form"
-
     models = models_of(punch(), "stiffness", 0.1, 0)
-    models = [replace(models[0], model=New()), *models]
+    models = [replace(models[0], model=replace(pressed.springs, name="a new closed form")), *models]
     with pytest.raises(
         ValueError, match=r"^the kind of a model must be one of .*closed form, .*, got a new closed form$"
     ):
@@ -505,7 +503,7 @@ def test_two_grids_of_second_order_leave_what_they_miss(finest):
 def test_springs_leave_what_their_tracks_scatter(monkeypatch):
     springs = model_of_kind("springs", rolling(), "force-spectrum", 0.1)
     change = np.random.default_rng(1).standard_normal((60, springs.target.rolling.bands.centres.size))
-    monkeypatch.setattr(springs_rolling, "on_springs", lambda *_: change)
+    monkeypatch.setattr(rolling_models, "on_springs", lambda *_: change)
     found = springs.solve()
     assert found.sample == pytest.approx(mean_error(change))
     assert found.model == springs.estimate().model

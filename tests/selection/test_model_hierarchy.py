@@ -56,7 +56,7 @@ class Fake:
     is_mdr: bool = False
 
     def cost(self):
-        return Cost(work=1, unit="candidates", seconds=self.seconds)
+        return Cost(work=1, seconds=self.seconds)
 
     def estimate(self):
         return ErrorEstimate(model=self.claimed, reason=f"claims {self.claimed}")
@@ -629,7 +629,7 @@ class Finding(Fake):
 
     def solve(self):
         model, grid, sample = self.parts
-        cost = Cost(work=1, unit="candidates", seconds=self.spent)
+        cost = Cost(work=1, seconds=self.spent)
         return Answer(value=np.array(self.value), cost=cost, model=model, grid=grid, sample=sample)
 
 
