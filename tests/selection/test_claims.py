@@ -22,7 +22,6 @@ from validation.selection.quantities import models_of, quantities_of
 from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation.calibrated_range import outside
 from validation.simulation.calibration import calibrated
 from validation.simulation.model import Cost, ErrorEstimate, Target
 from validation.simulation.models import (
@@ -187,15 +186,6 @@ def test_beyond_what_was_measured_springs_and_filters_claim_nothing(name, inside
             assert beyond[model].reason.startswith(f"{name} = ")
 
 
-def test_what_is_outside_is_said_with_its_numbers():
-    ranges = {"h/d": (0, 1), "F": (2, math.inf)}
-    assert outside({"h/d": 1.0 + 1e-12, "F": 2.0}, ranges) == ""
-    assert outside({"h/d": 1.5, "F": 2.0}, ranges) == "h/d = 1.5; the error of the model is known from 0 to 1 only"
-    assert outside({"h/d": 0.5, "F": 1.0}, ranges) == "F = 1; the error of the model is known from 2 on only"
-    assert outside({"F": math.nan}, ranges)
-    assert outside({}, ranges) == ""
-
-
 @pytest.mark.parametrize(("quantity", "tolerance"), [("force-spectrum", 10 ** (4 / 20) - 1), ("force-rms", 0.15)])
 def test_waves_shorter_than_the_contact_are_left_to_boundary_elements(quantity, tolerance):
     a = 1.0
@@ -352,7 +342,7 @@ def test_the_error_over_bands_is_their_root_mean_square():
 
 
 def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come():
-    """Half as much again of the last change or of half of that before, whichever is more."""
+    """Half as much again of the last change, of half of that before, or of the edge of a punch, whichever is more."""
     height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
     scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
 
@@ -361,6 +351,9 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
 
     assert [left(cells, 0.1, 0.15, 0.2) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
     assert left(64, -0.01, 0.1, 0.2) == pytest.approx(0.075)
+    # changes that cancel leave no less than those before
+    assert left(64, 1e-4, 1e-4, 0.4) == pytest.approx(1.5 * 0.1)
+    assert left(64, 1e-5, 1e-5, 1e-4) == pytest.approx(1.5 * 0.35 / 64)
     assert left(64, 0.2, 0.15, 0.1) == math.inf
 
 

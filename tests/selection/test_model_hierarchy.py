@@ -4,7 +4,6 @@ import math
 import re
 import warnings
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -529,15 +528,6 @@ def test_faces_of_more_points_than_any_grid_answer_for_the_summits_that_a_mean_h
     monkeypatch.setattr(boundary_elements_pressed, "hidden", lambda *_: 0.0)
     (blind,) = (model.solve() for model in grids_of(scene, "stiffness", 0.2))
     assert blind.error < coarse.error
-
-
-def test_changes_of_one_face_that_cancel_leave_no_less_than_those_before_and_its_edge():
-    height = np.random.default_rng(0).normal(size=(64, 64))
-    scene = punch(ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)), load=1.0)
-    left = partial(boundary_elements_pressed.grid_error_of_one, scene, 64, split=np.empty(0))
-    assert left(np.array([1e-4, 1e-4, 0.4])) == pytest.approx(1.5 * 0.1)
-    assert left(np.array([1e-5, 1e-5, 1e-4])) == pytest.approx(1.5 * 0.35 / 64)
-    assert left(np.array([0.2, 0.1, 0.1])) == math.inf
 
 
 def test_a_summit_beyond_four_times_the_roughness_is_under_the_sphere():
