@@ -48,6 +48,7 @@ class Fake:
     """A model that claims and finds what it is told."""
 
     name: str = "fake"
+    kind: str = "fake"
     claimed: float = 0.0
     left: float = 0.0
     seconds: float = 1.0

@@ -1,8 +1,7 @@
 """The names of all models, in the order in which models of equal cost are tried and listed.
 
-One name may stand for several models of one kind: boundary elements press, roll, and roll on a rail. Springs are those
-on profiles or tracks of a drawn spectrum; on a rail their name says what they stand on. Charts call springs that read
-no name of a scene `MDR`.
+Models of one kind have one name, whatever they are asked for: boundary elements press a body, and roll with a wheel and
+on a rail. On a rail, where a scene has springs on several tracks, the name of springs says which.
 """
 
 BEM = "boundary elements"
@@ -27,7 +26,7 @@ TWINS = {
 }
 """On a rail the linear model of each one-sided one: the same where all touches."""
 MDR, MDR_ROLLING = "MDR", "MDR, rolling spectrum"
-"""Springs on charts of accuracy over time, where their number is varied."""
+"""Springs on charts of accuracy over time, where their number is varied, in place of `SPRINGS`."""
 SHORT = {"bem": BEM}
 """Other names that users may give; "mdr" are all springs by the method of dimensionality reduction."""
 

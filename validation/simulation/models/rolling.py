@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Cost, Model, Target
 from validation.simulation.model_names import PRESSED_LAYER, SPRINGS, SPRINGS_THAT_READ
 from validation.simulation.pressed_layer import roll_on_layer
-from validation.simulation.rolling_claims import FORCE_RMS, NODE, RollingClaim, Rule, of_a_wheel
+from validation.simulation.rolling_claims import FORCE_RMS, NODE, RollingClaim, of_a_wheel
 from validation.simulation.rolling_levels import (
     FINE,
     LEAST,
@@ -91,21 +92,14 @@ def cells_of_a_strip(target: Target, resolution: Resolution) -> float:
 
 
 def on_strips(
-    name: str, *, strips: int, per_cell: float, bands: Rule, rms: Rule, on_bands: str, is_mdr: bool = False
+    name: str, claim: RollingClaim, *, strips: int, per_cell: float, is_mdr: bool = False
 ) -> Callable[[Callable[[RollingScene, FloatArray, float], FloatArray]], Model]:
     """A model of the force along the middle of a strip [N], by its heights and the side of its cells.
 
     strips: in one solve, whose logarithms have a mean; per_cell: seconds that a cell of a strip takes, about.
     """
-    claim = RollingClaim(
-        bands=bands,
-        rms=rms,
-        on_bands=on_bands,
-        sample=0.1,
-        size=cells_of_a_strip,
-        most=MOST_ON_A_STRIP,
-        too_large="a strip needs {:.2g} cells",
-    )
+    too_large = "a strip needs {:.2g} cells"
+    claim = replace(claim, sample=0.1, size=cells_of_a_strip, most=MOST_ON_A_STRIP, too_large=too_large)
 
     def cost(target: Target, resolution: Resolution) -> Cost:
         work = strips * cells_of_a_strip(target, resolution)
@@ -130,11 +124,13 @@ def on_strips(
 
 @on_strips(
     PRESSED_LAYER,
+    RollingClaim(
+        bands=(0.0, 0.1, 0.12),
+        rms=(0.02, 0.03, 0.005),
+        on_bands="waves longer than the contact are pressed flat in the layer, where the wheel follows them",
+    ),
     strips=10,
     per_cell=4.0e-6,
-    bands=(0.0, 0.1, 0.12),
-    rms=(0.02, 0.03, 0.005),
-    on_bands="waves longer than the contact are pressed flat in the layer, where the wheel follows them",
 )
 def pressed_layer(scene: RollingScene, surface: FloatArray, spacing: float) -> FloatArray:
     """The wheel on a rough layer, pressed flat beforehand: which asperities touch is known from the strip itself.
@@ -146,11 +142,13 @@ def pressed_layer(scene: RollingScene, surface: FloatArray, spacing: float) -> F
 
 @on_strips(
     SPRINGS_THAT_READ,
+    RollingClaim(
+        bands=(1.8, 0.4, 0.02),
+        rms=(0.8, 0.05, 0.004),
+        on_bands="contact is lost along the track, not inside of the contact",
+    ),
     strips=24,
     per_cell=1.5e-7,
-    bands=(1.8, 0.4, 0.02),
-    rms=(0.8, 0.05, 0.004),
-    on_bands="contact is lost along the track, not inside of the contact",
     is_mdr=True,
 )
 def springs_that_read(scene: RollingScene, surface: FloatArray, spacing: float) -> FloatArray:
