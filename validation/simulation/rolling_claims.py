@@ -62,8 +62,8 @@ class RollingClaim:
     height, q a of the longest wave above it, whose level springs miss, and one: what the reference leaves. They are
     envelopes of what was measured beside boundary elements on random scenes, for scenes beyond the calibration.
     on_bands, on_rms: what else the error rests on; own: error of one measured track about all that have its spectrum;
-    of_spectrum: whether the model knows a surface by its spectrum alone; sample: of the tolerance, that realisations
-    leave; size, most: of what is drawn at once, and what there may be of that; too_large: how much of what is needed.
+    of_spectrum: whether the model knows a surface by its spectrum alone; sample: the tolerance over what realisations
+    leave of it; size, most: of what is drawn at once, and what there may be of that; too_large: how much is needed.
     """
 
     bands: Rule
@@ -73,7 +73,7 @@ class RollingClaim:
     on_rms: str = ""
     own: float = MEASURED_SCATTER
     of_spectrum: bool = True
-    sample: float = 0.0
+    sample: float = math.inf
     size: Callable[[Target, Resolution], float] = lambda target, resolution: 0.0
     most: float = math.inf
     too_large: str = ""
@@ -100,7 +100,7 @@ class RollingClaim:
         if own:
             reasons.insert(0, f"one track scatters {own:.0%} about the mean of its spectrum")
         reason = "; ".join(filter(None, reasons))
-        return ErrorEstimate(model=expected.model + own, sample=self.sample * target.tolerance, reason=reason)
+        return ErrorEstimate(model=expected.model + own, sample=target.tolerance / self.sample, reason=reason)
 
     def shape(self, target: Target) -> float:
         """What the error goes with."""

@@ -48,7 +48,7 @@ ON_TRACKS = RollingClaim(
     rms=(1.0, 0.1, 0.002),
     moving=(0.5, 0.0, 0.06, 0.02),
     on_bands="springs have the right level only in the mean over bands",
-    sample=0.1,
+    sample=10,
     size=lambda target, resolution: positions(target, resolution).work,
     most=MOST_ON_TRACKS,
     too_large=f"{TRACKS} tracks need {{:.2g}} springs",
@@ -99,7 +99,7 @@ def on_strips(
     strips: in one solve, whose logarithms have a mean; per_cell: seconds that a cell of a strip takes, about.
     """
     too_large = "a strip needs {:.2g} cells"
-    claim = replace(claim, sample=0.1, size=cells_of_a_strip, most=MOST_ON_A_STRIP, too_large=too_large)
+    claim = replace(claim, sample=10, size=cells_of_a_strip, most=MOST_ON_A_STRIP, too_large=too_large)
 
     def cost(target: Target, resolution: Resolution) -> Cost:
         work = strips * cells_of_a_strip(target, resolution)
