@@ -343,7 +343,7 @@ def test_the_cost_of_a_closed_filter_goes_with_its_evaluations():
         scene = replace(load_scene("rail"), modulus=modulus, material=None, across=None)
         target = Target(scene, "contact-filter")
         model = next(m for m in models_serving(scene, "contact-filter") if m.name == "linear, ellipse")
-        counted[modulus] = target.rail.evaluations
+        counted[modulus] = rail_models.rail_quantity(target).evaluations
         told = model.cost(target, model.resolutions(target)[0]).seconds
         assert told == max(2 * rail_models.CLOSED, rail_models.EVALUATION * counted[modulus])
     assert counted[115e9] < 0.2e6 < 1e6 < counted[100e6] < counted[1e6] < 4e6

@@ -14,7 +14,7 @@ from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
 from validation.selection.scene_model import SceneModel
 from validation.selection.side_by_side import NAMES, Columns, half_width, signed
-from validation.simulation.rail_models import RailModel
+from validation.simulation.rail_models import RailModel, rail_quantity
 
 FloatArray = NDArray[np.float64]
 
@@ -151,4 +151,4 @@ def _closed(one: Candidate) -> FloatArray | None:
     closed_form = one.model.model.filter
     if closed_form.on_strips or not one.estimate.in_range:
         return None
-    return np.asarray(closed_form.closed(one.model.target.rail).mean(axis=0))
+    return np.asarray(closed_form.closed(rail_quantity(one.model.target)).mean(axis=0))

@@ -11,7 +11,7 @@ from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
 from validation.selection.scene_model import SceneModel
 from validation.simulation.model import Target
-from validation.simulation.rail_models import RailModel
+from validation.simulation.rail_models import RailModel, rail_quantity
 
 FloatArray = NDArray[np.float64]
 
@@ -47,5 +47,5 @@ def filter_table(comparison: Comparison) -> Table:
 
 def of_longer_waves(model: RailModel, target: Target) -> FloatArray:
     """A3 of the linear filter in all bands from 2000 mm to the last of the roughness [dB]."""
-    asked = replace(target.rail, longest=LONGEST)
+    asked = replace(rail_quantity(target), longest=LONGEST)
     return np.asarray(model.filter.closed(asked).mean(axis=0))

@@ -9,7 +9,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
 from validation.selection.hierarchy import Answer
 from validation.selection.scene_model import SceneModel
-from validation.simulation.rail_models import reason_of, relative, worst
+from validation.simulation.rail_models import rail_quantity, reason_of, relative, worst
 from validation.simulation.rail_quantity import COUNTED, RailQuantity
 
 
@@ -22,7 +22,7 @@ class RailSceneModel(SceneModel):
         (result,) = self._first(self.resolution, 1)
         if result.failed:
             return Answer(value=np.array([np.nan]), cost=self.cost(), failed=result.failed)
-        asked, a3 = self.target.rail, result.values["a3"]
+        asked, a3 = rail_quantity(self.target), result.values["a3"]
         counts = asked.counted(a3)
         answer = Answer(
             value=result.values[asked.name],

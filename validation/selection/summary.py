@@ -24,7 +24,7 @@ from validation.selection.reasons import grouped
 from validation.selection.side_by_side import axis_of, columns_as_lines, side_by_side
 from validation.selection.tolerance import Tolerance, short
 from validation.simulation.model import Target
-from validation.simulation.rail_models import MEASURED_ON_STRIPS
+from validation.simulation.rail_models import MEASURED_ON_STRIPS, rail_quantity
 
 FloatArray = NDArray[np.float64]
 
@@ -255,7 +255,7 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
         return
     yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
     if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
-        asked = Target(comparison.scene, comparison.quantity).rail
+        asked = rail_quantity(Target(comparison.scene, comparison.quantity))
         yield (
             f"what would help: {what_would_state_the_ground(asked)}: the ground leaves ± {tolerance.shown(left)}, "
             f"whatever the model; or a tolerance of {tolerance.shown(1.05 * best.answer.error)}"

@@ -18,7 +18,6 @@ from mdr.checks import positive
 from validation.simulation import models
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model_names import BEM, MODELS
-from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import FEWEST
 
@@ -40,10 +39,6 @@ class Target:
     @cached_property
     def rolling(self) -> RollingQuantity:
         return RollingQuantity(self.scene, self.quantity)  # type: ignore[arg-type]  # of its names
-
-    @cached_property
-    def rail(self) -> RailQuantity:
-        return RailQuantity(self.scene, self.quantity)  # type: ignore[arg-type]  # of its names
 
 
 @dataclass(frozen=True, kw_only=True)

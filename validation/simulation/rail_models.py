@@ -7,6 +7,7 @@ model is its difference from linear theory and that of linear theory. What is no
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -137,7 +138,7 @@ class ContactFilter:
 
     def claim(self, model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
         """By the filter of the linear twin, before anything rolls."""
-        quantity = target.rail
+        quantity = rail_quantity(target)
         if reason := quantity.no_answer or self.beyond(quantity):
             return ErrorEstimate.out_of_range(reason)
         a3 = self.closed(quantity).mean(axis=0)
@@ -163,7 +164,7 @@ class ContactFilter:
         return ""
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
-        quantity = target.rail
+        quantity = rail_quantity(target)
         ends = len(quantity.ends)
         if self.on_strips:
             positions = STRIPS * ends * sum(positions_along(quantity.scene, cells) for cells in (COARSE, FINE))
@@ -172,7 +173,7 @@ class ContactFilter:
 
     def solve(self, target: Target, resolution: Resolution) -> Result:
         """Of both quantities, by their names, and what `find` has."""
-        quantity = target.rail
+        quantity = rail_quantity(target)
         found = self.find(quantity, target.seed)
         both = {str(name): replace(quantity, name=name).amplitude(found["a3"]) for name in RAIL_QUANTITIES}
         failed = "" if np.isfinite(found["a3"]).all() else "a contact along a strip did not converge"
@@ -196,6 +197,14 @@ def rail_model(name: str, setting: str, *, is_mdr: bool = False, **of_filter: An
     about = {"name": name, "setting": setting, "is_mdr": is_mdr, "charted": False}
     plain = model(serves=one.serves, cost=one.cost, claim=one.claim, **about)(one.solve)
     return RailModel(filter=one, **vars(plain))
+
+
+def rail_quantity(target: Target) -> RailQuantity:
+    """What is asked; kept, since all models of a scene are asked the same."""
+    return _kept(target.scene, target.quantity)
+
+
+_kept = lru_cache(maxsize=8)(RailQuantity)
 
 
 def linear_error(quantity: RailQuantity) -> FloatArray:
