@@ -11,12 +11,11 @@ import validation.__main__ as command
 from tests.benchmarks.made_up import named, timed_problem, use_a_clock_of_its_own
 from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks import peers
-from validation.benchmarks.found_models import TimedProblem, configurations_of
+from validation.benchmarks.found_models import TimedProblem
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import FINISHED, RunLimits
-from validation.benchmarks.work_precision import pareto as precision_front
 from validation.benchmarks.work_precision import problem as precision
-from validation.benchmarks.work_precision.case import Precision, run
+from validation.benchmarks.work_precision.case import WITHIN, WITHOUT, Precision, run
 from validation.benchmarks.work_precision.dynamic_wheel import (
     WheelProblem,
     linear_strip,
@@ -24,9 +23,9 @@ from validation.benchmarks.work_precision.dynamic_wheel import (
     steady_acceleration,
 )
 from validation.benchmarks.work_precision.errors import points
-from validation.benchmarks.work_precision.evidence import evidence
 from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
-from validation.benchmarks.work_precision.figure_cost import FigureCost
+from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS, HOURS, FigureCost
+from validation.benchmarks.work_precision.pareto import TOLERANCES
 from validation.benchmarks.work_precision.problem import (
     BEM,
     CLOSED,
@@ -41,6 +40,7 @@ from validation.benchmarks.work_precision.problem import (
 )
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
+from validation.benchmarks.work_precision.study import CASE
 from validation.engine.engine import Engine
 from validation.report import contents
 from validation.report.contents import TIMED
@@ -120,7 +120,7 @@ def result():
 
 @pytest.fixture(scope="module")
 def found(result):
-    return evidence(result)
+    return CASE.evidence(result)
 
 
 @pytest.fixture(scope="module")
@@ -191,8 +191,8 @@ def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
     assert "c2d must vanish beyond the Nyquist wavenumber" in reasons
     assert "c1d must vanish beyond the Nyquist wavenumber" in reasons
     assert not any(s.startswith("failed") for s in charts["status"])
-    assert {"scene", "method", "setting", "quantities", "reason"} == set(found.page_tables[1].columns)
-    assert len(found.page_tables[1]["reason"]) == len(set(zip(*found.page_tables[1].columns.values(), strict=True)))
+    rows = list(zip(*found.table(WITHOUT).columns.values(), strict=True))
+    assert rows and len(rows) == len(set(rows))
 
 
 @pytest.mark.slow
@@ -204,45 +204,29 @@ def test_criteria_hold_where_theory_predicts(found):
 
 
 @pytest.mark.slow
-def test_conclusions_and_summary_name_the_cheapest(found):
-    assert len(found.conclusions) == 11
-    assert all(" is the cheapest" in sentence for sentence in found.conclusions)
-    assert len(found.table("summary")["tolerance"]) == 11 * len(precision_front.TOLERANCES)
-    assert len(found.page_tables[0]["scene"]) == 11
+def test_the_summary_names_the_cheapest(found):
+    assert len(found.table("summary")["tolerance"]) == 11 * len(TOLERANCES)
+    assert len(found.table(WITHIN)["scene"]) == 11
 
 
 @pytest.mark.slow
 def test_three_dimensions_cost_hours_and_not_days(result, found):
     """dx = a / cells, 20 wheels over 0.65 m; planted, two days."""
-    costly, table = found.claims[-1], found.table("cost")
-    a = result.case.cost.scene.contact_radius
+    table, a = found.table(COST_OF_STEPS), result.case.cost.scene.contact_radius
     np.testing.assert_allclose(table["one metre [s]"], table["one step [s]"] * table["a/dx"] / a)
     np.testing.assert_allclose(table["Fig. 14.4 [h]"], table["one metre [s]"] * 0.65 * 20 / 3600)
-    assert costly.answer.startswith("No: a step takes ")
-    days = dict(table.columns, **{name: [1.0, 50.0] for name in ("Fig. 14.4 [h]", "from [h]", "to [h]")})
-    slow = evidence(dataclasses.replace(result, cost=Table("cost", days)))
-    assert slow.claims[-1].answer.startswith("Yes: a step takes ")
+    assert found.claims[-1].status == "contradicted"
+    days = dict(table.columns, **{name: [1.0, 50.0] for name in HOURS})
+    slow = dataclasses.replace(result, found={**result.found, "cost": Table(COST_OF_STEPS, days)})
+    assert CASE.evidence(slow).claims[-1].status == "holds"
 
 
 @pytest.mark.slow
-def test_an_answer_that_is_lost_is_not_converged(result):
-    outcomes = [{**outcome} for outcome in result.outcomes]
-    configurations = configurations_of(SMALL.problems()[0])
-    last = max(i for i, each in enumerate(configurations) if each.label == BEM)
-    outcomes[0]["status"] = outcomes[0]["status"].astype("<U40")
-    outcomes[0]["status"][last] = "failed: ConvergenceError: lost"
-    lost = evidence(dataclasses.replace(result, outcomes=outcomes)).unconverged
-    assert lost == ("sphere: BEM, finer cells, 16 cells to a radius: failed: ConvergenceError: lost",)
-
-
-@pytest.mark.slow
-def test_the_same_seed_draws_the_same_errors(result, found):
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        use_a_clock_of_its_own(monkeypatch)
-        limits = RunLimits(slow=1.0, enough=0.0)
-        one, other = (TimedProblem(dataclasses.replace(SMALL.fractal, seed=seed), limits) for seed in (SMALL.seed, 5))
-        again, different = precision.measure(one), precision.measure(other)
-    first = result.outcomes[3]
+def test_the_same_seed_draws_the_same_errors(by_hand):
+    limits = RunLimits(slow=1.0, enough=0.0)
+    first, again, different = (
+        precision.measure(TimedProblem(dataclasses.replace(SMALL.fractal, seed=seed), limits)) for seed in (3, 3, 5)
+    )
     assert again.keys() == first.keys()
     for name in again:
         np.testing.assert_array_equal(again[name], first[name])
@@ -350,7 +334,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
         TIMED, "precision", dataclasses.replace(TIMED["precision"], quick=SMALL, run=lambda case, engine: result)
     )
     assert command.main(["precision", "--out", str(tmp_path)]) == command.Exit.MET
-    assert "fractal punch, mean stiffness: down to" in capsys.readouterr().out
+    assert "scene: fractal punch; quantity: mean stiffness; within 30 %: " in capsys.readouterr().out
     results = json.loads((tmp_path / "precision.json").read_text())["cases"]
     assert list(results) == ["precision"]
     assert results["precision"]["settings"]["sphere"]["grids"]["cells"] == [4, 8, 16]

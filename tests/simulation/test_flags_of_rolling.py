@@ -11,7 +11,7 @@ import pytest
 
 import bem3d
 from tests.simulation.test_calibration import wheel
-from validation.benchmarks.solvers.rolling import RolledStrip
+from validation.benchmarks.solvers.throughput import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.limits import spheres
 from validation.cases.rolling.ridges import RollingOverRidges
@@ -102,7 +102,7 @@ PATHS = {
         zip(("approach", "force", "failed"), (*wheel_on_rail.in_motion(moving()), np.zeros(1)), strict=True)
     ),
     "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
-    "validation.benchmarks.solvers.rolling:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
+    "validation.benchmarks.solvers.throughput:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
     "validation.simulation.published_contact:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),

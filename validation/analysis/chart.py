@@ -75,11 +75,13 @@ class Map:
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states; sharey: one for all."""
+    """A figure. name: "case" or "case-part"; panels: none where `report/figures` has a function that draws it; claims:
+    numbers of those that its headline states; sharey: one for all.
+    """
 
     name: str
     caption: str
-    panels: tuple[Panel, ...] | Map
+    panels: tuple[Panel, ...] | Map = ()
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
     columns: int = 0

@@ -18,12 +18,9 @@ from validation.simulation.pressed import PressedGrid
 CLOSED = "closed form"
 FILTER_1D, FILTER_3D = "linear filter, 1D", "linear filter, 3D"
 MDR, MDR_ROLLING = "MDR", "MDR, rolling spectrum"
-POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED = (
-    "Polonsky-Keer",
-    "BEM, finer cells",
-    "BEM, looser residual",
-    "BEM, extrapolated",
-)
+POLONSKY_KEER, BEM, LOOSE = "Polonsky-Keer", "BEM, finer cells", "BEM, looser residual"
+EXTRAPOLATED = "BEM, extrapolated"
+SPRINGS, ELEMENTS = (MDR, MDR_ROLLING), (BEM, LOOSE, EXTRAPOLATED, POLONSKY_KEER)
 ROUNDING = 1e-12
 """What a closed form leaves open."""
 
