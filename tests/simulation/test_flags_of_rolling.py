@@ -69,7 +69,7 @@ def at_constant_load():
 
 
 def on_the_chart():
-    force, _ = rolling_chart.ROLLERS["BEM"](STRIP.surface(), 6, 1e-6)()
+    force, _ = rolling_chart._roll(STRIP.surface(), 6, 1e-6)()
     return {"force": force, "failed": np.zeros(1)}
 
 

@@ -11,7 +11,7 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.timing import FINISHED, Configuration, Timing, along, time_in_turns
 from validation.engine.engine import Outcome
-from validation.simulation.method import FloatArray, Method, Resolution, Values
+from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Values
 from validation.simulation.model import Model
 from validation.simulation.pressed import PressedGrid
 
@@ -71,6 +71,18 @@ class CountedSpectrum:
     def __call__(self, q: FloatArray) -> FloatArray:
         self.nodes += q.size
         return self.c2d(q)
+
+
+@dataclass(frozen=True)
+class NamedMethod:
+    """A function of a scene, a resolution and these options that prepares a method."""
+
+    name: str
+    by: Callable[..., Prepared]
+    options: tuple[Any, ...] = ()
+
+    def prepare(self, scene: Any, resolution: Resolution) -> Prepared:
+        return self.by(scene, resolution, *self.options)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,6 +172,19 @@ class ChartProblem(ABC):
     def on_grids(self, method: Method, label: str, cells: Iterable[int]) -> tuple[Configuration, ...]:
         own: dict[str, Any] = {"residual": self.grids.tight, "realisations": self.realisations}
         return along(method, self, cells, f"# cells {self.grids.per}", label=label, **own)
+
+
+def along_a_track(
+    problem: Any, closed: Method, on_springs: Iterable[Method], by_filter: Method, tracks: int = 0
+) -> tuple[Configuration, ...]:
+    """Linear theory three times, springs on tracks of their own, in a batch where there are none, boundary elements."""
+    own: dict[str, Any] = {"realisations": tracks, "paired": False}
+    return (
+        *along(closed, problem, (1.0,), "linear theory", paired=False),
+        *(each for m in on_springs for each in along(m, problem, problem.springs, "# springs to a radius", **own)),
+        *along(by_filter, problem, problem.filtered, "# cells to a radius", realisations=problem.realisations),
+        *problem.boundary_elements(),
+    )
 
 
 def measure(timed: TimedProblem) -> Outcome:
