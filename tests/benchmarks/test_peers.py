@@ -2,7 +2,6 @@
 
 import dataclasses
 import itertools
-import json
 import multiprocessing
 import os
 import time
@@ -11,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import validation.__main__ as command
+from tests.benchmarks.made_up import run_command
 from validation.analysis.series import numbers_of
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
@@ -21,9 +20,8 @@ from validation.benchmarks.solvers import case as comparison
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.solvers.problems import FORCE, PRESSURE, SurfaceProblem
 from validation.benchmarks.solvers.study import CASE
-from validation.benchmarks.solvers.throughput import RollingThroughput, SteppingThroughput
+from validation.benchmarks.solvers.throughput import STEPS, RollingThroughput, SteppingThroughput
 from validation.benchmarks.timing import RunLimits
-from validation.report.contents import TIMED
 from validation.simulation.method import Result
 
 RUN = TimedProblem(SurfaceProblem("rough", 0.004, 32, True, 1, 1e-6), RunLimits(slow=5.0, enough=0.0))
@@ -86,14 +84,16 @@ def forked():
 
 @pytest.mark.slow
 def test_a_solver_that_fails_is_a_row(forked, monkeypatch):
+    broken = {
+        "dies": (dies, "failed: BrokenProcessPool"),
+        "raises": (raises, "failed: ZeroDivisionError"),
+        "wrong": (forgets_a_factor, "failed: RuntimeError: residual 0.0"),
+        "nan": (returns_nan, "failed: RuntimeError: pressure is not finite"),
+        "late": (dies_the_second_time, "failed: BrokenProcessPool"),
+    }
     solvers = (
-        SOLVERS[0],
-        SOLVERS[1],
-        other("dies", dies),
-        other("raises", raises),
-        other("wrong", forgets_a_factor),
-        other("nan", returns_nan),
-        other("late", dies_the_second_time),
+        *SOLVERS[:2],
+        *(other(name, prepare) for name, (prepare, _) in broken.items()),
         other("absent", dies, package="no-such-package"),
         other("warm", warms_up),
     )
@@ -102,15 +102,8 @@ def test_a_solver_that_fails_is_a_row(forked, monkeypatch):
     said = dict(zip(outcome["solver"].tolist(), outcome["status"].tolist(), strict=True))
     assert list(said) == [solver.name for solver in solvers]
     assert said["bem3d"] == said["bem3d, Polonsky-Keer"] == said["warm"] == "finished"
-    for name, status in {
-        "dies": "failed: BrokenProcessPool",
-        "late": "failed: BrokenProcessPool",
-        "raises": "failed: ZeroDivisionError",
-        "wrong": "failed: RuntimeError: residual 0.0",
-        "nan": "failed: RuntimeError: pressure is not finite",
-        "absent": "not installed",
-    }.items():
-        assert said[name].startswith(status)
+    assert all(said[name].startswith(status) for name, (_, status) in broken.items())
+    assert said["absent"] == "not installed"
     # a solver that remembers is prepared anew each time
     assert outcome["fastest [s]"][-1] >= 0.1
     finished = outcome["status"] == "finished"
@@ -260,7 +253,7 @@ def test_steps_of_the_wheel_are_counted_on_the_same_force(evidence):
     assert (evidence.table("difference to the plain sum, over the load")["value"] < 1e-12).all()
     examined = evidence.table("springs examined")
     assert (examined["value"] < 2 * 1.5 * examined[comparison.SPRINGS]).all()
-    assert (evidence.table(comparison.STEPS)["value"] > 0).all()
+    assert (evidence.table(STEPS)["value"] > 0).all()
 
 
 @pytest.mark.slow
@@ -290,14 +283,10 @@ def test_a_difference_of_answers_is_a_missed_criterion(result):
 
 @pytest.mark.slow
 def test_command_line(result, tmp_path, monkeypatch, capsys):
-    """The comparison has a page, a table on the terminal, and times that are kept apart from results."""
-    entry = dataclasses.replace(TIMED["race"], quick=result.case, run=lambda case, engine: result)
-    monkeypatch.setitem(TIMED, "race", entry)
-    assert command.main(["race", "--out", str(tmp_path)]) == command.Exit.MET
+    """The comparison has a page, tables on the terminal, and times that are kept apart from results."""
+    results = run_command(CASE, result, tmp_path, monkeypatch)
     assert "problem: rough, F = 0.004 E* L², free, 32²" in capsys.readouterr().out
-    results = json.loads((tmp_path / "race.json").read_text())["cases"]["race"]
     assert results["settings"]["cells"] == [32]
-    assert json.loads((tmp_path / "results.json").read_text())["cases"] == {}
     for file in ("figures/race.svg", "figures/race-growth.svg", "figures/race-wheel.svg", "data/race-heats.csv"):
         assert (tmp_path / file).exists()
     assert "Solver comparison" in (tmp_path / "speed.html").read_text()

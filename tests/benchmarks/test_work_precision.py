@@ -1,14 +1,13 @@
 """Speed against accuracy: every problem, small, on a clock that ticks by itself; linear theory; the command."""
 
 import dataclasses
-import json
 import math
 
 import numpy as np
 import pytest
 
 import validation.__main__ as command
-from tests.benchmarks.made_up import named, timed_problem, use_a_clock_of_its_own
+from tests.benchmarks.made_up import named, run_command, timed_problem, use_a_clock_of_its_own
 from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks import peers
 from validation.benchmarks.found_models import TimedProblem
@@ -208,7 +207,9 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     engine = Engine(store=tmp_path)
     engine.map(precision.measure, [timed])
     assert [file.match("*-measure-*.npz") for file in tmp_path.iterdir()] == [True]
-    run(SMALL, engine)
+    lost = timed_problem(named("right"), named("raises")).problem
+    monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem, lost))
+    assert run(SMALL, engine).unconverged == ("made: raises, 1: failed: RuntimeError: lost its way",)
     assert not list(tmp_path.iterdir())
 
 
@@ -295,19 +296,12 @@ def test_mean_rolling_levels_are_those_of_many_linear_forces():
 
 @pytest.mark.slow
 def test_command_line(result, tmp_path, monkeypatch, capsys):
-    """A page, sentences on the terminal, and times that are kept apart from results."""
-    monkeypatch.setitem(
-        TIMED, "precision", dataclasses.replace(TIMED["precision"], quick=SMALL, run=lambda case, engine: result)
-    )
-    assert command.main(["precision", "--out", str(tmp_path)]) == command.Exit.MET
+    """A page, tables on the terminal, and times that are kept apart from results."""
+    results = run_command(CASE, result, tmp_path, monkeypatch)
     assert "scene: fractal punch; quantity: mean stiffness; within 30 %: " in capsys.readouterr().out
-    results = json.loads((tmp_path / "precision.json").read_text())["cases"]
-    assert list(results) == ["precision"]
-    assert results["precision"]["settings"]["sphere"]["grids"]["cells"] == [4, 8, 16]
-    assert json.loads((tmp_path / "results.json").read_text())["cases"] == {}
-    for name in ("precision", "precision-summary", "precision-work"):
-        assert (tmp_path / "figures" / f"{name}.svg").exists()
-    assert (tmp_path / "data" / "precision-points.csv").exists()
+    assert results["settings"]["sphere"]["grids"]["cells"] == [4, 8, 16]
+    for file in (*(f"figures/precision{part}.svg" for part in ("", "-summary", "-work")), "data/precision-points.csv"):
+        assert (tmp_path / file).exists()
     page = (tmp_path / "index.html").read_text()
     assert "Speed against accuracy" in page and 'href="precision.json"' in page
 

@@ -155,14 +155,7 @@ AGREEMENT = (
 """The residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells."""
 CELLS, GUIDE, LARGE = "cells along a side, n", "n² log n", 512
 EXPONENT = f"exponent of n from {LARGE} cells on"
-SPRINGS, STEPS = "springs to a contact radius, a / dx", "steps of one wheel a second"
-SIMULATED, PLAIN = "as simulated", "plain sums over all springs"
-STEPPED = (
-    ("rate", STEPS, SIMULATED),
-    ("plain", STEPS, PLAIN),
-    ("examined", "springs examined", SIMULATED),
-    ("difference", "difference to the plain sum, over the load", SIMULATED),
-)
+SPRINGS = "springs to a contact radius, a / dx"
 WORK, ROLLED = "seconds of a contact of Fig. 14.1", "a rolling wheel"
 
 
@@ -211,28 +204,32 @@ def _work(result: Outcomes) -> Iterator[Series]:
         yield Series(WORK, f"{name}, cold", (float(np.mean([rows[name][MEDIAN] for rows in finished])),))
 
 
+def _measured(outcomes: Sequence[Outcome], model: str, **settings: Any) -> list[Series]:
+    """A series of each value that they have."""
+    return [Series(name, model, np.array([float(o[name]) for o in outcomes]), **settings) for name in outcomes[0]]
+
+
 def _growth(scalings: Sequence[tuple[SurfaceProblem, Outcome]]) -> Iterator[Series]:
     """Of our solver alone; exponents where there are grids enough to fit them."""
     for problem, group in itertools.groupby(scalings, key=lambda pair: f"{pair[0].surface}, {pair[0].half_space}"):
         pairs, at = list(group), {"problem": problem}
         n = np.array([each.cells for each, _ in pairs], dtype=float)
-        columns = {name: np.array([float(outcome[name]) for _, outcome in pairs]) for name in pairs[0][1]}
+        ours = _measured([outcome for _, outcome in pairs], OUR_SOLVER, where=at, along=CELLS, at=n)
+        known = {one.quantity: np.asarray(one.found) for one in ours}
         guide, large = n**2 * np.log(n), n >= LARGE
-        yield from (Series(name, OUR_SOLVER, y, where=at, along=CELLS, at=n) for name, y in columns.items())
-        yield Series(SOLVE, GUIDE, columns[SOLVE][-1] * guide / guide[-1], where=at, along=CELLS, at=n)
+        yield from (*ours, Series(SOLVE, GUIDE, known[SOLVE][-1] * guide / guide[-1], where=at, along=CELLS, at=n))
         if np.count_nonzero(large) > 2:
-            for name, y in ((SOLVE, columns[SOLVE]), (MEMORY, columns[MEMORY]), (GUIDE, guide)):
+            for name, y in ((SOLVE, known[SOLVE]), (MEMORY, known[MEMORY]), (GUIDE, guide)):
                 yield Series(EXPONENT, name, np.polyfit(np.log(n[large]), np.log(y[large]), 1)[:1], where=at)
 
 
-def _steps(wheel: SteppingThroughput, outcomes: Sequence[Outcome]) -> Iterator[Series]:
-    pairs = zip(wheel.problems(), outcomes, strict=True)
-    for height, group in itertools.groupby(pairs, key=lambda pair: pair[0].scene.rms / pair[0].scene.approach):
-        mine = list(group)
-        at = [float(problem.scene.springs) for problem, _ in mine]
-        for name, quantity, model in STEPPED:
-            found = np.array([float(outcome[name]) for _, outcome in mine])
-            yield Series(quantity, model, found, where={"h0/d": height}, along=SPRINGS, at=at)
+def _steps(wheel: SteppingThroughput, outcomes: Sequence[Outcome]) -> list[Series]:
+    n, at = len(wheel.springs), np.array(wheel.springs, dtype=float)
+    return [
+        one
+        for i, height in enumerate(wheel.heights)
+        for one in _measured(outcomes[i * n : (i + 1) * n], "springs", where={"h0/d": height}, along=SPRINGS, at=at)
+    ]
 
 
 SECONDS, LOADS, PEERS = (
@@ -243,14 +240,15 @@ SECONDS, LOADS, PEERS = (
 
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
-    timed, loads, rolling = result["problems"], result["loads"], result.case.rolling
+    timed, loads = result["problems"], result["loads"]
+    rolled = zip(result.case.rolling.heights, result["rolling"], strict=True)
     versions = [{"solver": s.name, "mode": s.mode, "version": s.version or problems.NOT_INSTALLED} for s in SOLVERS]
     return (
         table_of("heats", list(itertools.chain(*timed))),
         table_of("errand", list(itertools.chain(*loads))),
         _seconds(SECONDS, timed),
         _seconds(LOADS, loads),
-        table_of(ROLLED, [_rolled(*pair) for pair in zip(rolling.heights, result["rolling"], strict=True)]),
+        table_of(ROLLED, [{"h/d": h, **{name: float(x) for name, x in o.items()}} for h, o in rolled]),
         table_of(PEERS, versions),
     )
 
@@ -269,17 +267,3 @@ def _said(row: Row) -> str:
         return str(row["status"])
     median, fastest, slowest, setup = (row[name] for name in (MEDIAN, "fastest [s]", "slowest [s]", "set-up [s]"))
     return f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {setup:.2g} s"
-
-
-def _rolled(height: float, outcome: Outcome) -> dict[str, object]:
-    """Positions a second; the floor: as many operator applications on a fixed window; warm solves on that window."""
-    names = ("seconds", "applications", "warm solve", "application")
-    seconds, applications, warm, one = (float(outcome[name]) for name in names)
-    return {
-        "h/d": height,
-        "positions a second": 1 / seconds,
-        "applications a position": applications,
-        "one on 3a x 3a [s]": one,
-        "time over applications on 3a x 3a": seconds / (applications * one),
-        "by warm solves on 3a x 3a": 1 / warm,
-    }

@@ -7,7 +7,7 @@ from validation.analysis.study import Study
 from validation.benchmarks.peers import OUR_SOLVER
 from validation.benchmarks.solvers import case, problems
 from validation.benchmarks.solvers.case import LoadPathWorkload, SolverComparison
-from validation.benchmarks.solvers.throughput import RollingThroughput, SteppingThroughput
+from validation.benchmarks.solvers.throughput import PLAIN, STEPS, RollingThroughput, SteppingThroughput
 
 GUIDE = Curve(problems.SOLVE, case.GUIDE, "guide", case.GUIDE, of={"problem": "rough, free"})
 
@@ -73,11 +73,8 @@ STUDY = Study(
             (
                 Panel(
                     case.SPRINGS,
-                    case.STEPS,
-                    (
-                        Curve(case.STEPS, case.SIMULATED, by=("h0/d",)),
-                        Curve(case.STEPS, case.PLAIN, "open", "_", by=("h0/d",)),
-                    ),
+                    STEPS,
+                    (Curve(STEPS, by=("h0/d",)), Curve(PLAIN, style="open", label="_", by=("h0/d",))),
                     log="xy",
                     ticked=True,
                     legend="best",

@@ -12,11 +12,6 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.benchmarks.timing import Configuration
 from validation.benchmarks.work_precision.problem import (
-    CLOSED,
-    FILTER_1D,
-    FILTER_3D,
-    MDR,
-    MDR_ROLLING,
     ChartProblem,
     CountedSpectrum,
     Grids,
@@ -44,8 +39,6 @@ TABLE = load_wheel_scene("table_14_1")
 SCENE = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 WARM = 40
 """Places before the clock runs: frames that find their size, plans."""
-
-
 GRIDS = Grids(cells=(6, 12), fixed=6, tolerances=(1e-2, 1e-3), per="to a radius")
 
 
@@ -79,16 +72,8 @@ class WheelProblem(ChartProblem):
 
     def strip(self, realisation: int, cells: int, tolerance: float) -> WheelStrip:
         """The same surface on every grid."""
-        return WheelStrip(
-            scene=self.wheel_scene,
-            realisation=realisation,
-            natural_periods=self.turns,
-            width=self.width,
-            cells=cells,
-            shared=self.shared,
-            tolerance=tolerance,
-            seed=self.seed,
-        )
+        own = {"natural_periods": self.turns, "width": self.width, "shared": self.shared, "seed": self.seed}
+        return WheelStrip(scene=self.wheel_scene, realisation=realisation, cells=cells, tolerance=tolerance, **own)
 
     @property
     def duration(self) -> float:
@@ -108,7 +93,8 @@ class WheelProblem(ChartProblem):
         return band_levels(record.omega, record.density, self.edges).T
 
     def configurations(self) -> tuple[Configuration, ...]:
-        return along_a_track(self, IN_CLOSED_FORM, ON_SPRINGS, BY_FILTER)
+        springs, strips = (wheels_on_springs, _filtered, _on_springs), (wheel_on_strips, _filter_strip)
+        return along_a_track(self, linear_spectrum, springs, strips)
 
     @property
     def method(self) -> Method:
@@ -288,12 +274,3 @@ def _in_time_loop(strip: WheelStrip, known: LinearStrip) -> Callable[[], tuple[F
         return motion.acceleration[:, 0], contact.operator_applications * (2.0 * strip.cells) ** 2
 
     return run
-
-
-IN_CLOSED_FORM = NamedMethod(CLOSED, linear_spectrum)
-BY_FILTER = NamedMethod(FILTER_3D, wheel_on_strips, (_filter_strip,))
-ON_SPRINGS = (
-    NamedMethod(FILTER_1D, wheels_on_springs, ("geike", _filtered)),
-    NamedMethod(MDR, wheels_on_springs, ("geike", _on_springs)),
-    NamedMethod(MDR_ROLLING, wheels_on_springs, ("rolling", _on_springs)),
-)

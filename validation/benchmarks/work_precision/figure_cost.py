@@ -68,16 +68,8 @@ class StepsOnHalfSpace:
     def measure(self) -> Outcome:
         """Seconds of a step, several times; plans are made before."""
         cost, scene = self.cost, self.cost.scene
-        strip = WheelStrip(
-            scene=scene,
-            realisation=0,
-            natural_periods=0,
-            width=2,
-            cells=cost.cells,
-            shared=cost.cells,
-            tolerance=cost.tolerance,
-            seed=cost.seed,
-        )
+        own = {"realisation": 0, "natural_periods": 0, "width": 2, "seed": cost.seed}
+        strip = WheelStrip(scene=scene, cells=cost.cells, shared=cost.cells, tolerance=cost.tolerance, **own)
         surface, time_step = strip.surface(), strip.spacing / scene.speed
         linear, height = linear_law_3d(strip, surface), crop_to_reach(surface, strip.spacing, scene.body)
         law = BoundaryElementsLaw(scene.body, [height], strip.spacing, tolerance=cost.tolerance)

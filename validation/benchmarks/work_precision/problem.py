@@ -175,12 +175,24 @@ class ChartProblem(ABC):
 
 
 def along_a_track(
-    problem: Any, closed: Method, on_springs: Iterable[Method], by_filter: Method, tracks: int = 0
+    problem: Any,
+    linear: Callable[..., Prepared],
+    springs: tuple[Callable[..., Prepared], Any, Any],
+    filtered: tuple[Callable[..., Prepared], Any],
+    tracks: int = 0,
 ) -> tuple[Configuration, ...]:
-    """Linear theory three times, springs on tracks of their own, in a batch where there are none, boundary elements."""
+    """Linear theory three times, springs with both input spectra, boundary elements.
+
+    linear: in closed form; springs: the method, its options for the linear filter and for one-sided springs; filtered:
+    the method on strips, its option for the linear filter; tracks: of springs, their own, none where they are a batch.
+    """
     own: dict[str, Any] = {"realisations": tracks, "paired": False}
+    by, without, one_sided = springs
+    kinds = (FILTER_1D, "geike", without), (MDR, "geike", one_sided), (MDR_ROLLING, "rolling", one_sided)
+    on_springs = [NamedMethod(name, by, tuple(options)) for name, *options in kinds]
+    by_filter = NamedMethod(FILTER_3D, filtered[0], filtered[1:])
     return (
-        *along(closed, problem, (1.0,), "linear theory", paired=False),
+        *along(NamedMethod(CLOSED, linear), problem, (1.0,), "linear theory", paired=False),
         *(each for m in on_springs for each in along(m, problem, problem.springs, "# springs to a radius", **own)),
         *along(by_filter, problem, problem.filtered, "# cells to a radius", realisations=problem.realisations),
         *problem.boundary_elements(),

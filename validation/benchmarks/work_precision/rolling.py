@@ -16,11 +16,6 @@ import mdr
 from validation.analysis.spectra import Bands, levels, waves
 from validation.benchmarks.timing import Configuration
 from validation.benchmarks.work_precision.problem import (
-    CLOSED,
-    FILTER_1D,
-    FILTER_3D,
-    MDR,
-    MDR_ROLLING,
     POLONSKY_KEER,
     ChartProblem,
     CountedSpectrum,
@@ -109,7 +104,8 @@ class RollingProblem(ChartProblem):
         return RoughStrip(spectrum=self.spectrum, height=self.height, length=length, width=width, seed=self.seed)
 
     def configurations(self) -> tuple[Configuration, ...]:
-        return along_a_track(self, IN_CLOSED_FORM, ON_SPRINGS, BY_FILTER, self.tracks)
+        springs, strips = (springs_along_tracks, "linear", "one-sided"), (force_along_strips, _filtered)
+        return along_a_track(self, linear_spectrum, springs, strips, self.tracks)
 
     @property
     def method(self) -> Method:
@@ -244,12 +240,3 @@ def moving_window(surface: FloatArray, cells: int) -> tuple[bem3d.HalfSpace, Cal
     sphere = (x[:, np.newaxis] ** 2 + y**2) / 2
     half_space = bem3d.HalfSpace(shape=(n, n), spacing=spacing, modulus=1.0)
     return half_space, lambda position: sphere - height.take(ahead + position, axis=0, mode="wrap")
-
-
-IN_CLOSED_FORM = NamedMethod(CLOSED, linear_spectrum)
-BY_FILTER = NamedMethod(FILTER_3D, force_along_strips, (_filtered,))
-ON_SPRINGS = (
-    NamedMethod(FILTER_1D, springs_along_tracks, ("geike", "linear")),
-    NamedMethod(MDR, springs_along_tracks, ("geike", "one-sided")),
-    NamedMethod(MDR_ROLLING, springs_along_tracks, ("rolling", "one-sided")),
-)
