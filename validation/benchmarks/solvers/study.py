@@ -54,7 +54,7 @@ STUDY = Study(
     charts=(
         Chart(
             "race",
-            "On {c.cells}² cells. (a) Median time to the residual, bars from the fastest to the slowest run. (b) The "
+            "Grids of {c.cells} cells a side. (a) Median time to the residual, bars from the fastest to the slowest run. (b) The "
             "same over the median of bem3d.solve.",
         ),
         Chart(
