@@ -65,6 +65,14 @@ def test_a_claim_that_things_differ_is_confirmed_by_that():
     assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
 
 
+def test_a_matrix_has_a_column_for_each_quantity_that_it_names():
+    matrix = Matrix(name="m", quantity=("level", "slope"), rows=("h/d",), columns="quantity")
+    table = matrix.table(by_height(AGREE, DIFFER))
+    assert list(table.columns) == ["h/d", "level", "slope"] and table.columns["slope"] == ["–", "–"]
+    assert [cell.verdict for cell in table.columns["level"]] == [AGREE, DIFFER]
+    assert matrix.table([]).columns == {"h/d": (), "level": [], "slope": []}
+
+
 def test_members_are_chosen_by_quantity_model_and_conditions():
     numbers = [number(AGREE, model=m, across=a) for m in "ab" for a in ("ridges", "ground")] + by_height(
         AGREE, model="a"
@@ -96,6 +104,13 @@ def test_the_answer_has_the_farthest_of_each_kind_and_how_many_agree():
     )
 
 
+def test_of_many_models_at_once_it_is_counted_how_many_agree():
+    claim = replace(CLAIM, along="", counted=True)
+    judged = claim.judged([*by_height(AGREE, DIFFER), *by_height(AGREE, UNDECIDED, model="other")])
+    assert judged.answer == "No: +3.00 ± 0.10 dB at h/d = 1 (2 of 4 agree)."
+    assert claim.headline(judged) == "It: 2 of 4"
+
+
 def test_a_worst_point_is_said_to_be_at_its_place_and_not_at_a_range():
     worst = point(3.0, 0.1, quantity="level", model="m", where={"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0})
     assert Claim(says="It is so.").judged([worst]).answer == "No: +3.00 ± 0.10 dB at h/d = 1, q a = 2."
@@ -110,6 +125,11 @@ def test_large_ratios_have_no_exponent(value, half, said):
 
 def test_a_closed_form_leaves_a_difference():
     assert off_by(point(1.0, quantity="k", model="m")) == "off by +1.0e+00 dB"
+
+
+def test_places_with_a_name_follow_after_a_comma_and_large_values_have_no_power_of_ten():
+    found = point(3.0, 0.1, quantity="level", model="m", where={"band": "below it", "f [Hz]": (177.0, 1402.0)})
+    assert Claim(says="It is so.").judged([found]).answer == "No: +3.00 ± 0.10 dB, below it, f [Hz] = 177 to 1402."
 
 
 def test_a_ratio_in_decibels_is_printed_in_per_cent():

@@ -11,7 +11,6 @@ from scipy import stats
 
 from tests.analysis.intervals import TRIALS, binomial, covered, ends, holds, t
 from tests.cases.test_limits import STEEP
-from validation.analysis.evidence import table_of
 from validation.analysis.statistics import (
     Estimate,
     at_level,
@@ -24,10 +23,11 @@ from validation.analysis.statistics import (
     ratio_of_means,
     sample,
 )
-from validation.cases.limits.numbers import exponent_number, threshold_number
-from validation.cases.limits.sweep import Sweep, swept
-from validation.cases.selection.model_selection_numbers import clopper_pearson
-from validation.cases.stability import long_runs
+from validation.cases.limits.limits import fit_exponent, threshold
+from validation.cases.limits.sweeps import Sweep
+from validation.cases.selection.model_selection_study import clopper_pearson
+from validation.simulation.free_vibration import fit_drift
+from validation.simulation.probing import swept
 
 # --- of a mean, of a ratio, of a difference ---
 
@@ -190,16 +190,10 @@ def test_the_interval_of_a_logarithm_of_a_ratio_covers_its_truth(size, own):
 
 
 def test_the_exponent_of_iterations_covers_its_truth():
-    rng, cells = np.random.default_rng(0), np.array([32, 64, 128, 256])
+    rng, cells = np.random.default_rng(0), np.array([32.0, 64.0, 128.0, 256.0])
 
     def drawn():
-        counts = 10 * cells**0.5 * np.exp(0.05 * rng.standard_normal(4))
-        rows = [
-            {"scene": "s", "solver": "solve", "cells": int(n), "iterations": float(c)}
-            for n, c in zip(cells, counts, strict=True)
-        ]
-        number = exponent_number(table_of("iterations", rows), "s", "solve")
-        return number.value, number.sample
+        return ends(fit_exponent(cells, 10 * cells**0.5 * np.exp(0.05 * rng.standard_normal(4))))
 
     assert holds(covered(drawn, 0.5))
 
@@ -207,18 +201,20 @@ def test_the_exponent_of_iterations_covers_its_truth():
 def test_the_drift_of_an_energy_covers_its_truth():
     rng = np.random.default_rng(0)
     place = (np.arange(10) + 0.5) / 10
-    assert holds(covered(lambda: long_runs.fit_drift(2 * place + 0.1 * rng.standard_normal(10)), 2.0))
+    assert holds(covered(lambda: ends(fit_drift(2 * place + 0.1 * rng.standard_normal(10))), 2.0))
 
 
-@pytest.mark.parametrize("confidence", [0.95, 0.999])
-def test_the_growth_over_laps_covers_its_truth(confidence):
+@pytest.mark.parametrize("points", [1, 50])
+def test_the_growth_over_laps_covers_its_truth(points):
+    """At 95 %, and at 99.9 %, which is 95 % of fifty points at once."""
     rng = np.random.default_rng(0)
 
     def drawn():
-        return long_runs.mean_of_logs(np.exp(0.3 + 0.1 * rng.standard_normal(5)), confidence)
+        grown = mean_estimate(0.3 + 0.1 * rng.standard_normal(5))
+        return grown.value, grown.half_width_among(points)
 
-    share = covered(drawn, 0.3)
-    assert abs(share - confidence) <= binomial(TRIALS, confidence)
+    confidence = 1 - 0.05 / points
+    assert abs(covered(drawn, 0.3) - confidence) <= binomial(TRIALS, confidence)
 
 
 @pytest.mark.slow
@@ -236,12 +232,12 @@ def test_the_interval_of_a_share_is_that_of_clopper_and_pearson(share, size):
 def test_where_a_limit_is_crossed_is_known_to_its_steps():
     """y = x^2 crosses 4 at 2; the interval of the place is in octaves, and grows with the steps of the sweep."""
 
-    def threshold(steps):
+    def crossed(steps):
         x = np.geomspace(0.25, 8.0, steps)
-        outcome = swept(STEEP, x, [(y, "") for y in x**2], 2.0)
-        return threshold_number(Sweep.of(STEEP, outcome))
+        (number,) = threshold(Sweep.of(STEEP, swept(x, x**2, [""] * steps))).numbers
+        return number
 
-    fine, coarse = threshold(41), threshold(9)
+    fine, coarse = crossed(41), crossed(9)
     for number in (fine, coarse):
         assert abs(number.value) <= number.grid + 1e-9
     assert coarse.grid == pytest.approx(5 * fine.grid, rel=0.01)

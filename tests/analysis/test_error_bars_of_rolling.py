@@ -1,18 +1,19 @@
 """Error bars of levels along a rolling track, on populations with a known answer."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from tests.analysis.intervals import TRIALS, holds, t
+from validation.analysis.evidence import number_with, numbers_with
+from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import POWER_DECIBEL, log_ratio_of_means, nearest
+from validation.analysis.study import Outcomes
 from validation.cases.rolling import force_spectrum as rolling
-from validation.cases.rolling import force_spectrum_numbers as rolling_numbers
 from validation.cases.rolling import input_spectrum as rolling_input
-from validation.cases.rolling.force_spectrum_levels import SPRINGS, LevelsAtHeight, level_3d
-from validation.cases.rolling.input_spectrum_numbers import punch_number
+from validation.cases.rolling.force_spectrum import LEVEL, MEAN, NONLINEAR, OVER, SPRINGS, VARIANCE
+from validation.simulation.linear_levels import level_3d
 
 ROLLING = rolling.ForceSpectrum(heights=(0.1,), last=4.0, lowest=0.5, length=32.0, strips=4, refined=3, tracks=30)
 
@@ -33,22 +34,22 @@ def rolled(rng, *, springs=1.2, finer=0.98, scatter=0.03, case=ROLLING):
     bem = outcome(exact_3d, scatter, case.strips)
     refined = {name: values[..., : case.refined, :] if values.ndim > 1 else values for name, values in bem.items()}
     refined["level"] = finer * refined["level"]
-    tracks = {name: outcome(springs * np.maximum(exact_3d, 1e-12), 0.1, case.tracks) for name in rolling.INPUT_SPECTRA}
-    return rolling.RollingResult(
-        case, {0.1: bem}, {0.1: refined}, {(name, 0.1): one for name, one in tracks.items()}, {}, ()
-    )
+    tracks = {(n, 0.1): outcome(springs * np.maximum(exact_3d, 1e-12), 0.1, case.tracks) for n in rolling.RULES}
+    return Outcomes(case, {("bem3d", 0.1): bem, ("refined", 0.1): refined, **tracks})
 
 
 @pytest.mark.slow
 def test_levels_of_rolling_are_powers_in_decibels():
     """10 lg of a ratio of powers: 1.2 of springs, 0.98 from one grid to the next, which are 0.98^2 to no cells."""
     rng = np.random.default_rng(0)
-    mine = LevelsAtHeight(rolled(rng, scatter=1e-9), 0.1)
+    result = rolled(rng, scatter=1e-9)
     region = 1.0, 4.0
-    bands = mine.bands_in(region)
-    each = [mine.model_level(SPRINGS, mine.single_bands[band]) for band in bands]
-    worst, rms = rolling_numbers.over_bem(mine, SPRINGS, region)
-    at = each[list(mine.case.bands.centres[bands]).index(worst.where["worst at"])]
+    bands = np.flatnonzero(ROLLING.bands_in(*region))
+    exact = 0.01 * level_3d(ROLLING.spectrum, ROLLING.bands)
+    each = Estimates.ratios(result[SPRINGS, 0.1]["level"][:, bands], exact[bands])
+    numbers = numbers_of(rolling.levels_at(result, 0.1))
+    worst, rms = (number_with(numbers, name, SPRINGS + OVER, **{"q a": region}) for name in (LEVEL, "rms of " + LEVEL))
+    at = each[list(ROLLING.bands.centres[bands]).index(worst.where["worst at"])]
     assert abs(10 * math.log10(1.2) - POWER_DECIBEL * at.value) <= 2 * POWER_DECIBEL * at.half_width
     assert worst.value == pytest.approx(POWER_DECIBEL * (at.value - 2 * math.log(0.98)), abs=1e-6)
     assert worst.grid == pytest.approx(-10 * math.log10(0.98), abs=1e-4)
@@ -56,7 +57,7 @@ def test_levels_of_rolling_are_powers_in_decibels():
     assert worst.sample == pytest.approx(POWER_DECIBEL * at.half_width_among(2 * 2 * len(bands)), rel=0.01)
     off = [POWER_DECIBEL * (one.value - 2 * math.log(0.98)) for one in each]
     assert rms.value == pytest.approx(math.sqrt(np.mean(np.square(off))), abs=1e-6)
-    departure, _ = rolling_numbers.nonlinear(mine, region)
+    departure = number_with(numbers, NONLINEAR)
     assert departure.reference == pytest.approx(POWER_DECIBEL * 2 * math.log(0.98), abs=1e-6)
     assert departure.grid == pytest.approx(worst.grid)
 
@@ -89,8 +90,9 @@ def test_variance_and_mean_of_the_rolling_force_cover_their_truth(strips):
             }
             for n in (strips, 40)
         ]
-        mine = SimpleNamespace(height=0.1, bem=outcomes[0], springs=outcomes[1], case=SimpleNamespace(heights=(0.1,)))
-        numbers = rolling_numbers.moments(mine)
+        found = {("bem3d", 0.1): outcomes[0], (SPRINGS, 0.1): outcomes[1]}
+        single = numbers_of(rolling.moments_at(Outcomes(ROLLING, found), 0.1))
+        numbers = [*numbers_with(single, VARIANCE), number_with(single, MEAN)]
         truths = (1.1, 1.1, numbers[2].reference)
         bem, springs, mean = (abs(n.value - truth) <= n.sample for n, truth in zip(numbers, truths, strict=True))
         shares += [bem and springs, mean]
@@ -103,8 +105,9 @@ def test_an_interval_of_a_ratio_is_that_of_its_logarithm_times_the_ratio():
     rng = np.random.default_rng(0)
     punches = {"stiffness": 1 + 0.1 * rng.standard_normal((20, len(case.forces)))}
     springs = {"stiffness": 3 + 0.1 * rng.standard_normal((30, len(case.forces)))}
-    result = SimpleNamespace(case=case, profiles=dict.fromkeys(rolling_input.INPUT_SPECTRA, springs), punches=punches)
-    number = punch_number(result, "geike")
+    profiles = dict.fromkeys(rolling_input.INPUT_SPECTRA, springs | {"height": np.array(1.0)})
+    numbers = numbers_of(rolling_input.punches_of(Outcomes(case, {**profiles, "punches": punches})))
+    number = numbers[0]
     assert number.value == pytest.approx(2.0, rel=0.1)
     level = nearest(case.forces, 0.1)
     relative = math.hypot(

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import bem3d
-from validation.cases.limits.solver import Grid, press_grid
 from validation.cases.punch import fractal_punch
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation import ridges, rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
+from validation.simulation.limits_of_half_space import Grid, press_grid
 from validation.simulation.track_spectrum import self_affine
 
 PUNCH = fractal_punch.FractalPunch(

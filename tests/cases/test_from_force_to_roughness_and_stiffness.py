@@ -10,8 +10,7 @@ import bem3d
 from validation.analysis.evidence import ClaimStatus, numbers_with
 from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
-from validation.cases.rolling import roughness_from_force, roughness_from_force_evidence, validity
-from validation.cases.rolling.force_spectrum_levels import level_1d, level_3d
+from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.rolling.roughness_from_force import FILTER_1D, FILTER_3D, MEAN_FILTER, RoughnessFromForce
 from validation.cases.rolling.track_stiffness import (
     DEVIATION,
@@ -26,9 +25,19 @@ from validation.cases.rolling.track_stiffness import (
     of_punches,
     of_tracks,
 )
-from validation.cases.rolling.validity import HEIGHT, REFERENCE, SLOPE, SPECTRA, Validity, ValidityResult
-from validation.cases.rolling.validity_reduced import LAYER, MODELS, over_boundary_elements, roll_reduced
+from validation.cases.rolling.validity import (
+    CORRELATION,
+    HEIGHT,
+    KEPT,
+    OFF,
+    REFERENCE,
+    SLOPE,
+    SPECTRA,
+    Validity,
+)
 from validation.simulation import track_stiffness
+from validation.simulation.linear_levels import level_1d, level_3d
+from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
 from validation.simulation.rolling_strip import roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
@@ -82,15 +91,15 @@ def on_linear_theory(factor=1.0):
     """A result whose boundary elements are linear theory, times a factor."""
     linear = RNG.lognormal(0, 0.2, (6, len(TRUE)))
     level = factor * linear * (1 + 1e-3 * RNG.standard_normal(linear.shape))
-    levels = {height: {"level": level, "linear level": linear} for height in CASE.heights}
-    return roughness_from_force.RoughnessFromForceResult(CASE, levels, ())
+    return Outcomes(CASE, {height: {"level": level, "linear level": linear} for height in CASE.heights})
 
 
 def test_claims_of_roughness_from_force_follow_their_numbers():
-    book, one, between, *_ = roughness_from_force_evidence.evidence(on_linear_theory()).claims
-    assert book.claim == roughness_from_force_evidence.CASE.claim
+    evidence = roughness_from_force.CASE.evidence
+    book, one, between, *_ = evidence(on_linear_theory()).claims
+    assert book.claim == roughness_from_force.CASE.claim
     assert [book.status, one.status, between.status] == [CONTRADICTED, CONTRADICTED, HOLDS]
-    assert roughness_from_force_evidence.evidence(on_linear_theory(4.0)).claims[2].status is CONTRADICTED
+    assert evidence(on_linear_theory(4.0)).claims[2].status is CONTRADICTED
 
 
 # --- where linear theory ends ---
@@ -115,17 +124,16 @@ def test_the_level_off_linear_theory_is_a_root_mean_square_in_decibels():
 def test_the_parameter_that_counts_is_found(parameter):
     """A loss of contact, and of level, that depends on one parameter alone."""
     case = Validity(slopes=(0.5, 1.0), heights=(0.1, 0.3))
-    kept, levels = {}, {}
+    found = {}
     for name, spectrum in SPECTRA.items():
         for given, value in case.levels:
             height = value / spectrum.slope_along if given == SLOPE else value
             x = height * (spectrum.slope_along if parameter == SLOPE else 1.0)
-            linear = RNG.lognormal(0, 0.2, (4, 3))
-            kept[name, given, value] = Estimate(1 - 0.3 * x, 0.001, 4)
-            cross = np.stack([linear, 0 * linear])
-            levels[name, given, value] = {"level": linear * 10 ** (-0.8 * x), "linear level": linear, "cross": cross}
-    reduced = {(model, key): Estimate(0.1 if model == LAYER else 3.0, 0.01, 4) for model in MODELS for key in levels}
-    claims = validity.evidence(ValidityResult(case, levels, kept, reduced, ())).claims
+            of = {KEPT: 1 - 0.3 * x, OFF: 8 * x, LAYER: 0.1, READ: 3.0}
+            found[name, given, value] = {what: Estimate(one, 0.01 * one, 4) for what, one in of.items()} | {
+                CORRELATION: 1.0
+            }
+    claims = validity.CASE.evidence(Outcomes(case, found)).claims
     slope, height, slope_level, height_level, read, layer = claims
     assert [read.status, layer.status] == [CONTRADICTED, HOLDS]
     right, wrong = (slope, height) if parameter == SLOPE else (height, slope)

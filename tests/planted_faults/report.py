@@ -11,7 +11,6 @@ from tests.report import (
     test_calibration_figure,
     test_claims,
     test_colours,
-    test_figure_lines,
     test_kept,
     test_page,
     test_printed,
@@ -20,11 +19,9 @@ from tests.report import (
 )
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
-from validation.cases.punch import fractal_punch_text
 from validation.report import build, chapter, formats, provenance, sounds, style
 from validation.report.answers import cells, words
 from validation.report.figures import ladder
-from validation.report.figures import rolling as rolling_figure
 from validation.report.page_figure import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
@@ -161,14 +158,6 @@ FAULTS = {
     "a statement of the book answered by numbers of another model": (
         (chapter, "numbers_with", lambda numbers, quantity, model: numbers_with(numbers, quantity)),
         functools.partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "model": "m"}),
-    ),
-    "another model's line under a label": (
-        (rolling_figure, "SPRINGS", "linear 1D"),
-        test_figure_lines.test_lines_of_rolling,
-    ),
-    "a printed decibel halved": (
-        (fractal_punch_text, "DECIBEL", 2 * statistics.DECIBEL),
-        test_printed.test_verdicts_of_fig_14_1_are_in_per_cent,
     ),
     "two signs of verdicts exchanged": (
         (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),

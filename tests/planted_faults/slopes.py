@@ -8,13 +8,12 @@ from tests.planted_faults.wrong import scaled
 from tests.scenes import test_materials
 from tests.theory import test_rolling_theory
 from validation.analysis.nominal_bands import NominalBands
-from validation.cases.limits import pressed_springs
+from validation.cases.limits import sweeps
 from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
-from validation.cases.rolling import validity
-from validation.cases.rolling.force_spectrum_levels import LevelsAtHeight
-from validation.cases.wheel import half_space_tables
+from validation.cases.rolling import settings, validity
+from validation.cases.wheel import half_space_study
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights
@@ -35,7 +34,7 @@ def fault_of(place, name, factor):
 STRIPS_AT_A_SLOPE = functools.partial(test_slopes.test_strips_at_equal_slopes_have_them, 0.3)
 AREA, GAP = (
     functools.partial(test_slopes.test_springs_are_right_where_persson_has_a_share_in_contact, *share)
-    for share in (("area", 0.9), ("gap", 0.5))
+    for share in (("true contact area", 0.9), ("mean gap", 0.5))
 )
 PIECES = functools.partial(
     test_rolling_cases.test_power_laws_have_unit_height_and_are_continuous,
@@ -71,7 +70,7 @@ PLACES = {
         functools.partial(test_slopes.test_a_description_has_the_slope_of_the_waves_that_it_names, "sphere"),
     ),
     "h' a/d of the wheel on the page": (
-        (half_space_tables, "slope_ratio"),
+        (half_space_study, "slope_ratio"),
         test_slopes.test_table_14_1_has_one_slope_everywhere,
     ),
     "h' a/d of Table 14.1 beside spectra": (
@@ -95,7 +94,7 @@ PLACES = {
         test_slopes.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands,
     ),
     "h' a/d of the force": (
-        (LevelsAtHeight, "slope"),
+        (settings.SelfAffineSettings, "slopes"),
         test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
     ),
     "h' a/d in the words of rolling": (
@@ -119,8 +118,8 @@ PLACES = {
         (rough_punch, "_gradient"),
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
-    "p over E* g of nine tenths in contact": ((pressed_springs, "FULL"), AREA),
-    "p over E* g of one half in contact": ((pressed_springs, "HALF"), GAP),
+    "p over E* g of nine tenths in contact": ((sweeps, "FULL"), AREA),
+    "p over E* g of one half in contact": ((sweeps, "HALF"), GAP),
     "Persson's fraction of a case": (
         (mdr_limits, "persson_fractions"),
         test_slopes.test_the_contact_fraction_of_persson_is_that_of_the_gradient,

@@ -15,8 +15,9 @@ class Curve:
     quantity: the table; model: one or several, all where empty; style: a name of `STYLES`, "graded" from dark to light;
     label: in the legend, by default the values, "_" for none; by: columns, a curve for each value of them; of: values
     that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve;
-    apart: from marker to marker, of the diagonal of the panel, all markers where zero.
-    upright: whether the values are places on the horizontal axis, drawn as lines across the panel.
+    apart: from marker to marker, of the diagonal of the panel, all markers where zero; beside: x of a curve with bars
+    over that of the last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis,
+    drawn as lines across the panel.
     """
 
     quantity: str
@@ -30,16 +31,23 @@ class Curve:
     band: bool = False
     down: float = 0.0
     apart: float = 0.0
+    beside: float = 1.03
     upright: bool = False
+
+
+def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) -> tuple[Curve, ...]:
+    """A curve of each model, by its name in the legend."""
+    return tuple(Curve(quantity, model, style, model, bars=bars) for model, style in styles.items())
 
 
 @dataclass(frozen=True)
 class Panel:
     """Curves on one axis.
 
-    facet: a column, a panel for each of its values; log: the axes that are logarithmic; decades: of y below the largest
-    value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade, lines: of y; downward:
-    from the largest x on; ticked: at the values of x alone; legend: its place.
+    facet: a column, or several, a panel for each of their values; log: the axes that are logarithmic; decades: of y
+    below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade,
+    lines: of y; at: of x, dotted, where the panel reaches it; marks: the quantity whose values are marked on x by the
+    names of their models; downward: from the largest x on; ticked: at the values of x alone; legend: its place.
     """
 
     x: str
@@ -47,7 +55,7 @@ class Panel:
     curves: tuple[Curve, ...]
     title: str = ""
     _: KW_ONLY
-    facet: str = ""
+    facet: str | tuple[str, ...] = ()
     log: str = "x"
     xlim: Bounds | None = None
     ylim: Bounds | None = None
@@ -55,6 +63,8 @@ class Panel:
     judged: str = ""
     shade: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()
+    at: tuple[float, ...] = ()
+    marks: str = ""
     downward: bool = False
     ticked: bool = False
     legend: str = ""
@@ -62,13 +72,16 @@ class Panel:
 
 @dataclass(frozen=True)
 class Map:
-    """A quantity over two parameters in colours, a panel for each value of `facet`; borders: where it passes them."""
+    """A quantity over two parameters in colours, a panel for each value of `facet`; borders: where it passes them;
+    at: of x, dotted.
+    """
 
     quantity: str
     x: str
     y: str
     facet: str
     label: str
+    at: tuple[float, ...] = ()
     borders: tuple[float, float] = (1.0, 3.0)
     largest: float = 12.0
 
@@ -95,5 +108,6 @@ class Chart:
         if isinstance(self.panels, Map):
             return (self.panels.quantity,)
         curves = [curve.quantity for panel in self.panels for curve in panel.curves]
+        marks = [panel.marks for panel in self.panels if panel.marks]
         judged = [panel.judged + JUDGED for panel in self.panels if panel.judged]
-        return tuple(dict.fromkeys([*curves, *judged]))
+        return tuple(dict.fromkeys([*curves, *marks, *judged]))

@@ -9,9 +9,32 @@ MARGINS: Mapping[str, Margin] = {
         tolerance=0.005,
         relative=True,
         reason="0.5 %: a small part of the spacing of spectral lines, between which the peak is interpolated",
-        source="",
     ),
-    "level": Margin(
-        tolerance=1.0, reason="1 dB: a third of the 3 dB accepted for one-third octaves of rolling noise", source=""
+    "jump": Margin(
+        tolerance=0.03,
+        relative=True,
+        reason="3 %: half of the main lobe of Hann's window, two lines of a record of 65 longest waves",
     ),
+    "slope": Margin(
+        tolerance=0.05,
+        reason="0.05: 1 %, a difference of slope that is hardly visible on a double-logarithmic plot",
+    ),
+    "period": Margin(
+        tolerance=0.01,
+        relative=True,
+        reason="1 %: roughness at the edge of the contact changes the contact length to second order",
+    ),
+    "contrast": Margin(
+        tolerance=3.0,
+        reason="3 dB: maxima over zeros lower by a factor of two, hardly visible over decades",
+    ),
+    "floor": Margin(tolerance=0.1, reason="10 %: 0.4 dB of a level, far below what a plot shows"),
+    "break": Margin(tolerance=0.1, reason="10 %: a floor 0.4 dB off alone moves the break by 3 to 6 %"),
+    "lift-off": Margin(
+        tolerance=0.2,
+        relative=True,
+        reason="20 % of h / d: heights of a sweep lie about as far apart",
+    ),
+    "level": Margin(tolerance=1.0, reason="1 dB: a third of the 3 dB accepted for one-third octaves of rolling noise"),
 }
+"""Of the wheel and of its contact force; levels are over a reference, in one region of the spectrum."""

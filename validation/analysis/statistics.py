@@ -51,7 +51,7 @@ class Estimate:
         """Half of the 95 % interval: Student's quantile times the standard error."""
         return self.half_width_among(1)
 
-    def half_width_among(self, points: int) -> float:
+    def half_width_among(self, points: float) -> float:
         """Of an interval that holds at 95 % together with those of the other points of a range, by Bonferroni."""
         return student(self.samples - 1, 1 - 0.05 / points) * self.error
 
@@ -184,6 +184,10 @@ class Sample:
         whole = math.sqrt(self.size / (self.size - 1))
         error = whole * float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
         return Estimate(value, error, self.size)
+
+    def by_level(self, statistic: Statistic) -> list[Estimate]:
+        """A number at each level."""
+        return [self.estimate(at_level(level, statistic)) for level in range(self.moments.shape[1])]
 
 
 def sample(realisations: FloatArray, rng: np.random.Generator) -> Sample:

@@ -2,7 +2,7 @@
 
 import string
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from validation.analysis.chart import Chart
@@ -10,6 +10,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.series import Series, numbers_of, tables_of
 from validation.analysis.sound import Sounds
+from validation.analysis.wording import title
 
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
@@ -35,10 +36,10 @@ def nothing(*_: Any) -> tuple[()]:
 class Study:
     """What a case declares beside its settings and solves.
 
-    title, method: with settings in braces; series: of a result, all that it shows; claims: the first is that of the
-    case; charts; matrices: verdicts on the page; printed: names of tables on the page; tables: that are no series;
-    once_more: numbers that are judged by another margin too; notes: sentences that no pattern has; sounds: played on
-    the page.
+    title, method: with settings in braces; series: of a result, all that it shows; claims: with settings too, the first
+    is that of the case; charts; matrices: verdicts on the page; printed: names of tables on the page; tables: that are
+    no series; once_more: numbers that are judged by another margin too; notes: sentences that no pattern has; sounds:
+    played on the page.
     """
 
     title: str
@@ -57,7 +58,8 @@ class Study:
         series = self.series(result)
         numbers, tables, case = numbers_of(series), (*tables_of(series), *self.tables(result)), result.case
         numbers = (*self.once_more(result, numbers), *numbers)
-        pairs = [(claim, claim.judged(numbers)) for claim in self.claims if claim.numbers(numbers)]
+        filled = [replace(claim, says=self._filled(claim.says, case)) for claim in self.claims]
+        pairs = [(claim, claim.judged(numbers)) for claim in filled if claim.numbers(numbers)]
         said = {claim.says: claim.headline(judged) for claim, judged in pairs if claim.short}
         return Evidence(
             title=self.title,
@@ -71,16 +73,13 @@ class Study:
             claims=tuple(judged for _, judged in pairs),
             conclusions=tuple(self.notes(result)),
             captions={chart.name: self._filled(chart.caption, case) for chart in self.charts},
-            headlines={chart.name: self._headline(chart, said) for chart in self.charts},
+            headlines={
+                chart.name: title(*(said.get(filled[i].says, "") for i in chart.claims)) for chart in self.charts
+            },
             finding=f"{'; '.join(list(said.values())[:2])}.",
             unconverged=result.unconverged,
             sounds=self.sounds(result),
         )
-
-    def _headline(self, chart: Chart, said: Mapping[str, str]) -> str:
-        """Of the claims that the chart shows."""
-        shown = [self.claims[i].says for i in chart.claims]
-        return "; ".join(said[one] for one in shown if one in said)
 
     @staticmethod
     def _filled(text: str, case: Any) -> str:

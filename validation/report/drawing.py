@@ -26,47 +26,63 @@ STYLES: dict[str, Style] = {
     "dashed": {**GUIDE, "linestyle": "--"},
     "interval": {"color": "#000000"},
     "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
+    "bem line": {"color": BEM["color"], "linestyle": "--", "linewidth": 1.2},
+    "triangles": {**MDR, "color": "#009E73", "marker": "^"},
     "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
 }
 GRADED: dict[str, Style] = {
     "graded": {},
     "marks": {"linestyle": "none"},
     "lines": {"marker": "none"},
+    "graded dashed": {"linestyle": "--"},
     "dotted": {"marker": "none", "linestyle": ":"},
     "open": {"markerfacecolor": "white", "linestyle": ":"},
     "open marks": {"markerfacecolor": "white", "linestyle": "none"},
 }
 FIRST = "first"
-POINTS = 12
+POINTS, FEW, LARGE = 12, 15, 1e5
+FEW_DECADES = 300
+HIGHEST = 4.8
+"""Of a row of panels."""
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
 def draw(chart: Chart, evidence: Evidence) -> Figure:
     if isinstance(chart.panels, Map):
         return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
-    facets = [(panel, *facet) for panel in chart.panels for facet in _facets(panel, evidence)]
-    columns = chart.columns or len(facets)
+    facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
+    columns = min(chart.columns or len(facets), len(facets))
     rows = -(-len(facets) // columns)
     shared: Literal["all", "none"] = "all" if chart.sharey else "none"
-    figure, axes = panels(rows, columns, width=chart.width, height=chart.height, sharey=shared)
-    for axis, (panel, column, value) in zip(axes, facets, strict=False):
-        _panel(axis, panel, {column: value} if column else {}, evidence)
-    for axis, (panel, *_) in zip(axes, facets, strict=False):
+    figure, axes = panels(rows, columns, width=chart.width, height=min(chart.height, HIGHEST * rows), sharey=shared)
+    for axis, (panel, facet) in zip(axes, facets, strict=False):
+        _panel(axis, panel, facet, evidence)
+    for axis, (panel, _) in zip(axes, facets, strict=False):
         _limits(axis, panel)
     for axis in axes[len(facets) :]:
         axis.set_visible(False)
-    without = [axis for axis, (panel, *_) in zip(axes, facets, strict=False) if not panel.legend]
+    for i, axis in enumerate(axes):
+        if chart.sharey and i % columns:
+            axis.set_ylabel("")
+    without = [axis for axis, (panel, _) in zip(axes, facets, strict=False) if not panel.legend]
     labels = dict(pair for axis in without for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
     if labels:
         figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
     return figure
 
 
-def _facets(panel: Panel, evidence: Evidence) -> list[tuple[str, object]]:
-    if not panel.facet:
-        return [("", None)]
-    values = dict.fromkeys(v for c in panel.curves for v in _rows(evidence, c, {}).columns.get(panel.facet, ()))
-    return [(panel.facet, value) for value in values]
+def _facets(panel: Panel, evidence: Evidence) -> list[dict[str, object]]:
+    names = (panel.facet,) if isinstance(panel.facet, str) else panel.facet
+    if not names or not names[0]:
+        return [{}]
+    tables = [_rows(evidence, curve, {}) for curve in _there(panel, evidence)]
+    values = dict.fromkeys(key for one in tables for key in zip(*(one.columns.get(n, ()) for n in names), strict=True))
+    return [dict(zip(names, key, strict=True)) for key in values] or [{}]
+
+
+def _there(panel: Panel, evidence: Evidence) -> list[Curve]:
+    """A run need not have every quantity."""
+    return [curve for curve in panel.curves if evidence.has_table(curve.quantity)]
 
 
 def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
@@ -74,7 +90,7 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         axis.axhspan(*panel.shade, color="#000000", alpha=0.07, linewidth=0)
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
-    for curve in panel.curves:
+    for curve in _there(panel, evidence):
         # a family has one style in all facets
         every = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
         for key, values, mine in _families(curve, _rows(evidence, curve, facet)):
@@ -83,7 +99,9 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    if panel.legend:
+    if panel.marks:
+        _marks(axis, _chosen(evidence.table(panel.marks), facet))
+    if panel.legend and axis.get_legend_handles_labels()[1]:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
 
@@ -97,6 +115,14 @@ def _verdicts(axis: Axes, judged: Table) -> None:
         axis.text(math.sqrt(x * to), 0.97, SIGN[verdict], transform=axis.get_xaxis_transform(), ha="center", va="top")
 
 
+def _marks(axis: Axes, marks: Table) -> None:
+    """Vertical lines with their names at the lower end."""
+    for name, x in zip(marks["model"], marks["value"], strict=True):
+        axis.axvline(x, **GUIDE)
+        where = axis.get_xaxis_transform()
+        axis.text(x, 0.02, name, transform=where, rotation=90, va="bottom", ha="right", fontsize=7)
+
+
 def _limits(axis: Axes, panel: Panel) -> None:
     if panel.decades:
         top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
@@ -108,17 +134,30 @@ def _limits(axis: Axes, panel: Panel) -> None:
         axis.set_ylim(*panel.ylim)
     if panel.ticked:
         tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
-    elif "x" in panel.log:
-        low, high = axis.get_xlim()
-        steps = (1, 2, 5) if high < 300 * low else (1,)
-        powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
-        tick(axis, [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high])
+    elif "x" in panel.log and axis.get_xlim()[1] < LARGE:
+        tick(axis, _round(*axis.get_xlim()))
+    if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
+        tick(axis, _round(*axis.get_ylim()), up=True)
+    for x in panel.at:
+        if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
+            axis.axvline(x, **GUIDE)
     if panel.downward:
         axis.invert_xaxis()
 
 
+def _round(low: float, high: float) -> list[float]:
+    """Powers of ten, of few decades two and five times them too."""
+    steps = (1, 2, 5) if high < FEW_DECADES * low else (1,)
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
+    return [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
+
+
 def _said(name: str, value: object) -> str:
-    return str(value) if isinstance(value, str) else f"{name} = {value:g}"
+    """A value by its name; a name by itself, unless it is a number of a column that has names too."""
+    try:
+        return f"{name} = {float(value):g}"  # type: ignore[arg-type]
+    except ValueError:
+        return str(value)
 
 
 def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
@@ -152,6 +191,8 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         style["markevery"] = curve.apart
     y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
+    if curve.style == "graded":
+        style = {**style, "markevery": max(y.size // FEW, 1)}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
     if curve.style == "interval":
@@ -161,11 +202,13 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         for at in mine["value"]:
             axis.axvline(at, label=label, **style)
         return
-    if curve.bars:
+    if curve.bars and np.any(high > low):
         # down to nothing: on a logarithmic axis a decade
         down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
         bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
-        axis.errorbar(mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
+        # moved a little, so that intervals stand side by side
+        beside = curve.beside**i if "x" in panel.log else 1.0
+        axis.errorbar(beside * mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
     else:
         axis.plot(mine[x], y - down, label=label, **style)
     if curve.band:
@@ -194,6 +237,9 @@ def _map(chart: Chart, what: Map, table: Table) -> Figure:
         axis.set(xscale="log", yscale="log", title=str(facet))
         axis.set_yticks(up, [f"{y:g}" for y in up])
         axis.yaxis.minorticks_off()
+        tick(axis, _round(edges_x[0], edges_x[-1]))
+        for x in what.at:
+            axis.axvline(x, **GUIDE)
         axis.grid(visible=False)
     for axis in axes[::2]:
         axis.set_ylabel(what.y)

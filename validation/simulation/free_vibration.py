@@ -6,7 +6,9 @@ from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import stats
 
+from validation.analysis.statistics import Estimate
 from validation.engine.engine import Outcome
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, HertzLaw, LinearLaw
@@ -179,3 +181,9 @@ def kept_energy(u: FloatArray, v: FloatArray, x: float) -> FloatArray:
     root = np.sqrt(np.maximum(u, 0.0))
     slope = 2 / 3 * (root**3 - 1)
     return np.asarray(hertz_energy(u, v) + x**2 * (v**2 * root / 12 - slope**2 / 24))
+
+
+def fit_drift(y: FloatArray) -> Estimate:
+    """Change over the whole of a long run by a straight line through its tenths."""
+    line = stats.linregress((np.arange(y.size) + 0.5) / y.size, y)
+    return Estimate(float(line.slope), float(line.stderr), y.size - 1)

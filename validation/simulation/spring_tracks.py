@@ -2,7 +2,9 @@
 
 import math
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import scipy
@@ -12,8 +14,9 @@ import mdr
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import SpringsLaw
+from validation.simulation.contact_laws import HertzLaw, SpringsLaw
 from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
+from validation.simulation.integrators import INTEGRATORS
 from validation.simulation.motion import simulate
 
 FloatArray = NDArray[np.float64]
@@ -247,3 +250,34 @@ def highest_band(track: RoughTrack) -> slice:
     """Waves of the track in the last one-third octave."""
     last = round(track.waves * track.longest / track.shortest)
     return slice(math.ceil(last * 2 ** (-1 / 3)), last + 1)
+
+
+def pulls_from(height: FloatArray, pull: FloatArray) -> float:
+    """h / d at which the deepest linear pull is F_N: interpolated, both logarithmic, where the load changes too."""
+    order = np.argsort(height)
+    x, y = np.log(height[order]), np.log(pull[order])
+    if y[0] <= 0 <= y[-1]:
+        return float(np.exp(np.interp(0.0, y, x)))
+    return float(np.exp(x[0] - (x[-1] - x[0]) / (y[-1] - y[0]) * y[0]))
+
+
+def refusals() -> dict[str, str]:
+    """Messages of calls that must be refused: steps past the limit of each scheme, and too few points to a wave."""
+    calls: dict[str, Callable[[], object]] = {}
+    for scheme in INTEGRATORS:
+        step = 1.001 * max(scheme.limit, 2.0) / WHEEL.eigenfrequency / scheme.cells
+        calls[f"simulate, {scheme.name}, a step just past its limit"] = partial(
+            simulate, WHEEL, HertzLaw(WHEEL), time_step=step, steps=1, integrator=scheme
+        )
+    coarse = RoughTrack(rms=HEIGHT, seed=0, per_wave=1)
+    calls["rough_profile, one point to the shortest wave"] = partial(coarse.heights, 1)
+    return {name: refusal(call) for name, call in calls.items()}
+
+
+def refusal(call: Callable[[], object]) -> str:
+    """The message of a call that is refused, else nothing."""
+    try:
+        call()
+    except ValueError as error:
+        return str(error)
+    return ""

@@ -1,6 +1,7 @@
 """Spectra of an isotropic surface, and those that springs along a track get for it."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -16,6 +17,11 @@ InputSpectrum = Literal["geike", "line", "rolling"]
 """Geike's rule; the line trace of the surface; the rolling-equivalent spectrum, `mdr.rolling_spectrum`."""
 
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "line", "rolling")
+INPUT_NAMES: Mapping[InputSpectrum, str] = {
+    "geike": "Geike's spectrum",
+    "line": "line trace",
+    "rolling": "rolling-equivalent spectrum",
+}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from validation.analysis.evidence import Table, table_of
-from validation.analysis.series import Margin, Series, criterion
+from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes
 from validation.benchmarks.found_models import TimedProblem, all_methods
@@ -180,7 +180,7 @@ def _agreement(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
         if done:
             for what, key, tolerance, reason in AGREEMENT:
                 value, at = max(row[key] for row in done), {"problems": len(done)}
-                yield criterion(DIFFERENCE.format(what), name, value, 0.0, tolerance, reason, source, at)
+                yield single(DIFFERENCE.format(what), name, value, tolerance, source, reason, where=at)
 
 
 def _speed(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:

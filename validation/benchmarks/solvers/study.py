@@ -54,8 +54,8 @@ STUDY = Study(
     charts=(
         Chart(
             "race",
-            "Grids of {c.cells} cells a side. (a) Median time to the residual, bars from the fastest to the slowest run. (b) The "
-            "same over the median of bem3d.solve.",
+            "Grids of {c.cells} cells a side. (a) Median time to the residual, bars from the fastest to the slowest "
+            "run. (b) The same over the median of bem3d.solve.",
         ),
         Chart(
             "race-growth",

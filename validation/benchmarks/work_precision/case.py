@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from validation.analysis.evidence import Place, Table, table_of
-from validation.analysis.series import Margin, Series, criterion
+from validation.analysis.evidence import Place, Role, Table, table_of
+from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Settings
 from validation.benchmarks.found_models import TimedProblem, all_methods
@@ -148,10 +148,10 @@ ORDERS = (
 )
 """Scene, quantity, method, and the power that theory has, with a tolerance and its reason."""
 SAME = ("sphere", "force"), ("square punch", "stiffness"), ("Westergaard's wave", "approach")
-AGREEMENT = Margin(10.0, "10 %, or 1 dB: tolerance of agreement", source="boundary elements, extrapolated")
+AGREEMENT = "10 %, or 1 dB: tolerance of agreement"
 TIME, UP_TO, FROM = "time over that of the cheapest other method as close", "springs", "boundary elements"
 CHEAPEST = Margin(1.0, "above one another method is cheaper")
-A_DAY = Margin(24.0, "a day on one core is not too costly", source="no cost")
+A_DAY = "a day on one core is not too costly"
 NOTCH = 1.57
 """Half of the 95 % interval of a median, over the interquartile range over sqrt(runs).
 
@@ -166,11 +166,9 @@ def series(result: Outcomes) -> list[Series]:
     for chart in charts:
         found += [*_models(chart), *times(chart)]
     hours, low, high = (float(result["cost"][name][1]) for name in HOURS)
-    at = {"a/dx": float(result["cost"]["a/dx"][1])}
-    return [
-        *found,
-        Series(COST, FROM, (Interval(hours, max(high - hours, hours - low)),), where=at, unit="h", margin=A_DAY),
-    ]
+    at, time = {"a/dx": float(result["cost"]["a/dx"][1])}, Interval(hours, max(high - hours, hours - low))
+    cost = single(COST, FROM, time, 24.0, "no cost", A_DAY, 0.0, at, role=Role.FINDING, unit="h")
+    return [*found, cost]
 
 
 def _finished(charts: Sequence[Sequence[Point]], scene: str, quantity: str, method: str) -> list[Point]:
@@ -186,7 +184,7 @@ def _orders(charts: Sequence[Sequence[Point]]) -> Iterator[Series]:
             n, off = np.array([p.value for p in mine]), np.array([p.error for p in mine])
             slope = -np.polynomial.polynomial.polyfit(np.log(n), np.log(off), 1)[1]
             at = {"scene": scene}
-            yield criterion(ORDER.format(quantity), method, slope, order, tolerance, reason, "error model", at)
+            yield single(ORDER.format(quantity), method, float(slope), tolerance, "error model", reason, order, at)
 
 
 def _equal(charts: Sequence[Sequence[Point]]) -> Iterator[Series]:
@@ -198,7 +196,7 @@ def _equal(charts: Sequence[Sequence[Point]]) -> Iterator[Series]:
         if plain:
             ratio = max((p.over / fast[p.value] for p in plain), key=lambda ratio: abs(ratio - 1))
             at: dict[str, Place] = {"scene": scene, "grids": len(plain)}
-            yield criterion(EQUAL.format(quantity), POLONSKY_KEER, ratio, 1.0, 1e-6, reason, source, at)
+            yield single(EQUAL.format(quantity), POLONSKY_KEER, ratio, 1e-6, source, reason, 1.0, at)
 
 
 def _models(chart: Sequence[Point]) -> Iterator[Series]:
@@ -206,16 +204,24 @@ def _models(chart: Sequence[Point]) -> Iterator[Series]:
     if any(point.is_reference for point in chart):
         return
     for method, last in {point.method: point for point in chart if point.is_model and point.finished}.items():
-        level = last.unit == "dB"
-        yield Series(
-            f"{'rms' if level else 'relative'} error of the {last.quantity}",
+        kind, scale, within = ("rms", 1.0, 1.0) if last.unit == "dB" else ("relative", 100.0, 10.0)
+        found, at = (
+            Interval(scale * last.error, scale * last.half_width),
+            {"scene": last.scene, "setting": last.setting},
+        )
+        name, source = f"{kind} error of the {last.quantity}", "boundary elements, extrapolated"
+        yield single(
+            name,
             method,
-            (Interval(last.error, last.half_width),),
-            where={"scene": last.scene, "setting": last.setting},
-            grid=last.band,
-            scale=1.0 if level else 100.0,
+            found,
+            within,
+            source,
+            AGREEMENT,
+            0.0,
+            at,
+            role=Role.FINDING,
             unit=last.unit,
-            margin=replace(AGREEMENT, tolerance=1.0) if level else AGREEMENT,
+            grid=scale * last.band,
         )
 
 

@@ -11,7 +11,8 @@ import mdr
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, off_by
-from validation.analysis.series import Margin, Series, criterion
+from validation.analysis.evidence import Role
+from validation.analysis.series import Margin, Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.spectral_moments import line_moment, mean_power_of_cosine, surface_moment
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -105,16 +106,15 @@ def _ratios(name: str, moments: Mapping[int, float], over: str, references: Mapp
 
 def _of_line(name: str, share: float, exact: float) -> Series:
     quantity = f"{name} over that of the surface"
-    return criterion(quantity, LINE, share, exact, 1e-6, KINK, "mean of |cos|^n over directions")
+    return single(quantity, LINE, share, 1e-6, "mean of |cos|^n over directions", KINK, exact)
 
 
 def _of_lines(case: Geike, spectra: Mapping[str, NDArray[np.float64]]) -> Iterator[Series]:
     """The spectrum along lines of surfaces over both rules, mean over twice the lowest to a quarter of the highest."""
     middle = slice(2 * case.longest - 1, case.shortest // 4)
     over_line, over_geike = (float(np.mean(spectra[LINES][middle] / spectra[rule][middle])) for rule in (LINE, GEIKE))
-    yield criterion(OVER_LINE, LINES, over_line, 1.0, 1e-3, SUM, "SelfAffine.line")
-    margin = Margin(1e-3, "0.001, as for the line trace", source="(10.12)")
-    yield Series(OVER_GEIKE, LINES, (over_geike,), reference=1.0, margin=margin)
+    yield single(OVER_LINE, LINES, over_line, 1e-3, "SelfAffine.line", SUM, 1.0)
+    yield single(OVER_GEIKE, LINES, over_geike, 1e-3, "(10.12)", "0.001, as for the line trace", 1.0, role=Role.FINDING)
 
 
 STUDY = Study(

@@ -9,7 +9,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, off_by
-from validation.analysis.series import Series, criterion
+from validation.analysis.series import Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -99,15 +99,15 @@ def series(result: Outcomes) -> list[Series]:
     """Force, approach, contact radius, stiffness and pressure over Hertz on the finest grid; order of the force."""
     case, bem, springs = result.case, result[BEM, "grids"], result[MDR, "grids"]
     cell, finest = 1 / case.cells_per_radius[-1], bem[-1]
-    over_bem, radius = springs[-1]["force"] / finest["force"], finest["radius"] / case.contact_radius
+    over_bem, radius = float(springs[-1]["force"] / finest["force"]), float(finest["radius"]) / case.contact_radius
     both = "sum of both discretisation errors"
     return [
         *_shown(result),
         *_over_hertz(case, BEM, bem),
         *_over_hertz(case, MDR, springs),
-        criterion("contact radius over Hertz", BEM, radius, 1.0, cell, ONE_CELL, HERTZ),
-        criterion(PRESSURE_ERROR, BEM, finest["pressure_error"], 0.0, cell, FIRST, HERTZ),
-        criterion("force at the given approach", OVER, over_bem, 1.0, 0.75 * cell**2, both, "the other method"),
+        single("contact radius over Hertz", BEM, radius, cell, HERTZ, ONE_CELL, 1.0),
+        single(PRESSURE_ERROR, BEM, float(finest["pressure_error"]), cell, HERTZ, FIRST),
+        single("force at the given approach", OVER, over_bem, 0.75 * cell**2, "the other method", both, 1.0),
     ]
 
 
@@ -139,13 +139,13 @@ def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> Iterator[Se
     cell, last = 1 / case.cells_per_radius[-1], outcomes[-1]
     quadratic, why, scatter = FORCE_ERROR[model]
     punch = closed_forms.circular_punch_stiffness(radius=case.contact_radius, modulus=case.modulus)
-    force, approach = last["force"] / case.force, last["approach_at_force"] / case.approach
+    force, approach = float(last["force"]) / case.force, float(last["approach_at_force"]) / case.approach
     near, power = quadratic * cell**2, "two thirds of the tolerance of the force, since d ~ F^(2/3)"
     rate, second = order(case.cells_per_radius, _errors(case, outcomes)), f"second order; {scatter}"
-    yield criterion("force at the given approach over Hertz", model, force, 1.0, near, why, HERTZ)
-    yield criterion("approach at the given force over Hertz", model, approach, 1.0, 2 / 3 * near, power, HERTZ)
-    yield criterion("stiffness over 2 E* a", model, last["stiffness"] / punch, 1.0, cell, RADIUS, "Boussinesq")
-    yield criterion("order of the force error in the cell size", model, rate, 2.0, 0.5, second, "error model")
+    yield single("force at the given approach over Hertz", model, force, near, HERTZ, why, 1.0)
+    yield single("approach at the given force over Hertz", model, approach, 2 / 3 * near, HERTZ, power, 1.0)
+    yield single("stiffness over 2 E* a", model, float(last["stiffness"]) / punch, cell, "Boussinesq", RADIUS, 1.0)
+    yield single("order of the force error in the cell size", model, rate, 0.5, "error model", second, 2.0)
 
 
 LOOKS = {

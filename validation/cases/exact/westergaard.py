@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, off_by
-from validation.analysis.series import Series, criterion
+from validation.analysis.series import Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
@@ -89,7 +89,7 @@ def _share_of_edges(found: Outcome) -> float:
 
 def _at_load(wave: CosineWave, found: Outcome) -> Iterator[Series]:
     """Pressure and width on the finest grid."""
-    here = partial(criterion, source=EXACT, where={LOAD: wave.load})
+    here = partial(single, where={LOAD: wave.load})
     by_place = partial(Series, PRESSURE, where={LOAD: wave.load}, along=PLACE, at=found["x"] / wave.wavelength)
     yield by_place(BEM, found["pressure"] / wave.full_pressure)
     yield by_place(EXACT, found["exact_pressure"] / wave.full_pressure)
@@ -97,18 +97,18 @@ def _at_load(wave: CosineWave, found: Outcome) -> Iterator[Series]:
     at_edge = closed_forms.westergaard_pressure(a - wave.spacing, **wave.scene)
     near = float(at_edge * np.sqrt(2 / np.sum(found["exact_pressure"] ** 2)))
     why = "an error in both edge cells as large as the pressure one cell inside the edge"
-    yield here(ERROR, BEM, found["error"], 0.0, near, why)
-    width, one_cell = found["half_width"] / a, "one cell at each edge"
-    yield here("half-width of the contact over Westergaard", BEM, width, 1.0, wave.spacing / a, one_cell)
+    yield here(ERROR, BEM, float(found["error"]), near, EXACT, why)
+    width, one_cell = float(found["half_width"]) / a, "one cell at each edge"
+    yield here("half-width of the contact over Westergaard", BEM, width, wave.spacing / a, EXACT, one_cell, 1.0)
 
 
 def _at_half_load(case: Westergaard, errors: NDArray[np.float64]) -> Iterator[Series]:
     """The pressure where the edges of the contact lie between cells on every grid, and its order."""
-    here = partial(criterion, where={LOAD: 0.5})
+    here = partial(single, where={LOAD: 0.5})
     near, scaled = 7e-4 * 512 / case.cells[-1], "7e-4 on 512 cells, scaled to other grids at first order"
-    yield here(f"{ERROR}, edges between cells", BEM, errors[-1], 0.0, near, scaled, source=EXACT)
+    yield here(f"{ERROR}, edges between cells", BEM, float(errors[-1]), near, EXACT, scaled)
     rate = order(case.cells, errors)
-    yield here("order of the pressure error in the cell size", BEM, rate, 1.0, 0.1, FIRST_ORDER, source="error model")
+    yield here("order of the pressure error in the cell size", BEM, rate, 0.1, "error model", FIRST_ORDER, 1.0)
 
 
 STUDY = Study(

@@ -15,11 +15,9 @@ from validation.analysis.series import Estimates, Margin, Series, masked, spans
 from validation.analysis.statistics import (
     DECIBEL,
     FIVE_PER_CENT,
-    Estimate,
     FloatArray,
     Sample,
     Statistic,
-    at_level,
     decade_slope,
     extrapolated,
     jackknifed,
@@ -127,21 +125,13 @@ class RollOffSamples:
     by_method: Mapping[tuple[str, str], Sample]
     grids: Mapping[str, FloatArray]
 
-    def of(self, method: str, measured: str, statistic: Statistic) -> Estimate:
-        return self.by_method[method, measured].estimate(statistic)
-
-    def finer(self, measured: str, statistic: Statistic) -> Estimate:
-        """The change to cells half as wide; by the jackknife, since the surfaces are few."""
+    def finer(self, measured: str, statistic: Statistic) -> Estimates:
+        """The changes to cells half as wide; by the jackknife, since the surfaces are few."""
 
         def of_grid(pairs: FloatArray, grid: int) -> FloatArray:
             return statistic(pairs[:, grid].mean(axis=0), pairs[:, grid].std(axis=0, ddof=1))
 
-        (found,) = jackknifed(lambda pairs: of_grid(pairs, 1) - of_grid(pairs, 0), self.grids[measured])
-        return found
-
-    def extrapolated(self, measured: str, statistic: Statistic) -> tuple[Estimate, float]:
-        """Boundary elements on cells of zero size, and what that leaves open."""
-        return extrapolated(self.of(BEM, measured, statistic), self.finer(measured, statistic))
+        return Estimates(jackknifed(lambda pairs: of_grid(pairs, 1) - of_grid(pairs, 0), self.grids[measured]))
 
     def there(self, method: str, measured: str) -> np.ndarray:
         """Levels at which a method has it: in full contact there is no gap."""
@@ -183,13 +173,12 @@ def series(result: Outcomes) -> list[Series]:
 def over_bem(case: MdrLimits, mine: RollOffSamples, quantity: str) -> Series:
     """MDR over boundary elements at the worst force of a decade, of those at which springs have it."""
     measured, statistic = JUDGED[quantity]
-    levels = [at_level(level, statistic) for level in range(len(case.forces))]
-    springs = Estimates(mine.of(MDR, measured, level) for level in levels)
-    bem, grid = zip(*(mine.extrapolated(measured, level) for level in levels), strict=True)
+    bem, springs = (Estimates(mine.by_method[method, measured].by_level(statistic)) for method in METHODS)
+    on_no_size, grid = zip(*map(extrapolated, bem, mine.finer(measured, statistic)), strict=True)
     return Series(
         quantity,
         OVER,
-        masked(springs - Estimates(bem), mine.there(MDR, measured)),
+        masked(springs - Estimates(on_no_size), mine.there(MDR, measured)),
         where={ROLL_OFF: mine.roll_off},
         along=FORCE,
         at=case.forces,
@@ -213,8 +202,9 @@ def _exponents(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer
     for first in case.first_forces if mine.roll_off >= MIN_ROLL_OFF else ():
         for method in METHODS:
             slope = weighted_mean(decade_slope(case.forces, first), layers[method].statistic)
-            springs = mine.of(MDR, "stiffness", slope), 0.0
-            found, grid = mine.extrapolated("stiffness", slope) if method == BEM else springs
+            found, grid = mine.by_method[method, "stiffness"].estimate(slope), 0.0
+            if method == BEM:
+                found, grid = extrapolated(found, *mine.finer("stiffness", slope))
             yield Series(
                 EXPONENT,
                 method,
@@ -229,7 +219,6 @@ def _exponents(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer
 
 def _shown(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer]) -> Iterator[Series]:
     """Both methods force by force, boundary elements apart where the mean contact has few cells."""
-    levels = range(len(case.forces))
     few = mine.by_method[BEM, "area"].moments[0] * case.cells**2 < FEW_CELLS
     by_force = partial(Series, where={ROLL_OFF: mine.roll_off}, along=FORCE, at=case.forces)
     for method in METHODS:
@@ -242,8 +231,8 @@ def _shown(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer]) -
             SCATTER: ("stiffness", log_relative_deviation, 1.0),
         }
         for quantity, (measured, statistic, unit) in drawn.items():
-            logs = Estimates(mine.of(method, measured, at_level(level, statistic)) for level in levels)
-            found = logs - Estimates.exact(np.log(unit * np.ones(len(levels))))
+            logs = Estimates(mine.by_method[method, measured].by_level(statistic))
+            found = logs - Estimates.exact(np.log(unit * np.ones(len(logs))))
             known = mine.there(method, measured) & (~few if method == BEM else True)
             yield by_force(quantity, method, masked(found, known), shown=math.exp)
             if method == BEM:

@@ -113,7 +113,6 @@ def series(result: Outcomes) -> list[Series]:
 def _changes(result: Outcomes, samples: Mapping[tuple[float, str, str], Sample]) -> Iterator[Series]:
     """At the worst force of each decade; the two Gaussian ways on the same draws, resampled as pairs."""
     case = result.case
-    levels = range(len(case.forces))
     change = partial(
         Series,
         along=FORCE,
@@ -127,16 +126,14 @@ def _changes(result: Outcomes, samples: Mapping[tuple[float, str, str], Sample])
     )
     for h, hurst in enumerate(case.hursts):
         for m, method in enumerate(METHODS):
-            fixed, each = (_at_levels(samples[hurst, way, method], levels) for way in (FIXED, EACH))
+            drawn = (samples[hurst, way, method] for way in (FIXED, EACH))
+            fixed, each = (Estimates(one.by_level(log_relative_deviation)) for one in drawn)
             before, after = (result[hurst, way, method]["stiffness"] for way in (EACH, ENSEMBLE))
             pairs = paired_samples(before, after, random_generator(case.seed, PAIRS, h, m))
-            halves = (difference_of_halves(at_level(level, log_relative_deviation)) for level in levels)
+            levels = (at_level(level, log_relative_deviation) for level in range(len(case.forces)))
+            changed = [pairs.estimate(difference_of_halves(level)) for level in levels]
             yield change(GAUSSIAN, method, each - fixed, where={"H": hurst})
-            yield change(OF_ENSEMBLE, method, Estimates(map(pairs.estimate, halves)), where={"H": hurst})
-
-
-def _at_levels(of: Sample, levels: range) -> Estimates:
-    return Estimates(of.estimate(at_level(level, log_relative_deviation)) for level in levels)
+            yield change(OF_ENSEMBLE, method, changed, where={"H": hurst})
 
 
 def _deviations(case: Normalisation, samples: Mapping[tuple[float, str, str], Sample]) -> Iterator[Series]:
@@ -149,7 +146,7 @@ def _deviations(case: Normalisation, samples: Mapping[tuple[float, str, str], Sa
             found = {}
             for method in METHODS:
                 mine = samples[hurst, way, method]
-                values = _at_levels(mine, range(len(case.forces)))
+                values = mine.by_level(log_relative_deviation)
                 yield Series(DEVIATION, method, values, where=key, along=FORCE, at=case.forces, shown=math.exp)
                 found[method] = Estimates(map(mine.estimate, decades))
                 yield by_decade(OVER_DECADE, method, found[method], where=key, shown=math.exp)

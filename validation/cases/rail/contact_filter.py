@@ -121,7 +121,8 @@ STUDY = Study(
         f"the ellipse. Bands count down to the first in which A3 of linear theory is below {COUNTED:g} dB, since near "
         f"the zeros beyond it one-third octaves move by decibels. Roughness ends at {SHORTEST:g} a_x. The published "
         f"table is compared where it lies between {FOLLOWED:g} and {LEAST:g} dB; its value for 50 kN, 920 mm at 40 mm, "
-        "-1.3 dB, is masked: its neighbours, -1.1 dB at 50 mm and -3.5 dB at 31.5 mm, suggest about -2.1 dB."
+        "-1.3 dB, is masked: its neighbours, -1.1 dB at 50 mm and -3.5 dB at 31.5 mm, suggest about -2.1 dB. Levels in "
+        "dB(A) are those of the contact force, k times the equivalent roughness, with no mobility of wheel or track."
     ),
     series=series,
     claims=(

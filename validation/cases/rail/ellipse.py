@@ -13,15 +13,8 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, Where, only
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rail.filters import (
-    ACROSS,
-    COUNTED,
-    SPEEDS,
-    counted,
-    linear_filter,
-    scene_of,
-    weighted_difference,
-)
+from validation.analysis.wording import decibels
+from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, scene_of, weighted_difference
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
@@ -70,7 +63,7 @@ DIGITS = Margin(
     source="CONTACT, published example output, four digits",
     role=Role.CRITERION,
 )
-FIELD = Margin(tolerance=1.0, reason="1 dB: a tolerance of the field", source="filter of the ellipse")
+FIELD = Margin(1.0, "1 dB: a tolerance of the field", source="filter of the ellipse")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -142,6 +135,7 @@ STUDY = Study(
             says="A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB.",
             short="A circle of the same area for the ellipse",
             quantity=EXCESS,
+            printed=decibels,
         ),
     ),
     charts=(
@@ -181,7 +175,10 @@ STUDY = Study(
             claims=(1,),
         ),
     ),
-    matrices=tuple(Matrix(name=one, quantity=one, rows=(CROWN,), columns=GROUND) for one in (EXCESS, WEIGHTED)),
+    matrices=(
+        Matrix(name=EXCESS, quantity=EXCESS, rows=(CROWN,), columns=GROUND, printed=decibels),
+        Matrix(name=WEIGHTED, quantity=WEIGHTED, rows=(CROWN,), columns=GROUND),
+    ),
 )
 CASE = Case(
     name="ellipse",

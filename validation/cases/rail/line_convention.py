@@ -15,6 +15,7 @@ from validation.analysis.series import Margin, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
 from validation.analysis.study import Outcomes, Study
+from validation.analysis.wording import decibels
 from validation.cases.rail.filters import counted, decibel, linear_filter, scene_of
 from validation.cases.rail.published import RailWheel
 from validation.engine.engine import SERIAL, Engine
@@ -78,10 +79,10 @@ def run(case: LineConvention, engine: Engine = SERIAL) -> Outcomes:
 ENERGY, HEIGHTS, SCATTER = "energy mean of lines over one line", "mean of heights over one line", "scatter of a level"
 SPREAD, ELLIPSE = "deviation of a level from strip to strip", "A3 of the ellipse over that of a line"
 GROUND, SPACING, WAVE = "across", "spacing [mm]", "wavelength [mm]"
-NEAR = Margin(tolerance=1.0, reason="1 dB: a tolerance of the field", source="one line, mean of all realisations")
+NEAR = Margin(1.0, "1 dB: a tolerance of the field", source="one line, mean of all realisations")
 AS_ONE = Margin(
-    tolerance=0.15,
-    reason="15 %: a third less would be that of three independent lines, 1 / sqrt(3) = 0.58",
+    0.15,
+    "15 %: a third less would be that of three independent lines, 1 / sqrt(3) = 0.58",
     source="one line on the same strips",
 )
 
@@ -162,12 +163,14 @@ STUDY = Study(
             short="Mean of heights over one line",
             quantity=HEIGHTS,
             along=GROUND,
+            printed=decibels,
         ),
         Claim(
             says="The energy mean of the spectra of parallel lines has the levels of one line within 1 dB.",
             short="energy mean over one line",
             quantity=ENERGY,
             along=GROUND,
+            printed=decibels,
         ),
         Claim(says="Levels from the energy mean of three lines scatter as those of one line do.", quantity=SCATTER),
     ),
@@ -200,6 +203,7 @@ STUDY = Study(
                     ylim=(0, None),
                     downward=True,
                     ticked=True,
+                    legend="upper right",
                 ),
             ),
             claims=(0, 1),

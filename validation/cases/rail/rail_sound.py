@@ -36,12 +36,7 @@ SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike":
 """Models by the names of their files."""
 SHORTEST = 0.9
 """Largest wavenumber over that of two cells a wave."""
-LABELS = {
-    BEM: "boundary elements",
-    LINEAR: "linear theory in 3D",
-    SPRINGS_THAT_READ: SPRINGS_THAT_READ,
-    GEIKE: GEIKE,
-}
+LABELS = {model: model for model in SOUNDING.values()} | {LINEAR: "linear theory in 3D"}
 WEIGHTED, LOW = "A-weighted", "below the band"
 LONG, SHORT = "in waves longer than the contact", "in waves shorter than the contact"
 SILENT = -30.0
@@ -182,10 +177,6 @@ class RailSoundResult(Outcomes):
         """dB re 1 N; of all frequencies where no part is named."""
         signal = self.signal(model)
         return decibels(float(np.mean((signal if part is None else filtered(signal, self.gains[part])) ** 2)))
-
-    def share(self, model: str, part: str) -> float:
-        """Of the mean square of the force [%]."""
-        return 100 * 10 ** ((self.level(model, part) - self.level(model)) / 10)
 
     def over(self, model: str, part: str) -> tuple[Estimate, float]:
         """Level over boundary elements on the same strip, and what the grid leaves of it, to first order [dB]."""

@@ -51,7 +51,7 @@ def series(result: RailSoundResult) -> list[Series]:
         found += [
             Series(IN_BANDS, name, result.in_bands(model), along=FREQUENCY, at=f, unit="dB re 1 N"),
             Series(FORCE, name, force, along=TIME, at=time[: force.size], unit="N"),
-            Series(BELOW, name, (result.share(model, LOW),), unit="%"),
+            Series(BELOW, name, (100 * 10 ** ((result.level(model, LOW) - result.level(model)) / 10),), unit="%"),
         ]
     places = ((ENDS, case.band), (OF_CONTACT, (case.of_contact,)))
     return found + [Series(PLACES, name, at, along=FREQUENCY, at=at, unit="Hz") for name, at in places]
@@ -187,6 +187,7 @@ STUDY = Study(
                 ),
             ),
             claims=(0, 1, 2),
+            height=5.0,
         ),
     ),
     matrices=(Matrix(name=LEVEL, quantity=LEVEL, rows=("model",), columns="part", printed=or_less),),

@@ -1,17 +1,25 @@
 """The input spectrum of springs for rolling: Geike's, the line trace, or the rolling-equivalent one."""
 
 import math
-import warnings
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-import mdr
-from validation.cases.rolling.force_spectrum import RollingSettings
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.series import Estimates, Margin, Series, only
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, nearest
+from validation.analysis.study import Outcomes, Study
+from validation.cases.rolling.settings import HEIGHT, THREE_DECIBELS, Q, RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.engine.random_numbers import random_generator
-from validation.simulation.rolling_strip import TRACKS, roll_strips, roll_tracks, strip_levels
+from validation.simulation.input_profiles import InputProfiles, press_input_profiles
+from validation.simulation.linear_levels import ROUNDING, level_1d, level_3d
+from validation.simulation.rolling_strip import roll_strips, roll_tracks, strip_levels
 from validation.simulation.rough_punch import (
     PunchRoughness,
     Surface,
@@ -21,15 +29,12 @@ from validation.simulation.rough_punch import (
     stacked,
 )
 from validation.simulation.track_spectrum import (
+    INPUT_NAMES,
     INPUT_SPECTRA,
     InputSpectrum,
     PiecewisePowerLaw,
-    TrackSpectrum,
     self_affine,
 )
-
-RollingKey = tuple[str, float]
-"""Name of a spectrum, and h/d."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,62 +80,16 @@ class RollingInput(RollingSettings):
     def punch(self) -> PunchRoughness:
         return PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
 
+    def below_the_end(self, spectrum: PiecewisePowerLaw) -> slice:
+        """One-third octaves that begin below the end of a spectrum."""
+        return slice(np.count_nonzero(np.array(self.bands.edges[:-1]) < spectrum.edges[-1] * 0.999))
+
     def inside(self, spectrum: PiecewisePowerLaw) -> NDArray[np.bool_]:
-        """Which one-third octaves lie in the band of a spectrum."""
-        edges = np.array(self.bands.edges)
-        return np.asarray((edges[1:] > spectrum.edges[0] * 1.001) & (edges[:-1] < spectrum.edges[-1] * 0.999))
-
-    def below_the_end(self, spectrum: PiecewisePowerLaw) -> list[int]:
-        """Indices of the one-third octaves that begin below the end of a spectrum."""
-        return [i for i, low in enumerate(self.bands.edges[:-1]) if low < spectrum.edges[-1] * 0.999]
+        """Which of them lie in its band."""
+        return np.array(self.bands.edges[1:])[self.below_the_end(spectrum)] > spectrum.edges[0] * 1.001
 
 
-@dataclass(frozen=True, kw_only=True)
-class PunchProfiles:
-    """Profiles of the punches of Fig. 14.1 with an input spectrum, pressed at all forces."""
-
-    case: RollingInput
-    input_spectrum: InputSpectrum
-
-
-@dataclass(frozen=True)
-class RollingInputResult:
-    """Levels of boundary elements, and of springs by input spectrum; stiffness of punches, and of their profiles."""
-
-    case: RollingInput
-    bem: dict[RollingKey, Outcome]
-    mdr: dict[tuple[str, float, InputSpectrum], Outcome]
-    punches: Outcome
-    profiles: dict[InputSpectrum, Outcome]
-    unconverged: tuple[str, ...]
-
-
-def press_input_profiles(profiles: PunchProfiles) -> Outcome:
-    """k / (E* L) of each profile at each force; height: rms of the profiles over that of the surface."""
-    case, punch = profiles.case, profiles.case.punch
-    spectrum = PiecewisePowerLaw(edges=(2 * math.pi, math.pi / 2 * case.punch_cells), exponents=(2 * punch.hurst + 2,))
-    q = 2 * np.pi * np.arange(1.0, case.punch_cells // 4 + 1)
-    # the side of the punch for the diameter of the contact
-    c1d = TrackSpectrum(spectrum, profiles.input_spectrum, contact_radius=0.5)
-    height = math.sqrt(float(c1d(q).sum() / TrackSpectrum(spectrum, "geike")(q).sum()))
-    points, rms = 16 * case.punch_cells, punch.height * height
-    curves = [
-        mdr.load_curve(
-            mdr.rough_profile(c1d, length=1.0, points=points, rng=random_generator(case.seed, TRACKS, i), rms=rms),
-            length=1.0,
-            modulus=1.0,
-        )
-        for i in range(case.profiles)
-    ]
-    forces = punch.height * np.array(case.forces)
-    with warnings.catch_warnings():
-        # the lightest loads stand on few springs
-        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        stiffness = [curve.at_force(forces).stiffness for curve in curves]
-    return {"stiffness": np.array(stiffness), "height": np.array(height)}
-
-
-def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
+def run(case: RollingInput, engine: Engine = SERIAL) -> Outcomes:
     """Roll over the spectra by both methods; press the punches.
 
     Raises NotConvergedError where fewer than three strips of a spectrum and height, or surfaces at a force, converge.
@@ -140,23 +99,242 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> RollingInputResult:
         (name, h): scene.strips(case.cells, min(1e-5, 1e-4 * h), case.strips) for (name, h), scene in scenes.items()
     }
     strips, unconverged = roll_strips(groups, engine)
-    tracks = {(*key, rule): case.tracks_on(scene, rule) for key, scene in scenes.items() for rule in INPUT_SPECTRA}
+    tracks = {(rule, *key): case.tracks_on(scene, rule) for key, scene in scenes.items() for rule in INPUT_SPECTRA}
     on_springs = engine.map(roll_tracks, list(tracks.values()))
     surfaces = [
         Surface(roughness=case.punch, realisation=i, cells=case.punch_cells, forces=case.forces, tolerance=1e-4)
         for i in range(case.surfaces)
     ]
     pressed = engine.map(press_surface, surfaces)
-    profiles = engine.map(
-        press_input_profiles, [PunchProfiles(case=case, input_spectrum=rule) for rule in INPUT_SPECTRA]
+    profiles = partial(
+        InputProfiles, punch=case.punch, cells=case.punch_cells, realisations=case.profiles, forces=case.forces
     )
+    on_profiles = engine.map(press_input_profiles, [profiles(input_spectrum=rule) for rule in INPUT_SPECTRA])
     failures = describe_failures(surfaces, pressed)
     require_converged([stacked(pressed)], failures)
-    return RollingInputResult(
-        case,
-        {key: strip_levels(group, 1 / case.cells, case.bands) for key, group in strips.items()},
-        dict(zip(tracks, on_springs, strict=True)),
-        stacked(pressed),
-        dict(zip(INPUT_SPECTRA, profiles, strict=True)),
-        (*unconverged, *failures),
+    found: dict[Any, Outcome] = {
+        **{("bem3d", *key): strip_levels(group, 1 / case.cells, case.bands) for key, group in strips.items()},
+        **dict(zip(tracks, on_springs, strict=True)),
+        **dict(zip(INPUT_SPECTRA, on_profiles, strict=True)),
+        "punches": stacked(pressed),
+    }
+    return Outcomes(case, found, (*unconverged, *failures))
+
+
+LEVEL, LINEAR, ONE_SIDED = "level of a one-third octave", "linear springs over linear 3D", "springs over bem3d"
+STIFFNESS, OVER_BEM = "mean stiffness of punches", "mean stiffness of punches over that of boundary elements"
+PROFILE_HEIGHT = "rms height of the profiles of punches over that of the surfaces"
+SPECTRUM, INPUT, FORCE = "spectrum", "input", "Fbar"
+BESIDE_LINEAR = replace(THREE_DECIBELS, source="linear theory in 3D, by quadrature")
+BESIDE_BEM = replace(THREE_DECIBELS, source="bem3d, relative to linear theory on the same surfaces")
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Linear errors band by band; springs beside boundary elements; the punches of Fig. 14.1."""
+    return [*_linear(result.case), *_rolled(result), *punches_of(result)]
+
+
+def _linear(case: RollingInput) -> Iterator[Series]:
+    """(14.12) over linear theory in 3D."""
+    for name, spectrum in case.spectra.items():
+        below, inside = case.below_the_end(spectrum), case.inside(spectrum)
+        at, exact = case.bands.centres[below], level_3d(spectrum, case.bands)[below]
+        for rule in INPUT_SPECTRA:
+            with np.errstate(divide="ignore"):
+                over = np.log(level_1d(spectrum, rule, case.bands)[below] / exact)
+            yield Series(
+                LEVEL,
+                LINEAR,
+                over,
+                where={SPECTRUM: name, INPUT: INPUT_NAMES[rule]},
+                along=Q,
+                at=at,
+                scale=POWER_DECIBEL,
+                unit="dB",
+                margin=BESIDE_LINEAR,
+                ranges=only(at, inside),
+            )
+
+
+def _rolled(result: Outcomes) -> Iterator[Series]:
+    """One-sided springs over boundary elements; intervals of the worst bands hold at once for all spectra, heights."""
+    case = result.case
+    for height, (name, spectrum) in ((h, one) for h in case.heights for one in case.rolled.items()):
+        below, inside = case.below_the_end(spectrum), case.inside(spectrum)
+        at, exact = case.bands.centres[below], height**2 * level_3d(spectrum, case.bands)[below]
+        bem = result["bem3d", name, height]
+        bem_over_linear = Estimates.ratios(bem["level"][:, below], bem["linear level"][:, below])
+        for rule in INPUT_SPECTRA:
+            springs = np.maximum(result[rule, name, height]["level"][:, below], ROUNDING)
+            yield Series(
+                LEVEL,
+                ONE_SIDED,
+                Estimates.ratios(springs, exact) - bem_over_linear,
+                where={SPECTRUM: name, HEIGHT: height, INPUT: INPUT_NAMES[rule]},
+                along=Q,
+                at=at,
+                scale=POWER_DECIBEL,
+                unit="dB",
+                margin=BESIDE_BEM,
+                ranges=only(at, inside),
+                family=len(case.heights) * len(case.rolled),
+                rms_family=1,
+            )
+
+
+def punches_of(result: Outcomes) -> Iterator[Series]:
+    """Springs over boundary elements at each force, and at Fbar = 0.1 as a part."""
+    case, ones = result.case, np.ones(len(result.case.forces))
+    margin = Margin(
+        tolerance=0.1,
+        reason="10 %: grid error of Fig. 14.1 at this force",
+        source=f"bem3d on {case.punch_cells}² cells",
     )
+    bem = Estimates.ratios(result["punches"]["stiffness"], ones)
+    for rule in INPUT_SPECTRA:
+        of, mine = {INPUT: INPUT_NAMES[rule]}, result[rule]
+        over = Estimates.ratios(mine["stiffness"], ones) - bem
+        yield Series(OVER_BEM, ONE_SIDED, over, where=of, along=FORCE, at=case.forces, shown=math.exp)
+        one = over[nearest(case.forces, 0.1)]
+        part = Estimate(math.expm1(one.value), math.exp(one.value) * one.error, one.samples)
+        yield Series(STIFFNESS, ONE_SIDED, (part,), where={FORCE: 0.1, **of}, margin=margin)
+        yield Series(PROFILE_HEIGHT, "springs", (float(mine["height"]),), where=of)
+
+
+SPRINGS_ON: tuple[tuple[InputSpectrum, str, str], ...] = (
+    ("rolling", "Springs with the rolling-equivalent spectrum", ""),
+    ("line", "Springs on the trace of a line", " (Ford and Thompson 2006)"),
+    ("geike", "Springs with Geike's spectrum", ""),
+)
+STUDY = Study(
+    title="The input spectrum of springs for rolling",
+    method=(
+        "Three input spectra of springs for one isotropic surface: Geike's spectrum; the line trace; and the "
+        "rolling-equivalent spectrum C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k². A wave s that "
+        "crosses the track at an angle changes the force as a wave s does, and appears along the track as q. First, "
+        "linear theory: (14.12) beside the spectrum in 3D, both by quadrature, in one-third octaves of q a, for power "
+        "laws and for spectra of other shapes. Second, one-sided springs beside boundary elements ({c.strips} "
+        "surfaces, {c.cells} cells to a radius, {c.tracks} tracks) at h_rms / d = {c.heights:g}, on one grid; the case "
+        "rolling has the error of the grid. Third, the punches of Fig. 14.1 with each input spectrum: a punch needs "
+        "the height of all waves that meet at one place, whatever their direction. The bands of a spectrum are judged "
+        "by the worst of them, within 3 dB, and by their root mean square, within 1 dB."
+    ),
+    series=series,
+    claims=(
+        *(
+            Claim(
+                says=f"{what} are within 3 dB of 3D in each one-third octave{source}.",
+                short=f"{what}, beside 3D in one-third octaves",
+                quantity=LEVEL,
+                where={INPUT: INPUT_NAMES[rule]},
+            )
+            for rule, what, source in SPRINGS_ON
+        ),
+        Claim(
+            says=(
+                "The rolling-equivalent spectrum serves punches too: their mean stiffness is that of boundary elements."
+            ),
+            short="Mean stiffness of punches on the rolling-equivalent spectrum, over boundary elements as a part",
+            quantity=STIFFNESS,
+            where={INPUT: INPUT_NAMES["rolling"]},
+        ),
+    ),
+    charts=(
+        Chart(
+            "rolling_input",
+            "Level of (14.12) with each input spectrum over that of linear theory in 3D, in one-third octaves; shaded: "
+            "within 3 dB.",
+            (
+                Panel(
+                    Q,
+                    "(14.12) over linear theory in 3D [dB]",
+                    (Curve(LEVEL, LINEAR, by=(INPUT,)),),
+                    facet=SPECTRUM,
+                    ylim=(-11.0, 11.0),
+                    shade=(-3.0, 3.0),
+                    lines=(0.0,),
+                ),
+            ),
+            columns=3,
+            sharey=True,
+            width=9.0,
+            height=5.6,
+        ),
+        Chart(
+            "rolling_input-springs",
+            "One-sided springs over boundary elements, by input spectrum, in one-third octaves, 95 % of the sample. "
+            "Shaded: within 3 dB.",
+            (
+                Panel(
+                    Q,
+                    "springs over boundary\nelements [dB]",
+                    (Curve(LEVEL, ONE_SIDED, by=(INPUT,), bars=True),),
+                    facet=(HEIGHT, SPECTRUM),
+                    ylim=(-11.0, 11.0),
+                    shade=(-3.0, 3.0),
+                    lines=(0.0,),
+                ),
+            ),
+            columns=4,
+            sharey=True,
+            height=5.8,
+        ),
+        Chart(
+            "rolling_input-punch",
+            "Mean stiffness of punches, H = 0.7, MDR over boundary elements, by input spectrum, at three forces, 95 %; "
+            "shaded: within 10 %.",
+            (
+                Panel(
+                    FORCE,
+                    "mean stiffness, MDR over boundary elements",
+                    (Curve(OVER_BEM, by=(INPUT,), bars=True),),
+                    "force Fbar = F / (E* h L)",
+                    shade=(0.9, 1.1),
+                    legend="best",
+                ),
+            ),
+            claims=(3,),
+            width=5.4,
+            height=3.6,
+        ),
+    ),
+    matrices=(
+        Matrix(
+            name="worst band, linear springs over linear 3D",
+            quantity=LEVEL,
+            model=LINEAR,
+            rows=(SPECTRUM,),
+            columns=INPUT,
+        ),
+        Matrix(
+            name="worst band, springs over boundary elements",
+            quantity=LEVEL,
+            model=ONE_SIDED,
+            rows=(SPECTRUM, HEIGHT),
+            columns=INPUT,
+        ),
+    ),
+    printed=(PROFILE_HEIGHT,),
+)
+CASE = Case(
+    name="rolling_input",
+    chapter=Chapter.ROLLING,
+    place=3,
+    answers="The input spectrum of MDR for rolling, and one-third octaves within 3 dB (Ford and Thompson 2006)",
+    quick=RollingInput(cells=6, last=8.0, lowest=0.6, length=44.0, strips=3, tracks=20, surfaces=8, profiles=100),
+    full=RollingInput(
+        last=20.0,
+        lowest=0.22,
+        length=256.0,
+        width=32.0,
+        cells=16,
+        strips=6,
+        tracks=250,
+        punch_cells=128,
+        surfaces=60,
+        profiles=500,
+    ),
+    run=run,
+    study=STUDY,
+    needs="linear filter, 3D",
+)

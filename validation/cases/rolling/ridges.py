@@ -67,18 +67,18 @@ def run(case: RollingOverRidges, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, dict(zip(keys, responses, strict=True)), unconverged)
 
 
-RESPONSE, IMAGINARY = "response times q a, over 2 E* a", "imaginary part of the response times q a, over 2 E* a"
+RESPONSE, IMAGINARY = "response of the force times q a", "imaginary part of the response times q a"
 ERROR, BOUND, LARGEST = "error over the envelope", "bound of the error", "largest error over the envelope"
 NEAREST, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF at a prescribed force"
 CELLS, Q, EXACT = "to a radius", "q a", "sin(q a), (14.11)"
 FIRST_ORDER = Margin(
-    tolerance=0.7,
-    reason="the place of the edge within its cell changes irregularly from grid to grid",
+    0.7,
+    "the place of the edge within its cell changes irregularly from grid to grid",
     source="first order: the edge of the contact lies anywhere within a cell",
 )
 SECOND_ORDER = Margin(
-    tolerance=1e-3,
-    reason="second-order terms, at heights of 1e-5 of the approach, and the residual are far smaller",
+    1e-3,
+    "second-order terms, at heights of 1e-5 of the approach, and the residual are far smaller",
     source="the definition of the stiffness: dF at a prescribed approach is -k dd at a prescribed force",
     role=Role.CRITERION,
 )
@@ -99,7 +99,7 @@ def series(result: Outcomes) -> list[Series]:
         worst, largest[method, n] = int(np.argmax(error / bound)), float(error[q <= FAR].max())
         role = Role.IDENTITY if method == FILTER else Role.CRITERION  # the filter is (14.11) itself
         source = "(14.11), which is exact for ridges in 1D and in 3D"
-        margin = Margin(tolerance=float(bound[worst]), reason=reason, source=source, role=role)
+        margin = Margin(float(bound[worst]), reason, source=source, role=role)
         found += [
             Series(NEAREST, method, error[[worst]], where={**where, Q: float(q[worst])}, margin=margin),
             Series(LARGEST, method, (largest[method, n], error.max()), where=where, along=Q, at=(FAR, q[-1])),
@@ -152,6 +152,7 @@ STUDY = Study(
             short="Over ridges, springs and boundary elements beside (14.11), through its zeros, within their grids",
             quantity=NEAREST,
             model=(BEM, FULL, SPRINGS),
+            printed=lambda error: f"{error.value:.2g} of {error.tolerance:.2g} that the grid leaves",
         ),
     ),
     charts=(
@@ -162,7 +163,7 @@ STUDY = Study(
             (
                 Panel(
                     Q,
-                    RESPONSE,
+                    f"{RESPONSE}, over 2 E* a",
                     (
                         Curve(RESPONSE, EXACT, "exact", by=("model",)),
                         Curve(RESPONSE, BEM, "bem", "boundary elements", of=FINEST, apart=0.03),

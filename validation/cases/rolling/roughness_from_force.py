@@ -1,20 +1,34 @@
 """Roughness from force: filters read backwards on the force of boundary elements, over surfaces that are known."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim
+from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import Estimate, jackknife_error
-from validation.cases.rolling.force_spectrum import RollingSettings
-from validation.cases.rolling.force_spectrum_levels import level_3d, over_bands
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error
+from validation.analysis.study import Outcomes, Study
+from validation.cases.rolling.settings import (
+    HEIGHT,
+    SLOPE,
+    SLOPE_COUNTS,
+    THREE_DECIBELS,
+    Q,
+    SelfAffineSettings,
+    slopes_of,
+)
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.simulation.linear_levels import level_3d, over_bands
 from validation.simulation.rolling_strip import HERTZ, roll_strips, strip_levels
-from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
+from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, mean_force_spectrum_1d
 
 FloatArray = NDArray[np.float64]
@@ -28,19 +42,13 @@ ASSUMED = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoughnessFromForce(RollingSettings):
-    """Self-affine surfaces, q a from first to last, whose roughness is found from the force of boundary elements."""
+class RoughnessFromForce(SelfAffineSettings):
+    """Surfaces whose roughness is found from the force of boundary elements."""
 
     heights: tuple[float, ...] = (0.03, 0.3)
     strips: int = 8
     tracks: int = 0
-    hurst: float = 0.7
-    first: float = 1.0
     seed: int = 152
-
-    @property
-    def spectrum(self) -> PiecewisePowerLaw:
-        return self_affine(self.hurst, self.first, self.last)
 
     @property
     def inside(self) -> NDArray[np.bool_]:
@@ -54,24 +62,18 @@ class RoughnessFromForce(RollingSettings):
         return np.diff(turns) > 0
 
 
-@dataclass(frozen=True)
-class RoughnessFromForceResult:
-    """Levels of the force, by h/d."""
+def run(case: RoughnessFromForce, engine: Engine = SERIAL) -> Outcomes:
+    """Roll over all strips; levels of the force by h/d.
 
-    case: RoughnessFromForce
-    levels: dict[float, Outcome]
-    unconverged: tuple[str, ...]
-
-
-def run(case: RoughnessFromForce, engine: Engine = SERIAL) -> RoughnessFromForceResult:
-    """Roll over all strips. Raises NotConvergedError where fewer than three at a height converge."""
+    Raises NotConvergedError where fewer than three strips at a height converge.
+    """
     groups = {
         height: case.rough_strip(case.spectrum, height).strips(case.cells, 1e-4 * height, case.strips)
         for height in case.heights
     }
     strips, unconverged = roll_strips(groups, engine)
     levels = {height: strip_levels(found, 1 / case.cells, case.bands) for height, found in strips.items()}
-    return RoughnessFromForceResult(case, levels, unconverged)
+    return Outcomes(case, levels, unconverged)
 
 
 def force_levels(case: RoughnessFromForce, outcome: Outcome) -> tuple[FloatArray, FloatArray]:
@@ -125,23 +127,137 @@ def filter_3d(bands: Bands) -> FloatArray:
     return np.stack([2 * level_3d(piece, bands) for piece in pieces], axis=1)
 
 
-def recovered(case: RoughnessFromForce, outcome: Outcome, by: str) -> list[Estimate]:
-    """ln of the roughness found over the true one in each band inside, with the jackknife error over strips."""
-    level, without = force_levels(case, outcome)
-    true = true_roughness(case)[case.inside]
-    whole, *rest = (
-        np.log(np.maximum(roughness(case.bands, one, by)[case.inside] / true, LEAST)) for one in (level, *without)
-    )
-    errors = jackknife_error(np.array(rest))
-    return [Estimate(float(value), float(error), len(rest)) for value, error in zip(whole, errors, strict=True)]
+def with_error(values: list[FloatArray]) -> Estimates:
+    """The first of them, with the jackknife error over the others, each without one of the strips."""
+    whole, *without = (np.atleast_1d(one) for one in values)
+    errors = jackknife_error(np.array(without))
+    return Estimates(Estimate(float(v), float(e), len(without)) for v, e in zip(whole, errors, strict=True))
 
 
-def below_the_band(case: RoughnessFromForce, outcome: Outcome, by: str) -> Estimate:
-    """Roughness found below the band, where there is none, over that of all bands inside."""
+LEVEL, BELOW = "roughness found in a one-third octave", "roughness found below the band"
+FOUND, OVER_TRUE = "mean square height in a one-third octave, over that of all", "roughness found over the true one"
+BETWEEN, ZEROS = "between zeros of sin(q a)", "at zeros of sin(q a)"
+NEAR = replace(THREE_DECIBELS, source="the surface itself")
+LITTLE = Margin(
+    tolerance=0.05,
+    reason="5 %: 0.2 dB of the mean square height",
+    source="the surface itself, over the mean square of its whole height",
+)
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Found over true roughness by each filter, in bands with a zero of the filter and in others; below the band."""
+    case = result.case
+    found = [one for height in case.heights for by in FILTERS for one in _recovered(result, height, by)]
+    return [slopes_of(case), *found]
+
+
+def _recovered(result: Outcomes, height: float, by: str) -> Iterator[Series]:
+    """By one filter. Intervals of all bands inside hold at once for all heights."""
+    case, inside = result.case, result.case.inside
     below = np.array(case.bands.edges[1:]) < case.first * (1 + 1e-9)
-    level, without = force_levels(case, outcome)
-    whole, *rest = (
-        roughness(case.bands, one, by)[below].sum() / true_roughness(case)[case.inside].sum()
-        for one in (level, *without)
-    )
-    return Estimate(float(whole), float(jackknife_error(rest)), len(without))
+    level, without = force_levels(case, result[height])
+    found = [roughness(case.bands, one, by) for one in (level, *without)]
+    true = true_roughness(case)[inside]
+    q, zeros = case.bands.centres[inside], case.zeros[inside]
+    over_true = with_error([np.log(np.maximum(one[inside] / true, LEAST)) for one in found])
+    along = partial(Series, model=by, along=Q, unit="dB", scale=POWER_DECIBEL)
+    yield along(OVER_TRUE, found=over_true, at=q, where={HEIGHT: height})
+    for bands, some in ((BETWEEN, ~zeros), (ZEROS, zeros)):
+        if kept := np.flatnonzero(some).tolist():
+            every = q.size * len(case.heights)
+            yield along(
+                LEVEL,
+                found=[over_true[i] for i in kept],
+                at=q[some],
+                where={HEIGHT: height, "bands": bands},
+                margin=NEAR,
+                family=every / len(kept),
+                rms_family=every,
+            )
+    share = with_error([one[below].sum() / true.sum() for one in found])
+    family = len(case.heights) * len(FILTERS)
+    yield Series(BELOW, by, share, where={HEIGHT: height}, margin=LITTLE, family=family)
+    for model, height_in_band in ((by, found[0][inside]), ("surface", true)):
+        yield Series(FOUND, model, height_in_band, where={HEIGHT: height, "filter": by}, along=Q, at=q)
+
+
+LEVELS = (LEVEL, "rms of " + LEVEL)
+STUDY = Study(
+    title="Roughness from force: the filters of linear theory read backwards",
+    method=(
+        "A wheel rolls at a fixed approach over {c.strips} surfaces of known roughness, H = {c.hurst:g}, "
+        "q a = {c.first:g} to {c.last:g}, {c.length:g} a long, with {c.cells} cells to a radius. From "
+        "the level of the force of boundary elements in one-third octaves, three filters read backwards give "
+        "the mean square height of the waves in each: (14.14), the mean of (14.12); (14.12) itself, averaged over "
+        "a band; and the filter in 3D, by the heights of all bands together that have these levels, none negative. "
+        f"C_2D is assumed to fall as q^-{ASSUMED:g} within a band, which the force does not tell. Intervals are of "
+        f"the sample; the error of the grid is that of the case rolling. {SLOPE_COUNTS}. On the half-space a "
+        "wave that crosses the track at an angle appears at a longer wavelength along it; Geike's rule gives a "
+        "track the force that waves of all directions have at one place."
+    ),
+    series=series,
+    claims=(
+        *(
+            Claim(
+                says=f"The roughness spectrum follows from the force spectrum by {by}, read backwards.",
+                short=f"Roughness from force by {by}, in one-third octaves",
+                quantity=LEVELS,
+                model=by,
+                along=HEIGHT,
+            )
+            for by in (MEAN_FILTER, FILTER_1D)
+        ),
+        *(
+            Claim(
+                says=f"{where} of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
+                short=f"Roughness from force by the filter in 3D, {bands}",
+                quantity=LEVELS,
+                model=FILTER_3D,
+                where={"bands": bands},
+                along=HEIGHT,
+            )
+            for where, bands in (("Between the zeros", BETWEEN), ("At the zeros", ZEROS))
+        ),
+        Claim(
+            says="Filters that are read backwards find no roughness below the band, where there is none.",
+            quantity=BELOW,
+        ),
+    ),
+    charts=(
+        Chart(
+            "roughness_from_force",
+            "Mean square height of the waves in one-third octaves, found from the force of boundary elements over "
+            "the true one, by filter; a panel a roughness. Shaded: within 3 dB; vertical lines: zeros of sin(q a). "
+            "Bars: 95 %. -30 dB: nothing found.",
+            (
+                Panel(
+                    Q,
+                    "roughness found over true [dB]",
+                    (Curve(OVER_TRUE, by=("model",), bars=True),),
+                    facet=HEIGHT,
+                    ylim=(-16.0, 10.0),
+                    shade=(-3.0, 3.0),
+                    at=tuple(math.pi * n for n in range(1, 10)),
+                ),
+            ),
+            claims=(0, 2),
+            sharey=True,
+            height=3.6,
+        ),
+    ),
+    printed=(SLOPE,),
+)
+CASE = Case(
+    name="roughness_from_force",
+    chapter=Chapter.ROLLING,
+    place=5,
+    answers='"and vice versa" after (14.14): the roughness spectrum from a measured force spectrum',
+    quick=RoughnessFromForce(strips=3),
+    full=RoughnessFromForce(
+        heights=(0.01, 0.03, 0.1, 0.3), last=20.0, lowest=0.22, length=128.0, width=24.0, cells=14, strips=6
+    ),
+    run=run,
+    study=STUDY,
+    needs="linear filter, 3D",
+)

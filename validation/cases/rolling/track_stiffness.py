@@ -156,14 +156,14 @@ PUNCH_OVER_WHEEL = "punch over wheel, bem3d"
 MEAN, DEVIATION = "mean stiffness", "relative deviation of stiffness"
 LEVEL, OWN_LEVEL = "level of stiffness in a one-third octave", "own level of stiffness in a one-third octave"
 FORCE, Q = "Fbar", "q a"
-SHOWN = {MEAN: "mean k over 2 E* a, of a punch over E* L", DEVIATION: "deviation of k over its mean"}
+SHOWN = {MEAN: "mean stiffness of each model", DEVIATION: "relative deviation of each model"}
 ROWS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
 """Weights of ln of the mean variance and of ln of the mean."""
 SOURCE = "bem3d along the track, extrapolated"
-TEN_PER_CENT = Margin(tolerance=0.1, reason="10 %: the margin of Fig. 14.1", source=SOURCE)
+TEN_PER_CENT = Margin(0.1, "10 %: the margin of Fig. 14.1", source=SOURCE)
 IN_BANDS = Margin(
-    tolerance=3.0,
-    reason="3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
+    3.0,
+    "3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
     source=SOURCE,
     rms=(1.0, "1 dB: repeatability of measured one-third octave levels"),
 )
@@ -263,7 +263,7 @@ def _over_force(quantity: str) -> Panel:
         Curve(SHOWN[quantity], (WHEEL, *SPRINGS.values()), by=("model",), bars=True),
         Curve(SHOWN[quantity], (PUNCH, PROFILE), "open", by=("model",), bars=True),
     )
-    return Panel(FORCE, SHOWN[quantity], curves, ylim=(0, None), ticked=True)
+    return Panel(FORCE, quantity, curves, ylim=(0, None), ticked=True)
 
 
 ALONG = "Along a track under constant load, springs with Geike's spectrum"
@@ -283,7 +283,7 @@ STUDY = Study(
             DEVIATION,
             OVER["geike"],
             f"{ALONG} have the fluctuation of stiffness of boundary elements.",
-            "fluctuation of stiffness along a track, springs beside boundary elements",
+            "Fluctuation of stiffness along a track, springs beside boundary elements",
         ),
         _claim(MEAN, OVER["geike"], f"{ALONG} have the mean stiffness of boundary elements.", "its mean"),
         Claim(

@@ -1,11 +1,13 @@
 """Which numbers of which case answer a question, and where they stand on its axis."""
 
 from validation.analysis.evidence import Evidence, Number, Place
-from validation.cases.punch import bandwidth_numbers as bandwidth
+from validation.cases.punch import bandwidth
+from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import reduced_models
-from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
+from validation.cases.wheel.features import LEVEL
+from validation.cases.wheel.half_space import OVER_BEM
 from validation.report.answers.cells import NumberSource
 
 FORCE, SLOPE = "Fbar", "h' a/d"
@@ -35,8 +37,7 @@ def not_modelled(*quantities: str, rolled: bool) -> NumberSource:
 
 
 def _slope_of_height(evidence: Evidence, number: Number) -> Place:
-    summary = evidence.table("summary")
-    return float(summary.where(**{"h / d": number.where["h/d"]})["h' a / d"][0])
+    return float(evidence.table(SLOPE).where(**{"h/d": number.where["h/d"]})["value"][0])
 
 
 def of_rolling(quantity: str, model: str) -> NumberSource:
@@ -90,7 +91,7 @@ def of_fit(kind: str) -> NumberSource:
     """The fit, at several bandwidths or with a roll-off."""
     return NumberSource(
         case="bandwidth",
-        quantities=(bandwidth.STIFFNESS,),
+        quantities=(punch.MEAN + bandwidth.OF_BEM,),
         model=bandwidth.FIT,
         axis=FORCE,
         series=(kind,),

@@ -1,0 +1,265 @@
+"""Probes of boundary elements past their limits: spheres, a = d = R = 1 and E* = 1, periodic waves, and solvers."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import bem3d
+import mdr
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
+from validation.simulation.probing import FloatArray, Point, answered, message_of, recorded, swept
+from validation.simulation.rough_punch import PunchRoughness
+
+Values = tuple[float, ...]
+Sizes = tuple[int, ...]
+HERTZ = 4 / 3
+LATTICE = 3.900265
+"""-4 zeta(1/2) beta(1/2): the sum of 1 / |n| over a square lattice but for its origin, less its mean; Borwein et al.,
+Lattice Sums Then and Now, chapter 1."""
+LONE_CELL = math.pi / (4 * math.asinh(1.0))
+"""k / (E* dx) of one square cell, by Love."""
+RESIDUAL = 1e-6
+"""The default of `bem3d.solve`."""
+
+
+def sphere(cells: int, spacing: float, place: float = 0.0) -> FloatArray:
+    """Gap of the sphere over a grid, so many cells aside of its middle along both axes."""
+    x = (np.arange(cells) - (cells - 1) / 2 - place) * spacing
+    return np.asarray((x[:, np.newaxis] ** 2 + x**2) / 2)
+
+
+def half_space(cells: int, spacing: float, *, periodic: bool = False) -> bem3d.HalfSpace:
+    """E* = 1."""
+    return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=1.0, periodic=periodic)
+
+
+def few_cells(coarse: Values, *, places: int = 8) -> Outcome:
+    """Stiffness on a / dx cells against Hertz, rms over places on a cell along its diagonal; messages of the first."""
+
+    def point(cells: float) -> Point:
+        side = 2 * math.ceil(1.3 * cells) + 4
+        at = (np.arange(places) + 0.5) / (2 * places)
+        gaps = [sphere(side, 1 / cells, float(place)) for place in at]
+        solved = [answered(partial(bem3d.solve, half_space(side, 1 / cells), gap, approach=1.0)) for gap in gaps]
+        return math.sqrt(sum((contact.stiffness() / 2 - 1) ** 2 / places for contact, _ in solved)), solved[0][1]
+
+    return swept(np.pi * np.array(coarse) ** 2, *zip(*map(point, coarse), strict=True))
+
+
+def images(periods: Sizes, *, fine: int = 4) -> Outcome:
+    """Approach under the force of Hertz in a period L / a, against the same cells in free space."""
+
+    def point(period: int) -> Point:
+        cells, dx = period * fine, 1 / fine
+        press = partial(bem3d.solve, gap=sphere(cells, dx), force=HERTZ)
+        imaged, message = answered(partial(press, half_space(cells, dx, periodic=True)))
+        return abs(imaged.approach / press(half_space(cells, dx)).approach - 1), message
+
+    return swept(periods, *zip(*map(point, periods), strict=True))
+
+
+def grid_sides(sides: Sizes, *, finer: int = 8) -> Outcome:
+    """Force on grids of fewer and fewer cells a side, against a wide grid."""
+    dx = 1 / finer
+
+    def press(side: int) -> bem3d.Contact:
+        return bem3d.solve(half_space(side, dx), sphere(side, dx), approach=1.0)
+
+    # an odd grid has a cell below the middle of the sphere, an even one has none
+    true = [press(side).force for side in (4 * finer, 4 * finer + 1)]
+
+    def point(side: int) -> Point:
+        contact, message = answered(partial(press, side))
+        return abs(contact.force / true[side % 2] - 1), message
+
+    return swept(np.array(sides) * dx / 2, *zip(*map(point, sides), strict=True))
+
+
+def strip_widths(widths: Sizes, *, finer: int = 8) -> Outcome:
+    """Force on smooth strips as wide as those grids, rolled over for two cells."""
+    dx, length = 1 / finer, 4 * finer
+
+    def roll(width: int) -> float:
+        flat = np.zeros((length, width))
+        rolled = bem3d.roll(flat, spacing=dx, radius=1.0, modulus=1.0, approach=1.0, positions=2)
+        return float(rolled.force[-1])
+
+    true = roll(length)
+
+    def point(width: int) -> Point:
+        force, message = recorded(partial(roll, width))
+        return math.inf if force is None else abs(force / true - 1), message
+
+    return swept(np.array(widths) * dx / 2, *zip(*map(point, widths), strict=True))
+
+
+def spikes(heights: Values, *, finer: int = 8) -> Outcome:
+    """Force with a cell in the middle that is so many d too high; measured: E* / k of that cell alone, over d."""
+    dx, side = 1 / finer, 2 * math.ceil(1.5 * finer) + 1
+    body, gap, middle = half_space(side, dx), sphere(side, dx), side // 2
+    true = bem3d.solve(body, gap, approach=1.0).force
+
+    def point(height: float) -> Point:
+        spiked = gap.copy()
+        spiked[middle, middle] -= height
+        contact, message = answered(partial(bem3d.solve, body, spiked, approach=1.0, tolerance=RESIDUAL))
+        return abs(contact.force / true - 1), message
+
+    return swept(heights, *zip(*map(point, heights), strict=True), measured=1 / (LONE_CELL * dx))
+
+
+def rough_grids(cells: Sizes, *, resolved: int, seed: int, finest: int = 512, force: float = 1.5) -> Outcome:
+    """Contact area of periodic rough surfaces under Fbar = F / (E* h L) against the finest grid, by cells to the
+    shortest wave; messages are those of drawing the surface."""
+    r, surfaces = PunchRoughness(hurst=0.7, waves=(1, 8), seed=seed), range(resolved)
+    true = [_area(r, finest, i, force) for i in surfaces]
+
+    def point(n: int) -> Point:
+        draw = partial(bem3d.rough_surface, r.spectrum.c2d, shape=(n, n), spacing=1 / n, rms=r.height)
+        message = message_of(partial(draw, rng=random_generator(r.seed)))
+        squares = sum((_area(r, n, i, force) / true[i] - 1) ** 2 for i in surfaces)
+        return math.sqrt(squares / len(true)), message
+
+    return swept(np.array(cells) / r.waves[1], *zip(*map(point, cells), strict=True))
+
+
+def _area(roughness: PunchRoughness, cells: int, realisation: int, force: float) -> float:
+    """True contact area under the force; infinitely wrong where the grid cannot carry the surface."""
+    height, _ = recorded(partial(roughness.surface, cells, realisation))
+    if height is None:
+        return math.inf
+    press = partial(bem3d.solve, half_space(cells, 1 / cells, periodic=True), -height)
+    return answered(partial(press, force=force * roughness.height, tolerance=1e-5))[0].area
+
+
+def _wave(cells: int) -> tuple[bem3d.HalfSpace, FloatArray, FloatArray]:
+    """A cosine wave of unit length and amplitude in line contact: half-space, gap and x."""
+    x = (np.arange(cells) + 0.5) / cells - 0.5
+    body = bem3d.HalfSpace(shape=(cells, 1), spacing=1 / cells, modulus=1.0, periodic=True)
+    return body, 2 * np.sin(np.pi * x[:, np.newaxis]) ** 2, x
+
+
+def full_contact(loads: Values, *, cells: int = 128) -> Outcome:
+    """Force at the approach that a mean pressure over p* has; from full contact on that is the mean gap."""
+    body, gap, x = _wave(cells)
+
+    def point(load: float) -> Point:
+        force = load * math.pi * body.cell_area * x.size
+        known, _ = answered(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
+        approach = known.approach if load < 1 else float(gap.mean())
+        contact, message = recorded(partial(bem3d.solve, body, gap, approach=approach, tolerance=RESIDUAL))
+        return math.inf if contact is None else abs(contact.force / force - 1), message
+
+    return swept(loads, *zip(*map(point, loads), strict=True))
+
+
+def huge_forces(loads: Values, *, cells: int = 128) -> Outcome:
+    """Waves of the pressure in full contact under a mean pressure over p*, rms over p*."""
+    body, gap, x = _wave(cells)
+
+    def point(load: float) -> Point:
+        press = partial(bem3d.solve, body, gap, force=load * math.pi * body.cell_area * x.size, tolerance=RESIDUAL)
+        contact, _ = answered(partial(press, raise_on_failure=False))
+        waves = contact.pressure[:, 0] / math.pi - load - np.cos(2 * np.pi * x)
+        return float(np.sqrt(np.mean(waves**2))), message_of(press)
+
+    return swept(loads, *zip(*map(point, loads), strict=True))
+
+
+def distance(found: FloatArray, true: FloatArray) -> float:
+    """Relative difference in L2."""
+    return float(np.sqrt(np.sum((found - true) ** 2) / np.sum(true**2)))
+
+
+SCENES = ("sphere", "rough punch", "rough, periodic")
+SOLVERS: dict[str, Callable[..., bem3d.Contact]] = {
+    "solve": bem3d.solve,
+    "solve_polonsky_keer": bem3d.solve_polonsky_keer,
+}
+MEASURES = ("load", "stiffness", "pressure")
+TRUE = 1e-11
+"""The residual of what stands for the truth."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """One scene on so many cells a side, solved by one solver to each residual; true: whether errors are wanted."""
+
+    scene: str
+    solver: str
+    cells: int
+    tolerances: tuple[float, ...]
+    seed: int
+    true: bool = False
+
+
+def setup_problem(scene: str, cells: int, seed: int) -> tuple[bem3d.HalfSpace, FloatArray, dict[str, Any]]:
+    """Half-space, gap, and the prescribed force or approach; the same surface on every grid."""
+    if scene == "sphere":
+        return half_space(cells, 3 / cells), sphere(cells, 3 / cells), {"approach": 1.0}
+    roughness = PunchRoughness(hurst=0.7, waves=(1, 8), seed=seed)
+    periodic = scene == "rough, periodic"
+    force = (1.5 if periodic else 0.3) * roughness.height
+    return half_space(cells, 1 / cells, periodic=periodic), -roughness.surface(cells, 0), {"force": force}
+
+
+def press_grid(grid: Grid) -> Outcome:
+    """Iterations and applications to each residual; and, with grid.true, the errors that are left.
+
+    load: of the force at an approach, of the approach at a force, over the overlap; stiffness; pressure in L2.
+    """
+    body, gap, load = setup_problem(grid.scene, grid.cells, grid.seed)
+    true = bem3d.solve(body, gap, **load, tolerance=TRUE, raise_on_failure=False) if grid.true else None
+    rows = []
+    for tolerance in grid.tolerances:
+        contact = SOLVERS[grid.solver](body, gap, **load, tolerance=tolerance, raise_on_failure=False)
+        errors = _errors(contact, true) if true else (math.nan,) * 3
+        work = contact.iterations, contact.operator_applications
+        rows.append((*work, contact.residual, float(not contact.converged), *errors))
+    names = ("iterations", "applications", "residual", "failed", *MEASURES)
+    return dict(zip(names, np.array(rows, dtype=np.float64).T, strict=True))
+
+
+def _errors(contact: bem3d.Contact, true: bem3d.Contact) -> tuple[float, float, float]:
+    if not contact.converged:
+        return math.nan, math.nan, math.nan
+    overlap = true.approach - true.problem.first_touch
+    load = (contact.approach - true.approach) / overlap + (contact.force / true.force - 1)
+    stiffness = contact.stiffness(tolerance=1e-7) / true.stiffness(tolerance=1e-7) - 1
+    return abs(load), abs(stiffness), distance(contact.pressure, true.pressure)
+
+
+def without_an_answer() -> dict[str, str]:
+    """Input for which there is no contact problem, or no figure: the call, and its answer or message."""
+    body, gap = half_space(24, 1 / 8), sphere(24, 1 / 8)
+    wave = half_space(24, 1 / 8, periodic=True)
+    broken, endless = gap.copy(), gap.copy()
+    broken[3, 4], endless[3, 4] = np.nan, np.inf
+    heights = np.sin(np.arange(64.0))
+    load_curve = partial(mdr.load_curve, length=1.0, modulus=1.0)
+    curve = load_curve(heights)
+    calls: dict[str, Callable[[], Any]] = {
+        "bem3d.solve, zero force": partial(bem3d.solve, body, gap, force=0.0),
+        "bem3d.solve, infinite force": partial(bem3d.solve, body, gap, force=math.inf),
+        "bem3d.solve, one NaN cell": partial(bem3d.solve, body, broken, approach=1.0),
+        "bem3d.solve, one infinite cell": partial(bem3d.solve, body, endless, approach=1.0),
+        "bem3d.solve, periodic, approach of the mean gap": partial(bem3d.solve, wave, gap, approach=float(gap.mean())),
+        "bem3d.solve, periodic, full contact under a force": partial(bem3d.solve, wave, gap, force=1e3),
+        "mdr.load_curve, one NaN height": partial(load_curve, np.append(heights, np.nan)),
+        "mdr at_force, zero": partial(curve.at_force, 0.0),
+        "mdr at_force, infinite": partial(curve.at_force, math.inf),
+    }
+    return {name: _answer_of(call) for name, call in calls.items()}
+
+
+def _answer_of(call: Callable[[], Any]) -> str:
+    answer, message = recorded(call)
+    if answer is None:
+        return message
+    stiffness = answer.stiffness() if isinstance(answer, bem3d.Contact) else answer.stiffness
+    return f"force {answer.force:g}, stiffness {stiffness:g}" + (f"; {message}" if message else "")

@@ -1,0 +1,204 @@
+"""Probes of springs past their limits: pressed, under a wheel on rough tracks, and with a mass in time."""
+
+import math
+from functools import partial
+
+import numpy as np
+
+import mdr
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
+from validation.simulation.contact_laws import HertzLaw
+from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
+from validation.simulation.integrators import VELOCITY_VERLET
+from validation.simulation.motion import simulate
+from validation.simulation.probing import FloatArray, Point, answered, message_of, swept
+from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strip
+from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface, press_profiles, press_surface
+from validation.simulation.spring_tracks import FINE, STRIDES, LiftOff, RoughTrack, coarsen, filtered, lift_off
+from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
+from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance, response
+
+Values = tuple[float, ...]
+Sizes = tuple[int, ...]
+HURST = 0.7
+GEIKE_TRACK, UNIT_TRACK = 1, 2
+"""Spawn keys of a track of Geike's spectrum, and of one of unit height."""
+UNIT = {"contact_radius": 1.0, "modulus": 1.0}
+
+
+def rough_punches(
+    forces: Values, *, cells: int, surfaces: int, profiles: int, seed: int, points: int = 1024
+) -> Outcome:
+    """Contact fraction and mean gap of springs against boundary elements, means over punches of Fig. 14.1; measured:
+    the rms gradient over h."""
+    r = PunchRoughness(hurst=HURST, waves=(1, cells // 4), seed=seed)
+    pressed = [
+        press_surface(Surface(roughness=r, realisation=i, cells=cells, forces=forces, tolerance=1e-4))
+        for i in range(surfaces)
+    ]
+    springs = press_profiles(Profiles(roughness=r, realisations=profiles, points=points, length=1.0, forces=forces))
+    area, gap = (np.mean([s[name] for s in pressed], axis=0) for name in ("area", "gap"))
+    errors = np.abs(springs["area"].mean(axis=0) / area - 1), np.abs(springs["gap"].mean(axis=0) - gap) / r.height
+    curve = mdr.load_curve(r.profile(points, 0), length=1.0, modulus=1.0)
+    messages = [message_of(partial(curve.at_force, r.height * f)) for f in forces]
+    gradient, failed = np.mean([s["gradient"] for s in pressed]) / r.height, sum(float(s["failed"]) for s in pressed)
+    return swept(forces, errors, messages, measured=[gradient, gradient], failed=failed)
+
+
+def last_asperities(forces: Values, *, profiles: int, seed: int, points: int = 256, finer: int = 32) -> Outcome:
+    """Stiffness of rough profiles under very low forces against finer springs, rms over them, by springs in contact.
+
+    Messages are those of the profile whose number of springs in contact is nearest to the mean.
+    """
+    r = PunchRoughness(hurst=HURST, waves=(1, 16), seed=seed)
+    coarse, fine = (
+        press_profiles(Profiles(roughness=r, realisations=profiles, points=n, length=1.0, forces=forces))["stiffness"]
+        for n in (points, finer * points)
+    )
+    springs, messages = coarse * points, []
+    for force, count in zip(r.height * np.array(forces), springs.T, strict=True):
+        typical = int(np.argmin(np.abs(count - count.mean())))
+        curve = mdr.load_curve(r.profile(points, typical), length=1.0, modulus=1.0)
+        messages.append(message_of(partial(curve.at_force, float(force))))
+    return swept(springs.mean(axis=0), np.sqrt(np.mean((coarse / fine - 1) ** 2, axis=0)), messages)
+
+
+def octaves(centres: Values, *, seed: int, lines: int = 48) -> Outcome:
+    """Level of springs with Geike's spectrum over the half-space [dB], in octaves about q a, far from both ends of its
+    band."""
+    spectrum = self_affine(HURST, 0.005, 200.0)
+
+    def error(centre: float) -> float:
+        q = centre * 2 ** ((np.arange(lines) + 0.5) / lines - 0.5)
+        # over the power law, whose fall would leave but the first part of a turn of sin^2
+        level = 1 / (spectrum.c2d(q) / q)
+        true = np.sum(level * force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, **UNIT))
+        springs = np.sum(level * force_spectrum_1d(q, TrackSpectrum(spectrum, "geike"), **UNIT))
+        return abs(decibel(float(springs / true)))
+
+    # springs have a spectrum and no surface: one track, with the waves about the contact, gives their only message
+    message = message_of(partial(_rolled, self_affine(HURST, 0.25, 8.0), seed))
+    return swept(centres, list(map(error, centres)), [message] * len(centres))
+
+
+def anisotropy(ratios: Values, *, seed: int) -> Outcome:
+    """rms force of springs that take a cut along the track for isotropic, over that of the half-space.
+
+    The roughness is isotropic between two wavenumbers, then stretched along the track and shrunk across, keeping areas:
+    waves (k_x, k_y) are (k_x / sqrt(ratio), k_y sqrt(ratio)) of the isotropic ones. The cut along x is that of
+    isotropic roughness stretched both ways: C_2D'(q) = ratio C_2D(sqrt(ratio) q). For q a >> 1 the half-space feels
+    1 / |k|^2, whose mean over all directions does not depend on the ratio.
+    """
+    spectrum = self_affine(HURST, 20.0, 200.0)
+
+    def point(ratio: float) -> Point:
+        edges = tuple(edge / math.sqrt(ratio) for edge in spectrum.edges)
+        cut = PiecewisePowerLaw(edges=edges, exponents=spectrum.exponents)
+        springs = force_variance(cut.c2d, edges=cut.edges, **UNIT)
+        error = abs(math.sqrt(springs / stretched_variance(spectrum, ratio)) - 1)
+        return error, message_of(partial(_rolled, cut, seed))
+
+    return swept(np.array(ratios) - 1, *zip(*map(point, ratios), strict=True))
+
+
+def stretched_variance(spectrum: PiecewisePowerLaw, ratio: float, lines: int = 1500, angles: int = 180) -> float:
+    """<dF^2> over (E* a)^2 = int G(|k|) C_2D(kappa) d2kappa, k = (kappa_x / sqrt(ratio), kappa_y sqrt(ratio))."""
+    edge = np.geomspace(spectrum.edges[0], spectrum.edges[-1], lines + 1)
+    kappa = np.sqrt(edge[1:] * edge[:-1])[:, np.newaxis]
+    phi = (np.arange(angles) + 0.5) * np.pi / (2 * angles)
+    k = kappa * np.hypot(np.cos(phi) / math.sqrt(ratio), np.sin(phi) * math.sqrt(ratio))
+    weight = spectrum.c2d(kappa) * kappa * np.diff(edge)[:, np.newaxis] * 2 * np.pi / angles
+    return float(np.sum(weight * response(k, **UNIT) ** 2))
+
+
+def _rolled(spectrum: PiecewisePowerLaw, seed: int) -> FloatArray:
+    """What a user of Geike's rule does: a track of little roughness on enough springs, rolled over."""
+    length = 8 * 2 * math.pi / spectrum.edges[0]
+    points = math.ceil(length * max(16.0, 8 * spectrum.edges[-1] / (2 * math.pi)))
+    rng = random_generator(seed, GEIKE_TRACK)
+    track = mdr.rough_profile(TrackSpectrum(spectrum, "geike"), length=length, points=points, rng=rng, rms=1e-3)
+    return mdr.rolling_force(track, spacing=length / points, radius=1.0, modulus=1.0, approach=1.0)
+
+
+def decibel(ratio: float) -> float:
+    return 10 * math.log10(ratio)
+
+
+def rough_tracks(heights: Values, *, track: float, seed: int, springs: int = 32) -> Outcome:
+    """The linear filter against one-sided springs: difference about its mean, over the fluctuation.
+
+    One track of unit height, in units of a wheel with a = d = E* = 1, is made higher and higher; measured: c, the rms
+    force of linear theory over E* a h.
+    """
+    spectrum = self_affine(HURST, 1.0, 8.0)
+    unit = mdr.rough_profile(
+        TrackSpectrum(spectrum, "geike"),
+        length=track,
+        points=round(track * springs),
+        rng=random_generator(seed, UNIT_TRACK),
+        rms=1.0,
+    )
+
+    def point(height: float) -> Point:
+        roll = partial(mdr.roll, height * unit, spacing=1 / springs, radius=1.0, modulus=1.0, approach=1.0)
+        linear, message = answered(partial(roll, contact="linear"))
+        return float(np.std(linear.force - roll().force) / np.std(linear.force)), message
+
+    c = math.sqrt(force_variance(spectrum.c2d, edges=spectrum.edges, **UNIT))
+    return swept(heights, *zip(*map(point, heights), strict=True), measured=c)
+
+
+def rough_strips(heights: Values, *, length: float, strip_cells: int, seed: int, width: float = 12.0) -> Outcome:
+    """Linear theory of the half-space against boundary elements on one strip in the same units; measured: its rms
+    gradient over h; failed: positions that did not converge."""
+    spectrum, failed = self_affine(HURST, 1.0, 8.0), []
+
+    def point(height: float) -> Point:
+        scene = RoughStrip(spectrum=spectrum, height=height, length=length, width=width, seed=seed)
+        strip = Strip(scene=scene, realisation=0, cells=strip_cells, tolerance=1e-4)
+        found, message = answered(partial(roll_strip, strip))
+        failed.append(float(found["failed"]))
+        return float(np.nanstd(found["force"] - found["linear"]) / np.std(found["linear"])), message
+
+    points = list(map(point, heights))
+    return swept(heights, *zip(*points, strict=True), measured=spectrum.gradient, failed=sum(failed))
+
+
+def coarser_springs(strides: Sizes, *, seed: int) -> Outcome:
+    """The last one-third octave on coarser springs, by springs to the shortest wave; messages are those of drawing
+    such a track. The solve of the case `wheel_stability`, which has these strides."""
+    track = RoughTrack(rms=1e-3 * WHEEL.approach, seed=seed, waves=9, per_wave=FINE)
+    levels = dict(zip(STRIDES, coarsen(track)["level"].tolist(), strict=True))
+    errors = [abs(decibel(levels[n])) if levels[n] > 0 else math.inf for n in strides]
+    messages = [message_of(partial(track.heights, 1, track.points // n)) for n in strides]
+    return swept(FINE / np.array(strides), errors, messages)
+
+
+def time_steps(steps: Values, *, scheme: str, turns: int = 3) -> Outcome:
+    """Free linear vibration in steps x = omega_eigen dt: growth of a step, less one, by Verlet, else the change of the
+    energy in a turn. Messages are those of beginning a motion; a scheme may take several cells of the track in a step.
+    """
+    integrator = SCHEMES[scheme]
+    found = vibrate(Vibrations(scheme=scheme, steps=steps, natural_periods=turns))
+    error = np.maximum(found["growth"] - 1, 0.0) if integrator is VELOCITY_VERLET else found["change"]
+    begin = partial(simulate, WHEEL, HertzLaw(WHEEL), steps=1, integrator=integrator)
+    dt = np.array(steps) / WHEEL.eigenfrequency / integrator.cells
+    return swept(steps, error, [message_of(partial(begin, time_step=one)) for one in dt.tolist()])
+
+
+def higher_tracks(heights: Values, *, wheels: int, seed: int, waves: int = 6) -> Outcome:
+    """Part of the time in the air, of wheels of Table 14.1 over rough tracks, by h_rms / d_N; measured: h / d at which
+    the largest tension of linear theory is the load; imbalance: largest error of the balance of momentum, over F_N T.
+    """
+
+    def rolled(height: float) -> tuple[Outcome, str]:
+        track = RoughTrack(rms=height * WHEEL.approach, seed=seed, waves=waves)
+        # a linear contact in motion has its force from the filter, which is what warns
+        message = message_of(partial(filtered, WHEEL, track, track.heights(1)[:, 0]))
+        return lift_off(LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=wheels, laps=1)), message
+
+    found, messages = zip(*map(rolled, heights), strict=True)
+    imbalance = [float(np.abs(one["mean"] - 1 + one["momentum"]).max()) for one in found]
+    airborne = [float(one["airborne"].mean()) for one in found]
+    return swept(heights, airborne, messages, measured=heights[0] / found[0]["pull"].max(), imbalance=imbalance)
