@@ -59,10 +59,7 @@ class RolledStrip:
 
     def measure(self) -> Outcome:
         """Of a wheel that already rolls; the floor: as many operator applications on a fixed window, or warm solves."""
-        found = self._rolled() | self._warm_solves()
-        seconds, applications, warm, one = (
-            float(found[name]) for name in ("seconds", "applications", "warm solve", "application")
-        )
+        (seconds, applications), (warm, one) = self._rolled().values(), self._warm_solves()
         told = {
             "positions a second": 1 / seconds,
             "applications a position": applications,
@@ -72,7 +69,8 @@ class RolledStrip:
         }
         return {name: np.array(value) for name, value in told.items()}
 
-    def _rolled(self) -> Outcome:
+    def _rolled(self) -> dict[str, float]:
+        """Seconds and applications a position."""
         strip = self.strip
         height = crop_to_reach(strip.surface(), 1 / strip.cells)
         track = bem3d.Track(height=height, spacing=1 / strip.cells, radius=1.0, modulus=1.0)
@@ -86,12 +84,13 @@ class RolledStrip:
         again.press(0, 1.0)
         _, repeated = timed(lambda: [again.press(i, 1.0) for i in range(1, self.positions)])
         return {
-            "seconds": np.array(min(seconds / len(after), repeated / (self.positions - 1))),
-            "applications": np.array(float(np.mean([contact.operator_applications for contact in after]))),
+            "seconds": min(seconds / len(after), repeated / (self.positions - 1)),
+            "applications": float(np.mean([contact.operator_applications for contact in after])),
         }
 
-    def _warm_solves(self) -> Outcome:
-        """By `solve`, each position from the pressure of the last, moved with the ground, on one fixed window."""
+    def _warm_solves(self) -> tuple[float, float]:
+        """By `solve`, each position from the pressure of the last, moved with the ground, on one fixed window; seconds of
+        a solve and of an application."""
         strip = self.strip
         half_space, gap = moving_window(strip.surface(), strip.cells)
 
@@ -106,7 +105,7 @@ class RolledStrip:
             contact, seconds = timed(lambda p=position, s=moved: solve(p, s))  # type: ignore[misc]
             total += seconds
         _, application = timed(lambda: [half_space.apply(contact.pressure) for _ in range(APPLICATIONS)])
-        return {"warm solve": np.array(total / count), "application": np.array(application / APPLICATIONS)}
+        return total / count, application / APPLICATIONS
 
 
 TABLE = load_wheel_scene("table_14_1")
