@@ -89,8 +89,7 @@ class RolledStrip:
         }
 
     def _warm_solves(self) -> tuple[float, float]:
-        """By `solve`, each position from the pressure of the last, moved with the ground, on one fixed window; seconds of
-        a solve and of an application."""
+        """Seconds of a `solve` from the last pressure, moved with the ground, on one window; of an application."""
         strip = self.strip
         half_space, gap = moving_window(strip.surface(), strip.cells)
 
