@@ -4,9 +4,10 @@ import math
 from dataclasses import replace
 
 import pytest
+from hypothesis import given
 
-from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times, times_source
+from tests.analysis.test_judged_claims import point, points_with, verdicts
+from validation.analysis.claims import Claim, Matrix, decibels, farthest_off, off_by, per_cent, times, times_source
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
@@ -40,6 +41,35 @@ def test_status_limits_and_headline_follow_from_verdicts(verdicts, status, limit
     judged = CLAIM.judged(by_height(*verdicts))
     assert (judged.status, judged.limits) == (status, limits)
     assert CLAIM.headline(judged) == headline
+
+
+@given(verdicts)
+def test_limits_are_the_first_piece_of_a_range(found):
+    """What agrees behind a counterexample is outside of the limits."""
+    numbers = points_with(found)
+    inside = Claim(says="It is so.", along="q a").judged(numbers).inside
+    assert inside == (numbers[: len(inside)] if set(found) != {AGREE} else ())
+    assert all(number.verdict is AGREE for number in inside)
+    assert set(found) == {AGREE} or found[len(inside)] is not AGREE
+
+
+def test_only_what_differs_is_off():
+    low, agreeing, undecided = point(-4.0, at=1.0), point(0.5, at=2.0), point(9.0, 9.0, at=3.0)
+    assert farthest_off([agreeing, undecided, low]) is low
+    assert farthest_off([agreeing, undecided]) is undecided
+
+
+@pytest.mark.parametrize(
+    ("value", "half_width", "said"),
+    [
+        (0.24, 0.51, "+0.2 ± 0.5 dB"),
+        (-1.26, 0.04, "-1.3 dB"),
+        (-0.04, 0.01, "less than 0.05 dB"),
+        (-0.04, 0.3, "+0.0 ± 0.3 dB"),
+    ],
+)
+def test_a_level_has_an_interval_where_there_is_one(value, half_width, said):
+    assert decibels(point(value, half_width)) == said
 
 
 def test_limits_from_the_last_value_on():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from validation.analysis.answers import SHORT
+from validation.analysis.claims import STATUS_WORDS
 from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
 from validation.analysis.spectra import Bands
 from validation.cases.rolling import force_spectrum as rolling
@@ -162,7 +162,7 @@ def test_claims_of_rolling_follow_their_numbers(rolled):
     for result, status in ((exact, ClaimStatus.HOLDS), (louder(exact, 2.0), ClaimStatus.CONTRADICTED)):
         (claim,) = (claim for claim in CASE.evidence(result).claims if claim.claim.startswith("Linear theory in 3D"))
         assert claim.status is status
-        assert claim.answer.startswith(SHORT[status])
+        assert claim.answer.startswith(STATUS_WORDS[status])
     geike = CASE.evidence(exact).claims[0]
     assert geike.claim == CASE.claim
     assert geike.status is ClaimStatus.CONTRADICTED

@@ -20,9 +20,7 @@ from validation.analysis.evidence import (
     Verdict,
     VerdictCell,
     columns,
-    if_confirmed,
     plus_minus,
-    with_reference,
 )
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
@@ -222,25 +220,3 @@ def test_a_number_in_a_sentence():
     assert replace(n, unit="-").sentence == "x = 1.25 ± 0.05, agree with 1 within 0.5"
     assert replace(n, value=3.0).sentence == "x = 3 dB ± 0.05 dB, differ with 1 dB within 0.5 dB"
     assert replace(n, value=1.5).sentence == "x = 1.5 dB ± 0.05 dB, undecided with 1 dB within 0.5 dB"
-
-
-def test_a_number_beside_its_reference():
-    n = number(1.25, reference=1.0, tolerance=0.5, grid=0.02, sample=0.03)
-    assert with_reference(n) == "1.250 ± 0.050 beside 1 dB (agree within 0.5, off by +0.25 dB)"
-    assert with_reference(replace(n, unit="-", value=0.9)) == "0.900 ± 0.050 beside 1 (agree within 0.5, off by -0.1)"
-    # an interval that holds the difference, or none at all, leaves nothing to tell
-    assert with_reference(replace(n, value=1.04)) == "1.040 ± 0.050 beside 1 dB (agree within 0.5)"
-    assert with_reference(replace(n, grid=0.0, sample=0.0)) == "1.25 beside 1 dB (agree within 0.5)"
-    assert with_reference(replace(n, value=9.0)) == "9.000 ± 0.050 beside 1 dB (differ within 0.5)"
-    even = number(1.25, reference=1.0, tolerance=0.5, sample=0.25)
-    assert with_reference(even) == "1.25 ± 0.25 beside 1 dB (agree within 0.5)"
-
-
-def test_a_claim_holds_with_all_of_its_numbers():
-    good, bad = number(1.0), number(5.0)
-    assert if_confirmed("So it is.", [good, good]) == "So it is."
-    wide = number(1.0, sample=1.0)
-    for numbers in ([bad], [good, bad], [bad, good], [bad, wide]):
-        assert if_confirmed("So it is.", numbers) == "Contradicted by this run: So it is."
-    for numbers in ([wide], [good, wide]):
-        assert if_confirmed("So it is.", numbers) == "Not confirmed by this run: So it is."

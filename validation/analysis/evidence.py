@@ -112,11 +112,15 @@ class Number:
     @property
     def sentence(self) -> str:
         """All of it in a line."""
-        unit = "" if self.unit == "-" else f" {self.unit}"
         return (
-            f"{self.label} = {self.value:.6g}{unit} ± {self.uncertainty:.2g}{unit}, {self.verdict} with "
-            f"{self.reference:.6g}{unit} within {self.tolerance:.2g}{unit}"
+            f"{self.label} = {self.value:.6g}{self.behind} ± {self.uncertainty:.2g}{self.behind}, {self.verdict} with "
+            f"{self.reference:.6g}{self.behind} within {self.tolerance:.2g}{self.behind}"
         )
+
+    @property
+    def behind(self) -> str:
+        """Its unit as it stands behind a value, nothing where it has none."""
+        return "" if self.unit == "-" else f" {self.unit}"
 
     @property
     def met(self) -> bool:
@@ -306,28 +310,6 @@ def plus_minus(value: float, half_width: float) -> str:
     if place < 8:
         return f"{rounded:.{max(place, 0)}f} ± {half:.{max(place, 0)}f}"
     return f"{value:.5g} ± {half_width:.2g}"
-
-
-def with_reference(number: Number) -> str:
-    """Value, interval, reference and verdict, with what is left of a difference that the interval does not hold."""
-    unit = "" if number.unit == "-" else f" {number.unit}"
-    off = (
-        f", off by {number.difference:+.2g}{unit}"
-        if number.verdict is Verdict.AGREE and abs(number.difference) > number.uncertainty > 0
-        else ""
-    )
-    return (
-        f"{plus_minus(number.value, number.uncertainty)} beside {number.reference:.5g}{unit} ({number.verdict} within "
-        f"{number.tolerance:.3g}{off})"
-    )
-
-
-def if_confirmed(sentence: str, numbers: Sequence[Number]) -> str:
-    """A conclusion that holds as long as all its numbers agree; one that differs contradicts it."""
-    verdicts = {number.verdict for number in numbers}
-    if Verdict.DIFFER in verdicts:
-        return f"Contradicted by this run: {sentence}"
-    return f"Not confirmed by this run: {sentence}" if Verdict.UNDECIDED in verdicts else sentence
 
 
 def columns(**arrays: ArrayLike) -> dict[str, Sequence[object]]:
