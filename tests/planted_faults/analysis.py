@@ -26,7 +26,7 @@ from validation.analysis import claims, multilevel, nominal_bands, over_range, s
 from validation.analysis import series as declared
 from validation.analysis import spectral_features as regions
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
-from validation.analysis.over_range import signed_mean, worst
+from validation.analysis.over_range import worst
 from validation.cases.punch import fractal_punch
 from validation.cases.rolling import force_spectrum
 
@@ -90,7 +90,7 @@ def most_agree(claim):
 
 def mean_of_the_range(points, parameter):
     """The signed mean over a range, in which signs cancel."""
-    return dataclasses.replace(worst(points, parameter), value=signed_mean(points))
+    return dataclasses.replace(worst(points, parameter), value=float(np.mean([p.difference for p in points])))
 
 
 def each_alone(estimate, points):

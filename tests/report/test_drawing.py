@@ -139,7 +139,8 @@ def test_a_quantity_that_a_run_does_not_have_leaves_its_panel_empty():
 def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():
     marks = Table("marks", {"model": ["ω_eigen", "q_min v₀"], "value": [1.5, 3.0]})
     evidence = Evidence(title="t", method="", numbers=(), tables=(TABLE, marks), conclusions=(), captions={})
-    chart = Chart("c", "", (Panel("q a", "y", (Curve("level", "bem", label="b"),), marks="marks"),))
+    marked = Curve("marks", style="guide", upright=True)
+    chart = Chart("c", "", (Panel("q a", "y", (Curve("level", "bem", label="b"), marked)),))
     (axis,) = draw(chart, evidence).axes
     assert {text.get_text(): text.get_position()[0] for text in axis.texts} == {"ω_eigen": 1.5, "q_min v₀": 3.0}
     assert chart.tables == ("level", "marks")

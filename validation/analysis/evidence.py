@@ -182,8 +182,11 @@ class Table:
 
     def where(self, **equal: object) -> "Table":
         """The rows whose columns have the given values."""
-        keep = np.logical_and.reduce([self[name] == value for name, value in equal.items()])
-        return Table(self.name, {name: self[name][keep].tolist() for name in self.columns})
+        return self.rows(np.logical_and.reduce([self[name] == value for name, value in equal.items()]))
+
+    def rows(self, kept: ArrayLike) -> "Table":
+        """By a mask, or by their numbers."""
+        return Table(self.name, {name: self[name][np.asarray(kept)].tolist() for name in self.columns})
 
 
 def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:

@@ -82,20 +82,22 @@ def is_of_the_book(scene: WheelScene) -> bool:
 WHOLE = Panel(
     OMEGA,
     DENSITY,
-    by_model(
-        spectrum.SPECTRUM,
-        {
-            spectrum.LINEAR: "thick",
-            spectrum.LOWEST: "dotted",
-            spectrum.HIGHEST: "dotted",
-            spectrum.NO_WINDOW: "mdr line",
-            spectrum.HANN: "exact",
-            spectrum.PREDICTED_FLOOR: "bem line",
-        },
+    (
+        *by_model(
+            spectrum.SPECTRUM,
+            {
+                spectrum.LINEAR: "thick",
+                spectrum.LOWEST: "dotted",
+                spectrum.HIGHEST: "dotted",
+                spectrum.NO_WINDOW: "mdr line",
+                spectrum.HANN: "exact",
+                spectrum.PREDICTED_FLOOR: "bem line",
+            },
+        ),
+        Curve(spectrum.MARKS, style="guide", upright=True),
     ),
     log="xy",
     decades=13.0,
-    marks=spectrum.MARKS,
     legend="upper right",
 )
 STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}
