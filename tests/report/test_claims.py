@@ -14,7 +14,6 @@ from tests.report.test_printed import evidence_with, html_of, number
 from validation import benchmarks, cases
 from validation.analysis.claims import STATUS_WORDS
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
-from validation.analysis.over_range import worst
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.contents import CASES, TIMED
@@ -159,16 +158,11 @@ def test_every_equation_figure_and_table_of_the_chapter_has_an_entry():
         assert place in places, place
 
 
-def test_every_case_that_is_named_exists():
-    named = {test.case for entry in ENTRIES for test in entry.tests}
-    assert named <= {*CASES, *TIMED}
-
-
-def test_claims_of_timed_cases_are_written_as_they_are_named():
-    """No test runs these cases whole, as `test_a_case_gives_equal_bytes` runs all others and finds the names."""
-    sources = [source.read_text() for source in Path(benchmarks.__path__[0]).rglob("*.py")]
-    timed = [test for entry in ENTRIES for test in entry.tests if test.case in TIMED]
-    assert all(not test.quantity and any(test.claim in source for source in sources) for test in timed)
+def test_every_case_and_every_claim_of_a_timed_case_that_is_named_exists():
+    """No test runs timed cases whole, as `test_a_case_gives_equal_bytes` runs all others and finds what is named."""
+    for test in (test for entry in ENTRIES for test in entry.tests):
+        said = [claim.says for claim in (CASES | TIMED)[test.case].study.claims]
+        assert test.case in CASES or (not test.quantity and any(test.claim in one for one in said))
 
 
 @pytest.mark.parametrize("wrong", [{}, {"tests": (ChapterTest(case="geike"),), "untested": "why"}])
@@ -197,24 +191,6 @@ def test_a_statement_has_the_status_of_its_numbers(verdicts):
     (whole,) = answers(entry(), [section])
     assert whole.status is section.claims[0].status
     assert whole.answer == "Tested as “It is so.” It is 1 to 9."
-
-
-def test_the_page_says_which_point_of_a_range_is_the_worst():
-    """The surest of those that differ, not the largest: 5.8 dB that are hardly known stand behind 5.1 that are."""
-    sure, large = (
-        number(1.0 + off, sample=half, where={"q a": at}, role=Role.FINDING)
-        for at, off, half in ((2.0, 5.1, 0.2), (16.0, 5.8, 1.7))
-    )
-    assert worst([sure, large], "q a").where["worst at"] == 2.0
-    page = (Path(formats.__file__).parent / "templates" / "reading.html").read_text(encoding="utf-8")
-    assert "A larger value with a wider interval may" in page
-
-
-def test_a_model_and_a_time_say_what_they_are_not():
-    """A model chosen by its own estimate is no result, and a run from stored solves has no cost."""
-    templates = Path(formats.__file__).parent / "templates"
-    assert "not by the results of the case" in (templates / "claims.html").read_text(encoding="utf-8")
-    assert "without solves that were stored before" in (templates / "footer.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

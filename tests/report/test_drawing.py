@@ -73,12 +73,6 @@ def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
     assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
 
 
-def test_facets_have_an_axis_each_with_their_rows_alone():
-    axes = drawn(Curve("level", "bem", "exact", "b"), facet="h/d")
-    assert [axis.get_title() for axis in axes] == ["h/d = 0.1", "h/d = 1"]
-    np.testing.assert_array_equal(axes[1].lines[0].get_ydata(), [7, 8, 9])
-
-
 def test_markers_are_apart_and_ticks_at_the_values():
     (axis,) = drawn(Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True)
     assert axis.lines[0].get_markevery() == 0.1
@@ -157,6 +151,7 @@ def test_panels_share_an_axis_where_they_say_so():
     first, second = draw(Chart("c", "", panels, sharey=True), EVIDENCE).axes
     assert first.get_ylim() == second.get_ylim()
     assert first.get_ylim()[0] == 0 and first.get_ylim()[1] > VALUE.max()
+    assert (first.get_ylabel(), second.get_ylabel()) == ("y", "")
 
 
 @pytest.mark.parametrize(
@@ -174,10 +169,3 @@ def test_several_columns_have_an_axis_for_each_of_their_values():
     np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
     # a mark that the panel does not reach is not drawn
     assert [list(line.get_xdata()) for line in axes[3].lines[1:]] == [[2.0, 2.0]]
-
-
-def test_panels_with_one_vertical_axis_are_labelled_at_the_left_alone():
-    panel = Panel("q a", "y", (Curve("level", "bem", label="b"),), facet="h/d")
-    left, right = draw(Chart("c", "", (panel,), sharey=True), EVIDENCE).axes
-    assert (left.get_ylabel(), right.get_ylabel()) == ("y", "")
-    assert left.get_ylim() == right.get_ylim()
