@@ -12,7 +12,6 @@ from validation.analysis.statistics import (
     decade_slope,
     decade_weights,
     difference_of_halves,
-    local_slope,
     log_deviation_over,
     log_mean,
     log_relative_deviation,
@@ -153,8 +152,6 @@ def test_weights_of_a_decade():
         for power in (-3, -2, -1, 0):
             assert decade_weights(forces, 10.0**power) @ line == pytest.approx(2 + 3 * (power + 0.5))
             assert decade_slope(forces, 10.0**power) @ line == pytest.approx(3 / np.log(10))
-        for level in range(len(forces)):
-            assert local_slope(forces, level) @ line == pytest.approx(3 / np.log(10))
 
 
 def test_deviation_over_levels_where_some_have_none():

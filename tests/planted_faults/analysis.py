@@ -156,12 +156,6 @@ def scatter_of_the_sample_itself(drawn, statistic):
     return dataclasses.replace(found, error=found.error * math.sqrt((found.samples - 1) / found.samples))
 
 
-def of_all_samples(estimates):
-    """n k - 1 degrees of freedom for (n - 1) k."""
-    found = statistics.mean_of(estimates)
-    return dataclasses.replace(found, samples=sum(estimate.samples for estimate in estimates))
-
-
 def half_of_the_way(coarse, finer):
     """What halving the cells changes, for what all halvings do."""
     value, left = statistics.extrapolated(coarse, finer)
@@ -277,10 +271,6 @@ FAULTS = {
     "a bootstrap that forgets n - 1": (
         (statistics.Sample, "estimate", scatter_of_the_sample_itself),
         functools.partial(test_error_bars.test_the_bootstrap_has_the_standard_error_of_a_mean, 3),
-    ),
-    "a degree of freedom for each mean too many": (
-        (test_error_bars, "mean_of", of_all_samples),
-        functools.partial(test_error_bars.test_the_interval_of_a_mean_of_estimates, (1.0, 0.05, 0.05)),
     ),
     "half of the way to cells of no size": (
         (test_error_bars_of_grids, "extrapolated", half_of_the_way),

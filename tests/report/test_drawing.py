@@ -140,6 +140,14 @@ def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():
     assert chart.tables == ("level", "marks")
 
 
+def test_decades_are_those_below_the_largest_value_and_not_below_a_line_across_the_panel():
+    small = Table("level", {**TABLE.columns, "value": (1e-6 * VALUE).tolist()})
+    marked = Curve("level", "bem", "guide", "_", upright=True)
+    panel = Panel("q a", "y", (Curve("level", label="b"), marked), log="xy", decades=3.0)
+    (axis,) = draw(Chart("c", "", (panel,)), replace(EVIDENCE, tables=(small,))).axes
+    assert axis.get_ylim() == pytest.approx((1e-9 * VALUE[-1], 6e-6 * VALUE[-1]))
+
+
 def test_the_cells_of_a_map_are_those_of_their_parameters():
     figure = draw(Chart("c", "", Map("level", "q a", "h/d", "model", "dB")), EVIDENCE)
     assert figure.axes[1].collections[0].get_array().reshape(2, 3).tolist() == [[4, 5, 6], [10, 11, 12]]

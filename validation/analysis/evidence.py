@@ -313,8 +313,3 @@ def plus_minus(value: float, half_width: float) -> str:
     if place < 8:
         return f"{rounded:.{max(place, 0)}f} ± {half:.{max(place, 0)}f}"
     return f"{value:.5g} ± {half_width:.2g}"
-
-
-def columns(**arrays: ArrayLike) -> dict[str, Sequence[object]]:
-    """Plain Python values of arrays, one list a column."""
-    return {name: np.asarray(array).tolist() for name, array in arrays.items()}

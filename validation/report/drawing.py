@@ -114,8 +114,10 @@ def _verdicts(axis: Axes, judged: Table) -> None:
 
 
 def _limits(axis: Axes, panel: Panel) -> None:
+    # lines across the panel have ends in parts of it
+    lines = [line for line in axis.lines if line.get_transform() == axis.transData]
     if panel.decades:
-        top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
+        top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in lines), default=1.0)
         low = top * 10**-panel.decades if "y" in panel.log else top - panel.decades
         axis.set_ylim(low, 6 * top if "y" in panel.log else top + 0.1 * panel.decades)
     if panel.xlim:
@@ -123,7 +125,7 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if panel.ylim:
         axis.set_ylim(*panel.ylim)
     if panel.ticked:
-        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
+        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in lines])))
     elif "x" in panel.log and axis.get_xlim()[1] < LARGE:
         tick(axis, _round(*axis.get_xlim()))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
