@@ -63,13 +63,6 @@ def test_textbook_iteration_grows_with_the_grid():
     assert counts[1] > 1.5 * counts[0] > 90
 
 
-def test_textbook_iteration_costs_what_it_does():
-    """Two applications an iteration: from the overlap to 1e-8 about 55 of them, from a uniform pressure about 35."""
-    by_approach, by_force = (bem3d.solve_polonsky_keer(*sphere(128), **load, tolerance=1e-8) for load in BOTH)
-    assert 100 <= by_approach.operator_applications <= 120
-    assert 60 <= by_force.operator_applications <= 80
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("periodic", [True, False])
 @pytest.mark.parametrize("n", [256, 512])
@@ -252,26 +245,6 @@ def test_windows_along_a_path_of_forces(stiffness, expected, monkeypatch):
     path = bem3d.indent(half_space, gap, forces=HERTZ * radii**3, stiffness=stiffness, tolerance=1e-5)
     found = windows(monkeypatch, path)
     assert found == expected
-
-
-def test_windows_of_a_warm_start(monkeypatch):
-    """By its overlap, where it is a contact; a pressure alone tells none, and has all of the grid."""
-    half_space, gap = sphere_above()
-    start = bem3d.solve(half_space, gap, force=HERTZ / 12**3, tolerance=1e-5)
-    again = {"force": 1.2 * HERTZ / 12**3, "tolerance": 1e-5}
-    from_contact = (bem3d.solve(half_space, gap, **again, start=start) for _ in range(1))
-    from_pressure = (bem3d.solve(half_space, gap, **again, start=start.pressure) for _ in range(1))
-    assert windows(monkeypatch, from_contact) == [[25]]
-    assert windows(monkeypatch, from_pressure) == [[96]]
-
-
-def test_windows_of_a_cold_start(monkeypatch):
-    """By the overlap on the next coarser grid, and of the coarsest all; by an approach it is known on each."""
-    half_space, gap = sphere_above()
-    by_force = (bem3d.solve(half_space, gap, force=HERTZ / 12**3, tolerance=1e-5) for _ in range(1))
-    by_approach = (bem3d.solve(half_space, gap, approach=0.7 + 1 / 144, tolerance=1e-5) for _ in range(1))
-    assert windows(monkeypatch, by_force) == [[12, 24, 25]]
-    assert windows(monkeypatch, by_approach) == [[5, 6, 12, 24, 25]]
 
 
 @pytest.mark.slow

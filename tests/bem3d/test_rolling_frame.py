@@ -152,39 +152,6 @@ def long_cells(**changes):
     return bem3d.Track(**{**settings, **changes})
 
 
-@pytest.mark.parametrize("approach", [0.3, 0.9, 2.0])
-@pytest.mark.parametrize("highest", [0.0, 0.4])
-def test_rows_beyond_reach_cannot_overlap(approach, highest):
-    """g = x^2 / 2 R - h < d as far as sqrt(2 R (d + h)), in rows."""
-    track = long_cells(height=np.full((30, 60), highest) * (np.arange(60) == 7))
-    reach = track.reach(approach)
-    assert (reach * 0.6) ** 2 / 10 <= approach + highest < ((reach + 1) * 0.6) ** 2 / 10
-    assert track.reach(-highest - 0.1) == 0
-
-
-def test_a_frame_is_as_much_wider_as_its_longer_side_says():
-    """So many parts of it on each side, and two rows ahead."""
-    track = long_cells(height=np.zeros((200, 200)))
-    wheel = bem3d.RollingContact(track)
-    for spans, margin in ((((-3, 5), (80, 120)), 4), (((-30, 10), (90, 98)), 4), (((0, 9), (90, 99)), 0)):
-        found = wheel._around(spans, 0.1)
-        assert found.spans == track.widened((((spans[0][0]), spans[0][1] + 2), spans[1]), margin)
-        assert wheel._around(spans).spans == track.widened(((spans[0][0], spans[0][1] + 2), spans[1]), 0)
-
-
-def test_cells_outside_are_listed_for_a_twentieth_more():
-    """And anew for more than that, at an approach of either sign."""
-    frame = Frame(long_cells(height=np.full((30, 60), 3.0)), ((-2, 3), (25, 35)))
-    for approach in (1.0, -1.0):
-        frame._limit = -np.inf
-        frame.outside(0, approach, np.zeros(frame.shape))
-        listed = frame._rim
-        frame.outside(0, approach + 0.049, np.zeros(frame.shape))
-        assert frame._rim is listed
-        frame.outside(0, approach + 0.051, np.zeros(frame.shape))
-        assert frame._rim is not listed
-
-
 @pytest.mark.parametrize("cell", [(0, 5), (4, 5), (2, 0), (2, 9)])
 def test_cells_outside_are_judged_from_the_centre_of_the_pressure(cell):
     """The displacement at r is at least F / (pi E* sqrt(|r - c|^2 + s^2)): c is not below the wheel."""

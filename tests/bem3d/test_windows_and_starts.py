@@ -186,18 +186,6 @@ def test_coarse_grids_give_a_start_and_no_more(shape, periodic, monkeypatch):
     assert one.pressure == pytest.approx(other.pressure, abs=1e-7 * other.pressure.max())
 
 
-@pytest.mark.slow
-@given(problem=pressed(most=40))
-def test_textbook_and_fast_solver_find_the_same(problem):
-    fast = problem.solve(tolerance=1e-9)
-    plain = bem3d.solve_polonsky_keer(
-        problem.half_space, problem.gap, **problem.prescribed, tolerance=1e-9, raise_on_failure=False
-    )
-    if plain.converged:
-        assert fast.approach == pytest.approx(plain.approach, abs=1e-6 * (plain.approach - problem.gap.min()))
-        assert fast.force == pytest.approx(plain.force, rel=1e-5)
-
-
 def test_what_a_half_space_has_solved_before_does_not_matter():
     """Equal bits from a new half-space, from one that has solved other problems, and from threads that share one."""
     gap = np.random.default_rng(1).normal(size=(70, 50))
@@ -238,18 +226,6 @@ def test_measured_plans_leave_the_estimates_of_others_alone(periodic):
     np.testing.assert_array_equal(displacement("estimate"), before)
 
 
-def test_a_problem_shares_its_gap_with_those_along_a_path():
-    """A path of many loads on a large grid holds one copy of the gap, which nobody else can change."""
-    body = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(1).normal(size=(8, 8))
-    problem = Problem(half_space=body, gap=gap, force=1.0)
-    assert not np.shares_memory(problem.gap, gap)
-    assert problem.under(2.0).gap is problem.gap
-    frozen = gap.view()
-    frozen.flags.writeable = False
-    assert not np.shares_memory(Problem(half_space=body, gap=frozen, force=1.0).gap, gap)
-
-
 def test_the_memory_of_fftw_is_put_back_as_it_was():
     """What others have measured in this process stays, and what a half-space has measured goes."""
     field = pyfftw.empty_aligned(24, dtype=np.complex128)
@@ -268,14 +244,6 @@ def test_a_window_is_laid_around_the_middle_of_what_it_holds():
     marked = np.zeros((60, 40), dtype=bool)
     marked[10:31, 39] = marked[10:31, 19] = True
     assert smallest_box(half_space, marked) == (slice(8, 33), slice(15, 40))
-
-
-@pytest.mark.parametrize("load", [{"approach": 1.0}, {"approach": 0.0}, {"force": 0.0}])
-def test_no_contact_costs_nothing(load):
-    contact = bem3d.solve(bem3d.HalfSpace(shape=(5, 4), spacing=1.0, modulus=1.0), np.ones((5, 4)), **load)
-    assert (contact.operator_applications, contact.history, contact.iterations) == (0, (0.0,), 0)
-    assert contact.force == 0.0
-    assert contact.approach == load.get("approach", 1.0)
 
 
 def test_sides_of_windows_are_few():

@@ -35,21 +35,6 @@ def test_few_springs_in_contact(springs, warned):
         assert place == __file__
 
 
-def test_one_spring_and_no_spring():
-    curve = parabola(4)
-    _, ((_, sentence, _),) = said(curve.at_force, 1e-9)
-    assert sentence.startswith("only 2 springs in contact")
-    _, ((_, sentence, _),) = said(mdr.load_curve([0.0, 1.0, 0.0], length=1.0, modulus=1.0).at_force, 1e-9)
-    assert sentence.startswith("only 1 spring in contact: the answer is that of the spacing, not of the profile")
-    assert said(curve.at_force, 0.0)[1] == []
-
-
-def test_many_loads_are_warned_of_once():
-    curve = parabola(40)
-    _, ((_, sentence, _),) = said(curve.at_approach, np.array([-1.0, 0.01, 0.02, 1.0]))
-    assert sentence.startswith("only 4 springs in contact at 2 of 4 loads, at the lightest: k may be 25% off")
-
-
 def test_no_warning_of_a_punch_all_of_whose_springs_carry():
     assert said(mdr.load_curve(np.zeros(5), length=1.0, modulus=1.0).at_approach, 1.0)[1] == []
 
@@ -109,14 +94,6 @@ def test_warnings_of_the_units_of_a_sphere(modulus, approach, asked):
     sentence = "the radius of contact is 1.1 times that of the sphere: are the units right?"
     for told in (found, rolled, borne, forced, in_step):
         assert told == [(mdr.SpringUnitsWarning, sentence, __file__)] * asked
-
-
-def test_warning_of_a_modulus_in_gigapascals():
-    """2 GPa typed as 2."""
-    assert said(mdr.press_sphere, radius=1e-2, modulus=2e9, force=50.0)[1] == []
-    ((category, sentence, _),) = said(mdr.press_sphere, radius=1e-2, modulus=2.0, force=50.0)[1]
-    assert category is mdr.SpringUnitsWarning
-    assert sentence == "the radius of contact is 57.2 times that of the sphere: are the units right?"
 
 
 def rough(height, q_max=3.0):
@@ -181,14 +158,6 @@ def test_warning_of_a_linear_contact_has_the_part_it_leaves_out():
         f"roughness of h_rms / d = {np.std(height) / 0.8:.2g} moves the ends of the contact"
     )
     assert f"to second order {part:.0%} of the fluctuation of its force" in warning.detail
-
-
-@pytest.mark.parametrize(("short", "warned"), [(0.9e-9, 0), (1.1e-9, 1), (1.9e-9, 1)])
-def test_a_wave_or_a_wheel_is_too_short_by_a_billionth(short, warned):
-    """Four springs to a wave, sixteen under a wheel."""
-    q = np.array([1.0, 2 * np.pi / (4 * (1 - short)), 3.0])
-    assert len(diagnostics.diagnose_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
-    assert len(diagnostics.diagnose_wheel(16 * (1 - short))) == warned
 
 
 @pytest.mark.parametrize("contact", ["linear", "full"])

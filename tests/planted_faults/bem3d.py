@@ -1,8 +1,8 @@
 """Faults planted in what `tests/bem3d` looks at: where, what is wrong there, and the test that must catch it."""
 
 import dataclasses
-import functools
 import math
+from functools import partial
 
 import numpy as np
 import scipy
@@ -154,15 +154,15 @@ FAULTS = {
     ),
     "a second modulus among few cells": (
         (few_cells, "_influence", lambda body: influence(body) / body.modulus),
-        functools.partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
+        partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
     ),
     "few cells on the body that was pressed before": (
         (few_cells, "_influence", of_the_first_body({})),
-        functools.partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
+        partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
     ),
     "the sum of the pressure for its energy": (
         (few_cells, "_sum_of_unit_pressure", summed_pressure),
-        functools.partial(test_few_cells.test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve, (1.0, 1.0)),
+        partial(test_few_cells.test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve, (1.0, 1.0)),
     ),
     "few cells as wide as they are long": (
         (few_cells, "_influence", among_square_cells),
@@ -206,9 +206,7 @@ FAULTS = {
     ),
     "columns a power of two apart": (
         (convolution, "COLUMNS_AT_ONCE", 32),
-        functools.partial(
-            test_operator_against_dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024
-        ),
+        partial(test_operator_against_dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024),
     ),
     # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
     "padding two points short": (
@@ -241,9 +239,7 @@ FAULTS = {
     ),
     "a window that cuts cells off": (
         (window_solve, "smallest_box", half_a_window),
-        functools.partial(
-            test_windows_and_starts.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0
-        ),
+        partial(test_windows_and_starts.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0),
     ),
     "stiffness to first order in the residual": (
         (bem3d, "solve_fixed_area", sum_of_the_pressure),
@@ -251,25 +247,23 @@ FAULTS = {
     ),
     "factor 2 lost in linear theory, seen by boundary elements": (
         (test_rolling_contact, "response", scaled(rolling_theory.response, 0.5)),
-        functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
+        partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
     ),
     "x^2 / R under the sphere": (
         (Track, "wheel", scaled(Track.wheel, 2.0)),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+        partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
     ),
     "the wheel half a cell ahead": (
         (Track, "along", half_a_cell_ahead),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+        partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
     ),
     "the wheel half a cell aside": (
         (Track, "across", half_a_cell_aside),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
+        partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
     ),
     "a frame that is trusted": (
         (Frame, "outside", lambda *_: None),
-        functools.partial(
-            test_rolling_contact.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0
-        ),
+        partial(test_rolling_contact.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0),
     ),
     "a bound four times as large": (
         (Frame, "_moments", four_times_the_force),
@@ -277,9 +271,7 @@ FAULTS = {
     ),
     "a residual of rolling that is not looked at": (
         (wheel_on_strip, "residual", lambda *_: 0.0),
-        functools.partial(
-            test_rolling_contact.test_pressures_solve_the_contact_on_all_of_the_strip, "as rough as deep"
-        ),
+        partial(test_rolling_contact.test_pressures_solve_the_contact_on_all_of_the_strip, "as rough as deep"),
     ),
     "a modulus in gigapascals that nobody asks about": (
         (contact, "diagnose_units", lambda **_: ()),
@@ -287,19 +279,19 @@ FAULTS = {
     ),
     "accepted at ten times its tolerance": (
         (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
-        functools.partial(test_accepted_solves.test_the_tolerance_is_that_of_the_caller, 9.9e-4, None),
+        partial(test_accepted_solves.test_the_tolerance_is_that_of_the_caller, 9.9e-4, None),
     ),
     "accepted at ten times its tolerance, seen by a solve": (
         (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
-        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+        partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
     ),
     "the iteration limit taken for convergence": (
         (contact.Contact, "converged", property(whoever_has_ended)),
-        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+        partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
     ),
     "the radii along and across exchanged": (
         (Track, "radii", property(lambda track: track.radius[::-1])),
-        functools.partial(
+        partial(
             test_elliptic_wheels.test_low_waves_under_an_ellipse_have_the_filter_of_the_half_space, (1.0, 0.2), (1, 0)
         ),
     ),
