@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 import bem3d
 from bem3d import convolution
 from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
-from tests.strategies import pressed, scales
+from tests.strategies import pressed
 
 TIGHT = 1e-12
-# two solves of one scaled problem stop at different iterations: both must be past what is compared
-DEEP = 1e-13
+exponents = st.integers(-30, 30)
 
 
 @pytest.mark.slow
@@ -51,35 +50,18 @@ def test_approach_is_that_of_the_dense_solution_under_the_same_force(problem):
 
 
 @pytest.mark.slow
-@given(problem=pressed(periodic=False), scale=scales, modulus=scales)
-def test_scaling_with_lengths_and_modulus(problem, scale, modulus):
-    """All lengths times s, E* times m: approach ~ s, pressure ~ m, force ~ m s^2, stiffness ~ m s."""
-    one = problem.solve(tolerance=DEEP)
-    old = problem.half_space
-    half_space = bem3d.HalfSpace(shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus)
-    factor = {"approach": scale, "force": modulus * scale**2}
-    prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
-    other = bem3d.solve(half_space, scale * problem.gap, **prescribed, tolerance=DEEP)
-    assert other.force == pytest.approx(one.force * modulus * scale**2, rel=1e-12)
-    overlap = one.approach - problem.gap.min()
-    assert other.approach / scale == pytest.approx(one.approach, abs=1e-12 * overlap)
-    if np.array_equal(one.pressure > 0, other.pressure > 0):
-        k = [contact.stiffness(tolerance=1e-12) for contact in (one, other)]
-        assert k[1] == pytest.approx(k[0] * modulus * scale, rel=1e-11)
-
-
-@pytest.mark.slow
-@given(problem=pressed(), exponent=st.integers(-30, 30), other=st.integers(-30, 30))
-def test_scaling_by_powers_of_two_is_exact(problem, exponent, other):
-    """No absolute number hides anywhere: the same bits come out."""
-    scale, modulus = 2.0**exponent, 2.0**other
+@given(problem=pressed(), metre=exponents, height=exponents, pascal=exponents)
+def test_scaling_by_powers_of_two_is_exact(problem, metre, height, pascal):
+    """Lengths times s, heights times h, E* times m: p ~ m h / s, F ~ m h s. No absolute number hides anywhere."""
+    scale, high, modulus = 2.0**metre, 2.0**height, 2.0**pascal
     old = problem.half_space
     spacing = (scale * old.steps[0], scale * old.steps[1])
     half_space = bem3d.HalfSpace(shape=old.shape, spacing=spacing, modulus=modulus, periodic=old.periodic)
-    factor = {"approach": scale, "force": modulus * scale**2}
+    factor = {"approach": high, "force": modulus * high * scale}
     prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
-    contact = bem3d.solve(half_space, scale * problem.gap, **prescribed)
-    np.testing.assert_array_equal(contact.pressure, modulus * problem.solve().pressure)
+    one, other = problem.solve(), bem3d.solve(half_space, high * problem.gap, **prescribed)
+    np.testing.assert_array_equal(other.pressure, modulus * high / scale * one.pressure)
+    assert other.stiffness() == modulus * scale * one.stiffness()
 
 
 @pytest.mark.slow
@@ -137,7 +119,7 @@ def test_no_contact():
         contact = solver(half_space, gap, **prescribed)
         assert (contact.force, contact.area, contact.residual, contact.stiffness()) == (0, 0, 0, 0)
         assert contact.approach == prescribed.get("approach", 0.5)
-        assert contact.status == "converged"
+        assert (contact.status, contact.operator_applications, contact.history) == ("converged", 0, (0.0,))
 
 
 def test_full_contact_of_a_periodic_half_space():
@@ -175,24 +157,6 @@ def test_result_carries_its_problem_and_its_costs(solver, monkeypatch):
     np.testing.assert_array_equal(contact.problem.gap, gap)
 
 
-@pytest.mark.parametrize("prescribed", [{"approach": 0.7}, {"force": 3.0}])
-def test_not_converged_is_never_success(prescribed):
-    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(0).random((8, 8))
-    with pytest.raises(bem3d.ConvergenceError, match="after 2 iterations") as caught:
-        bem3d.solve(half_space, gap, **prescribed, tolerance=1e-10, max_iterations=2)
-    assert len(caught.value.history) == 3
-    result = bem3d.solve(half_space, gap, **prescribed, tolerance=1e-10, max_iterations=2, raise_on_failure=False)
-    assert result.status == "iteration limit"
-    assert not result.converged
-    with pytest.raises(bem3d.ConvergenceError, match="no stiffness"):
-        result.stiffness()
-    with pytest.raises(bem3d.ConvergenceError, match="frozen-contact"):
-        bem3d.solve_fixed_area(half_space, gap < 0.5, tolerance=1e-10, max_iterations=2)
-    frozen = bem3d.solve_fixed_area(half_space, gap < 0.5, max_iterations=2, raise_on_failure=False)
-    assert not frozen.converged
-
-
 def test_a_failure_comes_home_from_another_process():
     """With its sentence, its history and what was reached."""
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
@@ -217,21 +181,12 @@ def test_textbook_iteration_may_cycle_under_a_force():
     assert bem3d.solve(half_space, gap, force=1.0, tolerance=TIGHT).converged
 
 
-def test_results_are_copies():
-    """Neither the caller's gap nor a start that is already a solution is shared with the result."""
-    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(0).random((8, 8))
-    contact = bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-8)
-    kept = contact.problem.gap.copy()
-    gap += 100
-    np.testing.assert_array_equal(contact.problem.gap, kept)
-    start = contact.pressure.copy()
-    again = bem3d.solve(half_space, kept, approach=0.7, tolerance=1e-6, start=start)
+def test_a_start_that_is_a_solution_is_not_shared():
+    half_space, gap = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0), np.random.default_rng(0).random((8, 8))
+    start = bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-8).pressure.copy()
+    again = bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-6, start=start)
     assert again.iterations == 0
     assert not np.shares_memory(again.pressure, start)
-    for array in (again.pressure, again.problem.gap):
-        with pytest.raises(ValueError, match="read-only"):
-            array[0, 0] = 1.0
 
 
 @pytest.mark.parametrize("side", [4, 40])
