@@ -8,31 +8,23 @@ import numpy as np
 from scipy import integrate, linalg, optimize, signal
 
 
-@functools.cache
 def love_by_logarithms(x, y, dx, dy):
-    """int dA / r over a cell by the four logarithms of the textbook, one cell at a time."""
-    a, b = dx / 2, dy / 2
+    """int dA / r over cells by the four logarithms of the textbook."""
     total = 0.0
-    for this, that, half_this, half_that in ((x, y, a, b), (y, x, b, a)):
+    for this, that, half_this, half_that in ((x, y, dx / 2, dy / 2), (y, x, dy / 2, dx / 2)):
         for sign in (1, -1):
-            arm = this + sign * half_this
-            above = (that + half_that) + math.hypot(that + half_that, arm)
-            below = (that - half_that) + math.hypot(that - half_that, arm)
-            total += sign * arm * math.log(above / below)
+            arm, above, below = this + sign * half_this, that + half_that, that - half_that
+            total += sign * arm * np.log((above + np.hypot(above, arm)) / (below + np.hypot(below, arm)))
     return total
 
 
 def dense_operator(half_space):
-    """K as a matrix over all cells, row by row."""
+    """K as a matrix over all cells."""
     (nx, ny), (dx, dy) = half_space.shape, half_space.steps
-    cells = [(i, j) for i in range(nx) for j in range(ny)]
+    i, j = (np.subtract.outer(index, index) for index in np.indices((nx, ny)).reshape(2, -1))
     if half_space.periodic:
-        green = [[_periodic_green(i - k, j - m, (nx, ny), (dx, dy)) for k, m in cells] for i, j in cells]
-        return np.array(green) / half_space.modulus
-    factor = 1 / (math.pi * half_space.modulus)
-    return np.array(
-        [[factor * love_by_logarithms((i - k) * dx, (j - m) * dy, dx, dy) for k, m in cells] for i, j in cells]
-    )
+        return _periodic_green(i, j, (nx, ny), (dx, dy)) / half_space.modulus
+    return love_by_logarithms(i * dx, j * dy, dx, dy) / (math.pi * half_space.modulus)
 
 
 def displacement(half_space, pressure):
@@ -44,32 +36,21 @@ def displacement(half_space, pressure):
         green = np.divide(2 / half_space.modulus, q, out=np.zeros(q.shape), where=q > 0)
         return np.fft.ifft2(green * np.fft.fft2(pressure)).real
     i, j = np.meshgrid(np.arange(1 - nx, nx), np.arange(1 - ny, ny), indexing="ij")
-    kernel = _many_loves(i * dx, j * dy, dx / 2, dy / 2) / (math.pi * half_space.modulus)
+    kernel = love_by_logarithms(i * dx, j * dy, dx, dy) / (math.pi * half_space.modulus)
     return signal.oaconvolve(kernel, pressure, mode="valid")
-
-
-def _many_loves(x, y, a, b):
-    """`love_by_logarithms` for arrays."""
-    total = np.zeros(x.shape)
-    for this, that, half_this, half_that in ((x, y, a, b), (y, x, b, a)):
-        for sign in (1, -1):
-            arm = this + sign * half_this
-            above, below = that + half_that, that - half_that
-            total += sign * arm * np.log((above + np.hypot(above, arm)) / (below + np.hypot(below, arm)))
-    return total
 
 
 def _periodic_green(i, j, shape, spacing):
     """sum over the waves of the grid of 2 cos(q.x) / (|q| number of cells), zero mode left out; E* = 1."""
     nx, ny = shape
-    total = 0.0
+    total = np.zeros(i.shape)
     for k in range(nx):
         for m in range(ny):
             wave_x = (k if 2 * k <= nx else k - nx) / (nx * spacing[0])
             wave_y = (m if 2 * m <= ny else m - ny) / (ny * spacing[1])
             q = 2 * math.pi * math.hypot(wave_x, wave_y)
             if q > 0:
-                total += 2 / q * math.cos(2 * math.pi * (k * i / nx + m * j / ny))
+                total += 2 / q * np.cos(2 * math.pi * (k * i / nx + m * j / ny))
     return total / (nx * ny)
 
 
@@ -133,12 +114,7 @@ def flat_square_by_graded_cells(cells):
     middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
     x, y = (g.ravel() for g in np.meshgrid(middle, middle, indexing="ij"))
     dx, dy = (g.ravel() for g in np.meshgrid(width, width, indexing="ij"))
-    matrix = np.array(
-        [
-            [love_by_logarithms(x[i] - x[j], y[i] - y[j], dx[j], dy[j]) / math.pi for j in range(x.size)]
-            for i in range(x.size)
-        ]
-    )
+    matrix = love_by_logarithms(np.subtract.outer(x, x), np.subtract.outer(y, y), dx, dy) / math.pi
     return float(np.sum(linalg.solve(matrix, np.ones(x.size)) * dx * dy))
 
 

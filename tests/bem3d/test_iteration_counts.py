@@ -199,52 +199,21 @@ def test_a_rolling_wheel_costs_no_more_than(by, rms, positions, most):
 
 @pytest.mark.parametrize("by", ["approach", "force"])
 def test_nothing_but_the_window_is_transformed(by, monkeypatch):
-    """A sphere in the corner of a large grid: the operator is applied on a window of 2.8 a and a little, no more."""
+    """A sphere in the corner of a large grid: from nothing, from a contact and along a path, 2.8 a and a little."""
     n, a = 256, 12
     x = np.arange(n) - 40.0
     gap = (x[:, np.newaxis] ** 2 + x**2) / 2
     half_space = bem3d.HalfSpace(shape=(n, n), spacing=1.0, modulus=1.0)
+    load = a**2 if by == "approach" else 4 / 3 * a**3
     shapes = []
     apply = bem3d.HalfSpace.apply
     monkeypatch.setattr(bem3d.HalfSpace, "apply", lambda self, p: shapes.append(self.shape) or apply(self, p))
-    contact = bem3d.solve(half_space, gap, **{by: a**2 if by == "approach" else 4 / 3 * a**3}, tolerance=1e-8)
+    contact = bem3d.solve(half_space, gap, **{by: load}, tolerance=1e-8)
+    assert contact.force == pytest.approx(4 / 3 * a**3, rel=1e-2)
+    bem3d.solve(half_space, gap, **{by: 0.9 * load}, tolerance=1e-8, start=contact)
+    list(bem3d.indent(half_space, gap, **{"forces" if by == "force" else "approaches": [0.7 * load, load]}))
     assert max(shape[0] for shape in shapes if shape[0] <= 64) < 3.4 * a
     assert (n, n) not in shapes
-    assert contact.force == pytest.approx(4 / 3 * a**3, rel=1e-2)
-
-
-def windows(monkeypatch, contacts):
-    """Sides of the windows of 48 cells and fewer of which a residual is asked for, one row a contact."""
-    sides = []
-    apply = bem3d.HalfSpace.apply
-    monkeypatch.setattr(bem3d.HalfSpace, "apply", lambda self, p: sides.append(self.shape) or apply(self, p))
-    found = []
-    for _ in contacts:
-        found.append(sorted({side for shape in sides for side in shape}))
-        sides.clear()
-    return found
-
-
-def sphere_above():
-    """Off the middle of 96 cells a side, lowest at 0.7 above the plane that approaches count from."""
-    half_space, gap = sphere(96, (2.7, -0.6))
-    return half_space, 0.7 + gap
-
-
-@pytest.mark.parametrize(
-    ("stiffness", "expected"),
-    [
-        (False, [[12, 24, 25], [25, 30], [40], [35], [25], [40]]),
-        (True, [[12, 24, 25], [30, 32], [40], [35], [25], [50]]),
-    ],
-)
-def test_windows_along_a_path_of_forces(stiffness, expected, monkeypatch):
-    """Wide enough for the overlap s that the secant or the tangent tells: 2 sqrt(2 * 1.1 s R)."""
-    half_space, gap = sphere_above()
-    radii = np.array([8, 10, 12, 11, 6, 12]) / 96
-    path = bem3d.indent(half_space, gap, forces=HERTZ * radii**3, stiffness=stiffness, tolerance=1e-5)
-    found = windows(monkeypatch, path)
-    assert found == expected
 
 
 @pytest.mark.slow

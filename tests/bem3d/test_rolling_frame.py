@@ -146,12 +146,6 @@ def test_a_cell_that_just_overlaps_outside_of_a_frame_is_found(place, share):
     assert columns[0] <= column < columns[1]
 
 
-def long_cells(**changes):
-    """Cells three times as long as wide, E* = 2, R = 5."""
-    settings = {"height": np.zeros((30, 60)), "spacing": (0.6, 0.2), "radius": 5.0, "modulus": 2.0}
-    return bem3d.Track(**{**settings, **changes})
-
-
 @pytest.mark.parametrize("cell", [(0, 5), (4, 5), (2, 0), (2, 9)])
 def test_cells_outside_are_judged_from_the_centre_of_the_pressure(cell):
     """The displacement at r is at least F / (pi E* sqrt(|r - c|^2 + s^2)): c is not below the wheel."""

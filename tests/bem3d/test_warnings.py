@@ -38,15 +38,6 @@ def test_few_cells():
     assert contact.diagnostics == ((category, sentence),)
 
 
-@pytest.mark.parametrize(("force", "cells"), [(1e-6, "1 cell"), (1e-3, "4 cells")])
-def test_a_handful_of_cells(force, cells):
-    middle = 12 if cells == "1 cell" else 11.5
-    x = np.arange(24) - middle
-    _, ((category, sentence, _),) = said(bem3d.solve, BODY, (x[:, np.newaxis] ** 2 + x**2) / 200, force=force)
-    assert category is bem3d.ResolutionWarning
-    assert sentence.startswith(f"only {cells} in contact: the answer is that of the grid, not of the surface")
-
-
 @pytest.mark.parametrize("side", [2, 3, 4, 5])
 def test_error_of_few_cells_is_that_of_the_warning(side):
     """A square punch of side^2 cells against 1.1523 E* L: too soft by about 0.3 / side."""
@@ -69,11 +60,6 @@ def test_no_warning_of_enough_cells_away_from_the_edge():
     assert contact.area > 32
     assert nothing == []
     assert said(bem3d.solve, BODY, bowl(12), force=0.0)[1] == []
-
-
-def test_a_path_says_it_once():
-    _, found = said(lambda: list(bem3d.indent(BODY, bowl(12), forces=[0.001, 0.002, 0.004])))
-    assert [category for category, _, _ in found] == [bem3d.ResolutionWarning]
 
 
 @pytest.mark.parametrize(("cells", "warned"), [(2.5, True), (3.9, True), (4.0, False), (8.0, False)])
@@ -193,21 +179,6 @@ def test_warning_of_cells_at_the_edge_has_their_number():
 def test_warning_of_a_small_sphere_has_its_cells(cells, warned):
     said = "the contact of the smooth sphere has only 32 cells: refine the grid (32 cells or more are not warned of)"
     assert [warning.detail for warning in diagnostics.diagnose_sphere(cells)] == [said] * warned
-
-
-@pytest.mark.parametrize(("short", "warned"), [(0.9e-9, 0), (1.1e-9, 1), (1.9e-9, 1)])
-def test_a_wave_is_too_short_by_a_billionth(short, warned):
-    """Of four cells, the longer ones."""
-    q = np.array([0.1, 2 * np.pi / (4 * (1 - short)) / 3, 3.0])
-    assert len(diagnostics.diagnose_waves(np.array([1.0, 1.0, 0.0]), q, (3.0, 0.5))) == warned
-
-
-@pytest.mark.parametrize(("height", "warned"), [(32.0, 0), (32.1, 1)])
-def test_a_spike_may_carry_half_of_the_force(height, warned):
-    """Beside 32 cells of a unit each."""
-    pressure = np.zeros((12, 12))
-    pressure[1:5, 1:9], pressure[8, 8] = 1.0, height
-    assert len(diagnostics.diagnose_pressure(pressure, edge=True)) == warned
 
 
 def shown(call):

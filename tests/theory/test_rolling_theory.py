@@ -11,7 +11,7 @@ from scipy import integrate
 
 import mdr
 from tests.oracles import moment_1d
-from tests.strategies import Bumps, bumps, scales
+from tests.strategies import bumps, scales
 from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
 from validation.theory.rolling import (
     contact_lost,
@@ -37,19 +37,6 @@ def power_law(hurst, first=1.0, last=20.0):
     return spectrum, (first, last)
 
 
-@given(spectrum=bumps(), q=st.floats(0.5, 2), a=st.floats(-1, 1))
-def test_force_spectrum_is_a_sum_over_the_lattice(spectrum, q, a):
-    """Smooth spectra: the trapezoidal rule over ky converges faster than any power.
-
-    One bump about s = 1, 0.2 to 0.6 wide in ln s: nothing is left of it beyond s = 60, and a hundredth resolves it.
-    """
-    one = Bumps(spectrum.level[:1], (0.0,), spectrum.width[:1])
-    wheel = {"contact_radius": 10**a, "modulus": 1.0}
-    found = force_spectrum_3d(q, one.c2d, edges=(one.q_low, one.q_high), **wheel)
-    s = np.hypot(q, 0.01 * np.arange(-6000, 6001))
-    assert float(found) == pytest.approx(0.01 * np.sum(4 * np.sin(s * 10**a) ** 2 / s**2 * one.c2d(s)), rel=1e-6)
-
-
 @pytest.mark.parametrize("hurst", HURSTS)
 @pytest.mark.parametrize("q", [0.0, 0.3, 1.0, 1.7, math.pi, 10.0, 19.0])
 def test_force_spectrum_by_adaptive_quadrature(hurst, q):
@@ -64,24 +51,6 @@ def test_force_spectrum_by_adaptive_quadrature(hurst, q):
     expected = sum(integrate.quad(power, low, high, epsabs=0, epsrel=1e-11)[0] for low, high in pairwise(k))
     assert float(force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT)) == pytest.approx(expected, rel=1e-8)
     assert float(force_spectrum_3d(-q, spectrum.c2d, edges=edges, **UNIT)) == pytest.approx(expected, rel=1e-8)
-
-
-@pytest.mark.slow
-@given(power=st.integers(-30, 30), unit=scales)
-def test_force_spectrum_in_other_units(power, unit):
-    """C_F ~ E*^2 l^5 and C_2D ~ l^4; lengths by powers of two, so that the edges of the band stay where they are."""
-    factor = 2.0**power
-    spectrum, edges = power_law(0.7)
-    q = np.array([0.5, 3.0, 11.0])
-    expected = force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT)
-    found = force_spectrum_3d(
-        q / factor,
-        lambda s: factor**4 * spectrum.c2d(np.clip(s * factor, *edges)),
-        edges=tuple(edge / factor for edge in edges),
-        contact_radius=factor,
-        modulus=unit,
-    )
-    assert found / (unit**2 * factor**5) == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.slow
