@@ -213,7 +213,7 @@ def test_force_out_of_range(by_force):
             wrong()
 
 
-@pytest.mark.parametrize("function", [solve, sphere, springs, strip])
+@pytest.mark.parametrize("function", [solve, sphere, springs, springs_across, strip])
 def test_approach_and_force_are_alternatives(function):
     with pytest.raises(ValueError, match="either approach or force"):
         function(force=1.0)

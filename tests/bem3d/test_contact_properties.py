@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import bem3d
 from bem3d import convolution
-from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
+from tests.oracles import dense_operator
 from tests.strategies import pressed
 
 TIGHT = 1e-12
@@ -30,23 +30,6 @@ def test_complementarity(problem):
     assert (contact.pressure >= 0).all()
     assert -w.min() <= allowed
     assert np.sum(contact.pressure * np.abs(w)) <= allowed * contact.pressure.sum()
-
-
-@pytest.mark.slow
-@given(problem=pressed(periodic=False, by=("approach",)))
-def test_pressure_is_that_of_the_dense_least_squares_solution(problem):
-    contact = problem.solve(tolerance=TIGHT)
-    dense = contact_by_least_squares(problem.half_space, problem.gap, contact.approach)
-    np.testing.assert_allclose(contact.pressure, dense, atol=1e-9 * dense.max(initial=1e-300))
-
-
-@pytest.mark.slow
-@given(problem=pressed(periodic=False, by=("force",), most=7))
-def test_approach_is_that_of_the_dense_solution_under_the_same_force(problem):
-    contact = problem.solve(tolerance=TIGHT)
-    dense = approach_by_least_squares(problem.half_space, problem.gap, problem.prescribed["force"])
-    assert contact.force == pytest.approx(problem.prescribed["force"], rel=1e-12)
-    assert contact.approach == pytest.approx(dense, abs=1e-8 * (dense - problem.gap.min()))
 
 
 @pytest.mark.slow

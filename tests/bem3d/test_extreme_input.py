@@ -119,15 +119,6 @@ def test_ridges_under_a_force(shape, load):
         assert np.ptp(contact.pressure, axis=1).max() <= 1e-5 * contact.pressure.max()
 
 
-@pytest.mark.parametrize("part", [0.9, 0.999, 0.999999])
-def test_periodic_contact_close_to_saturation(part):
-    """By an approach ever closer to the mean gap, where the pressure that it takes is no longer determined by it."""
-    body, gap = half_space((32, 32), periodic=True), rough((32, 32))
-    approach = gap.min() + part * (gap.mean() - gap.min())
-    contact = checked(bem3d.solve(body, gap, approach=approach, tolerance=TOLERANCE))
-    assert contact.area <= gap.size
-
-
 @pytest.mark.parametrize("part", [0.97, 0.999, 1 - 1e-9])
 @pytest.mark.parametrize("n", [40, 65, 81])
 def test_the_mean_gap_of_coarser_grids_changes_nothing(n, part):

@@ -130,8 +130,10 @@ def test_as_many_cells_as_are_allowed_and_no_more():
     assert len(list(bem3d.indent_few_cells(body, gap, forces=FORCES, max_cells=overlapping[2] + 1))) == len(FORCES)
 
 
-def test_not_converged_is_no_result():
+def test_not_converged_is_no_result(monkeypatch):
     body, gap = rough_punch()
     with pytest.raises(bem3d.ConvergenceError, match=r"residual .* asked for 1e-12, at force 1e-05 N") as caught:
         list(bem3d.indent_few_cells(body, gap, forces=[1e-5], tolerance=1e-12, max_iterations=1))
     assert caught.value.history[-1] == caught.value.result.residual > 1e-12
+    monkeypatch.setattr("bem3d.few_cells.MOST_STEPS", 0)
+    assert np.isnan(next(bem3d.indent_few_cells(body, gap, forces=[1e-5])).stiffness)

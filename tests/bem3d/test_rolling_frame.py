@@ -1,10 +1,8 @@
 """The frame of cells around a rolling contact: its cells, its sides, and proofs that no cell outside touches."""
 
-import math
-
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -32,84 +30,6 @@ def test_a_force_lowers_the_surface_by_no_less_than_the_bound(half_space, data):
 
 def framed(height, spans):
     return Frame(bem3d.Track(height=height, spacing=1.0, radius=15.0, modulus=1.0), spans)
-
-
-def some_spans():
-    """Rows from -6 to 6, columns from 0 to 24."""
-    rows, columns = (
-        st.lists(st.integers(low, high), min_size=2, max_size=2, unique=True).map(sorted).map(tuple)
-        for low, high in ((-6, 6), (0, 24))
-    )
-    return st.tuples(rows, columns)
-
-
-@given(here=some_spans(), there=some_spans(), seed=st.integers(0, 100))
-def test_a_field_of_another_frame_stays_where_it_is_on_the_ground(here, there, seed):
-    assume(all(max(here[k][0], there[k][0]) < min(here[k][1], there[k][1]) for k in (0, 1)))
-    height = np.zeros((40, 24))
-    one, other = framed(height, here), framed(height, there)
-    field = np.random.default_rng(seed).random(other.shape)
-    taken = one.take(field, other)
-    for i, row in enumerate(range(*here[0])):
-        for j, column in enumerate(range(*here[1])):
-            known = row in range(*there[0]) and column in range(*there[1])
-            assert taken[i, j] == (field[row - there[0][0], column - there[1][0]] if known else 0)
-    assert one.within(other) == all(there[k][0] <= here[k][0] and here[k][1] <= there[k][1] for k in (0, 1))
-    # the first and the last column of the strip, if the frame has them, and no other
-    for column in range(*here[1]):
-        pressure = np.zeros(one.shape)
-        pressure[-1, column - here[1][0]] = 1.0
-        assert one.at_edge(pressure) == (column in (0, 23))
-
-
-@given(spans=some_spans(), margin=st.integers(0, 12))
-def test_a_wider_frame_holds_the_narrower_with_its_margin(spans, margin):
-    """On both sides, evenly; where the strip ends, as far as it has cells."""
-    track = bem3d.Track(height=np.zeros((40, 24)), spacing=1.0, radius=15.0, modulus=1.0)
-    (first, last), (left, right) = track.widened(spans, margin)
-    assert spans[0][0] - first >= margin and last - spans[0][1] >= margin
-    assert abs((spans[0][0] - first) - (last - spans[0][1])) <= 1
-    assert 0 <= left <= max(spans[1][0] - margin, 0) and min(spans[1][1] + margin, 24) <= right <= 24
-    # no longer than the next side that transforms fast
-    assert last - first <= 1.25 * (spans[0][1] - spans[0][0] + 2 * margin) + 1
-
-
-def test_moments_of_a_pressure():
-    """Two cells of 2 x 1/2, at rows 0 and 3 ahead and columns 11 and 14 of 24, one pressed three times as hard."""
-    track = bem3d.Track(height=np.zeros((40, 24)), spacing=(2.0, 0.5), radius=15.0, modulus=1.0)
-    frame = Frame(track, ((-1, 5), (10, 15)))
-    pressure = np.zeros((6, 5))
-    pressure[1, 1], pressure[4, 4] = 1.0, 3.0
-    force, centre, variance = frame._moments(pressure)
-    assert force == pytest.approx(4.0)
-    assert centre == pytest.approx((0.75 * 6.0, 0.25 * -0.25 + 0.75 * 1.25))
-    # a quarter times three quarters of the distance squared, and that of a cell
-    assert variance == pytest.approx(3 / 16 * (6.0**2 + 1.5**2) + (2.0**2 + 0.5**2) / 12)
-    assert frame._moments(0 * pressure)[0] == 0
-
-
-@given(marked=arrays(np.bool_, (6, 5)))
-def test_spans_of_a_frame_are_those_of_its_marked_cells(marked):
-    if not marked.any():
-        return
-    rows, columns = framed(np.zeros((40, 24)), ((-3, 3), (10, 15))).spans_of(marked)
-    ahead, across = np.nonzero(marked)
-    assert rows == (ahead.min() - 3, ahead.max() + 1 - 3)
-    assert columns == (across.min() + 10, across.max() + 1 + 10)
-
-
-@given(cells=st.tuples(st.integers(1, 60), st.integers(1, 60)), approach=st.floats(-1, 4))
-def test_cells_under_the_smooth_sphere(cells, approach):
-    """All with |x| <= a, |y| <= a, as far as the strip has them, and no more than one beyond; one at least."""
-    track = bem3d.Track(height=np.zeros(cells), spacing=(0.1, 0.2), radius=1.0, modulus=1.0)
-    a = math.sqrt(max(approach, 0.0))
-    (first, last), (left, right) = track.smooth_contact(approach)
-    assert first + last == 1
-    assert (last - 1) * 0.1 <= a < last * 0.1
-    assert left + right == cells[1]
-    under = np.abs(track.across(np.arange(cells[1]))) <= a
-    assert under[left:right].sum() == under.sum()
-    assert 1 <= right - left <= under.sum() + 4
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Warnings, with numbers, of what a converged answer may still be wrong about."""
 
 import pickle
+import re
 import warnings
 
 import numpy as np
@@ -24,18 +25,6 @@ def said(function, *args, **settings):
         warnings.simplefilter("always")
         result = function(*args, **settings)
     return result, [(w.category, w.message.detail, w.filename) for w in caught]
-
-
-def test_few_cells():
-    contact, ((category, sentence, place),) = said(bem3d.solve, BODY, bowl(12), force=0.04)
-    cells = round(contact.area)
-    assert cells < 32
-    assert category is bem3d.ResolutionWarning
-    assert sentence.startswith(
-        f"only {cells} cells in contact: a flat punch of so few is {0.3 / cells**0.5:.0%} too soft"
-    )
-    assert place == __file__
-    assert contact.diagnostics == ((category, sentence),)
 
 
 @pytest.mark.parametrize("side", [2, 3, 4, 5])
@@ -128,57 +117,53 @@ def test_warning_of_a_modulus_in_gigapascals():
     ]
 
 
-@pytest.mark.parametrize(
-    ("modulus", "pressure", "approach", "parts"),
-    [(2.0, 0.2, 1.0, 0), (2.0, 0.201, 1.0, 1), (1.0, 9.0, 1.0, 0), (1.0, 9.0, 1.01, 1), (2.0, 0.201, 1.01, 2)],
-)
-def test_warnings_of_units_are_beyond_their_thresholds_alone(modulus, pressure, approach, parts):
-    """A modulus of one is the unit of pressure."""
-    found = diagnostics.diagnose_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
-    assert len(found) == (parts > 0)
-    assert (
-        sum(word in str([warning.detail for warning in found]) for word in ("mean pressure", "side of the grid"))
-        == parts
-    )
+def pressure(cells):
+    """So many cells of one in the middle of 10 x 10."""
+    inner = 1.0 * (np.arange(64) < cells)
+    return np.pad(inner.reshape(8, 8), 1)
+
+
+def edges(**settings):
+    touching = np.ones((10, 6))
+    touching[3:5, 2] = 0.0
+    return diagnostics.diagnose_pressure(touching, **settings)
+
+
+def units(modulus, pressure, approach):
+    return diagnostics.diagnose_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
 
 
 GRID = "; refine the grid (32 cells or more are not warned of)"
+COARSE, ROUGH = "in contact: the answer is that of the grid, not of the surface", "its area is rougher still"
 
 
 @pytest.mark.parametrize(
-    ("cells", "sentence"),
+    ("found", "words"),
     [
-        (0, None),
-        (1, "only 1 cell in contact: the answer is that of the grid, not of the surface"),
-        (5, "only 5 cells in contact: the answer is that of the grid, not of the surface"),
-        (6, "only 6 cells in contact: a flat punch of so few is 12% too soft, its area is rougher still"),
-        (31, "only 31 cells in contact: a flat punch of so few is 5% too soft, its area is rougher still"),
-        (32, None),
+        (diagnostics.diagnose_pressure(pressure(0), edge=True), None),
+        (diagnostics.diagnose_pressure(pressure(1), edge=True), f"only 1 cell {COARSE}{GRID}"),
+        (diagnostics.diagnose_pressure(pressure(5), edge=True), f"only 5 cells {COARSE}{GRID}"),
+        (diagnostics.diagnose_pressure(pressure(6), edge=True),
+         f"only 6 cells in contact: a flat punch of so few is 12% too soft, {ROUGH}{GRID}"),
+        (diagnostics.diagnose_pressure(pressure(31), edge=True),
+         f"only 31 cells in contact: a flat punch of so few is 5% too soft, {ROUGH}{GRID}"),
+        (diagnostics.diagnose_pressure(pressure(32), edge=True), None),
+        (edges(edge=True), "28 of 58 contact cells lie on the edge of the grid, beyond which nothing carries: widen"),
+        (edges(edge=False), None),
+        (diagnostics.diagnose_sphere(31.9), "the contact of the smooth sphere has only 32 cells: refine the grid"),
+        (diagnostics.diagnose_sphere(32.0), None),
+        (units(2.0, 0.2, 1.0), None),
+        (units(2.0, 0.201, 1.0), r"the mean pressure is 0.1 E\* [^,]*: are the units right"),
+        (units(1.0, 9.0, 1.0), None),
+        (units(1.0, 9.0, 1.01), "the approach beyond the first touch, 1.01 m, is more than the side of the grid, 1 m"),
+        (units(2.0, 0.201, 1.01), r"the mean pressure is 0.1 E\* .*, and the approach .* side of the grid, 1 m: are"),
     ],
-)
-def test_warning_of_few_cells_has_their_number(cells, sentence):
-    pressure = np.zeros((10, 10))
-    inner = np.zeros(64)
-    inner[:cells] = 1.0
-    pressure[1:9, 1:9] = inner.reshape(8, 8)
-    found = diagnostics.diagnose_pressure(pressure, edge=True)
-    assert [warning.detail for warning in found] == ([] if sentence is None else [sentence + GRID])
-
-
-def test_warning_of_cells_at_the_edge_has_their_number():
-    pressure = np.ones((10, 6))
-    pressure[3:5, 2] = 0.0
-    assert diagnostics.diagnose_pressure(pressure, edge=True)[0].detail == (
-        "28 of 58 contact cells lie on the edge of the grid, beyond which nothing carries: "
-        "widen the grid, or give indenter_ends_at_edge=True if the indenter ends there"
-    )
-    assert diagnostics.diagnose_pressure(pressure, edge=False) == ()
-
-
-@pytest.mark.parametrize(("cells", "warned"), [(31.9, True), (32.0, False)])
-def test_warning_of_a_small_sphere_has_its_cells(cells, warned):
-    said = "the contact of the smooth sphere has only 32 cells: refine the grid (32 cells or more are not warned of)"
-    assert [warning.detail for warning in diagnostics.diagnose_sphere(cells)] == [said] * warned
+)  # fmt: skip
+def test_what_is_said_has_its_numbers(found, words):
+    """A modulus of one is the unit of pressure: no mean pressure is asked about."""
+    assert len(found) == (words is not None)
+    for warning in found:
+        assert warning.detail.startswith(words) or re.match(words, warning.detail), warning.detail
 
 
 def shown(call):

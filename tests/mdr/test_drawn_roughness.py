@@ -117,7 +117,7 @@ def waves_of_a_profile(c1d, length, points, generator, amplitudes):
 
 
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
-@pytest.mark.parametrize("points", [2, 3, 8, 9, 20])
+@pytest.mark.parametrize("points", [2, 3, 8, 9, 20, 65])
 def test_a_profile_is_the_sum_of_its_waves_in_the_order_of_their_numbers(points, amplitudes):
     """One random number a wave, or two, from the longest to the shortest; the next draw goes on with the next one."""
 

@@ -90,15 +90,7 @@ def test_a_prescribed_force_is_borne_at_every_position(track, share):
 
 
 @pytest.mark.parametrize(
-    ("rms", "offset"),
-    [
-        (0.1, 0.0),
-        (1.0, 5.0),
-        (10.0, 0.0),
-        (100.0, 0.0),
-        (0.1, 100.0),
-        (0.0, 1000.0),
-    ],
+    ("rms", "offset"), [(0.1, 0.0), (1.0, 5.0), (10.0, 0.0), (100.0, 0.0), (0.1, 100.0), (0.0, 1000.0)]
 )
 def test_newtons_method_ends_on_wild_tracks(rms, offset):
     """Heights far beyond the approach of the smooth wheel, or counted from a plane far away."""
@@ -106,16 +98,6 @@ def test_newtons_method_ends_on_wild_tracks(rms, offset):
     found = track.roll(force=4 / 3)
     total, _, _ = wheel_on_springs(track.height, spacing=track.spacing, radius=1.0, approach=found.approach)
     assert np.abs(track.spacing * total / found.force - 1).max() <= 1e-12 * (1 + rms + offset)
-
-
-def test_a_search_that_does_not_end_gives_way_to_sorting(monkeypatch):
-    """One step from where all springs touch is not enough on a rough track."""
-    track = rough(100, 0.1, springs=12.3)
-    by_steps = track.roll(force=4 / 3)
-    monkeypatch.setattr("mdr.rolling.MOST_STEPS", 1)
-    sorted_out = track.roll(force=4 / 3)
-    assert sorted_out.approach == pytest.approx(by_steps.approach, rel=1e-14)
-    assert np.array_equal(sorted_out.stiffness, by_steps.stiffness)
 
 
 def spiky(points=400, spike=1.0, rms=1e-4, seed=0):
@@ -156,35 +138,25 @@ def test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness():
     assert with_spike.max() <= without.max() + 1
 
 
-def test_spikes_by_themselves_change_no_bit(monkeypatch):
-    """Beside a loop over all neighbours, also where the level of the others just touches in rounded numbers."""
-    height = np.full(200, 0.0018639820557123812)
-    height[[40, 95]] += 0.5
-    track = {"spacing": 0.005, "radius": 1.0, "modulus": 1.0, "approach": 0.0017360179442876189}
-    apart = mdr.roll(height, **track)
-    monkeypatch.setattr("mdr.candidate_springs.MAX_WORK_SHARE", 0.0)
-    in_turn = mdr.roll(height, **track)
-    assert apart.examined.max() < in_turn.examined.max()
-    assert np.array_equal(apart.force, in_turn.force)
-    assert np.array_equal(apart.stiffness, in_turn.stiffness)
-
-
 def test_a_force_whose_approach_no_double_holds_is_refused():
     with pytest.raises(ValueError, match="force"):
         mdr.roll(np.zeros(400), **{**LIGHT, "modulus": 1e200, "force": 5e-324})
 
 
-@pytest.mark.parametrize(("farthest", "sorts"), [(1, True), (10**9, False)])
-def test_a_wheel_over_more_springs_than_steps_are_worth_is_sorted(farthest, sorts, monkeypatch):
-    """Pressed to the lowest of springs, it would look at all of them in every step."""
-    sorted_blocks = []
-    monkeypatch.setattr("mdr.rolling.FARTHEST", farthest)
-    monkeypatch.setattr("mdr.rolling.by_sorting", lambda *args: sorted_blocks.append(args) or by_sorting(*args))
+@pytest.mark.parametrize(
+    ("limit", "value", "sorts"), [("FARTHEST", 1, True), ("MOST_STEPS", 1, True), ("FARTHEST", 10**9, False)]
+)
+def test_a_wheel_for_which_steps_do_not_end_or_do_not_pay_is_sorted(limit, value, sorts, monkeypatch):
+    """One step is not enough; pressed to the lowest of springs, it would look at all of them in every step."""
     track = rough(100, 0.1, springs=12.3)
+    by_steps = track.roll(force=4 / 3)
+    sorted_blocks = []
+    monkeypatch.setattr(f"mdr.rolling.{limit}", value)
+    monkeypatch.setattr("mdr.rolling.by_sorting", lambda *args: sorted_blocks.append(args) or by_sorting(*args))
     found = track.roll(force=4 / 3)
     assert bool(sorted_blocks) == sorts
-    total, _, _ = wheel_on_springs(track.height, spacing=track.spacing, radius=1.0, approach=found.approach)
-    assert track.spacing * total == pytest.approx(np.full(100, 4 / 3), rel=1e-12)
+    assert found.approach == pytest.approx(by_steps.approach, rel=1e-14)
+    assert np.array_equal(found.stiffness, by_steps.stiffness)
 
 
 @pytest.mark.parametrize("force", [5e-324, 1e-300, 1e-12, 1.0])
@@ -231,20 +203,30 @@ def test_blocks_that_are_too_large_are_sorted_in_parts(monkeypatch):
     assert np.array_equal(parts.pressed, whole.pressed)
 
 
-@pytest.mark.parametrize("low", [25, 26, 36])
-def test_springs_that_stand_out_are_added_as_neighbours_are(monkeypatch, low):
-    """The same bits, also where two of them are equally far from the wheel."""
+def spikes_apart(low):
+    """Some far out of a rough track, two of them equally far from the wheel; under an approach and a force."""
     height = 0.02 * np.random.default_rng(low).normal(size=900)
     height[[300, 300 + low, 300 + 2 * low, 700]] += [73.1, 21.7, 89.3, 50.9]
-    wheel = {"spacing": 1 / 20, "radius": 1.0, "modulus": 1.0}
-    apart = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
+    wheel = {"height": height, "spacing": 1 / 20, "radius": 1.0, "modulus": 1.0}
+    return [{**wheel, "approach": 1.0}, {**wheel, "force": 4 / 3}]
+
+
+def spikes_on_a_plane():
+    """Which just touches in rounded numbers."""
+    height = np.full(200, 0.0018639820557123812)
+    height[[40, 95]] += 0.5
+    return [{"height": height, "spacing": 0.005, "radius": 1.0, "modulus": 1.0, "approach": 0.0017360179442876189}]
+
+
+@pytest.mark.parametrize("rolled", [*spikes_apart(25), *spikes_apart(26), *spikes_apart(36), *spikes_on_a_plane()])
+def test_springs_that_stand_out_are_added_as_neighbours_are(rolled, monkeypatch):
+    """The same bits as by a loop over all neighbours, of which it looks at more."""
+    one = mdr.roll(**rolled)
     monkeypatch.setattr("mdr.candidate_springs.MAX_WORK_SHARE", 0.0)
-    plain = [mdr.roll(height, **wheel, approach=1.0), mdr.roll(height, **wheel, force=4 / 3)]
-    for one, other in zip(apart, plain, strict=True):
-        assert np.array_equal(one.force, other.force)
-        assert np.array_equal(one.approach, other.approach)
-        assert np.array_equal(one.stiffness, other.stiffness)
-        assert one.examined.sum() < 0.6 * other.examined.sum()
+    other = mdr.roll(**rolled)
+    for numbers in ("force", "approach", "stiffness"):
+        assert np.array_equal(getattr(one, numbers), getattr(other, numbers))
+    assert one.examined.sum() < 0.6 * other.examined.sum()
 
 
 @pytest.mark.parametrize("kind", ["full", "linear"])

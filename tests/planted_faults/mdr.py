@@ -221,11 +221,11 @@ FAULTS = {
     ),
     "springs that say nothing of short waves": (
         (profile_module, "diagnose_waves", lambda *_: ()),
-        partial(test_doubts_of_springs.test_short_waves, 25, True),
+        partial(test_doubts_of_springs.test_what_is_warned_of, "short waves"),
     ),
     "few springs that say nothing": (
         (foundation, "diagnose_load", lambda *_: ()),
-        partial(test_doubts_of_springs.test_few_springs_in_contact, 4, True),
+        partial(test_doubts_of_springs.test_what_is_warned_of, "4 springs"),
     ),
     "ends of a linear contact that move twice as far": (
         (wheel_on_springs, "diagnose_linearity", ends_that_move_twice_as_far),
