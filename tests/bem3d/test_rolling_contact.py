@@ -7,10 +7,7 @@ import pytest
 
 import bem3d
 from bem3d import convolution
-from bem3d.projected_cg import Load
 from bem3d.rolling_frame import Frame
-from bem3d.rolling_solve import _pressing
-from bem3d.window import Candidates
 from validation.theory.rolling import linear_force, response
 
 TOLERANCE = 1e-6
@@ -200,28 +197,6 @@ def test_the_odd_part_is_linear_theory_and_the_even_part_of_second_order():
     assert rms(slopes[-1] - exact) <= 0.02 * rms(exact)
 
 
-@pytest.mark.parametrize("seed", range(40))
-@pytest.mark.parametrize("by", ["approach", "force"])
-def test_a_start_that_pulls_is_made_one_that_presses(by, seed):
-    """Nowhere negative, under the same force, with the displacement that it has; at worst it presses evenly."""
-    rng = np.random.default_rng(seed)
-    pressure, separation = rng.normal(size=3) + 0.2, 30 * rng.normal(size=3)
-    if seed == 0:
-        # the step takes all from the one cell that presses, and the other must not have any
-        pressure, separation = np.array([0.3094, -0.064]), np.array([-1.0293, 2.9952])
-    shape = (1, pressure.size)
-    cells = Candidates(bem3d.HalfSpace(shape=shape, spacing=1.0, modulus=1.0), np.ones(shape, dtype=bool))
-    if pressure.sum() <= 0:
-        return
-    load = Load(total=float(pressure.sum())) if by == "force" else Load(overlap=1.0)
-    pressing, moved = _pressing(cells, pressure, separation, load)
-    assert (pressing >= 0).all()
-    np.testing.assert_allclose(moved - separation, cells.displacement(pressing - pressure), atol=1e-12)
-    if by == "force":
-        assert pressing.sum() == pytest.approx(pressure.sum(), rel=1e-12)
-        assert seed or pressing[0] == pressing[1]
-
-
 def bumpy(*, row, column=0.0, cells=6, tall=4.0):
     """A flat strip with one tall bump, of a cell, so many radii from where the wheel starts."""
     height = np.zeros((14 * cells, 9 * cells))
@@ -245,14 +220,6 @@ def test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it(by, column)
         overlap = contact.approach - contact.problem.first_touch
         assert found.force[position] == pytest.approx(contact.force, rel=ERROR * overlap)
         assert found.approach[position] == pytest.approx(contact.approach, abs=ERROR * overlap)
-
-
-def test_a_bump_far_ahead_is_touched_at_the_first_position():
-    height = bumpy(row=2.5)
-    found = bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0, positions=1, tolerance=TOLERANCE)
-    contact = cold(height, 1 / 6, 0, approach=1.0)
-    assert found.force[0] == pytest.approx(contact.force, rel=10 * ERROR)
-    assert found.force[0] > 1.01 * HERTZ
 
 
 def test_no_contact_but_of_a_bump_outside_of_the_frame():

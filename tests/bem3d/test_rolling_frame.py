@@ -64,20 +64,3 @@ def test_a_cell_that_just_overlaps_outside_of_a_frame_is_found(place, share):
     rows, columns = framed(height, frame.spans).outside(0, d, np.zeros(frame.shape))
     assert rows[0] <= row < rows[1]
     assert columns[0] <= column < columns[1]
-
-
-@pytest.mark.parametrize("cell", [(0, 5), (4, 5), (2, 0), (2, 9)])
-def test_cells_outside_are_judged_from_the_centre_of_the_pressure(cell):
-    """The displacement at r is at least F / (pi E* sqrt(|r - c|^2 + s^2)): c is not below the wheel."""
-    spans = ((-2, 3), (25, 35))
-    track = bem3d.Track(height=np.full((30, 60), 3.0), spacing=1.0, radius=15.0, modulus=1.0)
-    frame, pressure = Frame(track, spans), np.zeros((5, 10))
-    pressure[cell] = 40.0
-    rows, columns = np.arange(-14, 16)[:, np.newaxis], np.arange(60)
-    x, y = rows - (spans[0][0] + cell[0]), columns - (spans[1][0] + cell[1])
-    least = 40.0 / np.pi / np.sqrt(x**2 + y**2 + 1 / 6)
-    touching = (rows**2 + (columns - 29.5) ** 2) / 30 - 3.0 + least < 1.0
-    found = [np.flatnonzero(touching.any(axis=axis)) for axis in (1, 0)]
-    wanted = (int(found[0][0]) - 14, int(found[0][-1]) - 13), (int(found[1][0]), int(found[1][-1]) + 1)
-    ends = [(min(a[0], b[0]), max(a[1], b[1])) for a, b in zip(wanted, spans, strict=True)]
-    assert frame.outside(0, 1.0, pressure) == tuple(ends)

@@ -8,7 +8,6 @@ import pytest
 
 import bem3d
 from bem3d import nested
-from bem3d.problem import Problem
 from tests.oracles import displacement
 
 
@@ -48,19 +47,6 @@ def test_a_start_somewhere_else(load, size):
     contact = bem3d.solve(body, gap, **load, start=start, tolerance=1e-8)
     assert residual(contact) <= 1.01e-8
     assert not contact.pressure[80:].any()
-
-
-@pytest.mark.parametrize("shape", [(64, 64), (65, 47)])
-@pytest.mark.parametrize("load", [{"force": 300.0}, {"approach": 20.5}])
-def test_coarser_grids_come_with_their_overlap(shape, load):
-    """A coarser grid has another first touch: the approach it gives to begin with is that of the solution, nearly."""
-    body = bem3d.HalfSpace(shape=shape, spacing=1.0, modulus=1.0)
-    gap = 20 + spheres(shape, (30.3, 20.7, 0.0))
-    start, levels = nested.initial_guess_from_coarse_grids(Problem(half_space=body, gap=gap, **load), 500)
-    contact = bem3d.solve(body, gap, **load)
-    assert levels
-    assert start.overlap == pytest.approx(contact.approach - gap.min(), rel=0.05)
-    assert start.pressure.sum() == pytest.approx(contact.pressure.sum(), rel=0.05)
 
 
 @pytest.mark.parametrize("shape", [(64, 64), (65, 47), (1, 97), (101, 40)])

@@ -120,11 +120,7 @@ def test_the_oscillation_is_the_limit_at_an_order(hurst):
 
 
 @given(
-    k=st.integers(-6, 6),
-    m=st.integers(-6, 6),
-    phase=st.floats(0, 6.28),
-    approach=st.floats(0.01, 1),
-    odd=st.booleans(),
+    k=st.integers(-6, 6), m=st.integers(-6, 6), phase=st.floats(0, 6.28), approach=st.floats(0.01, 1), odd=st.booleans()
 )
 def test_a_plane_wave_at_any_angle_acts_by_its_own_length(k, m, phase, approach, odd):
     """dF = 2 E* sin(|k| a) / |k| cos of its phase under the middle of the wheel."""
@@ -138,14 +134,6 @@ def test_a_plane_wave_at_any_angle_acts_by_its_own_length(k, m, phase, approach,
     expected = 4 / 3 * modulus * a * approach + 0.3 * gain * np.cos(kx * x[:, 0] + phase)
     found = linear_force(height, spacing=dx, radius=radius, modulus=modulus, approach=approach)
     assert found == pytest.approx(expected, abs=1e-12 * (np.abs(expected).max() + 0.3 * 2 * modulus * a))
-
-
-def test_ridges_and_springs_have_the_same_linear_force():
-    """But for Hertz: 4/3 of E* a d on either, and (14.11)."""
-    h = 0.1 * np.random.default_rng(0).normal(size=64)
-    settings = {"spacing": 0.1, "radius": 1.5, "modulus": 2.0, "approach": 0.8}
-    ridged = linear_force(np.repeat(h[:, np.newaxis], 40, axis=1), **settings)
-    assert ridged == pytest.approx(mdr.roll(h, contact="linear", **settings).force, rel=1e-12)
 
 
 def test_the_response_is_that_of_the_flat_punch():
@@ -347,23 +335,6 @@ def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
 def test_contact_is_lost_by_half_under_endless_roughness():
     c2d = lambda q: np.where((q >= 1) & (q <= 8), 1e12, 0.0)  # noqa: E731
     assert contact_lost(c2d, edges=(1.0, 8.0), contact_radius=1.0, radius=1.0) == pytest.approx(0.5, abs=1e-6)
-
-
-def test_a_rolling_spectrum_asks_for_24_wavenumbers_a_panel():
-    """Panels no wider than a ratio of 1.4, from q to each edge: 3 up to 2.5, and 5 from there to 10."""
-    asked = []
-
-    def c2d(s):
-        asked.append(s)
-        return s**-3.0
-
-    mdr.rolling_spectrum(1.0, c2d, edges=[0.5, 2.5, 10.0])
-    (s,) = asked
-    assert s.shape == (8, 24)
-    ends = [1.0, 1.4, 1.96, 2.5, 3.5, 4.9, 6.86, 9.604, 10.0]
-    assert (np.diff(s.ravel()) > 0).all()
-    for panel, (first, last) in zip(s, pairwise(ends), strict=True):
-        assert first < panel[0] < panel[-1] < last
 
 
 def test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends():
