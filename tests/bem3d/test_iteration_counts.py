@@ -8,7 +8,6 @@ import pytest
 
 import bem3d
 import mdr
-from validation.scenes.load import load_scene
 
 TRACK = {"spacing": 1 / 8, "radius": 1.0, "modulus": 1.0}
 HERTZ = 4 / 3
@@ -189,28 +188,3 @@ def test_nothing_but_the_window_is_transformed(by, monkeypatch):
     list(bem3d.indent(half_space, gap, **{"forces" if by == "force" else "approaches": [0.7 * load, load]}))
     assert max(shape[0] for shape in shapes if shape[0] <= 64) < 3.4 * a
     assert (n, n) not in shapes
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("raised", [1, 10])
-def test_an_ellipse_on_a_rail_costs_as_much_as_a_sphere(raised):
-    """50 kN on 460 and 300 mm, 24 cells to the semi-axis along, roughness of the limit of ISO 3095 and +20 dB.
-
-    8 applications a position, of 70 us each on a frame of 60 x 48 cells: 0.6 ms of the 2.5 ms that a position takes.
-    The least are three: one of the initial guess, one iteration, one that confirms.
-    """
-    scene = load_scene("rail")
-    spacing = scene.contact.along / 24
-    # proportional to the spectrum of an isotropic surface whose line is a power law
-    height = bem3d.rough_surface(
-        lambda q: scene.levels.c_line(q) / np.where(q > 0, q, 1.0),
-        shape=(1024, 96),
-        spacing=spacing,
-        rng=np.random.default_rng(1),
-        rms=raised * 6.4e-6,
-    )
-    rolled = bem3d.roll(
-        height, spacing=spacing, radius=scene.radii, modulus=scene.modulus, force=scene.load, positions=60
-    )
-    assert rolled.converged.all()
-    assert 3 <= rolled.operator_applications[5:].mean() <= 9

@@ -6,34 +6,38 @@ import pytest
 import bem3d
 from bem3d import projected_cg, rolling_solve, window_solve
 from bem3d.projected_cg import Load
+from bem3d.window import Candidates
 from tests import oracles
 
 
-def solve_on(frame, tolerance, most):
+def solve_on(frame):
     """A flat gap on a frame of 4 x 4 cells, at a unit approach."""
     attempt, flat = window_solve.IterationState(np.zeros((4, 4)), 0.0), np.zeros((4, 4))
-    load = Load(overlap=1.0)
-    return rolling_solve.FrameSolve(
-        frame=frame, near=flat, load=load, attempt=attempt, tolerance=tolerance, max_iterations=most
-    )
-
-
-def iterated_on_a_frame(monkeypatch, states, tolerance, most):
-    """The pressure, and what has been recorded on the way."""
-    monkeypatch.setattr(rolling_solve, "projected_cg", states)
-    track = bem3d.Track(height=np.zeros((40, 40)), spacing=1 / 8, radius=1.0, modulus=1.0)
-    frame, field = rolling_solve.Frame(track, ((0, 4), (18, 22))), np.ones((4, 4))
-    on_frame = solve_on(frame, tolerance, most)
-    return on_frame._iterated(field > 0, field, field), on_frame.attempt
+    given = {"near": flat, "load": Load(overlap=1.0), "tolerance": 1e-6, "max_iterations": 99}
+    return rolling_solve.FrameSolve(frame=frame, attempt=attempt, **given)
 
 
 def test_an_iteration_without_a_way_down_ends_with_its_last_pressure(monkeypatch):
     def three(*given):
         return (projected_cg.State(np.full(16, float(i)), np.ones(16), 1.0, 0.5) for i in range(3))
 
-    pressure, attempt = iterated_on_a_frame(monkeypatch, three, 1e-9, 99)
-    assert (pressure == 2.0).all()
-    assert attempt.operator_applications == len(attempt.history) == 3
+    monkeypatch.setattr(rolling_solve, "projected_cg", three)
+    track = bem3d.Track(height=np.zeros((40, 40)), spacing=1 / 8, radius=1.0, modulus=1.0)
+    on_frame, field = solve_on(rolling_solve.Frame(track, ((0, 4), (18, 22)))), np.ones((4, 4))
+    assert (on_frame._iterated(field > 0, field, field) == 2.0).all()
+    assert on_frame.attempt.operator_applications == len(on_frame.attempt.history) == 3
+
+
+@pytest.mark.parametrize("load", [Load(overlap=1.0), Load(total=0.2454)])
+@pytest.mark.parametrize("separation", [[-1.0293, 2.9952], [-3.0, 0.5], [2.0, 1.0]])
+def test_a_start_that_pulls_is_made_one_that_presses(load, separation):
+    """Under the same force, with the displacement that it has; at worst, where a step takes all, it presses evenly."""
+    cells = Candidates(bem3d.HalfSpace(shape=(1, 2), spacing=1.0, modulus=1.0), np.ones((1, 2), dtype=bool))
+    pressure, separation = np.array([0.3094, -0.064]), np.array(separation)
+    pressing, moved = rolling_solve._pressing(cells, pressure, separation, load)
+    assert (pressing >= 0).all()
+    np.testing.assert_allclose(moved - separation, cells.displacement(pressing - pressure), atol=1e-12)
+    assert load.total is None or pressing.sum() == pytest.approx(load.total, rel=1e-12)
 
 
 def rounds_of_press(monkeypatch, errors):
@@ -50,7 +54,7 @@ def rounds_of_rolling(monkeypatch, errors):
     """The same of a wheel so large that it is flat, on a frame of which it touches all."""
     track = bem3d.Track(height=np.zeros((9, 9)), spacing=1.0, radius=1e12, modulus=1.0)
     frame = rolling_solve.Frame(track, ((-2, 2), (2, 6)))
-    on_frame = solve_on(frame, 1e-6, 99)
+    on_frame = solve_on(frame)
     exact = np.linalg.solve(oracles.dense_operator(frame.half_space), np.ones(16)).reshape(4, 4)
 
     def iterated(solve, *_):

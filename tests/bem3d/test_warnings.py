@@ -166,47 +166,26 @@ def test_what_is_said_has_its_numbers(found, words):
         assert warning.detail.startswith(words) or re.match(words, warning.detail), warning.detail
 
 
-def shown(call):
-    """Texts that Python's default filter shows of a call."""
+def test_a_loop_is_warned_once_of_a_cause():
+    """By Python's default filter: numbers change from load to load, the text does not; contacts have the numbers."""
+    contacts, rng = [], np.random.default_rng(0)
     with warnings.catch_warnings(record=True) as caught:
         warnings.resetwarnings()
-        call()
-    return [str(w.message) for w in caught]
-
-
-def test_a_loop_is_warned_once_of_a_cause():
-    """The numbers change from load to load, the text does not; the numbers are with the contacts."""
-    contacts = []
-
-    def loop():
-        for force in (0.01, 0.02, 0.04):
-            contacts.append(bem3d.solve(BODY, bowl(1), force=force))
-
-    edge = "the contact reaches the edge of the grid, beyond which nothing carries: widen the grid, or give "
-    assert shown(loop) == [
-        "fewer than 32 cells in contact: refine the grid",
-        edge + "indenter_ends_at_edge=True if the indenter ends there",
-    ]
-    assert len({contact.warnings[0] for contact in contacts}) > 1
-    assert contacts[0].warnings == tuple(sentence for _, sentence in contacts[0].diagnostics)
-
-
-def test_rolling_and_drawing_are_warned_of_once():
-    def loop():
         for i in range(3):
-            radius = 1.0 + i / 10
-            bem3d.roll(np.zeros((16, 16)), spacing=1.0, radius=radius, modulus=1.0, approach=1.0, positions=1)
-            bem3d.rough_surface(
-                lambda q, last=2.0 + radius / 10: np.where(q < last, 1.0, 0.0),
-                shape=(16, 16),
-                spacing=1.0,
-                rng=np.random.default_rng(0),
-            )
-
-    assert shown(loop) == [
+            contacts.append(bem3d.solve(BODY, bowl(1), force=0.01 * 2**i))
+            wheel = {"spacing": 1.0, "radius": 1.0 + i / 10, "modulus": 1.0, "approach": 1.0}
+            bem3d.roll(np.zeros((16, 16)), **wheel, positions=1)
+            band = mdr.SelfAffine(hurst=0.8, q_min=0.5, q_max=2.0 + i / 10, rms=1.0)
+            bem3d.rough_surface(band.c2d, shape=(16, 16), spacing=1.0, rng=rng)
+    assert [str(w.message) for w in caught] == [
+        "fewer than 32 cells in contact: refine the grid",
+        "the contact reaches the edge of the grid, beyond which nothing carries: widen the grid, or give "
+        "indenter_ends_at_edge=True if the indenter ends there",
         "the contact of the smooth sphere has fewer than 32 cells: refine the grid",
         "the shortest wave of the spectrum has fewer than 4 cells: lower q_max or refine the grid",
     ]
+    assert len({contact.warnings[0] for contact in contacts}) > 1
+    assert contacts[0].warnings == tuple(sentence for _, sentence in contacts[0].diagnostics)
 
 
 def test_a_path_tells_each_cause_once():

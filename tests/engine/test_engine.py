@@ -269,12 +269,6 @@ def test_another_version_of_a_library_is_another_version_of_the_numerics(library
         assert digest() != here
 
 
-def test_one_part_that_fails_is_a_failed_solve():
-    assert ensemble._failed({"failed": np.array([0.0, 1.0])})
-    assert not ensemble._failed({"failed": np.zeros(2)})
-    assert not ensemble._failed({})
-
-
 def test_an_engine_is_its_settings():
     """Silent, alone and without a store unless it is told; what a timed run has asked for is no setting."""
     assert Engine() == Engine(workers=1, store=None, progress=None, executor="local")

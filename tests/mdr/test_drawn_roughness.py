@@ -35,23 +35,6 @@ def surface_moment(height, n, spacing):
     return np.sum(np.hypot(qx[:, None], qy) ** n * np.abs(np.fft.fft2(height, norm="forward")) ** 2)
 
 
-@given(hurst=hursts, shape=st.tuples(lengths, lengths), stretch=st.floats(0.5, 2), seed=seeds, rms=scales)
-def test_surface_moments_are_the_sums_over_its_waves(hurst, shape, stretch, seed, rms):
-    """sum |q|^n (2 pi)^2 C_2D / (Lx Ly); odd, even and non-square grids, cells that are no squares."""
-    spacing = (1.0, stretch)
-    q_max = np.pi / max(spacing)
-    spectrum = mdr.SelfAffine(hurst=hurst, q_min=q_max / 4, q_max=q_max, rms=rms)
-    height = bem3d.rough_surface(spectrum.c2d, shape=shape, spacing=spacing, rng=rng(seed))
-    qx, qy = (2 * np.pi * np.fft.fftfreq(cells, step) for cells, step in zip(shape, spacing, strict=True))
-    q = np.hypot(qx[:, None], qy)
-    area = shape[0] * shape[1] * stretch
-    for n in (0, 2, 4):
-        expected = np.sum(q**n * spectrum.c2d(q)) * (2 * np.pi) ** 2 / area
-        assert surface_moment(height, n, spacing) == pytest.approx(expected, rel=1e-10, abs=0)
-    assert height.shape == shape
-    assert abs(height.mean()) < 1e-13 * height.std()
-
-
 @given(hurst=hursts, points=lengths, shape=st.tuples(lengths, lengths), seed=seeds, rms=scales)
 def test_rms_is_exact_where_it_is_asked_for(hurst, points, shape, seed, rms):
     profile = mdr.rough_profile(band(hurst, points // 2).c1d, length=1.0, points=points, rng=rng(seed), rms=rms)

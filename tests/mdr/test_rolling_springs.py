@@ -341,19 +341,3 @@ def test_a_full_contact_is_the_sum_over_springs_nearer_than_its_radius(d):
     assert under.stiffness == pytest.approx(found.stiffness)
     assert under.force == pytest.approx(np.full(40, force))
     assert not under.examined.any()
-
-
-def test_sorting_leaves_out_no_spring_of_a_long_contact():
-    """Four hundred springs to the radius of a smooth contact: the last of them belong to it."""
-    spacing, wanted = 1 / 400, 4 / 3 * 400
-    by_steps = mdr.roll(np.zeros(900), spacing=spacing, radius=1.0, modulus=1.0, force=4 / 3)
-    found = by_sorting(SpringTrack(np.zeros(900), spacing, 1.0, 1.0), slice(0, 9), wanted, 1.0)
-    assert found.approach == pytest.approx(by_steps.approach[:9], rel=1e-13)
-    assert np.array_equal(found.pressed, np.rint(by_steps.stiffness[:9] / spacing))
-
-
-def test_springs_examined_under_a_force_are_those_of_all_steps():
-    track = rough(300, 0.1, springs=12.3)
-    under = track.roll(force=4 / 3)
-    last = track.roll(approach=under.approach)
-    assert (under.examined > 2 * last.examined).all()

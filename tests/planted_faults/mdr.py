@@ -133,11 +133,11 @@ FAULTS = {
     ),
     "spectrum of a surface without its mirror images": (
         (surface, "_hermitian", lambda wave, amplitudes: wave),
-        drawn.test_surface_moments_are_the_sums_over_its_waves,
+        SURFACE_BY_WAVES,
     ),
     "one-sided spectrum taken for two-sided": (
         (bem3d, "rough_surface", scaled(bem3d.rough_surface, np.sqrt(2))),
-        drawn.test_surface_moments_are_the_sums_over_its_waves,
+        SURFACE_BY_WAVES,
     ),
     "(14.9) as printed": ((profile_module, "_resolved", printed_formula), PROFILE_BY_WAVES),
     "line trace for Geike": (
