@@ -40,6 +40,12 @@ def displacement(half_space, pressure):
     return signal.oaconvolve(kernel, pressure, mode="valid")
 
 
+def residual(half_space, gap, pressure, approach):
+    """The mean gap under pressure or the deepest overlap, whichever is larger, over the overlap without pressure."""
+    w = gap + displacement(half_space, pressure) - approach
+    return max((pressure * np.abs(w)).sum() / pressure.sum(), -w.min()) / (approach - gap.min())
+
+
 def _periodic_green(i, j, shape, spacing):
     """sum over the waves of the grid of 2 cos(q.x) / (|q| number of cells), zero mode left out; E* = 1."""
     nx, ny = shape
@@ -133,19 +139,19 @@ def rms_scatter_of_gaussian_draws(hurst, *, last, dimensions):
     return math.sqrt(2 * sum(v**2 for v in power)) / sum(power)
 
 
-def wheel_on_springs(height, *, spacing, radius, approach):
-    """Compressions summed over springs under a wheel at each point of a periodic track, springs one by one.
+def wheel_on_springs(height, *, spacing, radius, approach, places=None, rounding=1e-13):
+    """Compressions summed over springs under a wheel at places of a periodic track; at all points if none are given.
 
     Returns sum_j max(d - x_j^2 / R + h_j, 0), and the least and the most that may be in contact, since rounding decides
     of springs that just touch.
     """
-    points = len(height)
-    approach = np.broadcast_to(approach, points)
+    places = np.arange(len(height)) if places is None else np.asarray(places)
+    approach = np.broadcast_to(approach, places.size)
     reach = math.sqrt(radius * max(approach.max() + height.max(), 0.0)) / spacing
     j = np.arange(-math.ceil(reach) - 1, math.ceil(reach) + 2)
-    near = height[(np.arange(points)[:, np.newaxis] + j) % points]
+    near = height[(places[:, np.newaxis] + j) % len(height)]
     compression = approach[:, np.newaxis] - (j * spacing) ** 2 / radius + near
-    rounding = 1e-13 * (np.abs(approach).max() + np.abs(height).max())
+    rounding = rounding * (np.abs(approach).max() + np.abs(height).max())
     total = np.array([math.fsum(row[row > 0]) for row in compression])
     return total, (compression > rounding).sum(axis=1), (compression > -rounding).sum(axis=1)
 
@@ -170,23 +176,6 @@ def approach_by_fractions(height, place, *, spacing, radius, wanted):
         largest = max(largest, abs(level), profile)
         approach, pressed = (wanted - total) / (n + 1), n + 1
     return float(approach), pressed, float(max(largest, approach + max(springs)[0]))
-
-
-def springs_under_a_wheel(height, place, *, spacing, radius, approach):
-    """Compressions of the springs under one wheel over one place of a periodic track, walked outwards one by one.
-
-    Returns sum_j max(d - x_j^2 / R + h_j, 0), and how many may touch, those that just do not included.
-    """
-    points, highest = len(height), max(height)
-    compressions, near, j = [], 0, 0
-    while approach - (j * spacing) ** 2 / radius + highest > -1e-9 * (abs(approach) + abs(highest)):
-        for side in {-j, j}:
-            compression = approach - (side * spacing) ** 2 / radius + height[(place + side) % points]
-            near += compression > -1e-9 * (abs(approach) + abs(highest))
-            if compression > 0:
-                compressions.append(compression)
-        j += 1
-    return math.fsum(compressions), near
 
 
 def free_vibration_by_small_steps(highest, *, turns=None):

@@ -27,6 +27,7 @@ def test_complementarity(problem):
     w = gap + (dense @ p).reshape(gap.shape) - contact.approach
     # rounding is of the size of the terms of the sum, which may cancel
     allowed = 1.001e-9 * (contact.approach - gap.min()) + 1e-13 * (1 + (np.abs(dense) @ p).max())
+    assert problem.prescribed.get("force", contact.force) == pytest.approx(contact.force, rel=1e-12)
     assert (contact.pressure >= 0).all()
     assert -w.min() <= allowed
     assert np.sum(contact.pressure * np.abs(w)) <= allowed * contact.pressure.sum()

@@ -7,7 +7,6 @@ import pytest
 
 import bem3d
 from bem3d import convolution
-from bem3d.rolling_frame import Frame
 from validation.theory.rolling import linear_force, response
 
 TOLERANCE = 1e-6
@@ -87,31 +86,6 @@ def test_cells_that_are_longer_than_wide():
 def test_a_prescribed_force_is_borne_at_every_position(name):
     found = bem3d.roll(STRIPS[name], spacing=1 / CELLS[name], **SPHERE, force=0.7, positions=12)
     assert np.abs(found.force / 0.7 - 1).max() <= 1e-12
-
-
-@pytest.mark.parametrize("name", ["smooth", "as rough as deep"])
-def test_pressures_solve_the_contact_on_all_of_the_strip(name):
-    """p >= 0, w >= 0, p w = 0 within the residual, with u applied anew on a grid that holds the strip."""
-    height, spacing = STRIPS[name], 1 / CELLS[name]
-    track = bem3d.Track(height=height, spacing=spacing, **SPHERE)
-    wheel = bem3d.RollingContact(track, tolerance=TOLERANCE)
-    nx, ny = height.shape
-    body = bem3d.HalfSpace(shape=height.shape, spacing=spacing, modulus=1.0)
-    for position in range(8):
-        contact = wheel.press(position, 1.0)
-        last = wheel._past[-1]
-        whole = Frame(track, ((-(nx // 2), nx - nx // 2), (0, ny)))
-        pressure, gap = whole.take(last.pressure, last.frame), whole.gap(position)
-        x, y, shown = wheel.pressure()
-        assert np.sort(shown[shown > 0]).tolist() == np.sort(pressure[pressure > 0]).tolist()
-        # (x, y) of the middle of the pressure, by rows counted from the wheel and columns from the middle
-        rows, columns = np.arange(nx) - nx // 2, np.arange(ny) - (ny - 1) / 2
-        assert (x @ shown).sum() == pytest.approx(spacing * (rows @ pressure).sum(), abs=1e-12 * pressure.sum())
-        assert (shown @ y).sum() == pytest.approx(spacing * (pressure @ columns).sum(), abs=1e-12 * pressure.sum())
-        assert pressure.min() >= 0
-        assert pressure.sum() * spacing**2 == pytest.approx(contact.force, rel=1e-14)
-        w = gap + body.displacement(pressure) - 1.0
-        assert bem3d.residual(pressure, w, 1.0 - float(gap.min())) <= TOLERANCE * (1 + 1e-6)
 
 
 def test_there_is_no_pressure_before_a_position_is_solved():

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import mdr
 from mdr.rolling_ensemble import BLOCK
-from tests.oracles import springs_under_a_wheel
+from tests.oracles import wheel_on_springs
 
 HERTZ = 4 / 3
 """Of a wheel of radius 1 at an approach of 1 with E* = 1, whose contact has the radius 1."""
@@ -58,10 +58,8 @@ class Tracks:
 
         Half a quantum each, in every spring that may touch; the sum of the oracle rounds in its terms.
         """
-        height = self.height[:, wheel].tolist()
-        total, near = springs_under_a_wheel(
-            height, place, spacing=1 / self.springs, radius=1.0, approach=float(approach)
-        )
+        wheel_at = {"spacing": 1 / self.springs, "radius": 1.0, "approach": float(approach), "places": [place]}
+        (total,), _, (near,) = wheel_on_springs(self.height[:, wheel], **wheel_at, rounding=1e-9)
         each = 1.5 * float(self.quantum[wheel]) + 8 * ULP * (abs(float(approach)) + float(np.abs(self.height).max()))
         return total / self.springs, (near * each + 8 * ULP * total) / self.springs
 
