@@ -64,3 +64,17 @@ def test_a_cell_that_just_overlaps_outside_of_a_frame_is_found(place, share):
     rows, columns = framed(height, frame.spans).outside(0, d, np.zeros(frame.shape))
     assert rows[0] <= row < rows[1]
     assert columns[0] <= column < columns[1]
+
+
+def test_moments_of_a_pressure():
+    """Two cells of 2 x 1/2, at rows 0 and 3 ahead and columns 11 and 14 of 24, one pressed three times as hard."""
+    track = bem3d.Track(height=np.zeros((40, 24)), spacing=(2.0, 0.5), radius=15.0, modulus=1.0)
+    frame = Frame(track, ((-1, 5), (10, 15)))
+    pressure = np.zeros((6, 5))
+    pressure[1, 1], pressure[4, 4] = 1.0, 3.0
+    force, centre, variance = frame._moments(pressure)
+    assert force == pytest.approx(4.0)
+    assert centre == pytest.approx((0.75 * 6.0, 0.25 * -0.25 + 0.75 * 1.25))
+    # a quarter times three quarters of the distance squared, and that of a cell
+    assert variance == pytest.approx(3 / 16 * (6.0**2 + 1.5**2) + (2.0**2 + 0.5**2) / 12)
+    assert frame._moments(0 * pressure)[0] == 0

@@ -101,3 +101,14 @@ def test_the_memory_of_fftw_is_put_back_as_it_was():
         assert [set(part.splitlines()) for part in pyfftw.export_wisdom()] == known
     finally:
         pyfftw.forget_wisdom()
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+def test_pressures_are_interpolated_around_a_period_and_end_with_the_grid_in_free_space(periodic):
+    """3/4 of the coarser cell that a finer one lies in, 1/4 of the one that it lies next to."""
+    body = bem3d.HalfSpace(shape=(64, 3), spacing=1.0, modulus=1.0, periodic=periodic)
+    for last, places in ((-1, [61, 62, 63, 0]), (0, [2, 1, 0, 63])):
+        coarse, fine = np.zeros((32, 3)), np.zeros((64, 3))
+        coarse[last] = 4.0
+        fine[places] = np.array([[1.0], [3.0], [3.0], [1.0 if periodic else 0.0]])
+        np.testing.assert_array_equal(nested.prolong(coarse, body), fine)
