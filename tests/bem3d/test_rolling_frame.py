@@ -78,3 +78,24 @@ def test_moments_of_a_pressure():
     # a quarter times three quarters of the distance squared, and that of a cell
     assert variance == pytest.approx(3 / 16 * (6.0**2 + 1.5**2) + (2.0**2 + 0.5**2) / 12)
     assert frame._moments(0 * pressure)[0] == 0
+
+
+def some_spans():
+    """Rows from -6 to 6, columns from 0 to 24."""
+    rows, columns = (
+        st.lists(st.integers(low, high), min_size=2, max_size=2, unique=True).map(sorted).map(tuple)
+        for low, high in ((-6, 6), (0, 24))
+    )
+    return st.tuples(rows, columns)
+
+
+@given(spans=some_spans(), margin=st.integers(0, 12))
+def test_a_wider_frame_holds_the_narrower_with_its_margin(spans, margin):
+    """On both sides, evenly; where the strip ends, as far as it has cells."""
+    track = bem3d.Track(height=np.zeros((40, 24)), spacing=1.0, radius=15.0, modulus=1.0)
+    (first, last), (left, right) = track.widened(spans, margin)
+    assert spans[0][0] - first >= margin and last - spans[0][1] >= margin
+    assert abs((spans[0][0] - first) - (last - spans[0][1])) <= 1
+    assert 0 <= left <= max(spans[1][0] - margin, 0) and min(spans[1][1] + margin, 24) <= right <= 24
+    # no longer than the next side that transforms fast
+    assert last - first <= 1.25 * (spans[0][1] - spans[0][0] + 2 * margin) + 1

@@ -5,9 +5,12 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pyfftw
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 import bem3d
-from bem3d import nested
+from bem3d import nested, projected_cg
 from tests.oracles import residual
 
 
@@ -112,3 +115,21 @@ def test_pressures_are_interpolated_around_a_period_and_end_with_the_grid_in_fre
         coarse[last] = 4.0
         fine[places] = np.array([[1.0], [3.0], [3.0], [1.0 if periodic else 0.0]])
         np.testing.assert_array_equal(nested.prolong(coarse, body), fine)
+
+
+@pytest.mark.slow
+@given(data=st.data(), total=st.floats(1e-6, 1e6))
+def test_nearest_pressure_of_a_total(data, total):
+    """Least squares on p >= 0, sum(p) = total, by its conditions: one multiplier on the cells that carry, and no cell
+    without pressure that would rather have some."""
+    aim = data.draw(arrays(np.float64, st.integers(1, 12), elements=st.floats(-10, 10, width=32)))
+    free = data.draw(arrays(np.bool_, aim.shape))
+    if not free.any():
+        return
+    found = projected_cg.Load(total=total).nearest(aim, free)
+    assert found.sum() == pytest.approx(total, rel=1e-9)
+    assert (found >= 0).all()
+    assert not found[~free].any()
+    level = (aim - found)[found > 0]
+    assert level == pytest.approx(level[0], abs=1e-9 * (10 + total))
+    assert (aim[free & (found == 0)] <= level.min() + 1e-9 * (10 + total)).all()
