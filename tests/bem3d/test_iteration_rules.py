@@ -1,5 +1,7 @@
 """Where an iteration ends: with its last pressure, and after rounds that gain nothing."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -26,6 +28,23 @@ def test_an_iteration_without_a_way_down_ends_with_its_last_pressure(monkeypatch
     on_frame, field = solve_on(rolling_solve.Frame(track, ((0, 4), (18, 22)))), np.ones((4, 4))
     assert (on_frame._iterated(field > 0, field, field) == 2.0).all()
     assert on_frame.attempt.operator_applications == len(on_frame.attempt.history) == 3
+
+
+def test_patience_ends_where_the_residual_has_not_halved(monkeypatch):
+    """At the next after 100 iterations of a press, and after 30 of a wheel."""
+
+    def forever(cells, pressure, separation, load, length=0.4):
+        return itertools.repeat(projected_cg.State(pressure, separation, 1.0, 0.5))
+
+    for module in (window_solve, rolling_solve):
+        monkeypatch.setattr(module, "projected_cg", forever)
+    half_space, field = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0), np.ones((4, 4))
+    attempt = window_solve.IterationState(np.zeros((4, 4)), 0.0)
+    window_solve._iterate(Candidates(half_space, field > 0), field, field, Load(overlap=1.0), attempt, 1e-9, 10**6)
+    track = bem3d.Track(height=np.zeros((40, 40)), spacing=1 / 8, radius=1.0, modulus=1.0)
+    on_frame = solve_on(rolling_solve.Frame(track, ((0, 4), (18, 22))))
+    on_frame._iterated(field > 0, field, field)
+    assert (len(attempt.history), len(on_frame.attempt.history)) == (101, 32)
 
 
 @pytest.mark.parametrize("load", [Load(overlap=1.0), Load(total=0.2454)])
