@@ -15,9 +15,9 @@ from validation.scenes.column_names import Column, column_of, columns_of, unit_o
 from validation.scenes.description import description_lines
 from validation.scenes.height_edits import edited_lines
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.number_table import KEYS, TableForm, table_of_text
+from validation.scenes.number_table import TableForm, table_of_text
 from validation.scenes.positions import places_of
-from validation.scenes.table_files import read_table
+from validation.scenes.table_files import FORM, read_table
 from validation.scenes.text_dialect import WRITTEN
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
@@ -390,8 +390,8 @@ def in_memory(text, **form):
 
 def test_the_place_along_the_track_is_no_line():
     table = in_memory("x [mm];z [um]\n" + rows(enumerate(Z)))
-    lines = line_files._along_the_track(table, metre=None, spacing=1e-3)
-    assert lines.height.shape == (800, 1) and lines.height[:, 0] == pytest.approx(1e-6 * Z)
+    height, _, _ = line_files._along_the_track(table, metre=None, spacing=1e-3)
+    assert height.shape == (800, 1) and height[:, 0] == pytest.approx(1e-6 * Z)
 
 
 def test_wavenumbers_are_cycles_over_a_metre():
@@ -530,15 +530,14 @@ def test_rough_lines_never_run_evenly():
 
 
 def test_each_key_of_a_table_is_read():
-    assert {"skip", "columns", "decimal", "encoding", "nodata"} == set(KEYS)
-    assert {*KEYS, "key"} == {name for name in vars(TableForm()) if not name.startswith("_")}
+    assert set(FORM) == set(vars(TableForm()))
 
 
 PAGE = (Path(__file__).parents[2] / "reports" / "docs" / "own_data.md").read_text(encoding="utf-8")
 
 
 def test_the_page_names_each_way_of_writing_that_is_recognised(tmp_path):
-    for word in ("semicolons", "decimal comma", "byte-order mark", "Latin-1", "UTF-16", *KEYS):
+    for word in ("semicolons", "decimal comma", "byte-order mark", "Latin-1", "UTF-16", *FORM):
         assert word in PAGE, word
     for unit in re.findall(r"`(1/m|rad/m|dB|cm|mm|um|nm)`", PAGE):
         (tmp_path / "it.csv").write_text(f"a [{unit}],b\n1,2.5\n3,4\n5,6\n")

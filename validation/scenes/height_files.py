@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from validation.scenes.measured import FEWEST, MeasuredHeights
 from validation.scenes.measured_surface import as_asked, metres_of
-from validation.scenes.number_table import FORM, NumberTable, file_of
+from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.printable import shortened
 from validation.scenes.reader import LENGTH, Reader, nonblank_text, table, yes_or_no
-from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
+from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import in_unit
 
 FloatArray = NDArray[np.float64]
@@ -30,11 +30,10 @@ def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
     readers: dict[str, Reader] = {"file": nonblank_text, "spacing": _spacing, "unit": unit_of, **FORM}
     readers |= {"crop": yes_or_no, "fill": yes_or_no}
     found = table(readers, tuple(readers)[1:], name, given)
-    (path, form), spacing = file_of(found, folder), found.pop("spacing", None)
-    numbers = read_table(f"{name}.file", path, form)
+    path, numbers = table_beside(name, found, folder)
     wishes = {key: found.get(key, False) for key in ("crop", "fill")}
     try:
-        height, known, notes = _face(numbers, found.get("unit"), spacing)
+        height, known, notes = _face(numbers, found.get("unit"), found.get("spacing"))
         if known is None:
             raise ValueError(f'spacing is missing, {name} must have it, as: spacing = "1 um"')
         told = sentence_about(path, (*numbers.notes, *notes))

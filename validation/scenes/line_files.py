@@ -1,7 +1,7 @@
 """Files of measured lines along a rail: columns of heights, beside one of their places along the track."""
 
+from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +10,11 @@ from validation.scenes.height_edits import edited_lines
 from validation.scenes.height_files import unit_of
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.measured_surface import LENGTHS
-from validation.scenes.number_table import FORM, NumberTable, file_of
+from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
 from validation.scenes.printable import shortened
 from validation.scenes.reader import LENGTH, Reader, key_in_errors, nonblank_text, table, yes_or_no
-from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
+from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import in_unit, quantity
 
 FloatArray = NDArray[np.float64]
@@ -36,12 +36,10 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
         **FORM,
     }
     found = table(readers, tuple(readers)[1:], name, given)
-    path, form = file_of(found, folder)
-    numbers = read_table(f"{name}.file", path, form)
+    path, numbers = table_beside(name, found, folder)
     with key_in_errors(name):
         count = len(found["positions"]) if "positions" in found else None
-        given_as = {"metre": found.pop("unit", None), "spacing": found.pop("spacing", None)}
-        height, spacing, notes = _along_the_track(numbers, **given_as, count=count)
+        height, spacing, notes = _along_the_track(numbers, found.pop("unit", None), found.pop("spacing", None), count)
         if count is None and height.shape[1] > 1:
             raise ValueError(
                 f"positions is missing: the file has {height.shape[1]} lines, whose places across the rail are needed, "
@@ -62,66 +60,53 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
     return measured
 
 
-class _Lines(NamedTuple):
-    """Heights of shape (points, lines) [m], their spacing [m], and what was assumed."""
-
-    height: FloatArray
-    spacing: float
-    notes: tuple[str, ...] = ()
-
-
 def _along_the_track(
-    numbers: NumberTable, *, metre: float | None, spacing: float | None, count: int | None = None
-) -> _Lines:
-    """The columns that are lines, in the order of their places. Raises ValueError that begins with a key.
+    numbers: NumberTable, metre: float | None, spacing: float | None, count: int | None = None
+) -> tuple[FloatArray, float, tuple[str, ...]]:
+    """Heights of shape (points, lines) [m] in the order of their places, their spacing [m], and what was assumed.
 
-    count: how many lines there are, if it is known.
+    metre, spacing: as given; count: how many lines there are, if it is known. Raises ValueError that begins with a key.
     """
-    values = numbers.values
-    if values.ndim == 1 or (values.ndim == 2 and len(values) == 1):
-        numbers = NumberTable(values=values.reshape(-1, 1), unit=numbers.unit, notes=numbers.notes)
-    if numbers.values.ndim != 2:
-        raise ValueError(f"file must have a column a line, got an array of shape {shortened(values.shape)}")
-    if numbers.spacing is not None or numbers.values.shape[1] == 1:
-        return _of_one(numbers, metre, spacing)
-    places, left_out = _kinds(numbers, count)
+    numbers, spacing = _as_columns(numbers, metre, spacing)
+    places, left_out = _kinds(numbers, count) if len(numbers.columns) > 1 else ({}, {})
     rest = [i for i in range(len(numbers.columns)) if i not in left_out]
     if not rest:
         raise ValueError(f"file must have heights beside places, got {numbers.names(sorted(left_out))} alone")
     notes = [f"{numbers.names([i])} {why} and is left out" for i, why in sorted(left_out.items()) if i not in places]
     height = heights_of_columns(numbers, rest, metre)
     if not places:
-        return _Lines(height, _known(spacing), tuple(notes))
-    (at,) = places
+        if spacing is None:
+            raise ValueError(
+                'spacing is missing: no column of the file runs evenly, as places do, as: spacing = "1 mm"'
+            )
+        return height, spacing, tuple(notes)
+    ((at, place),) = places.items()
     name = numbers.names([at])
-    step = metres_of_step(places[at].step, numbers.columns[at].unit, spacing, name)
+    step = metres_of_step(place.step, numbers.columns[at].unit, spacing, name)
     lines = f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
     notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {lines}")
     if count not in (None, len(rest)):
         raise ValueError(f"positions must be one a line, got {count} for {len(rest)}: {notes[-1]}")
-    known = np.isfinite(numbers.values[:, at])
-    whole = np.full((int(places[at].number[-1]) + 1, len(rest)), np.nan)
-    whole[places[at].number] = height[known]
-    if places[at].gaps:
-        notes.append(f"{places[at].gaps} of its places have no row")
-    return _Lines(whole[:: -1 if places[at].step < 0 else 1], step, tuple(notes))
+    whole = np.full((int(place.number[-1]) + 1, len(rest)), np.nan)
+    whole[place.number] = height[np.isfinite(numbers.values[:, at])]
+    if place.gaps:
+        notes.append(f"{place.gaps} of its places have no row")
+    return whole[:: -1 if place.step < 0 else 1], step, tuple(notes)
 
 
-def _of_one(numbers: NumberTable, metre: float | None, spacing: float | None) -> _Lines:
-    """A line without places, or of an instrument, which has them in its file."""
-    if numbers.values.shape[1] > 1:
+def _as_columns(numbers: NumberTable, metre: float | None, spacing: float | None) -> tuple[NumberTable, float | None]:
+    """A column a line, and the spacing that is given, or that of an instrument. Raises ValueError."""
+    values = numbers.values
+    if values.ndim == 1 or (values.ndim == 2 and len(values) == 1):
+        numbers = replace(numbers, values=values.reshape(-1, 1), columns=(), spacing=None)
+    if numbers.values.ndim != 2:
+        raise ValueError(f"file must have a column a line, got an array of shape {shortened(values.shape)}")
+    alone = numbers.values.shape[1] == 1
+    if numbers.spacing is not None and not alone:
         raise ValueError("file must have lines, got heights over an area: they belong to [rail.heights]")
-    if places_of(numbers.values[:, 0]):
+    if alone and places_of(numbers.values[:, 0]):
         raise ValueError("file must have heights, got one column that runs evenly, as places do")
-    if numbers.spacing is not None:
-        (spacing,) = own_spacing(numbers, metre, [spacing])
-    return _Lines(heights_of_columns(numbers, [0], metre), _known(spacing))
-
-
-def _known(spacing: float | None) -> float:
-    if spacing is None:
-        raise ValueError('spacing is missing: no column of the file runs evenly, as places do, as: spacing = "1 mm"')
-    return spacing
+    return numbers, spacing if numbers.spacing is None else own_spacing(numbers, metre, [spacing])[0]
 
 
 def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], dict[int, str]]:

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from validation.scenes.height_files import unit_of
 from validation.scenes.measured_surface import LENGTHS
-from validation.scenes.number_table import FORM, NumberTable, file_of
+from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable
 from validation.scenes.reader import Reader, nonblank_text, table, yes_or_no
-from validation.scenes.table_files import heights_of_columns, read_table, sentence_about
+from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.units import in_unit
 
@@ -34,8 +34,8 @@ def profile_in(name: str, given: object, *, folder: Path, told: list[str]) -> Tr
     """
     readers: dict[str, Reader] = {"file": nonblank_text, "unit": unit_of, "flip": yes_or_no, **FORM}
     found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
-    key, (path, form) = name if isinstance(given, str) else f"{name}.file", file_of(found, folder)
-    numbers = read_table(key, path, form)
+    key = name if isinstance(given, str) else f"{name}.file"
+    path, numbers = table_beside(name, found, folder, key=key)
     try:
         y, height = _in_metres(numbers, found.get("unit"))
         known = np.isfinite(y) & np.isfinite(height)
