@@ -9,7 +9,7 @@ import pytest
 from tests.scenes.test_rail_files import written
 from validation.scenes.description import describe
 from validation.scenes.load import load_scene
-from validation.scenes.profiled_rail import ProfiledRail
+from validation.scenes.rail import ProfiledRail
 from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 
 CROWN = 'crown_radius = "300 mm"'

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mdr.checks import finite, positive
 from validation.analysis.nominal_bands import NominalBands
-from validation.scenes.known_heights import known_heights
+from validation.scenes.height_edits import known_heights
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
 from validation.scenes.units import in_unit

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import positive
-from validation.scenes.height_edits import edited
-from validation.scenes.known_heights import real_numbers
+from validation.scenes.height_edits import edited, real_numbers
 from validation.scenes.measured import MeasuredHeights, check_grid
 from validation.scenes.printable import shortened
 from validation.scenes.units import UNITS

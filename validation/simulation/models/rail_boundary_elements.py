@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.engine.engine import Outcome
-from validation.scenes.profiled_rail import ProfiledRail
-from validation.scenes.rail import RailScene
+from validation.scenes.rail import ProfiledRail, RailScene
 from validation.simulation.equivalent_displacement import BEM
 from validation.simulation.profiled_strip import roll_on_profile
 from validation.simulation.rail_models import POSITION, RolledRailModel, in_strips, linear_error
