@@ -18,9 +18,9 @@ from tests.scenes import (
 from validation.scenes import (
     height_edits,
     level_files,
-    line_files,
     material,
     measured,
+    measured_lines,
     measured_surface,
     rail,
     roughness,
@@ -102,7 +102,7 @@ FAULTS = {
         test_profiled_rail.test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none,
     ),
     "a column of places as a second line of heights": (
-        (line_files, "_kinds", lambda numbers, count: ({}, {})),
+        (measured_lines, "_kinds", lambda numbers, count: ({}, {})),
         test_exported_tables.test_the_place_along_the_track_is_no_line,
     ),
     "wavenumbers in cycles taken for radians": (

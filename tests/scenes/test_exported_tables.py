@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.scenes.test_rail_files import CURVE, LEVELS, loaded
-from validation.scenes import level_files, line_files
+from validation.scenes import level_files, measured_lines
 from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
 from validation.scenes.height_edits import edited_lines
@@ -390,7 +390,7 @@ def in_memory(text, **form):
 
 def test_the_place_along_the_track_is_no_line():
     table = in_memory("x [mm];z [um]\n" + rows(enumerate(Z)))
-    height, _, _ = line_files._along_the_track(table, metre=None, spacing=1e-3)
+    height, _, _ = measured_lines._along_the_track(table, metre=None, spacing=1e-3)
     assert height.shape == (800, 1) and height[:, 0] == pytest.approx(1e-6 * Z)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from validation.__main__ import main
-from validation.scenes import height_files, table_files
+from validation.scenes import measured_surface, table_files
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
@@ -363,7 +363,7 @@ PAGE = (Path(__file__).parents[2] / "reports" / "docs" / "own_data.md").read_tex
 
 def test_the_page_has_a_row_for_each_key():
     with pytest.raises(ValueError, match=r"must be made of (.*)$") as problem:
-        height_files.heights_of("heights", {"none": 1}, folder=Path())
+        measured_surface.heights_of("heights", {"none": 1}, folder=Path())
     keys = str(problem.value).partition("made of ")[2].split(", ")
     assert re.findall(r"^\| `(\w+)` \|", PAGE, re.MULTILINE) == keys
 

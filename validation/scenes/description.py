@@ -125,10 +125,7 @@ def _of_rail(scene: RailScene) -> Pairs:
         motion = f"speed {3.6 * scene.speed:.5g} km/h{mass}"
     return (
         *_of_bodies(scene),
-        (
-            "contact ellipse",
-            f"a_x = {SHORT(contact.along)} along, a_y = {SHORT(contact.across)} across, of the smooth bodies",
-        ),
+        ("contact ellipse", f"{axes}, of the smooth bodies"),
         ("approach d", SHORT(contact.approach)),
         ("peak pressure p0", in_unit(contact.pressure, "pressure", digits=3)),
         ("motion", motion),

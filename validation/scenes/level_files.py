@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import nominal_wavelength
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
-from validation.scenes.measured_surface import metres_of
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, quoted
 from validation.scenes.reader import LENGTH, NUMBER, Reader, key_in_errors, nonblank_text, one_of, table
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.table_files import FORM, read_table, sentence_about, table_beside
-from validation.scenes.units import UNITS, quantity
+from validation.scenes.units import UNITS, metres_of, quantity
 
 CURVES = Path(__file__).parent / "levels"
 COLUMNS = "wavelength [mm],level [dB re 1 um]"

@@ -5,14 +5,12 @@ from pathlib import Path
 from typing import Any
 
 from mdr.checks import positive
-from validation.scenes.height_files import heights_of
 from validation.scenes.level_files import levels_in
-from validation.scenes.line_files import lines_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.measured_lines import MeasuredLines, lines_in
+from validation.scenes.measured_surface import heights_of
 from validation.scenes.printable import shortened
-from validation.scenes.profile_files import profile_in
 from validation.scenes.rail import Across, ProfiledRail, RailScene
 from validation.scenes.reader import (
     FORCE,
@@ -27,7 +25,7 @@ from validation.scenes.reader import (
     one_of,
     table,
 )
-from validation.scenes.transverse_profile import TransverseProfile, both_together
+from validation.scenes.transverse_profile import TransverseProfile, both_together, profile_in
 from validation.scenes.units import in_unit, quantity
 
 OF_WHEEL = ("transverse_radius", "profile", "offset", "axle_load", "levels", "lines")
