@@ -207,11 +207,11 @@ def _check_alone(profile: TransverseProfile, half_width: float, approach: float,
 
 COLUMNS = "y [mm],height [mm]"
 """The header of a file, in other units of length too."""
-SAME_PLACE, HIDDEN, FLANK = 1e-4, 1e-3, 2e-3
+BACK, HIDDEN, FLANK = 1e-4, 1e-3, 2e-3
 """How far points of a flank may turn back, lie below the profile, where the other body never comes, and beyond [m]."""
 APART = 1e-6
 """How far apart points are, at the least [m]: between closer ones a spline would follow their noise."""
-KNOTS, DENSE = 1e-3, 6
+KNOTS, TO_A_KNOT = 1e-3, 6
 """Distance of the knots of the spline that smooths a profile [m], with so many points to each or more."""
 
 
@@ -274,7 +274,7 @@ def _ascending(y: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArra
     rest = np.setdiff1d(np.arange(y.size), kept)
     below = height[rest] < np.interp(y[rest], run, of_run) - HIDDEN
     next_to = np.searchsorted(run, y[rest]).clip(1, run.size - 1)
-    near = np.minimum(np.abs(run[next_to] - y[rest]), np.abs(run[next_to - 1] - y[rest])) <= SAME_PLACE
+    near = np.minimum(np.abs(run[next_to] - y[rest]), np.abs(run[next_to - 1] - y[rest])) <= BACK
     beyond = (y[rest] < run[0] - FLANK) | (y[rest] > run[-1] + FLANK)
     if ((~below & ~near) | beyond).any():
         at = int(np.argmax(np.diff(y) <= 0))
@@ -287,16 +287,16 @@ def _ascending(y: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArra
 def _onward(y: FloatArray) -> NDArray[np.intp]:
     """Those that go on upwards, up to where places turn back by more than a flank scatters."""
     most = np.maximum.accumulate(y)
-    turned = np.flatnonzero(most - y > SAME_PLACE)
+    turned = np.flatnonzero(most - y > BACK)
     return np.flatnonzero(np.append(True, y[1:] > most[:-1] + APART)[: turned[0] if turned.size else y.size])
 
 
 def _smoothed(y: FloatArray, height: FloatArray) -> tuple[FloatArray, tuple[str, ...]]:
     """A cubic spline of least squares through many points: what is shorter than its knots is noise, or roughness."""
-    if y.size < 2 * DENSE:
+    if y.size < 2 * TO_A_KNOT:
         return height, ()
     each = round(KNOTS / float(np.median(np.diff(y))))
-    if not DENSE <= each < y.size / DENSE:
+    if not TO_A_KNOT <= each < y.size / TO_A_KNOT:
         return height, ()
     knots = np.concatenate([y[[0] * 4], y[each:-each:each], y[[-1] * 4]])
     smooth = np.asarray(scipy.interpolate.make_lsq_spline(y, height, knots)(y))
