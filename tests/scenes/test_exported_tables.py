@@ -22,6 +22,8 @@ from validation.scenes.text_dialect import WRITTEN
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
 """Nominal wavelengths [mm] and levels [dB]."""
+TAB = "\t"
+CYCLES, LEVEL = (10, 12.5, 16, 20, 25, 31.5), [level for _, level in BANDS]
 Z = np.round(5 * np.random.default_rng(2).standard_normal(800), 3)
 """A line of 5 um."""
 
@@ -53,57 +55,38 @@ def refused(folder, kind, contents, *keys, said, **settings):
 # Levels
 
 
-GERMAN = ("Wellenlänge [cm];Pegel [dB re 1 µm]\n" + rows(((w / 10, level) for w, level in BANDS), form=comma)).replace(
-    "\n", "\r\n"
+CM = [(w / 10, level) for w, level in BANDS]
+GERMAN = f"Wellenlänge [cm];Pegel [dB re 1 µm]\n{rows(CM, form=comma)}".replace("\n", "\r\n")
+SHEET = f"\ufeffwavelength (mm);level (dB)\n{rows(BANDS, form=comma)};\n;\n".replace("\n", "\r\n")
+TABS, WIDE = (
+    f"wavelength [mm]\tLr [dB]\n{rows(BANDS, TAB)}",
+    "EN 15610:2019\nSite: town, km 12.4\nOperator\tN.N.\nPoints\t6\n\n",
 )
+QUOTED = '"wavelength [mm]","level [dB]"\n' + rows(BANDS, ",", lambda value: f'"{comma(value)}"')
+COUNTED = rows((i, level, w) for i, (w, level) in enumerate(BANDS))
+RADIANS = rows(((2000 * np.pi / w, level) for w, level in BANDS), ",")
 EXPORTS = {
     "German, Latin-1, Windows": (GERMAN.encode("latin-1"), "semicolons between its columns, decimal commas, the encod"),
-    "German, UTF-8": (GERMAN.encode(), "it has semicolons between its columns, decimal commas."),
-    "Greek mu": (GERMAN.replace("µ", "\N{GREEK SMALL LETTER MU}").encode(), "decimal commas."),
-    "a spreadsheet": (
-        (
-            "\ufeffwavelength (mm);level (dB)\r\n" + rows(BANDS, form=comma).replace("\n", "\r\n") + ";\r\n;\r\n"
-        ).encode(),
-        "semicolons between its columns, decimal commas.",
-    ),
-    "UTF-16": (("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16"), "the encoding utf-16."),
-    "UTF-16 without its mark": (
-        ("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16-le"),
-        "the encoding utf-16-le.",
-    ),
-    "an old Mac": (
-        ("wavelength_mm\tlevel_dB\n" + rows(BANDS, "\t")).replace("\n", "\r").encode(),
-        "it has tabs between",
-    ),
+    "German, UTF-8": (GERMAN, "it has semicolons between its columns, decimal commas."),
+    "Greek mu": (GERMAN.replace("µ", "\N{GREEK SMALL LETTER MU}"), "decimal commas."),
+    "a spreadsheet": (SHEET, "semicolons between its columns, decimal commas."),
+    "UTF-16": (TABS.encode("utf-16"), "the encoding utf-16."),
+    "UTF-16 without its mark": (TABS.encode("utf-16-le"), "the encoding utf-16-le."),
+    "an old Mac": (TABS.replace("\n", "\r"), "it has tabs between"),
     "a standard table": (
-        "EN 15610:2019\nSite: town, km 12.4\nOperator\tN.N.\nPoints\t6\n\nWavelength / cm\tLr / dB re 1 µm\n".encode()
-        + rows(((w / 10, level) for w, level in BANDS), "\t").encode(),
-        "it has tabs between its columns, 5 lines above its numbers.",
+        f"{WIDE}Wavelength / cm\tLr / dB re 1 µm\n{rows(CM, TAB)}",
+        "tabs between its columns, 5 lines above",
     ),
-    "units in a line of their own": (("lambda;L\nmm;dB\n" + rows(BANDS)).encode(), "2 lines above its numbers."),
-    "quotation marks": (
-        ('"wavelength [mm]","level [dB]"\n' + rows(BANDS, ",", lambda value: f'"{comma(value)}"')).encode(),
-        "it has decimal commas.",
-    ),
-    "spaces": (("% wavelength [mm]   L [dB]\n" + rows(BANDS, "   ")).encode(), "it has spaces between its columns."),
-    "cycles": (
-        (
-            "k [1/m],L [dB]\n"
-            + rows(((k, level) for k, (_, level) in zip((10, 12.5, 16, 20, 25, 31.5), BANDS, strict=True)), ",")
-        ).encode(),
-        "its wavenumbers in 1/m are cycles: wavelength = 1 / k",
-    ),
-    "radians": (
-        ("k [rad/m],L [dB]\n" + rows(((2000 * np.pi / w, level) for w, level in BANDS), ",")).encode(),
-        "its wavenumbers in rad/m are k = 2 pi / wavelength",
-    ),
-    "a last line": (
-        ("lambda [mm];L [dB]\n" + rows(BANDS) + "\nEnd of file\n").encode(),
-        "columns; 1 line below its num",
-    ),
+    "units in a line of their own": (f"lambda;L\nmm;dB\n{rows(BANDS)}", "2 lines above its numbers."),
+    "quotation marks": (QUOTED, "it has decimal commas."),
+    "spaces": (f"% wavelength [mm]   L [dB]\n{rows(BANDS, '   ')}", "it has spaces between its columns."),
+    "cycles": (f"k [1/m],L [dB]\n{rows(zip(CYCLES, LEVEL, strict=True), ',')}", "its wavenumbers in 1/m are cycles"),
+    "radians": (f"k [rad/m],L [dB]\n{RADIANS}", "its wavenumbers in rad/m are k = 2 pi / wavelength"),
+    "upwards": (f"\ufeffwavelength_m;level_dB\n{rows((w / 1000, z) for w, z in BANDS[::-1])}", "semicolons"),
+    "a last line": (f"lambda [mm];L [dB]\n{rows(BANDS)}\nEnd of file\n", "columns; 1 line below its num"),
     "a count and bands without levels": (
-        ("no;L [dB];lambda [mm]\n" + rows((i, level, w) for i, (w, level) in enumerate(BANDS)) + "9;-;25\n").encode(),
-        "1 of its rows have no level and are left out; without no.",
+        f"no;L [dB];lambda [mm]\n{COUNTED}9;-;25\n",
+        "1 of its rows have no level and ",
     ),
 }
 
@@ -119,42 +102,27 @@ def test_levels_are_read_as_they_are_exported_and_how_is_told(tmp_path, export):
     assert f"note: {note}" in description_lines(scene)
 
 
-def test_a_plain_table_is_not_talked_about(tmp_path):
-    assert told(rail_with(tmp_path, "levels", "wavelength [mm],level [dB re 1 um]\n" + rows(BANDS, ","))) == []
-
-
+TIMED = "time;lambda [mm];L [dB]\n" + rows((f"12:30:{i}", w, level) for i, (w, level) in enumerate(BANDS))
 TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1) for w, level in BANDS), ",")
 
 
 @pytest.mark.parametrize(
     ("contents", "key", "said"),
     [
-        (
-            rows(BANDS, " "),
-            'unit = "mm"',
-            'got column 1 and column 2: without such names, as: columns = \\[1, 2\\], unit = "mm"',
-        ),
+        (rows(BANDS, " "), 'unit = "mm"', r'got column 1 and column 2: without such names, .* unit = "mm"'),
         (TWO, 'columns = ["wavelength", "left"]', r"left \[dB\] and right \[dB\]: say which, as: columns = \[1, 2\]"),
         (TWO, "columns = [1, 2]", "columns"),
         (rows(((w, 2) for w, _ in BANDS[:3]), ","), 'decimal = ","', 'as: decimal = ","'),
         ("1\n2\n3\nwavelength [mm];L [dB]\n" + rows(BANDS), "skip = 3", "skip"),
         ("wavelength [mm];L [dB]\n125;x\n" + rows(BANDS), 'nodata = "x"', 'as: nodata = "x"'),
         ("wavelength [mm];L [dB]\n" + rows(BANDS) + "25;77.7\n", "nodata = 77.7", "level"),
-        (
-            GERMAN.replace("µ", "u").encode("cp500"),
-            'encoding = "cp500"',
-            "got none in its first 8 lines: .*, encoding says",
-        ),
-        (
-            "time;lambda [mm];L [dB]\n" + rows((f"12:30:{i}", w, level) for i, (w, level) in enumerate(BANDS)),
-            'columns = ["lambda", "L"]',
-            "got '12:30:5' in column 1 of line 7: .* a column by columns",
-        ),
+        (GERMAN.replace("µ", "u").encode("cp500"), 'encoding = "cp500"', "got none in its first 8 lines: .*, encoding"),
+        (TIMED, 'columns = ["lambda", "L"]', "got '12:30:5' in column 1 of line 7: .* a column by columns"),
         ("text\n" * 3000 + "lambda [mm];L [dB]\n" + rows(BANDS), "skip = 3000", "skip leaves out more"),
         (
-            "lambda [mm];left;right\n" + rows((w, level, level + 1) for w, level in BANDS),
+            TWO.replace(" [dB]", ""),
             "columns = [1, 2]",
-            "got lambda .* and left and right: the key columns has the two that are read",
+            "got wavelength .* and left and right: the key columns has the two that are read",
         ),
     ],
 )
@@ -244,20 +212,23 @@ def line_of(scene):
     return scene.roughness.height[:, 0]
 
 
+def columns(header, *values, delimiter=",", form=str):
+    return f"{header}\n" + rows(zip(*values, strict=True), delimiter, form)
+
+
+AT = np.arange(800)
 PLACED = {
-    "a trolley": (HEADER + "x (mm)\theight (um)\n" + rows(zip(range(800), Z, strict=True), "\t"), 1e-3),
-    "commas": ("x [mm];z [µm]\n" + rows(zip(range(800), Z, strict=True), form=comma), 1e-3),
-    "heights first": ("z [um],x [m]\n" + rows(zip(Z, np.arange(800) / 2000, strict=True), ","), 0.5e-3),
-    "a count, too": ("n,x [mm],z [um]\n" + rows(zip(range(1, 801), np.arange(800) / 2, Z, strict=True), ","), 0.5e-3),
-    "a time, too": ("t [s],x [mm],z [um]\n" + rows(zip(np.arange(800) / 8, range(800), Z, strict=True), ","), 1e-3),
-    "a constant, too": ("x [mm],y [mm],z [um]\n" + rows(((i, 3.5, z) for i, z in enumerate(Z)), ","), 1e-3),
-    "rounded": ("x [mm],z [um]\n" + rows(((f"{i / 3:.2f}", z) for i, z in enumerate(Z)), ","), 1e-3 / 3),
-    "downwards": ("x [mm],z [um]\n" + rows(((f"{(800 - i) / 4:.2f}", z) for i, z in enumerate(Z)), ","), -0.25e-3),
-    "from a kilometre on": (
-        "x [m],z [um]\n" + rows(((f"{12345 + i / 1000:.3f}", z) for i, z in enumerate(Z)), ","),
-        1e-3,
-    ),
+    "a trolley": (HEADER + columns("x (mm)\theight (um)", AT, Z, delimiter="\t"), 1e-3),
+    "commas": (columns("x [mm];z [µm]", AT, Z, delimiter=";", form=comma), 1e-3),
+    "heights first": (columns("z [um],x [m]", Z, AT / 2000), 0.5e-3),
+    "a count, too": (columns("n,x [mm],z [um]", AT + 1, AT / 2, Z), 0.5e-3),
+    "a time, too": (columns("t [s],x [mm],z [um]", AT / 8, AT, Z), 1e-3),
+    "a constant, too": (columns("x [mm],y [mm],z [um]", AT, 3.5 + 0 * AT, Z), 1e-3),
+    "rounded": (columns("x [mm],z [um]", [f"{i / 3:.2f}" for i in AT], Z), 1e-3 / 3),
+    "downwards": (columns("x [mm],z [um]", [f"{(800 - i) / 4:.2f}" for i in AT], Z), -0.25e-3),
+    "from a kilometre on": (columns("x [m],z [um]", [f"{12345 + i / 1000:.3f}" for i in AT], Z), 1e-3),
 }
+XZ = columns("x [mm],z [um]", AT, Z)
 
 
 @pytest.mark.parametrize("export", PLACED)
@@ -297,41 +268,25 @@ def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("contents", "keys", "said"),
     [
-        (rows((i + (i % 3) / 4, z) for i, z in enumerate(Z)), (), r"got column 1, which runs one way but not evenly"),
+        (columns("", AT + (AT % 3) / 4, Z), (), r"got column 1, which runs one way but not evenly"),
+        (columns("", AT, AT / 2), (), r"file must have heights beside places, got column 1 and column 2 al"),
+        (columns("x [mm],y [mm],z [um]", AT, AT / 2, 1 + 0 * AT), (), "one that runs evenly, .*columns"),
+        (columns("", AT), ('spacing = "1 mm"',), "got one column that runs evenly"),
         (
-            rows((i, i / 2) for i in range(99)),
-            (),
-            r"file must have heights beside places, got column 1 and column 2 al",
-        ),
-        (
-            "x [mm],y [mm],z [um]\n" + rows(((i, i / 2, 1) for i in range(99)), ","),
-            (),
-            "one that runs evenly, .*columns",
-        ),
-        (rows((i,) for i in range(99)), ('spacing = "1 mm"',), "got one column that runs evenly"),
-        (
-            "x [mm],z [um]\n" + rows(enumerate(Z), ","),
+            XZ,
             ('positions = ["-5 mm", "5 mm"]',),
-            r"positions must be one a line, got 2 for 1: x \[mm\] is the place along the track, 1 mm apart, and z",
+            r"positions must be one a line, got 2 for 1: x \[mm\] is the ",
         ),
+        (XZ, ('unit = "mm"',), "unit must be that of the file, um, or be left out, got 1 mm"),
+        (XZ.replace("z [um]", "v [m/s]"), (), r"columns must be lengths, got v \[m/s\]: .*columns = \[1\]"),
         (
-            "x [mm],z [um]\n" + rows(enumerate(Z), ","),
-            ('unit = "mm"',),
-            "unit must be that of the file, um, or be left out, got 1 mm",
-        ),
-        (
-            "x [mm],v [m/s]\n" + rows(enumerate(Z), ","),
+            columns("v [m/s],x [mm],z [um]", Z, AT, Z),
             (),
-            r"columns must be lengths, got v \[m/s\]: .*columns = \[1\]",
+            r"be lengths, got v \[m/s\]: .*columns = \[2, 3\]",
         ),
-        (
-            "v [m/s],x [mm],z [um]\n" + rows(((z, i, z) for i, z in enumerate(Z)), ","),
-            (),
-            r"columns must be lengths, got v \[m/s\]: .*columns = \[2, 3\]",
-        ),
-        ("x [km],z [um]\n" + rows(((f"{12 + i / 1e6:.5f}", z) for i, z in enumerate(Z)), ","), (), "runs one way but"),
-        ("z [um]\n" + rows((z,) for z in Z), (), 'spacing is missing: .*as: spacing = "1 mm"'),
-        (rows((z,) for z in Z), ('spacing = "1 mm"',), 'is the unit another.*unit = "um"'),
+        (columns("x [km],z [um]", [f"{12 + i / 1e6:.5f}" for i in AT], Z), (), "runs one way but"),
+        (columns("z [um]", Z), (), 'spacing is missing: .*as: spacing = "1 mm"'),
+        (columns("", Z), ('spacing = "1 mm"',), 'is the unit another.*unit = "um"'),
     ],
 )
 def test_lines_that_cannot_be_told_are_refused_by_the_key_that_helps(tmp_path, contents, keys, said):

@@ -4,7 +4,6 @@ import math
 import re
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from scipy.fft import next_fast_len
 
@@ -93,10 +92,6 @@ def test_the_circumference_is_a_whole_number_of_springs():
     assert abs(wheel.circumference_points * wheel.spacing - 2 * math.pi * 0.5) <= wheel.spacing / 2 * (1 + 1e-9)
 
 
-def test_roughness_is_a_spectrum_of_that_height():
-    assert ROUGH.spectrum == mdr.SelfAffine(hurst=0.7, q_min=2 * math.pi / 0.01, q_max=2 * math.pi / 0.2e-3, rms=0.5e-6)
-
-
 def test_jump_and_cutoff_are_of_all_waves_there_are():
     longer = replace(ROUGH, longest=0.02, shortest=0.3e-3)
     for both in ({"rail": ROUGH, "wheel": longer}, {"rail": longer, "wheel": ROUGH}):
@@ -120,18 +115,6 @@ def test_a_smooth_track_is_a_scene_without_waves(name):
         getattr(smooth, name)
 
 
-def test_every_valid_scene_can_be_drawn():
-    # two springs to the shortest wave are the least that a scene accepts and a profile can carry
-    spacing = scene().spacing
-    for rail in (replace(ROUGH, shortest=2 * spacing), ROUGH):
-        wheel = scene(rail=rail)
-        c1d = rail.spectrum.c1d
-        profile = mdr.rough_profile(
-            c1d, length=wheel.length, points=wheel.points, rng=np.random.default_rng(0), rms=rail.rms
-        )
-        assert profile.std() == pytest.approx(0.5e-6, rel=1e-9, abs=0)
-
-
 # Shipped files
 
 
@@ -140,16 +123,12 @@ def test_shipped_scenes_are_listed():
     assert bundled_wheels() == WHEELS
 
 
-@pytest.mark.parametrize("name", WHEELS)
-def test_shipped_scenes_leave_no_doubt(name):
-    assert load_wheel_scene(name).diagnose() == ()
-
-
 def test_the_rough_wheel_is_table_14_1_with_its_roughness_shared():
     shared = load_wheel_scene("rough_wheel")
     assert shared.rail == shared.wheel
     assert shared.rail.rms == pytest.approx(0.5e-6 / math.sqrt(2), rel=1e-15)
     assert shared.rms == pytest.approx(scene().rms, rel=1e-15)
+    assert shared.diagnose() == scene().diagnose() == ()
     assert replace(shared, name="Table 14.1", wheel=None, rail=replace(shared.rail, rms=0.5e-6)) == scene()
 
 
@@ -164,14 +143,10 @@ def test_shipped_scenes_say_what_the_book_does_not_print(name):
 def test_a_name_and_a_path_read_the_same(tmp_path, monkeypatch):
     path = written(tmp_path)
     monkeypatch.chdir(tmp_path)
-    assert (
-        load_wheel_scene(path)
-        == load_wheel_scene(str(path))
-        == load_wheel_scene("scene.toml")
-        == load_wheel_scene("table_14_1")
-    )
+    for same in (path, str(path), "scene.toml"):
+        assert load_wheel_scene(same) == scene()
     path.rename(tmp_path / "bare")
-    assert load_wheel_scene("./bare") == load_wheel_scene("table_14_1")
+    assert load_wheel_scene("./bare") == scene()
 
 
 def test_other_units_and_an_editors_mark_make_the_same_scene(tmp_path):
@@ -272,8 +247,6 @@ def test_files_that_cannot_be_read_are_refused_by_name(tmp_path):
     missing = tmp_path / "missing.toml"
     with pytest.raises(FileNotFoundError, match=rf"^scene {re.escape(str(missing))} cannot be read: No such file"):
         load_wheel_scene(missing)
-    with pytest.raises(ValueError, match=rf"^scene {re.escape(str(tmp_path))} must be a regular file, got a folder$"):
-        load_wheel_scene(tmp_path)
 
 
 @pytest.mark.parametrize("name", ["table", "", "Table 14.1"])
@@ -281,6 +254,9 @@ def test_unknown_names_are_answered_with_the_shipped_ones(name):
     sentence = f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"'
     with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
         load_wheel_scene(name)
+
+
+NARROW, LONG = {"longest": 0.0099, "shortest": 0.0098}, {"longest": 5.0, "shortest": 4.0}
 
 
 @pytest.mark.parametrize(
@@ -309,16 +285,8 @@ def test_unknown_names_are_answered_with_the_shipped_ones(name):
         ("simulation.distance", {"distance": 0.01}, ["rail.roughness.longest, 0.01 m", "0.01 m"]),
         ("simulation.distance", {"distance": 0.02, "wheel": {"longest": 0.03}}, ["wheel.", "longest, 0.03 m", "0.02"]),
         ("rail.roughness.shortest", {"springs": 10}, ["two springs, 0.000396396 m", "0.0002 m"]),
-        (
-            "rail.roughness.shortest",
-            {"distance": 0.011, "rail": {"longest": 0.0099, "shortest": 0.0098}},
-            ["a period of 0.0110", "0.0098 m"],
-        ),
-        (
-            "wheel.roughness.shortest",
-            {"distance": 10.0, "wheel": {"longest": 5.0, "shortest": 4.0}},
-            ["a period of 3.141", "4 m"],
-        ),
+        ("rail.roughness.shortest", {"distance": 0.011, "rail": NARROW}, ["a period of 0.0110", "0.0098 m"]),
+        ("wheel.roughness.shortest", {"distance": 10.0, "wheel": LONG}, ["a period of 3.141", "4 m"]),
         ("wheel.load", {"load": 1e15}, ["0.5 m", "11.665 m"]),
         ("simulation.springs", {"springs": 10**400}, ["630884", "1000"]),
     ],
@@ -333,6 +301,7 @@ def test_scenes_are_refused_by_key_and_value(key, changes, numbers):
 
 
 HEAVY = {"load": 1e9, "springs": 10000, "distance": 2.0}
+HIGH, LOWER = replace(ROUGH, rms=1.1e-4), replace(ROUGH, rms=0.9e-4)
 LONG_WAVE = {"wheel": replace(ROUGH, longest=1.6), "distance": 20.0}
 SHORTER_WAVE = {"wheel": replace(ROUGH, longest=1.5), "distance": 20.0}
 DOUBTS = [
@@ -340,16 +309,8 @@ DOUBTS = [
     (LONG_WAVE, SHORTER_WAVE, ["wheel.roughness.longest", "1.6 m", "circumference of 3.14 m"]),
     ({"speed": 0.13}, {"speed": 0.14}, ["time step", "0.209", "0.2"]),
     ({"distance": 0.09}, {"distance": 0.11}, ["simulation.distance", "9 waves of rail.roughness.longest", "10"]),
-    (
-        {**HEAVY, "rail": replace(ROUGH, rms=1.1e-4)},
-        {**HEAVY, "rail": replace(ROUGH, rms=0.9e-4)},
-        ["rail.roughness.rms", "0.00011 m", "0.0001 m", "unit"],
-    ),
-    (
-        {"load": 1e9, "springs": 5000},
-        {"load": 5e7, "springs": 5000},
-        ["contact radius", "0.233", "a tenth", "units of wheel.load and material.youngs_modulus"],
-    ),
+    ({**HEAVY, "rail": HIGH}, {**HEAVY, "rail": LOWER}, ["rail.roughness.rms", "0.00011 m", "0.0001 m", "unit"]),
+    ({"load": 1e9, "springs": 5000}, {"load": 5e7, "springs": 5000}, ["contact radius", "0.233", "a tenth", "units"]),
 ]
 
 

@@ -68,12 +68,6 @@ def test_heights_and_sizes_have_the_unit_of_a_topography(topography, unit, metre
     assert load_scene("rough_punch", heights=one).ground.rms == pytest.approx(found.rms, rel=1e-12)
 
 
-def test_x_is_the_first_axis_of_a_topography(topography):
-    found = measured(topography(HEIGHT[:, :24], (1000.0, 250.0), unit="um"))
-    assert found.sides == pytest.approx((1e-3, 0.25e-3))
-    assert found.spacing == pytest.approx((1e-3 / N, 0.25e-3 / 24))
-
-
 def test_undefined_data_of_a_topography(topography):
     holes = HEIGHT.copy()
     holes[10, 20] = np.nan
@@ -87,27 +81,12 @@ def test_undefined_data_of_a_topography(topography):
     assert measured(one, fill=True).height == pytest.approx(filled.height, rel=1e-9, abs=1e-18)
 
 
-def test_a_topography_without_a_size_is_refused(topography):
-    with pytest.raises(
-        ValueError, match=r"two physical_sizes, got shape \(48, 48\) and None: .*physical_sizes=\(Lx, Ly\)"
-    ):
-        measured(topography(HEIGHT, None, unit="um"))
-
-
 def test_a_line_scan_is_refused():
     package = topographies()
     with pytest.raises(
         ValueError, match=r"^heights must be two-dimensional with two physical_sizes, got shape \(48,\)"
     ):
         measured(package.UniformLineScan(HEIGHT[0], 1.0, unit="um"))
-
-
-def test_units_that_contradict_each_other_are_refused():
-    one = StandIn(HEIGHT, (1.0, 1.0), unit="mm", info={"unit": "um"})
-    with pytest.raises(ValueError, match=r"^unit of the surface must be one, got unit 'mm' and info 'um'$"):
-        measured(one)
-    same = StandIn(HEIGHT, (1.0, 1.0), unit="um", info={"unit": "µm"})
-    assert measured(same).sides == pytest.approx((1e-6, 1e-6))
 
 
 def test_a_topography_that_was_converted():

@@ -73,6 +73,9 @@ def test_metric_prefixes_do_not_round(digits):
     assert quantity("it", f"{digits} GPa", "pressure") == float(f"{digits}e9")
 
 
+FORMS = "0.5|m|0.5 kg|0.5 inch|0.5 M|half m|0,5 m|0x1 m|1 m 2 mm|0.5 m m|0.5 dm|0. 5m"
+
+
 @pytest.mark.parametrize(
     "wrong",
     [
@@ -81,25 +84,25 @@ def test_metric_prefixes_do_not_round(digits):
         True,
         None,
         ["0.5 m"],
-        "0.5",
-        "m",
         "",
-        "0.5 kg",
-        "0.5 inch",
-        "0.5 M",
-        "half m",
-        "0,5 m",
-        "0x1 m",
-        "1 m 2 mm",
-        "0.5 m m",
-        "0.5 dm",
-        "0. 5m",
+        *[
+            "0.5",
+            "m",
+            "0.5 kg",
+            "0.5 inch",
+            "0.5 M",
+            "half m",
+            "0,5 m",
+            "0x1 m",
+            "1 m 2 mm",
+            "0.5 m m",
+            "0.5 dm",
+            "0. 5m",
+        ],
     ],
 )
 def test_other_forms_are_refused_with_an_example_and_the_units(wrong):
-    with pytest.raises(
-        ValueError, match=r'^wheel.radius must be a length, as "0.5 m", in one of m, .*, km, got '
-    ) as no:
+    with pytest.raises(ValueError, match=r'^wheel.radius must be a length, as "0.5 m", in one of m, .*, km, ') as no:
         quantity("wheel.radius", wrong, "length")
     assert str(no.value).endswith(f"got {quoted(wrong)}")
 
