@@ -159,18 +159,10 @@ def test_a_curve_has_no_use_for_the_keys_of_a_file(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "cells",
-    [
-        "1.000,5;3\n",
-        '"1,000.5";3\n',
-        "1 000,5;3\n",
-        "1'000.5;3\n",
-        "1.234.567;3\n",
-        "1\N{NARROW NO-BREAK SPACE}000,5;3\n",
-    ],
+    "number", ["1.000,5", '"1,000.5"', "1 000,5", "1'000.5", "1.234.567", "1\N{NARROW NO-BREAK SPACE}000,5"]
 )
-def test_signs_between_thousands_are_refused(tmp_path, cells):
-    contents = "wavelength [mm];L [dB]\n" + cells * 4
+def test_signs_between_thousands_are_refused(tmp_path, number):
+    contents = "wavelength [mm];L [dB]\n" + f"{number};3\n" * 4
     refused(tmp_path, "levels", contents, said=r"numbers must have no sign between thousands, got '1")
 
 
@@ -294,12 +286,11 @@ def test_lines_that_cannot_be_told_are_refused_by_the_key_that_helps(tmp_path, c
 
 
 def test_a_line_may_be_tilted_as_much_as_to_run_one_way(tmp_path):
-    tilted = np.round(Z + 50 * np.arange(800), 3)
-    scene = rail_with(tmp_path, "lines", "x [mm],z [um]\n" + rows(enumerate(tilted), ","))
+    tilted = np.round(Z + 50 * AT, 3)
+    scene = rail_with(tmp_path, "lines", columns("x [mm],z [um]", AT, tilted))
     assert line_of(scene) == pytest.approx(1e-6 * tilted)
-    both = rows(((z, h) for z, h in zip(tilted, Z, strict=True)), ",")
     keys = 'spacing = "1 mm"', 'unit = "um"', 'positions = ["0 mm", "5 mm"]'
-    assert rail_with(tmp_path, "lines", both, *keys).roughness.height.shape == (800, 2)
+    assert rail_with(tmp_path, "lines", columns("", tilted, Z), *keys).roughness.height.shape == (800, 2)
 
 
 GONE = {3: "BAD", 10: "***", 11: "", 12: "-9999", 13: "NaN"}
@@ -404,12 +395,9 @@ def test_other_columns_than_the_chosen_may_be_texts():
         in_memory(texts.replace("12:020;20.5", "broken;broken"), columns=(2,))
 
 
-def test_a_header_with_a_decimal_comma_is_no_pair_of_names():
-    assert in_memory("Weg 1,5 m\n3,25\n4,5\n1,25\n").values[:, 0].tolist() == [3.25, 4.5, 1.25]
-
-
-def test_a_mark_of_utf_8_is_left_out_where_the_encoding_is_told():
+def test_a_header_with_a_decimal_comma_is_no_pair_of_names_nor_a_mark_part_of_one():
     assert in_memory("\ufeffx [mm],z [um]\n1,2.5\n2,3\n3,4\n", encoding="UTF8").columns[0].name == "x"
+    assert in_memory("Weg 1,5 m\n3,25\n4,5\n1,25\n").values[:, 0].tolist() == [3.25, 4.5, 1.25]
 
 
 @pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
@@ -459,6 +447,8 @@ def test_numbers_are_what_is_written(text, values):
         ("f(x) in nm", Column("f(x) in", "nm")),
         ("rail (left) [nm]", Column("rail (left)", "nm")),
         ("name", Column("name")),
+        *((f"h [{word}]", Column("h", "um")) for word in ("micrometer", "micrometre", "microns")),
+        *((f"height {word}", Column("height", "mm")) for word in ("millimetre", "MM")),
     ],
 )
 def test_names_of_columns(text, column):
@@ -484,10 +474,6 @@ def test_rough_lines_never_run_evenly():
     assert places_of(np.arange(7.0)) is None and places_of(np.full(9, 3.0)) is None
 
 
-def test_each_key_of_a_table_is_read():
-    assert set(FORM) == set(vars(TableForm()))
-
-
 PAGE = (Path(__file__).parents[2] / "reports" / "docs" / "own_data.md").read_text(encoding="utf-8")
 
 
@@ -497,13 +483,6 @@ def test_the_page_names_each_way_of_writing_that_is_recognised(tmp_path):
     for unit in re.findall(r"`(1/m|rad/m|dB|cm|mm|um|nm)`", PAGE):
         (tmp_path / "it.csv").write_text(f"a [{unit}],b\n1,2.5\n3,4\n5,6\n")
         assert read_table("it", tmp_path / "it.csv").columns[0].unit == unit
-
-
-@pytest.mark.parametrize(
-    ("word", "unit"), [("micrometer", "um"), ("micrometre", "um"), ("millimetre", "mm"), ("microns", "um")]
-)
-def test_units_may_be_written_out(word, unit):
-    assert column_of(f"height [{word}]") == Column("height", unit) == column_of(f"height {word}")
 
 
 def test_units_of_columns_go_before_one_of_the_whole_header():

@@ -56,8 +56,8 @@ HEADER = "Instrument 7\nDate: 2024-05-01, 12:30\nX;Y;Z\n"
 def test_comments_above_the_numbers_are_left_out(tmp_path, mark):
     lines = "".join(f"{mark} {line}\n" for line in HEADER.splitlines())
     (tmp_path / "face.csv").write_text(f"{lines}\n{rows_of(HEIGHT)}")
-    assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
-    assert heights_in(tmp_path, "face.csv", "skip = 2").height == level(HEIGHT)
+    for skip in ((), ("skip = 2",)):
+        assert heights_in(tmp_path, "face.csv", *skip).height == level(HEIGHT)
 
 
 def test_a_header_that_is_no_comment_is_left_out_and_told(tmp_path):
@@ -69,12 +69,6 @@ def test_a_header_that_is_no_comment_is_left_out_and_told(tmp_path):
             "face.csv: it has 3 lines above its numbers."
         ]
     refused(tmp_path, "face.csv", "skip = 67", said=r"got no line below the 67 to skip$")
-
-
-@pytest.mark.parametrize("given", ["-1", "1.5", '"3"', "true", "[3]"])
-def test_lines_to_skip_are_a_whole_number(tmp_path, given):
-    np.savetxt(tmp_path / "face.csv", HEIGHT, delimiter=",")
-    refused(tmp_path, "face.csv", f"skip = {given}", said=r"heights\.skip must be (a whole|at least 0|a number)")
 
 
 # Places beside the heights
@@ -255,38 +249,32 @@ def test_points_of_two_distances(tmp_path):
     assert "64 x 32 points on 64 µm x 64 µm, 1 µm x 2 µm apart" in found.waves
 
 
-@pytest.mark.parametrize(
-    ("spacing", "said"),
-    [
-        ('["1 um"]', r"heights\.spacing must be a length or two, as .* along x and y, got \['1 um'\]$"),
-        ("[]", r"heights\.spacing must be a length or two"),
-        ('["1 um", "0 um"]', r'heights\.spacing\[1\] must be positive, got "0 um"$'),
-        ('["-1 um", "1 um"]', r'heights\.spacing\[0\] must be positive, got "-1 um"$'),
-        ('"1 N"', r'heights\.spacing must be a length, as "0\.5 m", in one of m, '),
-        ("1e-6", r"heights\.spacing must be a length"),
-        ('["1 um", 2]', r"heights\.spacing\[1\] must be a length"),
-        ('"nan um"', r'heights\.spacing must be finite, got "nan um"$'),
-    ],
-)
-def test_spacings_that_are_none_are_refused(tmp_path, spacing, said):
-    np.save(tmp_path / "face.npy", HEIGHT)
-    refused(tmp_path, "face.npy", spacing=spacing, said=said)
+SPACINGS = [
+    ('["1 um"]', r"must be a length or two, as .* along x and y, got \['1 um'\]$"),
+    ("[]", r"must be a length or two"),
+    ('["1 um", "0 um"]', r'\[1\] must be positive, got "0 um"$'),
+    ('["-1 um", "1 um"]', r'\[0\] must be positive, got "-1 um"$'),
+    ('"1 N"', r'must be a length, as "0\.5 m", in one of m, '),
+    ("1e-6", r"must be a length"),
+    ('["1 um", 2]', r"\[1\] must be a length"),
+    ('"nan um"', r'must be finite, got "nan um"$'),
+]
+WISHES = [
+    ("fill = 1", r"fill must be true or false, got 1, as: fill = true$"),
+    ('crop = "yes"', r"crop must be true or false, got 'yes', as: crop = true$"),
+    ("fil = true", r"fil is unknown, heights must be made of file, spacing, .*, as: fill = true$"),
+    *((f"unit = {one}", r"unit must be one of m, cm, mm, .*, as: unit = \"um\"$") for one in ('"inch"', '""', "3")),
+    *((f"skip = {one}", r"skip must be (a whole|at least 0|a number)") for one in ("-1", "1.5", '"3"', "true", "[3]")),
+]
 
 
 @pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        (("fill = 1",), r"heights\.fill must be true or false, got 1, as: fill = true$"),
-        (('crop = "yes"',), r"heights\.crop must be true or false, got 'yes', as: crop = true$"),
-        (("fil = true",), r"heights\.fil is unknown, heights must be made of file, spacing, .*, as: fill = true$"),
-        (('unit = "inch"',), r"heights\.unit must be one of m, cm, mm, .*, got 'inch', as: unit = \"um\"$"),
-        (('unit = ""',), r"heights\.unit must be one of m, cm, mm, .*, got '', as: unit = \"um\"$"),
-        (("unit = 3",), r"heights\.unit must be one of m, cm, mm, .*, got 3, as: unit = \"um\"$"),
-    ],
+    ("line", "spacing", "said"),
+    [*((line, '"1 um"', said) for line, said in WISHES), *(("", one, f"spacing ?{said}") for one, said in SPACINGS)],
 )
-def test_wishes_that_are_none_are_refused(tmp_path, lines, said):
+def test_wishes_and_spacings_that_are_none_are_refused(tmp_path, line, spacing, said):
     np.save(tmp_path / "face.npy", HEIGHT)
-    refused(tmp_path, "face.npy", *lines, said=said)
+    refused(tmp_path, "face.npy", line, spacing=spacing, said=rf"heights\.{said}")
 
 
 def test_keys_that_are_missing_are_shown_as_a_line(tmp_path):

@@ -146,22 +146,17 @@ def test_a_contact_modulus_may_be_given_instead(tmp_path, text):
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
-        ('counterface = "steel"\n', 'material.counterface must be "rigid", "same", or a table'),
         ("counterface = 3\n", 'material.counterface must be "rigid", "same", or a table'),
         ('counterface = "same"\ncontact_modulus = "1 GPa"\n', "material.contact_modulus must stand alone, got youngs"),
         (ALUMINIUM.replace("poisson_ratio = 0.33\n", ""), "material.counterface.poisson_ratio is missing"),
-        (ALUMINIUM.replace("0.33", "0.66"), "material.counterface.poisson_ratio must lie in [0, 0.5], got 0.66"),
         (ALUMINIUM.replace("70 GPa", "70 N"), "material.counterface.youngs_modulus must be a pressure"),
     ],
 )
-@pytest.mark.parametrize("text", [SPHERE, WHEEL])
-def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, line, sentence):
+@pytest.mark.parametrize(("text", "load"), [(SPHERE, load_scene), (WHEEL, load_scene), (WHEEL, load_wheel_scene)])
+def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, load, line, sentence):
     path = written(tmp_path, text, line)
     with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
-        load_scene(path)
-    if text == WHEEL:
-        with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
-            load_wheel_scene(path)
+        load(path)
 
 
 # What was understood

@@ -39,18 +39,8 @@ def written(tmp_path, *changes, text=TABLE):
 
 
 def test_table_14_1_is_what_the_book_prints_and_we_chose():
-    assert load_wheel_scene("table_14_1") == WheelScene(
-        name="Table 14.1",
-        radius=0.5,
-        mass=500.0,
-        load=4905.0,
-        speed=20.0,
-        material=STEEL,
-        rail=Roughness(rms=0.5e-6, hurst=0.7, longest=0.01, shortest=0.2e-3),
-        wheel=None,
-        distance=0.65,
-        springs=100,
-    )
+    wheel = {"radius": 0.5, "mass": 500.0, "load": 4905.0, "speed": 20.0, "material": STEEL}
+    assert scene() == WheelScene(name="Table 14.1", **wheel, rail=ROUGH, wheel=None, distance=0.65, springs=100)
 
 
 @pytest.mark.parametrize(
@@ -94,25 +84,19 @@ def test_the_circumference_is_a_whole_number_of_springs():
 
 def test_jump_and_cutoff_are_of_all_waves_there_are():
     longer = replace(ROUGH, longest=0.02, shortest=0.3e-3)
-    for both in ({"rail": ROUGH, "wheel": longer}, {"rail": longer, "wheel": ROUGH}):
-        assert scene(**both).jump == pytest.approx(2 * math.pi / 0.02 * 20, rel=1e-15)
-        assert scene(**both).cutoff == pytest.approx(2 * math.pi / 0.2e-3 * 20, rel=1e-15)
-    assert scene(rail=None, wheel=longer).jump == pytest.approx(2 * math.pi / 0.02 * 20, rel=1e-15)
-    assert scene(rail=None, wheel=longer).cutoff == pytest.approx(2 * math.pi / 0.3e-3 * 20, rel=1e-15)
+    for rail, wheel, shortest in ((ROUGH, longer, 0.2e-3), (longer, ROUGH, 0.2e-3), (None, longer, 0.3e-3)):
+        found = scene(rail=rail, wheel=wheel)
+        assert found.jump == pytest.approx(2 * math.pi / 0.02 * 20, rel=1e-15)
+        assert found.cutoff == pytest.approx(2 * math.pi / shortest * 20, rel=1e-15)
 
 
 def test_heights_add_by_their_squares():
-    assert scene().rms == 0.5e-6
-    assert scene(wheel=replace(ROUGH, rms=1.2e-6)).rms == pytest.approx(1.3e-6, rel=1e-15)
-
-
-@pytest.mark.parametrize("name", ["jump", "cutoff"])
-def test_a_smooth_track_is_a_scene_without_waves(name):
     smooth = scene(rail=None)
-    assert smooth.rms == 0
-    assert smooth.diagnose() == ()
-    with pytest.raises(ValueError, match="must have a rough rail or wheel"):
-        getattr(smooth, name)
+    assert (scene().rms, smooth.rms, smooth.diagnose()) == (0.5e-6, 0, ())
+    for waves in ("jump", "cutoff"):
+        with pytest.raises(ValueError, match="must have a rough rail or wheel"):
+            getattr(smooth, waves)
+    assert scene(wheel=replace(ROUGH, rms=1.2e-6)).rms == pytest.approx(1.3e-6, rel=1e-15)
 
 
 # Shipped files
@@ -165,60 +149,50 @@ def test_without_roughness_the_rail_is_smooth(tmp_path, rail):
 # Refusals
 
 
-MISSING = {
-    "wheel.radius": 'radius = "0.5 m"',
-    "wheel.mass": 'mass = "500 kg"',
-    "material.poisson_ratio": "poisson_ratio = 0.3333333333333333",
-    "simulation.springs": "springs = 100",
-    "rail.roughness.hurst": "hurst = 0.7",
-    "name": 'name = "Table 14.1"',
-}
-UNKNOWN = {
-    "stuff": ("[material]", "[stuff]"),
-    "wheel.diameter": ("radius =", "diameter ="),
-    "rail.waves": ("[rail.roughness]", "[rail.waves]"),
-    "rail.roughness.Hurst": ("hurst =", "Hurst ="),
-    "rail.x": ("[rail.roughness]", "[rail]\nroughness = 1\n[rail.x]"),
-}
-
-
-@pytest.mark.parametrize("key", MISSING)
-def test_a_key_that_is_missing_is_named(tmp_path, key):
-    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} is missing"):
-        load_wheel_scene(written(tmp_path, (MISSING[key], "")))
-
-
-@pytest.mark.parametrize("key", UNKNOWN)
-def test_a_key_that_is_unknown_is_named_with_those_that_are_known(tmp_path, key):
-    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} is unknown, .* must be made of (name, wheel|radius|rms|ro)"):
-        load_wheel_scene(written(tmp_path, UNKNOWN[key]))
+MADE = "must be made of"
 
 
 @pytest.mark.parametrize(
-    ("key", "old", "new", "got"),
+    ("key", "old", "new", "said"),
     [
-        ("name", '"Table 14.1"', "14.1", "14.1"),
-        ("name", '"Table 14.1"', '" "', "' '"),
-        ("wheel.radius", '"0.5 m"', "0.5", "0.5"),
-        ("wheel.mass", '"500 kg"', '"4905 N"', '"4905 N"'),
-        ("wheel.speed", '"20 m/s"', '"20 m"', '"20 m"'),
-        ("material.youngs_modulus", '"210 GPa"', '"210 GN"', '"210 GN"'),
-        ("wheel.load", '"4905 N"', '"-1 N"', '"-1 N"'),
-        ("rail.roughness.rms", '"0.5 um"', '"0 um"', '"0 um"'),
-        ("simulation.distance", '"0.65 m"', '"inf m"', '"inf m"'),
-        ("rail.roughness.hurst", "0.7", '"0.7"', "'0.7'"),
-        ("rail.roughness.hurst", "0.7", "true", "True"),
-        ("rail.roughness.hurst", "0.7", "nan", "nan"),
-        ("rail.roughness.hurst", "0.7", "1" + 400 * "0", "a number of 401 digits"),
-        ("rail.roughness.hurst", "0.7", "7", "7.0"),
-        ("simulation.springs", "springs = 100", "springs = 1.5", "1.5"),
-        ("simulation.springs", "springs = 100", "springs = 0", "0"),
-        ("material.poisson_ratio", "0.3333333333333333", "0.6", "0.6"),
-        ("material.poisson_ratio", "0.3333333333333333", "2026-01-01", "datetime.date(2026, 1, 1)"),
+        ("wheel.radius", 'radius = "0.5 m"', "", "is missing"),
+        ("wheel.mass", 'mass = "500 kg"', "", "is missing"),
+        ("material.poisson_ratio", "poisson_ratio = 0.3333333333333333", "", "is missing"),
+        ("simulation.springs", "springs = 100", "", "is missing"),
+        ("rail.roughness.hurst", "hurst = 0.7", "", "is missing"),
+        ("name", 'name = "Table 14.1"', "", "is missing"),
+        ("stuff", "[material]", "[stuff]", f"is unknown, a scene {MADE} name, wheel"),
+        ("wheel.diameter", "radius =", "diameter =", f"is unknown, wheel {MADE} radius"),
+        ("rail.waves", "[rail.roughness]", "[rail.waves]", f"is unknown, rail {MADE} roughness"),
+        ("rail.roughness.Hurst", "hurst =", "Hurst =", f"is unknown, rail.roughness {MADE} rms"),
+        ("rail.x", "[rail.roughness]", "[rail]\nroughness = 1\n[rail.x]", f"is unknown, rail {MADE} roughness"),
+        ("name", '"Table 14.1"', "14.1", "must be a text that is not blank, got 14.1"),
+        ("name", '"Table 14.1"', '" "', "must be a text that is not blank, got ' '"),
+        (
+            "wheel.radius",
+            '"0.5 m"',
+            "0.5",
+            'must be a length, as "0.5 m", in one of m, cm, mm, um, µm, nm, km, got 0.5',
+        ),
+        ("wheel.mass", '"500 kg"', '"4905 N"', 'must be a mass, as "500 kg", in one of kg, g, t, got "4905 N"'),
+        ("wheel.speed", '"20 m/s"', '"20 m"', 'must be a speed, as "20 m/s", in one of m/s, mm/s, km/h, got "20 m"'),
+        ("material.youngs_modulus", '"210 GPa"', '"210 GN"', "must be a pressure"),
+        ("wheel.load", '"4905 N"', '"-1 N"', 'must be positive, got "-1 N"'),
+        ("rail.roughness.rms", '"0.5 um"', '"0 um"', 'must be positive, got "0 um"'),
+        ("simulation.distance", '"0.65 m"', '"inf m"', 'must be finite, got "inf m"'),
+        ("rail.roughness.hurst", "0.7", '"0.7"', "must be a real number, got '0.7'"),
+        ("rail.roughness.hurst", "0.7", "true", "must be a real number, got True"),
+        ("rail.roughness.hurst", "0.7", "nan", "must be finite, got nan"),
+        ("rail.roughness.hurst", "0.7", "1" + 400 * "0", "must be finite, got a number of 401 digits"),
+        ("rail.roughness.hurst", "0.7", "7", "must "),
+        ("simulation.springs", "springs = 100", "springs = 1.5", "must be a whole number, got 1.5"),
+        ("simulation.springs", "springs = 100", "springs = 0", "must be at least 1, got 0"),
+        ("material.poisson_ratio", "0.3333333333333333", "0.6", "must lie in [0, 0.5], got 0.6"),
+        ("material.poisson_ratio", "0.3333333333333333", "2026-01-01", "must be a real number, got datetime"),
     ],
 )
-def test_files_are_refused_by_key_and_value(tmp_path, key, old, new, got):
-    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} must .*, got {re.escape(got)}$"):
+def test_files_are_refused_by_key_and_value(tmp_path, key, old, new, said):
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} {re.escape(said)}"):
         load_wheel_scene(written(tmp_path, (old, new)))
 
 
@@ -329,12 +303,6 @@ def test_a_scene_is_printed_to_be_copied_with_a_comment_on_every_key(name, capsy
     assert printed == (SCENES / f"{name}.toml").read_text(encoding="utf-8")
     keys = [line for line in printed.splitlines() if re.match(r"\w+ = ", line)]
     assert keys and [line for line in keys if " # " not in line] == []
-
-
-def test_a_scene_that_is_not_there_is_not_printed(capsys):
-    with pytest.raises(SystemExit) as refused:
-        main(["scene", "nowhere"])
-    assert refused.value.code == 2 and "'nowhere'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

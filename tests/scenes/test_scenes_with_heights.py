@@ -7,9 +7,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-import bem3d
-import mdr
-from tests.scenes.test_scene_files import written
+from tests.scenes.test_measured_heights import drawn, heights
+from tests.scenes.test_scene_files import IN_FILE, written
 from validation.__main__ import main
 from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -19,19 +18,8 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.selection import several_scenes
 
-N, DX = 256, 1e-6
-BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)
-IN_FILE = r"scene \S+scene\.toml: "
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
-
-
-def drawn(seed=1, c2d=BAND.c2d):
-    return bem3d.rough_surface(c2d, shape=(N, N), spacing=DX, rng=np.random.default_rng(seed), rms=1e-7)
-
-
-def heights(height, spacing=(DX, DX)):
-    return MeasuredHeights(height=height, spacing=spacing)
 
 
 def with_heights(folder, file):

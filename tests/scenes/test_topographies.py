@@ -72,9 +72,7 @@ def test_undefined_data_of_a_topography(topography):
     holes = HEIGHT.copy()
     holes[10, 20] = np.nan
     one = topography(holes, (1000.0, 1000.0), unit="um")
-    with pytest.raises(
-        ValueError, match=r"got 1 of 2304 \(0\.0434 %\) without data .* at \[10, 20\]: .*, as: fill=True$"
-    ):
+    with pytest.raises(ValueError, match=r"got 1 of 2304 \(0\.0434 %\) without data .* at \[10, 20\]: .*fill=True$"):
         measured(one)
     holes[10, 20] = (HEIGHT[9, 20] + HEIGHT[11, 20] + HEIGHT[10, 19] + HEIGHT[10, 21]) / 4
     filled = MeasuredHeights(height=1e-6 * holes, spacing=(1e-3 / N, 1e-3 / N))
@@ -83,9 +81,7 @@ def test_undefined_data_of_a_topography(topography):
 
 def test_a_line_scan_is_refused():
     package = topographies()
-    with pytest.raises(
-        ValueError, match=r"^heights must be two-dimensional with two physical_sizes, got shape \(48,\)"
-    ):
+    with pytest.raises(ValueError, match=r"^heights must be two-dimensional with two physical_sizes, got shape \(48,"):
         measured(package.UniformLineScan(HEIGHT[0], 1.0, unit="um"))
 
 
@@ -175,9 +171,7 @@ def test_a_line_of_an_instrument_is_one_of_a_rail(tmp_path, monkeypatch):
     scene = loaded(tmp_path, *changes)
     assert scene.roughness.spacing == 1e-3 and scene.roughness.height[:, 0] == pytest.approx(1e-6 * line)
     as_installed(monkeypatch, uniform(HEIGHT, (48.0, 48.0), "um"))
-    with pytest.raises(
-        ValueError, match=r"rail\.lines\.file must have lines, got heights over an area: .*rail\.heights"
-    ):
+    with pytest.raises(ValueError, match=r"lines\.file must have lines, got heights over an area: .*rail\.heights"):
         loaded(tmp_path, *changes)
 
 
@@ -191,9 +185,7 @@ def test_a_line_of_an_instrument_is_no_face(tmp_path, monkeypatch):
 def test_what_no_reader_knows_is_a_sentence_that_shows_nothing_of_it(tmp_path, monkeypatch, capsys):
     (tmp_path / "face.nc").write_bytes(b"secret" + BINARY)
     as_installed(monkeypatch, None)
-    with pytest.raises(
-        ValueError, match=r"must have a format that SurfaceTopography reads, got KeyError from it$"
-    ) as said:
+    with pytest.raises(ValueError, match=r"a format that SurfaceTopography reads, got KeyError from it$") as said:
         load_scene(scene_of(tmp_path, "face.nc"))
     assert "secret" not in f"{said.value}{capsys.readouterr()}"
 

@@ -96,8 +96,7 @@ class Material:
             return "given directly"
         if isinstance(self.counterface, Elastic):
             return f"a body of {self._body} on one of {self.counterface}"
-        other = "the other body is rigid" if self.counterface == "rigid" else "two equal bodies"
-        return f"{other}, {self._body}"
+        return f"{'the other body is rigid' if self.counterface == 'rigid' else 'two equal bodies'}, {self._body}"
 
     @property
     def _body(self) -> Elastic:

@@ -97,9 +97,7 @@ def key_in_errors(name: str, of: str = "") -> Iterator[None]:
     try:
         yield
     except ValueError as problem:
-        if not str(problem).startswith(of):
-            raise
-        raise ValueError(f"{name}.{problem}") from None
+        raise ValueError(f"{name}.{problem}" if str(problem).startswith(of) else str(problem)) from None
 
 
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:

@@ -76,16 +76,8 @@ class RollingScene(WheelOnTrack):
         """Of a dynamic wheel whose rail alone is rough. Raises ValueError for another."""
         if scene.rail is None or scene.wheel is not None:
             raise ValueError(f"scene {scene.name!r} must have a rough rail and a smooth wheel to be compared")
-        return cls(
-            name=scene.name,
-            radius=scene.radius,
-            load=scene.load,
-            modulus=scene.modulus,
-            ground=scene.rail,
-            mass=scene.mass,
-            speed=scene.speed,
-            material=scene.material,
-        )
+        same = ("name", "radius", "load", "modulus", "mass", "speed", "material")
+        return cls(ground=scene.rail, **{name: getattr(scene, name) for name in same})
 
     @property
     def body(self) -> Wheel:

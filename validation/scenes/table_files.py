@@ -86,10 +86,8 @@ def table_beside(name: str, found: dict[str, Any], folder: Path, *, key: str = "
 
     name: of the table; folder: of the scene; key: of the file, where it is no key of that table.
     """
-    path = folder / found.pop("file")
-    return path, read_table(
-        key or f"{name}.file", path, TableForm(**{one: found.pop(one) for one in FORM if one in found})
-    )
+    path, form = folder / found.pop("file"), TableForm(**{one: found.pop(one) for one in FORM if one in found})
+    return path, read_table(key or f"{name}.file", path, form)
 
 
 def heights_of_columns(table: NumberTable, places: Sequence[int], metre: float | None) -> FloatArray:
