@@ -138,7 +138,7 @@ FAULTS = {
         test_measured_heights.test_points_without_data_are_refused,
     ),
     "the mean of all heights for points without data": (
-        (height_edits, "filled_in", lambda height, spacing: np.where(np.isnan(height), np.nanmean(height), height)),
+        (measured_surface, "filled_in", lambda height, spacing: np.where(np.isnan(height), np.nanmean(height), height)),
         functools.partial(test_height_edits.test_few_points_are_filled_in_where_it_is_asked_for_and_told, "nan"),
     ),
     "cells taken for squares where points without data are filled in": (
@@ -146,7 +146,7 @@ FAULTS = {
         test_height_edits.test_holes_at_an_edge_against_repeated_means,
     ),
     "the first square for the central one": (
-        (height_edits, "central_square", lambda height, spacing: height[-min(height.shape) :, -min(height.shape) :]),
+        (measured_surface, "central_square", lambda height, spacing: height[-min(height.shape) :, -min(height.shape) :]),
         test_height_edits.test_a_crop_is_told_and_its_points_alone_count,
     ),
     "a surface in micrometres taken for one in metres": (

@@ -9,9 +9,9 @@ from typing import Any
 
 from scipy.fft import next_fast_len
 
-from mdr.checks import count, positive
+from mdr.checks import count
 from validation.scenes.bundled import bundled, path_of
-from validation.scenes.material import Material, material_of
+from validation.scenes.material import Material, check_scene, material_of
 from validation.scenes.rail_file import is_rail
 from validation.scenes.reader import (
     FORCE,
@@ -29,14 +29,8 @@ from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
 
-KEYS = {
-    "radius": "wheel.radius",
-    "mass": "wheel.mass",
-    "load": "wheel.load",
-    "speed": "wheel.speed",
-    "distance": "simulation.distance",
-}
-"""Where what must be positive stands in a scene file."""
+KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
+"""Of what must be positive."""
 MAX_POINTS = 10**9
 """Springs of a track of eight gigabytes."""
 
@@ -97,11 +91,9 @@ class WheelScene(WheelOnTrack):
     springs: int
 
     def __post_init__(self) -> None:
-        nonblank_text("name", self.name)
-        for name, key in KEYS.items():
-            positive(key, getattr(self, name))
         if not isinstance(self.material, Material):
             raise TypeError(f"material must be a Material, got {self.material!r}")
+        check_scene(self, KEYS)
         count("simulation.springs", self.springs, least=1)
         for key, rough in self._rough.items():
             check_band(key, rough)

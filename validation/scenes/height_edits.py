@@ -96,24 +96,9 @@ class HeightEdits:
 UNTOUCHED = HeightEdits()
 
 
-def edited(
-    height: FloatArray, spacing: tuple[float, float], *, crop: bool, fill: bool, asked_by: str
-) -> tuple[FloatArray, HeightEdits]:
-    """The heights as they were asked for, and what was done.
-
-    The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for.
-    Raises ValueError for infinite heights, for points without data that are not to be filled in, and for `MOST_FILLED`
-    of them and more.
-    """
-    part = central_square(height, spacing) if crop else height
-    count, share = _to_fill(part, fill=fill, asked_by=asked_by)
-    done = HeightEdits(filled=count, share=share, cropped_from=None if part.shape == height.shape else height.shape)
-    return filled_in(part, spacing) if count else part, done
-
-
 def edited_lines(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[FloatArray, HeightEdits]:
-    """The same of lines, shape (points, lines), which are filled in by interpolation along each."""
-    count, share = _to_fill(height, fill=fill, asked_by=asked_by)
+    """Lines, shape (points, lines), filled in by interpolation along each if asked for, and what was done."""
+    count, share = points_to_fill(height, fill=fill, asked_by=asked_by)
     found = np.stack([_filled_line(line) for line in height.T], axis=1) if count else height
     return found, HeightEdits(filled=count, share=share)
 
@@ -125,8 +110,12 @@ def _filled_line(line: FloatArray) -> FloatArray:
     return np.asarray(mean + np.interp(at, at[known], (line - mean)[known]))
 
 
-def _to_fill(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[int, float]:
-    """How many points have no data, and their share. Raises ValueError where they are not to be filled in."""
+def points_to_fill(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[int, float]:
+    """How many points have no data, and their share. asked_by: how fill is asked for.
+
+    Raises ValueError for infinite heights, for points without data that are not to be filled in, and for `MOST_FILLED`
+    of them and more.
+    """
     check_not_infinite(height)
     unknown = np.isnan(height)
     count, share = int(unknown.sum()), float(unknown.mean()) if height.size else 0.0

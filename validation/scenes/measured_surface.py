@@ -1,7 +1,6 @@
 """Measured heights over an area, of an object or a file that has them, as they were asked for: cropped, filled in."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import positive
-from validation.scenes.height_edits import edited, real_numbers
+from validation.scenes.height_edits import HeightEdits, central_square, filled_in, points_to_fill, real_numbers
 from validation.scenes.measured import FEWEST, MeasuredHeights, check_grid
 from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
@@ -89,20 +88,22 @@ def as_asked(
 ) -> MeasuredHeights:
     """Heights in metres, NaN where there are no data, after the edits that were asked for.
 
-    asked_by: how fill is asked for; told: what was assumed of their file. Raises ValueError as `edited` and
-    `MeasuredHeights`.
+    The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for; told:
+    what was assumed of their file. Raises ValueError as `central_square`, `points_to_fill` and `MeasuredHeights`.
     """
     check_grid(height)
-    part, done = edited(height, spacing, crop=crop, fill=fill, asked_by=asked_by)
-    return MeasuredHeights(height=part, spacing=spacing, edits=replace(done, told=told))
+    part = central_square(height, spacing) if crop else height
+    count, share = points_to_fill(part, fill=fill, asked_by=asked_by)
+    cropped = None if part.shape == height.shape else height.shape
+    edits = HeightEdits(filled=count, share=share, cropped_from=cropped, told=told)
+    return MeasuredHeights(height=filled_in(part, spacing) if count else part, spacing=spacing, edits=edits)
 
 
 def _metres(surface: Any, given: str | None) -> float:
     """The unit of a surface, as it names it or as it is given. Raises ValueError for none, and for two."""
     info = getattr(surface, "info", None)
-    unit = getattr(surface, "unit", None)
     noted = info.get("unit") if isinstance(info, Mapping) else None
-    named = {"unit": unit, "info": noted, "unit=": given}
+    named = {"unit": getattr(surface, "unit", None), "info": noted, "unit=": given}
     factors = {metres_of("unit of the surface", one) for one in named.values() if one}
     if not factors:
         raise ValueError(
@@ -112,6 +113,9 @@ def _metres(surface: Any, given: str | None) -> float:
         shown = " and ".join(f"{name} {shortened(one)}" for name, one in named.items() if one)
         raise ValueError(f"unit of the surface must be one, got {shown}")
     return factors.pop()
+
+
+# Of a file in a scene
 
 
 Spacing = tuple[float, float]
@@ -161,23 +165,19 @@ def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) ->
 
 def _of_rows(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
     """A row for each x, without its places: those of x in the first column, and of y in a first row."""
-    values, given = numbers.values, spacing or (None, None)
-    if min(values.shape) <= FEWEST:
-        return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
-    across = places_of(values[0, 1:])
-    top = 0 if across is None or across.gaps or places_of(values[1:, 0]) is None else 1
-    along = places_of(values[top:, 0])
+    values, along, across = numbers.values, None, None
+    if min(values.shape) > FEWEST:
+        across = places_of(values[0, 1:]) if places_of(values[1:, 0]) else None
+        across = None if across is None or across.gaps else across
+        along = places_of(values[1 if across else 0 :, 0])
     if along is None or along.gaps:
         return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
-    height, notes = heights_of_columns(numbers, range(1, values.shape[1]), metre)[top:], []
-    for places, unit, own, what in (
-        (along, numbers.columns[0].unit, given[0], "first column"),
-        *([(across, "", given[1], "first row")] if top and across else []),
-    ):
-        step = metres_of_step(places.step, unit, own, f"the {what}")
+    axes = [(along, numbers.columns[0].unit, "first column"), *([(across, "", "first row")] if across else [])]
+    height, notes = heights_of_columns(numbers, range(1, values.shape[1]), metre)[len(axes) - 1 :], []
+    for (places, unit, what), given in zip(axes, spacing or (None, None), strict=False):
+        step = metres_of_step(places.step, unit, given, f"the {what}")
         notes.append(f"its {what} runs evenly, {in_unit(step, 'length')} apart, and is left out of the heights")
-    turned = height[:: -1 if along.step < 0 else 1]
-    return turned[:, :: -1 if top and across and across.step < 0 else 1], spacing, tuple(notes)
+    return height[tuple(slice(None, None, -1 if one.step < 0 else 1) for one, _, _ in axes)], spacing, tuple(notes)
 
 
 def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:

@@ -11,10 +11,9 @@ import numpy as np
 from mdr.checks import positive
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.isotropic_line import IsotropicLine, isotropic_line
-from validation.scenes.material import Material, check_modulus
+from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.transverse_profile import TransverseProfile, fitted_radius
 from validation.scenes.units import in_unit
@@ -85,14 +84,8 @@ class RailScene:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        nonblank_text("name", self.name)
-        for key in ("wheel.radius", "wheel.load"):
-            positive(key, getattr(self, key.partition(".")[2]))
-        for key in ("wheel.transverse_radius", "rail.crown_radius", "wheel.speed", "wheel.mass"):
-            if (value := getattr(self, key.partition(".")[2])) is not None:
-                positive(key, value)
-        positive("modulus", self.modulus)
-        check_modulus(self.modulus, self.material)
+        optional = ("wheel.transverse_radius", "rail.crown_radius", "wheel.speed", "wheel.mass")
+        check_scene(self, ("wheel.radius", "wheel.load"), optional)
         if self.transverse_radius is None and self.crown_radius is None:
             raise ValueError(
                 "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"
