@@ -58,6 +58,11 @@ def rigid_beside_the_contact(profile, half_width, approach, force):
     return check_alone(profile, half_width, approach, 0.0)
 
 
+def first_square(height, spacing):
+    side = min(height.shape)
+    return height[-side:, -side:]
+
+
 within = roughness_levels.RoughnessLevels.within
 check_alone = transverse_profile._check_alone
 moved = transverse_profile.TransverseProfile.moved
@@ -146,7 +151,7 @@ FAULTS = {
         test_height_edits.test_holes_at_an_edge_against_repeated_means,
     ),
     "the first square for the central one": (
-        (measured_surface, "central_square", lambda height, spacing: height[-min(height.shape) :, -min(height.shape) :]),
+        (measured_surface, "central_square", first_square),
         test_height_edits.test_a_crop_is_told_and_its_points_alone_count,
     ),
     "a surface in micrometres taken for one in metres": (

@@ -9,8 +9,9 @@ import pytest
 from validation.__main__ import main
 from validation.scenes import table_files, text_dialect
 from validation.scenes.bundled import SCENES
+from validation.scenes.input_files import check_regular, contents_of
 from validation.scenes.printable import is_printable, printable, quoted, shortened
-from validation.scenes.reader import LONGEST_LINE, MOST_BYTES, check_regular, contents_of
+from validation.scenes.reader import LONGEST_LINE, MOST_BYTES
 from validation.scenes.table_files import read_table
 
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")

@@ -259,12 +259,19 @@ def two_tops(gap):
     return profile_of(np.maximum(-(y**2) / 600, -((y - 30) ** 2) / 600 - gap), y)
 
 
+def second_contact(gap, load):
+    """What is said of two crowns under a load; nothing where only one touches."""
+    try:
+        assert radius_of(two_tops(gap), load) == pytest.approx(0.3, rel=1e-3)
+    except ValueError as problem:
+        return str(problem)
+    return ""
+
+
 def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none():
     """The approach is 66 um; 30 mm beside the contact the surfaces give way by F / (pi E* r) = 4.6 um."""
-    for gap, load in ((0.064, 5e4), (0.058, 3e4)):
-        assert radius_of(two_tops(gap), load) == pytest.approx(0.3, rel=1e-3)
-    with pytest.raises(ValueError, match=r"one contact under the load, got a second one \+(29|30)\S* mm beside"):
-        radius_of(two_tops(0.058))
+    assert second_contact(0.064, 5e4) == second_contact(0.058, 3e4) == ""
+    assert re.search(r"one contact under the load, got a second one \+(29|30)\S* mm beside", second_contact(0.058, 5e4))
 
 
 def test_two_bodies_touch_where_both_together_are_highest():
