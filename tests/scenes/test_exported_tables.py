@@ -70,9 +70,6 @@ EXPORTS = {
     "German, UTF-8": (GERMAN, "it has semicolons between its columns, decimal commas."),
     "Greek mu": (GERMAN.replace("µ", "\N{GREEK SMALL LETTER MU}"), "decimal commas."),
     "a spreadsheet": (SHEET, "semicolons between its columns, decimal commas."),
-    "UTF-16": (TABS.encode("utf-16"), "the encoding utf-16."),
-    "UTF-16 without its mark": (TABS.encode("utf-16-le"), "the encoding utf-16-le."),
-    "an old Mac": (TABS.replace("\n", "\r"), "it has tabs between"),
     "a standard table": (
         f"{WIDE}Wavelength / cm\tLr / dB re 1 µm\n{rows(CM, TAB)}",
         "tabs between its columns, 5 lines above",
@@ -357,25 +354,28 @@ NUMBERS = st.one_of(st.integers(-900, 900).map(float), st.floats(-1e3, 1e3).map(
 LINES = st.lists(
     st.sampled_from(["Date: 2024-05-01", "Instrument 7", "# a comment", "", "Key;value", "a\tb"]), max_size=4
 )
+CODES = st.sampled_from(["utf-8", "utf-8-sig", "latin-1", "utf-16", "utf-16-le"])
+TABLES = st.integers(1, 5).flatmap(
+    lambda width: st.lists(st.lists(NUMBERS, min_size=width, max_size=width), min_size=3, max_size=9)
+)
 
 
-@given(way=WAYS, width=st.integers(1, 5), count=st.integers(3, 9), above=LINES, named=st.booleans(), data=st.data())
-def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, width, count, above, named, data):
-    delimiter, decimal = way
-    values = [[data.draw(NUMBERS) for _ in range(width)] for _ in range(count)]
+@given(way=WAYS, values=TABLES, above=LINES, named=st.booleans(), code=CODES, end=st.sampled_from(["\n", "\r\n", "\r"]))
+def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, values, above, named, code, end):
+    (delimiter, decimal), width = way, len(values[0])
     sign = delimiter or "  "
     names = [sign.join(f"c{i} [mm]" for i in range(width))] if named else []
     written = [sign.join(f"{value:g}".replace(".", decimal) for value in row) for row in values]
-    text = "\n".join([*above, *names, *written])
-    shown = [[float(f"{value:g}") for value in row] for row in values]
+    contents = end.join([*above, *names, *written]).encode(code)
     try:
-        table = in_memory(text)
+        table = table_of_text(io.BytesIO(contents), TableForm())
     except ValueError as problem:
         assert "decimal" in str(problem) and not named and width < 3
-        table = in_memory(text, decimal=decimal)
+        table = table_of_text(io.BytesIO(contents), TableForm(decimal=decimal))
     if named or width > 2:
-        np.testing.assert_array_equal(table.values, shown)
+        np.testing.assert_array_equal(table.values, [[float(f"{value:g}") for value in row] for row in values])
     assert not named or [column.unit for column in table.columns] == ["mm"] * width
+    assert (code[:6] == "utf-16") == any("the encoding utf-16" in note for note in table.notes)
 
 
 @pytest.mark.parametrize("told", [(7.5,), ("7.50",), ("7.5",)])
