@@ -121,6 +121,9 @@ class MeasuredLines:
         _ = self.bands
 
 
+# Of a file in a scene
+
+
 MOSTLY = 0.9
 """Of the rows of a column of places, at the least, that have one."""
 

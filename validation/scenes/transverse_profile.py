@@ -205,6 +205,9 @@ def _check_alone(profile: TransverseProfile, half_width: float, approach: float,
         )
 
 
+# Of a file in a scene
+
+
 COLUMNS = "y [mm],height [mm]"
 """The header of a file, in other units of length too."""
 BACK, HIDDEN, FLANK = 1e-4, 1e-3, 2e-3
