@@ -15,7 +15,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import ClaimStatus, Role, Verdict, number_with, numbers_with
 from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, masked, numbers_of, single, tables_of
-from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, student
+from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, mean_estimate, ratio_of_means, student
 from validation.analysis.study import Outcomes
 from validation.cases.punch import bandwidth
 from validation.cases.rail import contact_filter
@@ -25,6 +25,7 @@ from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS
 from validation.cases.wheel import half_space, half_space_study
 from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
+from validation.simulation.rail_ground import strip_bands
 from validation.theory.rolling import level_ratio
 
 
@@ -167,9 +168,11 @@ def test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_tha
     numbers, bem = numbers_of(contact_filter._of_strips(rail, key)), rail.over_twin(key, BEM)
     counts = np.flatnonzero(rail.linear(key) > contact_filter.COUNTED)
     assert 3 < counts.size < len(bem) and (np.diff(counts) == 1).all() and counts[0] == 0
+    scene = rail.case.scene(key)
+    mine = np.isin(scene.levels.bands.nominal, strip_bands(scene).nominal)
     for model, louder in ((LINEAR, 0.0), (LINEAR_ON_LINE, 0.0), (SPRINGS_ON_LINE, 1.0)):
-        number = number_with(numbers, OVER_BEM, model)
-        twin = rail.linear(key, model) - rail.linear(key)
+        number, line = number_with(numbers, OVER_BEM, model), LINEAR if model == LINEAR else LINEAR_ON_LINE
+        twin = (linear_filter(scene, line, "isotropic") - linear_filter(scene, LINEAR, "isotropic"))[mine]
         off = twin[counts] + louder - POWER_DECIBEL * bem.values[counts]
         each = [POWER_DECIBEL * bem[i].half_width_among(counts.size) for i in counts]
         at = np.argmax(np.abs(off) + each)
@@ -269,3 +272,56 @@ def test_geikes_spectrum_is_too_loud_by_its_limit_where_boundary_elements_are_li
     assert number.value - before.value == pytest.approx(-20 * math.log10(0.99))
     assert number.grid == pytest.approx(-10 * math.log10(0.99))
     assert number.where["q a"] == (4.0, 8.0)
+
+
+def test_levels_are_judged_in_both_ranges_and_linear_theory_must_hold_over_low_roughness(monkeypatch):
+    """Linear theory is 2 in each band, nothing in 1D below the roughness; springs 1.3, and 1.5 with the other rule."""
+    bands, inside, low = len(ROLLING.bands.centres), ROLLING.bands_in(1.0, 8.0), ROLLING.bands_in(0.5, 1.0)
+    monkeypatch.setattr(force_spectrum, "level_3d", lambda *_: np.full(bands, 2.0))
+    monkeypatch.setattr(force_spectrum, "level_1d", lambda *_: np.where(inside, 2.6, 0.0))
+    scatter = np.exp(0.05 * np.random.default_rng(1).standard_normal((4, 1))) * np.ones(bands)
+    bem = {"level": 1.1 * scatter, "linear level": np.ones((4, bands)), "cross": np.zeros((2, 4, bands))}
+    fine = {"level": 0.98 * bem["level"][:3]}
+    for height, role, family in ((0.1, Role.FINDING, 8), (0.01, Role.CRITERION, 1)):
+        springs = {
+            rule: bem | {"level": factor * height**2 * 2 * scatter, "linear level": height**2 * 2 * scatter / 2}
+            for rule, factor in ((SPRINGS, 1.3), (force_spectrum.ROLLING_SPRINGS, 1.5))
+        }
+        found = {("bem3d", height): bem, ("refined", height): fine} | {(r, height): one for r, one in springs.items()}
+        case = replace(ROLLING, heights=(0.01, 0.1))
+        numbers = numbers_of(force_spectrum.levels_at(Outcomes(case, found), height))
+        over, grid = Estimates.ratios(bem["level"], bem["linear level"]), -POWER_DECIBEL * math.log(0.98)
+        for model, level, error in (
+            (force_spectrum.LINEAR_3D, 1.0, 0.0),
+            (SPRINGS, 1.3 * scatter[:, 0].mean(), 1.0),
+            (force_spectrum.ROLLING_SPRINGS, 1.5 * scatter[:, 0].mean(), 1.0),
+        ):
+            judged = numbers_with(numbers, force_spectrum.LEVEL, model + force_spectrum.OVER)
+            assert [n.where["q a"] for n in judged] == [(0.5, 1.0), (1.0, 8.0)]
+            for n, among in zip(judged, (low, inside), strict=True):
+                assert n.value == pytest.approx(POWER_DECIBEL * (math.log(level / 0.98**2) - over[0].value))
+                assert n.grid == pytest.approx(grid)
+                mine = Estimates.ratios(scatter, np.ones(bands))[0]
+                apart = replace(mine, error=error * mine.error).minus(over[0])
+                hold = among.sum() * (family if model == force_spectrum.LINEAR_3D else 8)
+                assert n.sample == pytest.approx(POWER_DECIBEL * apart.half_width_among(hold))
+                assert n.role is (role if model == force_spectrum.LINEAR_3D else Role.FINDING)
+        (in_1d,) = numbers_with(numbers, force_spectrum.LEVEL, force_spectrum.LINEAR_1D + force_spectrum.OVER)
+        assert in_1d.where["q a"] == (1.0, 8.0)
+        (nonlinear,) = numbers_with(numbers, force_spectrum.NONLINEAR)
+        assert nonlinear.where["q a"] == (1.0, 8.0) and nonlinear.grid == pytest.approx(grid)
+        assert nonlinear.value == pytest.approx(POWER_DECIBEL * math.log(2.6))
+        assert nonlinear.reference == pytest.approx(POWER_DECIBEL * (over[0].value + 2 * math.log(0.98)))
+
+
+def test_moments_of_the_force_at_all_heights_hold_at_once():
+    """Variances of two models and a mean force at each of two heights."""
+    rng = np.random.default_rng(0)
+    bem, springs = (of_strips(1.1, n) | {"mean": f + 0.01 * rng.standard_normal(n)} for n, f in ((4, 1.0), (60, 1.2)))
+    found = Outcomes(ROLLING, {("bem3d", 0.1): bem, (SPRINGS, 0.1): springs})
+    *variances, mean = numbers_of(force_spectrum.moments_at(found, 0.1))
+    for n, one in zip(variances, (bem, springs), strict=True):
+        ratio = ratio_of_means(one["variance"], one["linear variance"])
+        assert (n.value, n.reference, n.sample) == pytest.approx((ratio.value, 1.0, ratio.half_width_among(4)))
+    apart = mean_estimate(springs["mean"]).minus(mean_estimate(bem["mean"]))
+    assert (mean.difference, mean.sample) == pytest.approx((apart.value, apart.half_width_among(2)))
