@@ -12,9 +12,15 @@ from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import RailScene
 from validation.scenes.transverse_profile import TransverseProfile, both_together
 from validation.selection.summary import summary
-from validation.simulation import profiled_strip, rail_models
-from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_MODELS, lifted
+from validation.simulation import rail_models
+from validation.simulation.equivalent_displacement import (
+    heights_across,
+    lifted,
+    linear_displacement,
+    roll_boundary_elements,
+)
 from validation.simulation.model import models_serving
+from validation.simulation.model_names import BEM, LINEAR
 from validation.simulation.rail_ground import strip_of
 
 RAIL = load_scene("rail")
@@ -51,18 +57,17 @@ def rolled(strip, columns=slice(None), **shape):
 def test_a_parabola_rolls_as_its_radius():
     scene = profiled(-(Y**2) / 0.6)
     strip = strip_of(scene, "isotropic", 5, 0, 3)
-    found = profiled_strip.roll_on_profile(strip, scene.profile, positions=6)
-    expected = rolled(strip_of(RAIL, "isotropic", 5, 0, 3), radius=RAIL.radii)
-    np.testing.assert_allclose(found[BEM], expected, atol=1e-4 * np.abs(expected).max())
-    assert found["failed"] == 0 and found[LINEAR].shape == (strip.shape[0],)
+    found = lifted(roll_boundary_elements(strip, 3e-6, scene.profile, positions=6).approach)
+    expected = lifted(roll_boundary_elements(strip_of(RAIL, "isotropic", 5, 0, 3), 3e-6, positions=6).approach)
+    np.testing.assert_allclose(found, expected, atol=1e-4 * np.abs(expected).max())
 
 
 @pytest.mark.slow
 def test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact():
     scene = profiled(worn(Y))
     strip = strip_of(scene, "isotropic", 5, 0, 3)
-    found = profiled_strip.roll_on_profile(strip, scene.profile, positions=6)[BEM]
-    columns, z = profiled_strip.heights_across(strip, scene.profile)
+    found = lifted(roll_boundary_elements(strip, 3e-6, scene.profile, positions=6).approach)
+    columns, z = heights_across(strip, scene.profile)
     places = (np.arange(strip.shape[1]) - (strip.shape[1] - 1) / 2)[columns] * strip.spacing
     np.testing.assert_allclose(z, worn(places), atol=2e-7)
     expected = rolled(strip, columns, radius=RAIL.radius, transverse_profile=worn(places))
@@ -77,12 +82,12 @@ def test_models_of_two_radii_are_told_and_boundary_elements_take_the_profile(mon
     monkeypatch.setattr(rail_models, "FINE", 4)
     taken = []
 
-    def louder_than_linear(strip, profile):
-        taken.append(profile)
-        linear = strip.along_middle(LINEAR_MODELS[LINEAR](strip.contact))
+    def louder_than_linear(problem):
+        taken.append(problem.profile)
+        linear = linear_displacement(problem.strip, LINEAR)
         return {LINEAR: linear, BEM: 10 ** (1 / 20) * linear, "failed": np.array(0.0)}
 
-    monkeypatch.setattr(rail_models, "roll_on_profile", louder_than_linear)
+    monkeypatch.setattr(rail_models, "roll_rail", louder_than_linear)
     scene = replace(profiled(worn(Y)), name="worn rail")
     found = compare(scene, "contact-filter", "3 dB", models=[BEM, LINEAR])
     assert taken and set(taken) == {scene.profile}
@@ -124,7 +129,7 @@ def test_a_cone_and_a_flange_press_as_the_ellipse_of_the_crown(cone):
     names = ("name", "radius", "load", "modulus", "material", "roughness", "speed", "across")
     scene = ProfiledRail(**{name: getattr(RAIL, name) for name in names}, profile=profile)
     strip = SimpleNamespace(spacing=0.3e-3, shape=(64, 64))
-    columns, z = profiled_strip.heights_across(strip, scene.profile)
+    columns, z = heights_across(strip, scene.profile)
     x = (np.arange(64) - 31.5) * strip.spacing
     halfspace = bem3d.HalfSpace(shape=(64, z.size), spacing=strip.spacing, modulus=scene.modulus)
     found = bem3d.solve(halfspace, np.subtract.outer(x**2 / (2 * scene.radius), z), force=scene.load)

@@ -14,9 +14,9 @@ from validation import compare, load_scene
 from validation.selection.hierarchy import Answer
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import BEM, LINEAR
 from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, Target, models_serving
+from validation.simulation.model_names import BEM, LINEAR
 from validation.simulation.models.rail import BOUNDARY_ELEMENTS
 from validation.simulation.rail_ground import strip_bands
 from validation.simulation.rail_quantity import RailQuantity

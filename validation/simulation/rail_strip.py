@@ -1,4 +1,4 @@
-"""A rough strip of rail under a wheel of constant load: one realisation, its waves, and its line roughness.
+"""A rough strip of rail under a wheel of constant load: one realisation, its waves, and lines along it.
 
 Units: metres, newtons, pascals; wavenumbers in rad/m, x along the track.
 """
@@ -12,7 +12,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.spectra import Bands
+from validation.analysis.spectra import Bands, levels, waves
+from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 from validation.simulation.surface import draw_surface
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
@@ -118,3 +119,40 @@ def wavenumbers(shape: tuple[int, int], spacing: float) -> tuple[FloatArray, Flo
     """k_x (nx, 1) and k_y (1, ny) of the waves of a grid."""
     along, across = (np.asarray(2 * np.pi * np.fft.fftfreq(n, spacing)) for n in shape)
     return along[:, np.newaxis], across[np.newaxis, :]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParallelLines:
+    """strip; lines: how many, about the middle; spacings: of them [m]; bands: of the levels."""
+
+    strip: RailStrip
+    lines: int
+    spacings: tuple[float, ...]
+    bands: Bands
+
+
+def measure_lines(problem: ParallelLines) -> Outcome:
+    """Band powers of one line, "line", and their mean over parallel lines, by the spacing of these [m^2]."""
+    strip, places = problem.strip, {spacing: lines_across(problem.lines, spacing) for spacing in problem.spacings}
+
+    def powers(place: float) -> FloatArray:
+        return levels(waves(strip.along_middle(line_at(place)), spacing=strip.spacing), problem.bands)
+
+    along = {place: powers(place) for place in {0.0}.union(*places.values())}
+    means = {f"{spacing:g}": np.mean([along[y] for y in mine], axis=0) for spacing, mine in places.items()}
+    return {"line": along[0.0], **means}
+
+
+def lines_across(count: int, spacing: float) -> tuple[float, ...]:
+    """Their places about the middle [m]."""
+    return tuple((i - (count - 1) / 2) * spacing for i in range(count))
+
+
+def line_at(place: float) -> Transfer:
+    """H = exp(i k_y y): the line at y in place of the middle one."""
+    return lambda along, across: np.exp(1j * across * place)
+
+
+def mean_of_lines(places: tuple[float, ...]) -> Transfer:
+    """H = mean of cos(k_y y_j) over lines that lie symmetrically about the middle: of their heights."""
+    return lambda along, across: np.mean([np.cos(across * place) for place in places], axis=0) + 0 * along

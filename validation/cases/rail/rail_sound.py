@@ -20,7 +20,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.load import load_scene
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_ground import StatedAcross, strip_bands, strip_of
 from validation.simulation.rail_sound import (
     GEIKE,
