@@ -15,6 +15,7 @@ from validation.scenes import isotropic_line
 from validation.selection import calibrate, contact_force, filter_table, rail_model, speed_accuracy
 from validation.selection.hierarchy import Answer
 from validation.simulation import equivalent_displacement, rail_ground, rail_models, rail_quantity
+from validation.simulation.model_names import ONE_SIDED_BED
 from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
 
@@ -137,7 +138,9 @@ FAULTS = {
     ),
     "a bed of springs under another load": (
         (equivalent_displacement, "borne_by", loaded_by_half_more),
-        test_rail_filters.test_a_one_sided_bed_follows_its_linear_twin_on_a_smoother_rail,
+        functools.partial(
+            test_rail_filters.test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail, ONE_SIDED_BED
+        ),
     ),
     "a force at nominal frequencies": (
         (NominalBands, "wavelengths", property(lambda bands: bands.nominal)),

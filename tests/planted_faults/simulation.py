@@ -27,7 +27,6 @@ from validation.analysis import series
 from validation.analysis.over_range import worst
 from validation.cases.punch.rough_interface import Layer
 from validation.simulation import (
-    band_limited,
     contact_laws,
     equivalent_displacement,
     integrators,
@@ -37,8 +36,9 @@ from validation.simulation import (
     rail_models,
     rail_quantity,
     ridges,
+    rolling_strip,
     rough_punch,
-    track_stiffness,
+    surface,
     wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
@@ -56,7 +56,7 @@ def without_load(wheel, law, **settings):
 
 def half_a_fine_cell_aside(height, cells):
     """The mean of neighbours: what it is between them, nearly."""
-    fine = band_limited.refined(height, cells)
+    fine = surface.refined(height, cells)
     return (fine + np.roll(fine, 1, axis=0)) / 2
 
 
@@ -175,7 +175,7 @@ FLAGS = (
     (test_flags_of_rolling, "roll_and_move", f"{ON_A_RAIL}, before it moves"),
     (test_flags_of_rolling, "roll_by_all", "validation.simulation.reduced_models:boundary_elements"),
     (ridges, "roll_over", "validation.simulation.ridges:_roll"),
-    (track_stiffness, "roll_loaded_strip", "validation.simulation.track_stiffness:roll_loaded_strip"),
+    (rolling_strip, "roll_loaded_strip", "validation.simulation.rolling_strip:roll_loaded_strip"),
 )
 
 FAULTS = {

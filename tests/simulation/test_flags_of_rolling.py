@@ -22,15 +22,15 @@ from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
 from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
-from validation.simulation import rail_models, ridges, track_stiffness, wheel_on_rail
+from validation.simulation import rail_models, ridges, rolling_strip, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import RolledRail, roll_rail
+from validation.simulation.exact_contacts import PublishedContact, press_ellipse
 from validation.simulation.limits_of_half_space import strip_widths
 from validation.simulation.model import Resolution, Target
 from validation.simulation.model_names import BEM
 from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.simulation.models.rail import BOUNDARY_ELEMENTS
-from validation.simulation.published_contact import PublishedContact, press_ellipse
 from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
 from validation.simulation.rail_strip import RailStrip
 from validation.simulation.reduced_strip import roll_by_all
@@ -54,7 +54,7 @@ RAIL = RailStrip(
 )
 ON_A_RAIL = "validation.simulation.equivalent_displacement:roll_boundary_elements"
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
-ONE_POSITION = ("validation.simulation.published_contact:press_ellipse",)
+ONE_POSITION = ("validation.simulation.exact_contacts:press_ellipse",)
 TOO_SHORT = bem3d.HalfSpace(shape=(12, 12), spacing=0.2, modulus=1.0), np.add.outer(*[np.linspace(-1, 1, 12) ** 2] * 2)
 Y = np.linspace(-0.03, 0.03, 61)
 PROFILE = TransverseProfile(y=tuple(Y.tolist()), height=tuple((-(Y**2) / 0.6).tolist()), source="head.csv")
@@ -66,8 +66,8 @@ def over_ridges():
 
 
 def at_constant_load():
-    loaded = track_stiffness.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
-    return track_stiffness.roll_loaded_strip(loaded)
+    loaded = rolling_strip.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
+    return rolling_strip.roll_loaded_strip(loaded)
 
 
 def on_the_chart():
@@ -88,7 +88,7 @@ def by_a_model(target):
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
     "validation.simulation.ridges:_roll": over_ridges,
-    "validation.simulation.track_stiffness:roll_loaded_strip": at_constant_load,
+    "validation.simulation.rolling_strip:roll_loaded_strip": at_constant_load,
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
     "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,
@@ -103,7 +103,7 @@ PATHS = {
     ),
     "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
     "validation.benchmarks.solvers.rolling:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
-    "validation.simulation.published_contact:press_ellipse": lambda: press_ellipse(
+    "validation.simulation.exact_contacts:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),
     "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),

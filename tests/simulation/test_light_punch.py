@@ -8,9 +8,9 @@ import pytest
 import bem3d
 from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
 from validation.simulation import light_punch
-from validation.simulation.band_limited import refined
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
+from validation.simulation.surface import refined
 
 ROUGHNESS = PunchRoughness(hurst=0.7, waves=(1, 16), seed=5)
 SURFACE = Surface(roughness=ROUGHNESS, realisation=3, cells=64, forces=(0.001, 0.01, 0.1), tolerance=1e-6)

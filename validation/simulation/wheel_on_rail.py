@@ -16,7 +16,7 @@ from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
 from validation.simulation.equivalent_displacement import linear_displacement, roll_boundary_elements, roll_springs
 from validation.simulation.model_names import LINE, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.motion import simulate
+from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rail_strip import RailStrip
 
 FloatArray = NDArray[np.float64]
@@ -141,12 +141,6 @@ def at_constant_load(case: WheelOnRail) -> FloatArray:
 
 def in_motion(case: WheelOnRail) -> tuple[FloatArray, FloatArray]:
     """Approach and force at the beginning of each step of one round."""
-    law, linear = case.law(), case.linear
-    approach, velocity = linear.steady_state(case.time_step)
-    start = law.at_rest(0) + approach - linear.at_rest(0)
-    steps = case.strip.shape[0]
-    motion = simulate(
-        case.wheel, law, time_step=case.time_step, steps=steps, approach=start, velocity=velocity, path=True
-    )
+    motion = simulate_from_linear_motion(case.law(), case.linear, case.time_step, case.strip.shape[0], path=True)
     assert motion.path is not None
     return motion.path[:, 0], np.asarray(case.mass * motion.acceleration[:, 0] + case.wheel.load)

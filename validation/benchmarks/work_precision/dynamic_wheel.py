@@ -27,12 +27,11 @@ from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve
-from validation.simulation.motion import Motion, periodic_motion, simulate
+from validation.simulation.motion import Motion, periodic_motion, simulate, simulate_from_linear_motion
 from validation.simulation.wheel_on_half_space import (
     WheelStrip,
     crop_to_reach,
     linear_law_3d,
-    simulate_from_linear_motion,
 )
 from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, InputSpectrum, WheelEnsemble, linear_law_1d
 from validation.theory import rolling as rolling_theory

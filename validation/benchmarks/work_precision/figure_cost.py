@@ -11,12 +11,11 @@ from validation.benchmarks.timing import interval_of_median
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
-from validation.simulation.motion import simulate
+from validation.simulation.motion import simulate, simulate_from_linear_motion
 from validation.simulation.wheel_on_half_space import (
     WheelStrip,
     crop_to_reach,
     linear_law_3d,
-    simulate_from_linear_motion,
 )
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
