@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.simulation.power_law_ground import PowerLawGround
+from tests.simulation.power_law_ground import power_law_ground
 from validation.analysis.evidence import Verdict, numbers_with
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
@@ -14,15 +14,14 @@ from validation.cases.rail import ellipse, filters, line_convention, published, 
 from validation.engine.engine import SERIAL
 from validation.simulation import equivalent_displacement as displacement
 from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_THAT_READ
-from validation.simulation.rail_ground import strip_bands
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rail_strip import RailStrip, strip_bands
 
 WHEEL = published.RailWheel(50, 920)
 SMALL = {"length": 0.12, "width": 0.04, "spacing": 1e-3, "realisation": 0, "seed": 3}
 
 
 def strip_of(across, rms=1e-9):
-    ground = PowerLawGround(rms=rms, exponent=2.0, first=2 * math.pi / 0.06, last=2 * math.pi / 4e-3, across=across)
+    ground = power_law_ground(rms, 2 * math.pi / 0.06, 2 * math.pi / 4e-3, across)
     return RailStrip(ground=ground, radii=(0.46, 0.3), force=5e4, modulus=filters.STEEL, **SMALL)
 
 

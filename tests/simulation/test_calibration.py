@@ -130,18 +130,12 @@ def test_an_error_that_grows_with_the_height_is_followed():
         assert table.estimate(at).error == pytest.approx(0.2 * height)
 
 
-@pytest.mark.parametrize(("power", "found"), [(0.5, 0.5), (-1.0, 0.0), (2.0, 1.0)])
-def test_an_error_grows_with_the_height_by_a_power_from_zero_to_one(power, found):
+@pytest.mark.parametrize(("power", "of_shape", "found"), [(0.5, 0, 0.5), (-1, 0, 0), (2, 0, 1), (1, 0.5, 0.5)])
+def test_an_error_over_its_shape_grows_with_the_height_by_a_power_from_zero_to_one(power, of_shape, found):
     points, _ = population(60, 5)
-    assert measured("sphere", points, 0.2 * 10 ** (power * points[:, 0])).trend == pytest.approx(found)
-    assert measured("punch", points, 0.2 * 10 ** (power * points[:, 0])).trend == 0.0
-
-
-def test_the_trend_is_that_of_the_errors_over_their_shapes():
-    """Errors that grow as the height, of a shape that grows as its square root, are another square root."""
-    points, _ = population(60, 5)
-    shapes, errors = 10 ** (0.5 * points[:, 0]), 10 ** points[:, 0]
-    assert MeasuredErrors(NAMES["sphere"], points, errors, shapes).trend == pytest.approx(0.5)
+    errors, shapes = 0.2 * 10 ** (power * points[:, 0]), 10 ** (of_shape * points[:, 0])
+    assert MeasuredErrors(NAMES["sphere"], points, errors, shapes).trend == pytest.approx(found)
+    assert MeasuredErrors(NAMES["punch"], points, errors, shapes).trend == 0.0
 
 
 def left_out_by_loops(table, scene):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import bem3d
-from tests.simulation.power_law_ground import PowerLawGround
+from tests.simulation.power_law_ground import power_law_ground
 from tests.simulation.test_calibration import wheel
 from validation.benchmarks.solvers.rolling import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
@@ -42,7 +42,7 @@ ROOT = Path(bem3d.__file__).parents[1]
 
 (STRIP,) = RoughStrip(spectrum=self_affine(0.7, 1.0, 4.0), height=0.2, length=8.0, width=6.0, seed=1).strips(6, 1e-6, 1)
 RAIL = RailStrip(
-    ground=PowerLawGround(rms=3e-6, exponent=2.0, first=2 * np.pi / 0.06, last=2 * np.pi / 0.015),
+    ground=power_law_ground(3e-6, 2 * np.pi / 0.06, 2 * np.pi / 0.015),
     radii=(0.46, 0.3),
     force=5e4,
     modulus=115e9,

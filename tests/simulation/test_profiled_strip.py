@@ -21,7 +21,7 @@ from validation.simulation.equivalent_displacement import (
 )
 from validation.simulation.model import models_serving
 from validation.simulation.model_names import BEM, LINEAR
-from validation.simulation.rail_ground import strip_of
+from validation.simulation.rail_strip import strip_of
 
 RAIL = load_scene("rail")
 assert isinstance(RAIL, RailScene)

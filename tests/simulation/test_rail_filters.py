@@ -28,9 +28,9 @@ from validation.simulation.model_names import (
     SPRINGS_ROLLING,
     twin_of,
 )
-from validation.simulation.rail_ground import strip_of
 from validation.simulation.rail_models import COARSE, FINE, RailModel
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
+from validation.simulation.rail_strip import strip_of
 from validation.theory.elliptic_contact import elliptic_contact
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import IsotropicGround

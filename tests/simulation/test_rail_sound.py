@@ -10,8 +10,8 @@ from validation.scenes.load import load_scene
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import geike_track, linear_displacement
 from validation.simulation.model_names import BEM, LINE, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_ground import line_of
 from validation.simulation.rail_sound import HeldWheel, roll_held_wheel, samples_of, sounding_strip
+from validation.simulation.rail_strip import line_of
 from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")

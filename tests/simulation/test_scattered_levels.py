@@ -14,8 +14,8 @@ from validation.scenes.level_files import curve
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.simulation.model import models_serving
 from validation.simulation.model_names import LINEAR, LINEAR_ON_LINE
-from validation.simulation.rail_ground import lost_contact_number, strip_bands, strip_of
 from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.rail_strip import lost_contact_number, strip_bands, strip_of
 from validation.theory.line_spectrum import LineSpectrum
 
 RAIL = load_scene("rail")

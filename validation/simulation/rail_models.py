@@ -22,9 +22,8 @@ from validation.simulation.equivalent_displacement import LINEAR_MODELS, RolledR
 from validation.simulation.method import Resolution, Result, Values
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.model_names import LINEAR, twin_of
-from validation.simulation.rail_ground import StatedAcross, positions_along, strip_bands, strip_of
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rail_strip import RailStrip, StatedAcross, positions_along, strip_bands, strip_of
 
 FloatArray = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
 from validation.simulation.equivalent_displacement import LINEAR_MODELS
 from validation.simulation.model_names import LINEAR
-from validation.simulation.rail_ground import StatedAcross, line_of, lost_contact_number, structure_of
+from validation.simulation.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import Filter, IsotropicGround, TransverseStructure
 

@@ -17,8 +17,7 @@ from validation.engine.engine import Outcome
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import geike_track, linear_displacement, roll_boundary_elements
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_ground import LENGTH, StatedAcross, strip_of
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rail_strip import LENGTH, RailStrip, StatedAcross, strip_of
 
 FloatArray = NDArray[np.float64]
 

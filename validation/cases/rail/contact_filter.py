@@ -48,7 +48,7 @@ from validation.simulation.model_names import (
     SPRINGS_THAT_READ,
     twin_of,
 )
-from validation.simulation.rail_ground import SHORTEST, strip_bands
+from validation.simulation.rail_strip import SHORTEST, strip_bands
 
 OVER_LINEAR, OF_WHEELS = "A3 over linear theory of the ellipse", "A3 of five wheels"
 OVER_TABLE, SPEED = "A3 over the published table", "speed [km/h]"

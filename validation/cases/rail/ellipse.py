@@ -20,7 +20,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
 from validation.simulation.exact_contacts import APPROACH, PRESSURE, PublishedContact, press_ellipse
 from validation.simulation.model_names import LINEAR
-from validation.simulation.rail_ground import StatedAcross
+from validation.simulation.rail_strip import StatedAcross
 
 FloatArray = NDArray[np.float64]
 

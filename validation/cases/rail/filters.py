@@ -12,7 +12,7 @@ from validation.scenes.level_files import curve
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import LINEAR_MODELS, geike_power
 from validation.simulation.model_names import LINEAR_GEIKE
-from validation.simulation.rail_ground import StatedAcross, line_of, structure_of
+from validation.simulation.rail_strip import StatedAcross, line_of, structure_of
 from validation.theory.contact_filters import remington_filter
 from validation.theory.elliptic_contact import EllipticContact
 

@@ -22,8 +22,18 @@ from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import LINEAR_MODELS
 from validation.simulation.model_names import LINE, LINEAR, LINEAR_ON_LINE
-from validation.simulation.rail_ground import StatedAcross, line_of, strip_bands, strip_of, structure_of
-from validation.simulation.rail_strip import ParallelLines, RailStrip, lines_across, mean_of_lines, measure_lines
+from validation.simulation.rail_strip import (
+    ParallelLines,
+    RailStrip,
+    StatedAcross,
+    line_of,
+    lines_across,
+    mean_of_lines,
+    measure_lines,
+    strip_bands,
+    strip_of,
+    structure_of,
+)
 
 FloatArray = NDArray[np.float64]
 

@@ -31,7 +31,7 @@ from validation.simulation.model_names import (
     SPRINGS_THAT_READ,
     twin_of,
 )
-from validation.simulation.rail_ground import strip_bands, strip_of
+from validation.simulation.rail_strip import strip_bands, strip_of
 
 Key = tuple[RailWheel, float, str]
 """Wheel, dB over the levels, and what lies across, by its name."""

@@ -36,7 +36,7 @@ from validation.simulation.model_names import (
     SPRINGS_THAT_READ,
     twin_of,
 )
-from validation.simulation.rail_ground import SHORTEST, lost_contact_number, strip_bands
+from validation.simulation.rail_strip import SHORTEST, lost_contact_number, strip_bands
 
 MODELS = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED, SPRINGS_ON_LINE, SPRINGS_ROLLING, SPRINGS_GEIKE)
 OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"
