@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times
+from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times, times_source
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
@@ -125,6 +125,7 @@ def test_large_ratios_have_no_exponent(value, half, said):
 
 def test_a_closed_form_leaves_a_difference():
     assert off_by(point(1.0, quantity="k", model="m")) == "off by +1.0e+00 dB"
+    assert times_source(replace(point(0.5), source="tamaas")) == "0.5 times that of tamaas"
 
 
 def test_places_with_a_name_follow_after_a_comma_and_large_values_have_no_power_of_ten():

@@ -8,7 +8,7 @@ import pytest
 
 from validation.analysis.study import Outcomes, Study
 from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
-from validation.benchmarks.work_precision import evidence as precision_evidence
+from validation.benchmarks.work_precision.case import lost
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, fractal_punch, mdr_limits, normalisation
@@ -216,21 +216,18 @@ def test_a_declared_case_hands_on_what_is_lost():
 
 
 def points(**statuses):
-    rows = [
+    return [
         SimpleNamespace(scene="sphere", method=line, setting="8 cells", status=status)
         for line, status in statuses.items()
         for _ in range(2)
     ]
-    return SimpleNamespace(points=rows)
 
 
 def test_a_method_that_fails_on_the_clock_is_not_converged_and_a_refusal_is_an_answer():
     """Once for all of its quantities; the textbook's iteration is there to be seen failing."""
     failed = f"{FAILED}: ConvergenceError: residual 1"
-    lost = precision_evidence._unconverged(
-        points(**{BEM: failed, MDR: FINISHED, LOOSE: f"{OUT_OF_RANGE}: no", POLONSKY_KEER: failed})
-    )
-    assert lost == (f"sphere: {BEM}, 8 cells: {failed}",)
+    statuses = {BEM: failed, MDR: FINISHED, LOOSE: f"{OUT_OF_RANGE}: no", POLONSKY_KEER: failed}
+    assert lost(points(**statuses)) == (f"sphere: {BEM}, 8 cells: {failed}",)
 
 
 def test_every_problem_of_a_case_is_its_own():

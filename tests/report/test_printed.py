@@ -24,7 +24,6 @@ from validation.analysis.evidence import (
     plus_minus,
     with_reference,
 )
-from validation.benchmarks.work_precision.pareto import format_error, format_seconds
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
 from validation.report.documentation import BUILT, documentation_beside
@@ -245,29 +244,3 @@ def test_a_claim_holds_with_all_of_its_numbers():
         assert if_confirmed("So it is.", numbers) == "Contradicted by this run: So it is."
     for numbers in ([wide], [good, wide]):
         assert if_confirmed("So it is.", numbers) == "Not confirmed by this run: So it is."
-
-
-@pytest.mark.parametrize(
-    ("seconds", "text"),
-    [
-        (2.34, "2.3 s"),
-        (0.05, "50 ms"),
-        (0.0005, "500 µs"),
-        (123.4, "123 s"),
-        (99.9, "1e+02 s"),
-        (1.0, "1 s"),
-        (1e-3, "1 ms"),
-        (3e-8, "0.03 µs"),
-        (0.9999, "1000 ms"),
-    ],
-)
-def test_seconds_in_words(seconds, text):
-    assert format_seconds(seconds) == text
-
-
-@pytest.mark.parametrize(
-    ("value", "unit", "text"),
-    [(0.123, "%", "12 %"), (2.34, "dB", "2.3 dB"), (1.5, "%", "150 %"), (1.0, "%", "100 %"), (0.00012, "%", "0.012 %")],
-)
-def test_errors_in_words(value, unit, text):
-    assert format_error(value, unit) == text

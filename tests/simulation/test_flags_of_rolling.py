@@ -12,7 +12,7 @@ import pytest
 import bem3d
 from tests.simulation.power_law_ground import power_law_ground
 from tests.simulation.test_calibration import wheel
-from validation.benchmarks.solvers.rolling import RolledStrip
+from validation.benchmarks.solvers.throughput import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.cases.rolling.track_stiffness import TrackStiffness
@@ -71,7 +71,7 @@ def at_constant_load():
 
 
 def on_the_chart():
-    force, _ = rolling_chart.ROLLERS["BEM"](STRIP.surface(), 6, 1e-6)()
+    force, _ = rolling_chart._roll(STRIP.surface(), 6, 1e-6)()
     return {"force": force, "failed": np.zeros(1)}
 
 
@@ -102,7 +102,7 @@ PATHS = {
         zip(("approach", "force", "failed"), (*wheel_on_rail.in_motion(moving()), np.zeros(1)), strict=True)
     ),
     "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
-    "validation.benchmarks.solvers.rolling:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
+    "validation.benchmarks.solvers.throughput:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
     "validation.simulation.exact_contacts:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),

@@ -10,7 +10,6 @@ import pytest
 from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.benchmarks import timing
 from validation.benchmarks.found_models import TimedProblem, all_methods
-from validation.benchmarks.solvers import case as comparison
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.errors import points
@@ -100,16 +99,15 @@ def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypat
 
 def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     use_a_clock_of_its_own(monkeypatch)
-    for module in (problems, comparison):
-        monkeypatch.setattr(module, "SOLVERS", problems.SOLVERS[:2])
+    monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
     problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1, 1e-6)
-    outcome = comparison.time_problem(TimedProblem(problem, RunLimits(slow=1.0, enough=1.0)))
-    methods = outcome["method"].tolist()
+    outcome = problems.time_problem(TimedProblem(problem, RunLimits(slow=1.0, enough=1.0)))
+    methods = outcome["solver"].tolist()
     assert {"bem3d", "bem3d, Polonsky-Keer", "fit", "toy"} <= set(methods)
     assert set(outcome["status"].tolist()) == {timing.FINISHED}
     # of the pressures a model has none, so its stiffness alone is compared
-    *pressures, stiffness = outcome["difference"][methods.index("toy")]
-    assert np.isfinite(stiffness) and np.isnan(pressures).all()
+    toy = {name: column[methods.index("toy")] for name, column in outcome.items()}
+    assert np.isfinite(toy[problems.STIFFNESS]) and np.isnan([toy[problems.PRESSURE], toy[problems.FORCE]]).all()
     assert "toy" in all_methods()
 
 
