@@ -224,35 +224,12 @@ def test_dynamic_wheels_of_the_design_excite_no_resonance(quantity):
 # The table of the package
 
 
-@pytest.mark.slow
-def test_the_table_says_when_how_and_with_which_code_it_was_measured():
-    about = calibration.provenance()
-    assert {"measured", "command"} <= set(about) <= {"measured", "command", "checked"}
-    assert about["command"].startswith("mdr-validation calibrate --punches ")
-    head, _, *rows = calibration_lines()
-    assert head.startswith(f"errors of models: calibrated {about['measured']}, ")
-    # 97 % of the scenes are within what those nearby claim for them, which is not the least that would do
-    for row in rows:
-        covered, over = row.split()[-2:]
-        assert 96 <= int(covered.removesuffix("%")) <= 99 and float(over) > 1
-
-
 def test_lines_about_a_table_are_names_and_the_rest_and_its_rows_have_none_of_them(tmp_path):
     path = tmp_path / "mine.csv"
     path.write_text("# measured: 2026-01-01\n# command: a: b: c\nkind,error\npunch,0.1\n")
     assert calibration.provenance(path) == {"measured": "2026-01-01", "command": "a: b: c"}
     assert calibration.rows_of(path) == [{"kind": "punch", "error": "0.1"}]
     assert calibration.provenance(tmp_path / "none") == {} and calibration.rows_of(tmp_path / "none") == []
-
-
-def test_a_table_of_one_scene_has_its_conditions_and_no_others(tmp_path):
-    (first, *_) = (row for row in calibration.rows_of(calibration.TABLE) if row["kind"] == "sphere")
-    written(tmp_path / "one.csv", [first])
-    ((key, found),) = calibration.table(tmp_path / "one.csv").items()
-    assert key == ("sphere", first["quantity"], first["model"]) and found.errors.tolist() == [float(first["error"])]
-    assert set(found.names) == {name for name in calibration.CONDITIONS if first[name]} and LOAD not in found.names
-    expected = {name: float(first[name]) if name == HURST else math.log10(float(first[name])) for name in found.names}
-    assert dict(zip(found.names, found.points[0], strict=True)) == pytest.approx(expected)
 
 
 @pytest.mark.slow

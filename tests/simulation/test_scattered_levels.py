@@ -215,18 +215,6 @@ def test_models_that_read_a_line_are_that_of_ridges_whatever_lies_across():
         np.testing.assert_allclose(found[long], own[long], atol=0.3)
 
 
-@pytest.mark.parametrize(
-    ("across", "keys"), [("isotropic", ('across = "ridges"', "alpha")), (None, ('"isotropic"', "alpha"))]
-)
-def test_what_would_help_names_the_keys(across, keys):
-    text = " ".join(
-        summary(compare(corrugated(across, by=12.0, waves=(20, 25)), tolerance="0.4 dB", models=[LINEAR])).split()
-    )
-    helps = text[text.index("what would help") :]
-    assert all(key in helps for key in keys)
-    assert ("20 mm" in helps) == (across == "isotropic")
-
-
 def test_waves_that_no_isotropic_ground_has_at_the_long_end_can_be_cut_off():
     rolls_off = np.array(ISO.levels) - 6.0 * np.clip(18 - np.arange(35), 0, None)
     scene = replace(RAIL, roughness=replace(ISO, levels=tuple(np.maximum(rolls_off, -99).tolist())))
