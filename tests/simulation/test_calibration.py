@@ -5,6 +5,7 @@ import math
 import re
 from dataclasses import replace
 from datetime import date, timedelta
+from statistics import linear_regression
 
 import numpy as np
 import pytest
@@ -144,25 +145,16 @@ def left_out_by_loops(table, scene):
     The first condition counts twice in the distance; nearest is a share of all, six at the least; under spheres the
     errors grow with the height by the power that least squares find, from zero to one.
     """
-    kind = next(kind for kind, names in NAMES.items() if names == table.names)
-    others = [i for i in range(len(table.errors)) if i != scene]
-    here, trend, share = table.points[scene], 0.0, 0.05
-    if kind == "sphere":
-        x, y = table.points[:, 0], np.log10(table.errors / table.shapes)
-        share, trend = 0.3, ((x - x.mean()) * (y - y.mean())).sum() / ((x - x.mean()) ** 2).sum()
-        trend = min(max(trend, 0.0), 1.0)
-    distance = {}
-    for i in others:
-        apart = [(2.0 if k == 0 else 1.0) * (table.points[i][k] - here[k]) for k in range(4)]
-        distance[i] = math.sqrt(sum(step**2 for step in apart))
-    nearest = sorted(others, key=distance.get)[: max(6, round(share * len(others)))]
-    total = weights = 0.0
-    for i in nearest:
-        weight = 1 - 0.9 * (distance[i] / distance[nearest[-1]]) ** 2
-        grown = 10 ** (trend * (here[0] - table.points[i][0]))
-        total += weight * (table.errors[i] / table.shapes[i] * grown) ** 2
-        weights += weight
-    return table.shapes[scene] * math.sqrt(total / weights)
+    here, trend, share, lead = table.points[scene], 0.0, 0.05, np.array([2.0, 1.0, 1.0, 1.0])
+    if table.names == NAMES["sphere"]:
+        slope = linear_regression(table.points[:, 0], np.log10(table.errors / table.shapes)).slope
+        share, trend = 0.3, min(max(slope, 0.0), 1.0)
+    far = {i: math.dist(lead * one, lead * here) for i, one in enumerate(table.points) if i != scene}
+    nearest = sorted(far, key=far.get)[: max(6, round(share * len(far)))]
+    weights = [1 - 0.9 * (far[i] / far[nearest[-1]]) ** 2 for i in nearest]
+    grown = [10 ** (trend * (here[0] - table.points[i][0])) for i in nearest]
+    squares = (table.errors / table.shapes)[nearest] ** 2 * np.square(grown)
+    return table.shapes[scene] * math.sqrt(np.average(squares, weights=weights))
 
 
 @pytest.mark.parametrize("kind", NAMES)

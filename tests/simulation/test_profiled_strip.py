@@ -11,7 +11,6 @@ from validation import compare, load_scene
 from validation.scenes.profiled_rail import ProfiledRail
 from validation.scenes.rail import RailScene
 from validation.scenes.transverse_profile import TransverseProfile, both_together
-from validation.selection.summary import summary
 from validation.simulation import rail_models
 from validation.simulation.equivalent_displacement import (
     heights_across,
@@ -83,8 +82,6 @@ def test_models_of_two_radii_are_told_and_boundary_elements_take_the_profile(mon
             assert "errors were measured on two radii: the transverse profile of head.csv has a radius of 176 mm" in (
                 by_name[model.name].estimate.reason
             )
-    text = " ".join(summary(found).split())
-    assert "profile of head.csv across, radius 176 mm fitted over the contact" in text
     assert found.model == BEM and np.isinf(by_name[LINEAR].error)
     over = found.value_of(by_name[BEM]) - found.value_of(by_name[LINEAR])
     rolled_over = (found.wavelength_mm < 60) & (found.wavelength_mm > 3)
