@@ -36,9 +36,8 @@ from validation.cases.rolling.validity import (
     Validity,
 )
 from validation.simulation import rolling_strip
-from validation.simulation.linear_levels import level_1d, level_3d
 from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
-from validation.simulation.rolling_strip import roll_strip, strip_levels
+from validation.simulation.rolling_strip import level_1d, level_3d, roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
 RNG = np.random.default_rng(0)

@@ -202,15 +202,10 @@ def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground(
 def test_the_limit_of_iso_3095_needs_no_boundary_elements():
     found = compare(RAIL, "contact-filter", "1 dB")
     assert found.met and found.model == LINEAR and found.unit == "dB"
-    assert found.value.shape == found.wavelength_mm.shape == found.frequency_hz.shape
-    np.testing.assert_allclose(found.wavelength_mm, 1e3 * np.array(RAIL.levels.wavelengths))
-    np.testing.assert_allclose(found.frequency_hz, [RAIL.frequency(wave) for wave in RAIL.levels.wavelengths])
     rough = compare(RAIL, "equivalent-roughness", "1 dB")
     np.testing.assert_allclose(rough.value, found.value + RAIL.levels.levels, atol=1e-9)
     assert rough.unit == "dB re 1 µm"
     best = found.selection.best
-    assert best is not None and best.answer is not None
-    assert "2000 to 16 mm" in best.answer.counted
     counted = found.value > -15
     assert 20 * math.log10(1 + best.error) == pytest.approx(float(found.errors_of(best)[counted].max()))
 

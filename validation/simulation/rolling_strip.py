@@ -1,6 +1,7 @@
-"""A wheel rolled over isotropic roughness, by boundary elements and by springs, and its stiffness on the way.
+"""A wheel rolled over isotropic roughness, by boundary elements and by springs, and levels of linear theory beside it.
 
-Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 1, and the force of Hertz is 4/3.
+Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 1, and the force of Hertz is 4/3. Levels
+of linear theory are over the square of that, for h_rms = 1.
 """
 
 import math
@@ -21,7 +22,7 @@ from validation.engine.engine import Engine, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.simulation.surface import draw_surface, middle_of
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
-from validation.theory.rolling import linear_force
+from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d, linear_force
 
 FloatArray = NDArray[np.float64]
 
@@ -32,6 +33,10 @@ HERTZ, STIFFNESS = 4 / 3, 2.0
 SMOOTH: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 TRACKS, STRIPS = 1, 2
 """Keys of random numbers: the roughness of both methods."""
+POINTS = 48
+"""Of the midpoint rule in each band."""
+ROUNDING = 1e-300
+"""Where (14.12) is zero, its level is rounding's, which is no reference."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -252,3 +257,42 @@ def moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
         "variance": np.asarray(stiffness.var(axis=-1)),
         "level": levels(waves(stiffness, spacing=spacing), bands),
     }
+
+
+@cache
+def level_1d(spectrum: PiecewisePowerLaw, rule: InputSpectrum, bands: Bands) -> FloatArray:
+    """int C_F dq over each band of springs with that input spectrum, (14.12)."""
+    c1d = TrackSpectrum(spectrum, rule)
+    return over_bands(lambda q: force_spectrum_1d(q, c1d, contact_radius=1.0, modulus=1.0), bands) / HERTZ**2
+
+
+@cache
+def level_3d(spectrum: PiecewisePowerLaw, bands: Bands) -> FloatArray:
+    """The same of the half-space."""
+    return over_bands(lambda q: force_3d(q, spectrum), bands) / HERTZ**2
+
+
+def force_3d(q: FloatArray, spectrum: PiecewisePowerLaw) -> FloatArray:
+    """C_F itself of the half-space."""
+    return force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0)
+
+
+def over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
+    """int C dq over each band, by the midpoint rule."""
+    edges = np.array(bands.edges)
+    q = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS)
+    return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges))
+
+
+def coherence(outcome: Outcome) -> FloatArray:
+    """|<F F_lin*>|^2 / (<|F|^2> <|F_lin|^2>) in each band, over all waves and realisations."""
+    cross = np.nansum(outcome["cross"][0] + 1j * outcome["cross"][1], axis=0)
+    linear = np.where(np.isfinite(outcome["level"]), outcome["linear level"], 0.0).sum(axis=0)
+    return np.asarray(np.abs(cross) ** 2 / np.nansum(outcome["level"], axis=0) / np.maximum(linear, ROUNDING))
+
+
+def correlation(outcome: Outcome) -> tuple[float, float]:
+    """Correlation and slope of the force over linear theory, position by position, in all bands together."""
+    cross, known = float(np.nansum(outcome["cross"][0])), np.isfinite(outcome["level"])
+    linear, level = (float(outcome[name][known].sum()) for name in ("linear level", "level"))
+    return cross / math.sqrt(linear * level), cross / linear

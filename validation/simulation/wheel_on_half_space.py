@@ -82,7 +82,7 @@ def simulate_strip(strip: WheelStrip) -> Outcome:
     scene = strip.scene
     wheel = scene.body
     surface, time_step = strip.surface(), strip.spacing / scene.speed
-    linear = linear_law_3d(strip, surface)
+    linear = linear_law_3d(wheel, surface, strip.spacing)
     approach, velocity = linear.steady_state(time_step)
     steps = len(surface)
     contact = BoundaryElementsLaw(
@@ -105,10 +105,9 @@ def simulate_strip(strip: WheelStrip) -> Outcome:
     }
 
 
-def linear_law_3d(strip: WheelStrip, surface: FloatArray) -> LinearLaw:
-    """A contact that keeps its radius, with the force of linear theory along this surface."""
-    wheel = strip.scene.body
-    smooth = {"spacing": strip.spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
+def linear_law_3d(wheel: Wheel, surface: FloatArray, spacing: float) -> LinearLaw:
+    """A contact that keeps its radius, with the force of linear theory along the middle of this surface."""
+    smooth = {"spacing": spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
     return LinearLaw(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
 
 
