@@ -18,8 +18,16 @@ from validation.cases.rolling.force_spectrum_study import CASE
 from validation.report.answers.first_screen import answered_questions
 from validation.report.section import Section
 from validation.simulation import rolling_strip
-from validation.simulation.linear_levels import coherence, correlation
-from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
+from validation.simulation.rolling_strip import (
+    RoughStrip,
+    Strip,
+    Tracks,
+    coherence,
+    correlation,
+    crop_to_reach,
+    roll_strip,
+    roll_tracks,
+)
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance, linear_force
 

@@ -23,7 +23,7 @@ from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.answers.words import from_to, in_decibels, per_cent, times
 from validation.report.contents import CASES
 from validation.report.section import Section
-from validation.simulation import equivalent_displacement, wheel_on_rail
+from validation.simulation import model_names, wheel_on_rail
 
 TEN = fractal_punch_study.LEVEL.tolerance
 WORKED = Worked(128, 2048, 15.2).table
@@ -259,7 +259,7 @@ def test_differences_below_and_above_are_told_apart():
 def test_a_rail_is_judged_over_its_slope_in_the_bands_that_count():
     def off(offset, waves, value):
         where = {"offset [dB]": offset, "waves": waves, "wavelength [mm]": (8.0, 100.0)}
-        model, quantity = equivalent_displacement.SPRINGS_ON_LINE, rough_rail.OVER_BEM
+        model, quantity = model_names.SPRINGS_ON_LINE, rough_rail.OVER_BEM
         return at((0.1, 1.0), value, where=where, quantity=quantity, model=model, tolerance=1.0)
 
     numbers = [off(0.0, rough_rail.LONG, 0.5), off(20.0, rough_rail.LONG, -4.0), off(0.0, rough_rail.SHORT, 9.0)]
@@ -277,8 +277,8 @@ def test_models_of_the_rail_are_named_as_in_its_numbers():
         for source in (question.source, *(one.source for one in question.alternatives if one.source))
         if source.case == "rough_rail"
     }
-    known = {equivalent_displacement.SPRINGS_ON_LINE, equivalent_displacement.LINEAR}
-    assert named == known | {equivalent_displacement.SPRINGS_THAT_READ}
+    known = {model_names.SPRINGS_ON_LINE, model_names.LINEAR}
+    assert named == known | {model_names.SPRINGS_THAT_READ}
 
 
 def test_the_scatter_has_numbers_of_its_own():

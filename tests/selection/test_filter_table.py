@@ -13,7 +13,7 @@ from validation.__main__ import main
 from validation.selection.compare import Comparison, compare
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import select_model
-from validation.simulation.spectral_springs import SPRINGS_GEIKE
+from validation.simulation.model_names import SPRINGS_GEIKE
 
 PUBLISHED = Path(validation.__file__).parent / "cases" / "rail" / "cnossos_a3_2021.csv"
 RAIL = validation.load_scene("rail")

@@ -18,9 +18,9 @@ from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, line
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation.equivalent_displacement import LINEAR
-from validation.simulation.published_contact import APPROACH, PRESSURE, PublishedContact, press_ellipse
-from validation.simulation.rail_ground import StatedAcross
+from validation.simulation.exact_contacts import APPROACH, PRESSURE, PublishedContact, press_ellipse
+from validation.simulation.model_names import LINEAR
+from validation.simulation.rail_strip import StatedAcross
 
 FloatArray = NDArray[np.float64]
 

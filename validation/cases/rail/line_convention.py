@@ -20,10 +20,20 @@ from validation.cases.rail.filters import counted, decibel, linear_filter, scene
 from validation.cases.rail.published import RailWheel
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import LINE, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE
-from validation.simulation.parallel_lines import ParallelLines, lines_across, mean_of_lines, measure_lines
-from validation.simulation.rail_ground import StatedAcross, line_of, strip_bands, strip_of, structure_of
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.equivalent_displacement import LINEAR_MODELS
+from validation.simulation.model_names import LINE, LINEAR, LINEAR_ON_LINE
+from validation.simulation.rail_strip import (
+    ParallelLines,
+    RailStrip,
+    StatedAcross,
+    line_of,
+    lines_across,
+    mean_of_lines,
+    measure_lines,
+    strip_bands,
+    strip_of,
+    structure_of,
+)
 
 FloatArray = NDArray[np.float64]
 
