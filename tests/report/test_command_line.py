@@ -19,7 +19,6 @@ import mdr
 from validation import __main__ as command
 from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
-from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, mdr_limits, normalisation
@@ -38,6 +37,8 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import regions as wheel_regions
 from validation.cases.wheel import spectrum as wheel
+from validation.cases.wheel.contrast import CONTRAST
+from validation.cases.wheel.features import QUANTITIES
 from validation.engine import stored
 from validation.engine.engine import Engine
 from validation.report.chapter import ENTRIES
@@ -319,7 +320,7 @@ def players_of_all_sounds(folder):
 
 def in_the_book(name, evidence):
     """Assert that each number and claim of the case that answers the chapter exists; a feature may not stand out."""
-    features = {feature.quantity for feature in FEATURES.values()}
+    features = {*QUANTITIES.values(), CONTRAST}
     for entry in ENTRIES:
         for test in entry.tests:
             exists = test.judged(entry.statement, evidence) is not None or test.quantity in features
